@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Execution_h
+#define isopoint_Execution_h
+
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+
+namespace isopoint
+{
+
+/// Work on the items [begin, end).
+using RangeTask = std::function<void(std::size_t begin, std::size_t end)>;
+
+/// Calls the task on consecutive ranges that together cover [0, count), each at least `grain`
+/// items long where that many are left, in any order and from any thread, and returns when all
+/// have returned.
+using ParallelFor =
+  std::function<void(std::size_t count, std::size_t grain, const RangeTask& task)>;
+
+/// Thrown out of a computation whose `Execution::aborted` answered true.
+struct Aborted : std::runtime_error
+{
+  Aborted()
+    : std::runtime_error("aborted")
+  {
+  }
+};
+
+/// How a computation runs: what it may use and whom it tells. The defaults run in the calling
+/// thread and tell nobody. No result depends on any of it.
+struct Execution
+{
+  ParallelFor parallelFor = [](std::size_t count, std::size_t, const RangeTask& task)
+  { task(0, count); };
+
+  /// How many ranges `parallelFor` works on at the same time, at least 1.
+  std::size_t threads = 1;
+
+  /// Told the share of the work that is done, rising from 0 to 1, from the calling thread.
+  std::function<void(double fraction)> progress = [](double) {};
+
+  /// Asked from the calling thread, every few tens of milliseconds, whether to stop.
+  std::function<bool()> aborted = []() { return false; };
+};
+
+/// @throws Aborted if the execution is to stop.
+inline void throwIfAborted(const Execution& execution)
+{
+  if (execution.aborted())
+  {
+    throw Aborted();
+  }
+}
+
+/// Runs the task over [0, count) as `ParallelFor` promises. An exception in any range keeps the
+/// ranges not yet begun from running and is thrown again here, since none may cross the scheduler.
+inline void forRanges(
+  const Execution& execution, std::size_t count, std::size_t grain, const RangeTask& task)
+{
+  if (count == 0)
+  {
+    return;
+  }
+  std::exception_ptr failure;
+  std::mutex failureMutex;
+  std::atomic<bool> failed{ false };
+  execution.parallelFor(count, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      if (failed)
+      {
+        return;
+      }
+      try
+      {
+        task(begin, end);
+      }
+      catch (...)
+      {
+        const std::lock_guard<std::mutex> lock(failureMutex);
+        failure = std::current_exception();
+        failed = true;
+      }
+    });
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Extraction_h
+#define isopoint_Extraction_h
+
+#include "AngleCriterion.h"
+#include "Execution.h"
+#include "Interpolation.h"
+#include "Isopoint.h"
+#include "NarrowBand.h"
+#include "SortUnique.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The value of a leaf's samples, which count as one.
+template <class TSample>
+double leafValue(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
+{
+  const TSample* const samples = tree.samples.data() + leaf.begin;
+  return leaf.count() == 1
+    ? static_cast<double>(samples[0].value)
+    : meanOf(leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
+}
+
+/// Finds the crossing edges of leaves, one leaf at a time, and interpolates on them. Scratch is
+/// kept from one leaf to the next.
+template <class TSample>
+class EdgeFinder
+{
+public:
+  EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion)
+    : Tree(tree)
+    , Isovalue(isovalue)
+    , Criterion(criterion)
+  {
+  }
+
+  /// Adds an isopoint for each neighbour of the leaf's sample that survives the angle criterion
+  /// there and lies on the other side of the isovalue (sections 6 and 7 of the paper).
+  void find(const Path& leaf)
+  {
+    const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
+    const double value = leafValue(this->Tree, node);
+    const bool isBelow = value < this->Isovalue;
+    if (!this->collectNeighbors(leaf, isBelow))
+    {
+      return;
+    }
+    const TSample& sample = this->Tree.samples[node.begin];
+    this->measureNeighbors(sample);
+    for (const Crossing& crossing : this->Crossings)
+    {
+      if (this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), crossing.neighbor))
+      {
+        const Node<TSample>& other = this->Tree.nodes[this->Slots[crossing.neighbor]];
+        this->addPoint(sample, value, this->Tree.samples[other.begin], crossing.value);
+        this->addMerged(node);
+        this->addMerged(other);
+      }
+    }
+  }
+
+  std::vector<Isopoint>& points() { return this->Points; }
+  std::vector<MergedSamples>& merged() { return this->Merged; }
+
+private:
+  struct Crossing
+  {
+    std::size_t neighbor;
+    double value;
+  };
+
+  /// @returns whether any neighbour lies on the other side
+  bool collectNeighbors(const Path& leaf, bool isBelow)
+  {
+    this->Slots.clear();
+    this->Crossings.clear();
+    visitTouching(this->Tree, leaf, maximumDepth,
+      [&](std::size_t slot)
+      {
+        const double value = leafValue(this->Tree, this->Tree.nodes[slot]);
+        if ((value < this->Isovalue) != isBelow)
+        {
+          this->Crossings.push_back({ this->Slots.size(), value });
+        }
+        this->Slots.push_back(slot);
+        return false;
+      });
+    return !this->Crossings.empty();
+  }
+
+  void measureNeighbors(const TSample& sample)
+  {
+    const double center[3] = { sample.position[0], sample.position[1], sample.position[2] };
+    this->Offsets.clear();
+    for (const std::size_t slot : this->Slots)
+    {
+      const TSample& other = this->Tree.samples[this->Tree.nodes[slot].begin];
+      const double position[3] = { other.position[0], other.position[1], other.position[2] };
+      this->Offsets.push_back(offsetBetween(center, position));
+    }
+  }
+
+  void addPoint(const TSample& a, double aValue, const TSample& b, double bValue)
+  {
+    if (a.id < b.id)
+    {
+      this->Points.push_back({ a.id, b.id, edgeParameter(aValue, bValue, this->Isovalue) });
+    }
+    else
+    {
+      this->Points.push_back({ b.id, a.id, edgeParameter(bValue, aValue, this->Isovalue) });
+    }
+  }
+
+  void addMerged(const Node<TSample>& leaf)
+  {
+    if (leaf.count() > 1)
+    {
+      MergedSamples group;
+      for (std::size_t i = leaf.begin; i < leaf.end; ++i)
+      {
+        group.ids.push_back(this->Tree.samples[i].id);
+      }
+      this->Merged.push_back(std::move(group));
+    }
+  }
+
+  const SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const AngleCriterion& Criterion;
+  std::vector<std::size_t> Slots;
+  std::vector<Offset> Offsets;
+  std::vector<Crossing> Crossings;
+  std::vector<Isopoint> Points;
+  std::vector<MergedSamples> Merged;
+};
+
+/// The canonical isopoints of one isovalue (DESIGN section 1), refining the tree as far as needed.
+/// @param angle in degrees, 0 up to 180
+/// @param idCount above every id
+/// @throws Aborted, std::bad_alloc; the tree can be used again afterwards
+template <class TSample>
+Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, double isovalue,
+  double angle, std::uint64_t idCount)
+{
+  Isosurface result;
+  if (tree.isEmpty())
+  {
+    return result;
+  }
+  const std::vector<NodeIndex> crossing = NarrowBand<TSample>(tree, isovalue, execution).refine();
+  const AngleCriterion criterion(angle);
+  std::vector<Isopoint> points;
+  std::mutex mutex;
+  constexpr std::size_t grain = 256;
+  forRanges(execution, crossing.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      EdgeFinder<TSample> finder(tree, isovalue, criterion);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Path path = pathTo(tree, crossing[i]);
+        forEachBelow(
+          tree, path, maximumDepth, [&finder](const Path& leaf) { finder.find(leaf); });
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      points.insert(points.end(), finder.points().begin(), finder.points().end());
+      for (MergedSamples& group : finder.merged())
+      {
+        result.merged.push_back(std::move(group));
+      }
+    });
+  throwIfAborted(execution);
+
+  result.points = sortedUnique(
+    execution, points, idCount, [](const Isopoint& point) { return point.first; });
+  const auto idsOf = [](const MergedSamples& group) { return group.ids.front(); };
+  std::sort(result.merged.begin(), result.merged.end(),
+    [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) < idsOf(b); });
+  result.merged.erase(std::unique(result.merged.begin(), result.merged.end(),
+                        [&](const MergedSamples& a, const MergedSamples& b)
+                        { return idsOf(a) == idsOf(b); }),
+    result.merged.end());
+  return result;
+}
+
+} // namespace isopoint
+
+#endif

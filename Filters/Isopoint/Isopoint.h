@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Isopoint_h
+#define isopoint_Isopoint_h
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A point of the isosurface on the edge between two samples, at
+/// p_first + parameter * (p_second - p_first).
+struct Isopoint
+{
+  std::uint64_t first;  // a sample's id
+  std::uint64_t second; // that of another, first < second
+  double parameter;     // 0 .. 1
+
+  bool operator<(const Isopoint& other) const
+  {
+    return this->first != other.first ? this->first < other.first : this->second < other.second;
+  }
+  bool operator==(const Isopoint& other) const
+  {
+    return this->first == other.first && this->second == other.second;
+  }
+};
+
+/// Samples of exactly one position, which count as one: it bears the lowest id, and the mean of
+/// their values and other attributes.
+struct MergedSamples
+{
+  std::vector<std::uint64_t> ids; // ascending, at least two
+};
+
+/// The isopoints of one isovalue, each edge once, ordered by (first, second), and the merged
+/// samples among their ends, ordered by lowest id.
+struct Isosurface
+{
+  std::vector<Isopoint> points;
+  std::vector<MergedSamples> merged;
+
+  /// The samples that count as the one of this id, or null if it is a sample of its own.
+  /// O(log merged.size())
+  const MergedSamples* mergedAt(std::uint64_t id) const
+  {
+    const auto found = std::lower_bound(this->merged.begin(), this->merged.end(), id,
+      [](const MergedSamples& group, std::uint64_t wanted) { return group.ids.front() < wanted; });
+    return found != this->merged.end() && found->ids.front() == id ? &*found : nullptr;
+  }
+};
+
+/// The mean of values that count as one, in the order of their ids and kept within their range,
+/// which the rounding of a sum may leave by a bit. @param count at least 1
+/// @param valueAt the i-th value, as a double
+template <class ValueAt>
+double meanOf(std::size_t count, const ValueAt& valueAt)
+{
+  double sum = 0.0;
+  double minimum = valueAt(0);
+  double maximum = minimum;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double value = valueAt(i);
+    sum += value;
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
+  }
+  return std::min(std::max(sum / static_cast<double>(count), minimum), maximum);
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "IsosurfaceExtractor.h"
+
+#include "Extraction.h"
+
+namespace isopoint
+{
+
+void IsosurfaceExtractor::clear()
+{
+  this->Tree = SampleTree<FloatSample>();
+  this->ItemCount = 0;
+}
+
+std::size_t IsosurfaceExtractor::sampleCount() const
+{
+  return std::visit([](const auto& tree) { return tree.samples.size(); }, this->Tree);
+}
+
+std::size_t IsosurfaceExtractor::skippedCount() const
+{
+  return std::visit([](const auto& tree) { return tree.skipped; }, this->Tree);
+}
+
+Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isovalue, double angle)
+{
+  return std::visit([&](auto& tree)
+    { return extractIsosurface(execution, tree, isovalue, angle, this->ItemCount); },
+    this->Tree);
+}
+
+} // namespace isopoint

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NarrowBand_h
+#define isopoint_NarrowBand_h
+
+#include "Execution.h"
+#include "NeighborSearch.h"
+#include "TreeletSplitting.h"
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A node that the band needs, and whether the surface may pass between its samples and those of
+/// the nodes that touch it.
+struct BandNode
+{
+  NodeIndex index;
+  bool isCrossing;
+};
+
+/// Whether samples below the isovalue and others stand in the node or in it and one that touches
+/// it: then the surface may pass here.
+template <class TSample>
+bool isCrossing(
+  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
+{
+  const Node<TSample>& node = tree.nodes[path.slot()];
+  const bool hasBelow = node.minimum < isovalue;
+  const bool hasAbove = node.maximum >= isovalue;
+  return (hasBelow && hasAbove) ||
+    visitTouching(tree, path, nodeDepth,
+      [&](std::size_t slot)
+      {
+        const Node<TSample>& other = tree.nodes[slot];
+        return hasBelow ? other.maximum >= isovalue : other.minimum < isovalue;
+      });
+}
+
+/// Refines a tree around the isosurface of one isovalue (DESIGN section 2), treelet by treelet:
+/// only nodes that may hold a piece of the surface, and those that touch one, are split.
+template <class TSample>
+class NarrowBand
+{
+public:
+  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution)
+    : Tree(tree)
+    , Isovalue(isovalue)
+    , Run(execution)
+  {
+  }
+
+  /// @returns nodes below which every node is split down to leaves, and so is everything that
+  /// touches such a leaf: every leaf with a crossing edge is among those below them
+  /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
+  std::vector<NodeIndex> refine()
+  {
+    std::vector<BandNode> front;
+    const Node<TSample>& root = this->Tree.nodes[SampleTree<TSample>::rootSlot];
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue)
+    {
+      front.push_back({ rootIndex, true });
+    }
+    const int expectedDepth = depthOf(root.count()) + 1;
+    for (int depth = 0; !front.empty(); depth += treeletLevels)
+    {
+      this->splitFront(front);
+      this->Run.progress(std::min(1.0, (depth + 0.5 * treeletLevels) / expectedDepth));
+      if (this->isComplete(front))
+      {
+        break;
+      }
+      this->markCrossing(front, depth + treeletLevels);
+      front = this->neededBelow(front, depth + treeletLevels);
+      throwIfAborted(this->Run);
+    }
+    std::vector<NodeIndex> crossing;
+    for (const BandNode& node : front)
+    {
+      if (node.isCrossing)
+      {
+        crossing.push_back(node.index);
+      }
+    }
+    return crossing;
+  }
+
+private:
+  using NodeType = Node<TSample>;
+
+  struct Growth
+  {
+    NodeIndex index;
+    std::size_t firstPair;
+  };
+
+  NodeType& nodeAt(const Path& path) { return this->Tree.nodes[path.slot()]; }
+
+  void forFront(const std::vector<BandNode>& front, const std::function<void(Path&, bool)>& task)
+  {
+    constexpr std::size_t grain = 64;
+    forRanges(this->Run, front.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          Path path = pathTo(this->Tree, front[i].index);
+          task(path, front[i].isCrossing);
+        }
+      });
+  }
+
+  void splitFront(const std::vector<BandNode>& front)
+  {
+    // Nodes are split together while there are too few of them to keep every thread busy.
+    constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
+    const bool together = front.size() < 4 * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 21) * this->Run.threads;
+
+    std::size_t begin = 0;
+    while (begin < front.size())
+    {
+      std::vector<Growth> batch;
+      std::size_t pairs = 0;
+      std::size_t samples = 0;
+      for (; begin < front.size() && samples < batchSamples; ++begin)
+      {
+        const Path path = pathTo(this->Tree, front[begin].index);
+        const NodeType& node = this->nodeAt(path);
+        if (node.isSplit() || node.isLeaf)
+        {
+          continue;
+        }
+        batch.push_back({ front[begin].index, pairs });
+        pairs += maximumTreeletPairs(node.count());
+        samples += node.count();
+      }
+      const std::size_t firstPair = appendPairs(this->Tree, pairs);
+      for (Growth& growth : batch)
+      {
+        growth.firstPair += firstPair;
+      }
+      this->splitBatch(batch, together ? togetherCount : samples + 1);
+      throwIfAborted(this->Run);
+    }
+  }
+
+  void splitBatch(const std::vector<Growth>& batch, std::size_t togetherCount)
+  {
+    std::vector<Growth> alone;
+    for (const Growth& growth : batch)
+    {
+      const Path path = pathTo(this->Tree, growth.index);
+      if (this->nodeAt(path).count() < togetherCount)
+      {
+        alone.push_back(growth);
+        continue;
+      }
+      TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
+      splitter.splitTogether(this->Run, this->nodeAt(path), path.region);
+    }
+    const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
+    forRanges(this->Run, alone.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        TreeletSplitter<TSample> splitter(this->Tree, 0);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Path path = pathTo(this->Tree, alone[i].index);
+          splitter.moveTo(alone[i].firstPair);
+          splitter.split(this->nodeAt(path), path.region);
+        }
+      });
+  }
+
+  /// Whether everything in the front is split down to leaves.
+  bool isComplete(const std::vector<BandNode>& front)
+  {
+    std::atomic<bool> complete{ true };
+    this->forFront(front,
+      [&](Path& path, bool)
+      {
+        if (complete)
+        {
+          forEachBelow(this->Tree, path, path.depth + treeletLevels,
+            [&](const Path& below)
+            {
+              if (!this->nodeAt(below).isLeaf)
+              {
+                complete = false;
+              }
+            });
+        }
+      });
+    return complete;
+  }
+
+  /// Marks the crossing nodes of a depth. Only below crossing nodes can there be any.
+  void markCrossing(const std::vector<BandNode>& front, int depth)
+  {
+    this->forFront(front,
+      [&](Path& path, bool mayCross)
+      {
+        if (mayCross)
+        {
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below)
+            {
+              this->nodeAt(below).isCrossing =
+                isCrossing(this->Tree, below, depth, this->Isovalue);
+            });
+        }
+      });
+  }
+
+  /// The nodes of a depth that are crossing or touch a crossing one, and clears the marks.
+  std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
+  {
+    std::vector<BandNode> needed;
+    std::mutex mutex;
+    constexpr std::size_t grain = 64;
+    forRanges(this->Run, front.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::vector<BandNode> found;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          Path path = pathTo(this->Tree, front[i].index);
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below)
+            {
+              const bool crossing = this->nodeAt(below).isCrossing;
+              if (crossing ||
+                visitTouching(this->Tree, below, depth,
+                  [this](std::size_t slot) { return this->Tree.nodes[slot].isCrossing; }))
+              {
+                found.push_back({ below.index, crossing });
+              }
+            });
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        needed.insert(needed.end(), found.begin(), found.end());
+      });
+    this->forFront(front,
+      [&](Path& path, bool mayCross)
+      {
+        if (mayCross)
+        {
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below) { this->nodeAt(below).isCrossing = false; });
+        }
+      });
+    return needed;
+  }
+
+  SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const Execution& Run;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_RawArray_h
+#define isopoint_RawArray_h
+
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace isopoint
+{
+
+/// A growing array of trivial elements that are left uninitialised. Unlike std::vector it does not
+/// touch memory before its first writer does (which may be any thread), and growing a large one
+/// remaps its pages instead of holding two copies.
+template <class T>
+class RawArray
+{
+  static_assert(std::is_trivially_copyable<T>::value, "elements are moved by their bytes");
+
+public:
+  RawArray() = default;
+  RawArray(const RawArray&) = delete;
+  RawArray& operator=(const RawArray&) = delete;
+  RawArray(RawArray&& other) noexcept { this->swap(other); }
+  RawArray& operator=(RawArray&& other) noexcept
+  {
+    this->swap(other);
+    return *this;
+  }
+  ~RawArray() { std::free(this->Elements); }
+
+  /// Keeps the first min(size(), newSize) elements. @throws std::bad_alloc, the array unchanged.
+  void resize(std::size_t newSize)
+  {
+    if (newSize > this->Capacity)
+    {
+      this->reallocate(newSize);
+    }
+    this->Size = newSize;
+  }
+
+  /// Gives back the memory behind the last element.
+  void shrinkToFit()
+  {
+    if (this->Capacity > this->Size && this->Size > 0)
+    {
+      this->reallocate(this->Size);
+    }
+  }
+
+  std::size_t size() const { return this->Size; }
+  T* data() { return this->Elements; }
+  const T* data() const { return this->Elements; }
+  T& operator[](std::size_t i) { return this->Elements[i]; }
+  const T& operator[](std::size_t i) const { return this->Elements[i]; }
+
+private:
+  void reallocate(std::size_t capacity)
+  {
+    if (capacity > std::numeric_limits<std::size_t>::max() / sizeof(T))
+    {
+      throw std::bad_alloc();
+    }
+    void* grown = std::realloc(static_cast<void*>(this->Elements), capacity * sizeof(T));
+    if (!grown)
+    {
+      throw std::bad_alloc();
+    }
+    this->Elements = static_cast<T*>(grown);
+    this->Capacity = capacity;
+  }
+
+  void swap(RawArray& other) noexcept
+  {
+    std::swap(this->Elements, other.Elements);
+    std::swap(this->Size, other.Size);
+    std::swap(this->Capacity, other.Capacity);
+  }
+
+  T* Elements = nullptr;
+  std::size_t Size = 0;
+  std::size_t Capacity = 0;
+};
+
+} // namespace isopoint
+
+#endif
