@@ -30,14 +30,14 @@ class IsosurfaceExtractor
 public:
   /// Takes over a cloud of `count` items, with the ids 0 .. count - 1, in place of any former one.
   /// @param read(id, position, value) writes coordinates (three TCoordinate) and value (TValue) of
-  /// an item and returns whether it takes part; called from any thread. The pointers' and the
-  /// reference's types are deduced: take them as `auto`.
+  /// an item and returns whether it takes part; called from any thread. Its parameters are to be
+  /// `auto*` and `auto&`: very large clouds are held in wider types.
   /// @throws std::bad_alloc or Aborted, and then holds no samples
   template <class TCoordinate, class TValue, class Reader>
   void load(const Execution& execution, std::size_t count, const Reader& read)
   {
     this->clear();
-    if (count < std::numeric_limits<std::uint32_t>::max())
+    if (isNarrow(count))
     {
       this->Tree = loadSamples<SampleFor<TCoordinate, TValue>>(execution, count, read);
     }
@@ -48,14 +48,16 @@ public:
     this->ItemCount = count;
   }
 
-  /// Gives the samples new values; the tree is kept. To be called only if the same items take part
-  /// with the new values, and TValue of load() holds them.
-  /// @param valueAt(id) called from any thread
-  template <class ValueAt>
-  void replaceValues(const Execution& execution, const ValueAt& valueAt)
+  /// Takes over new values, where positions, types and the items that take part are those of the
+  /// last load(): the tree is kept. Otherwise nothing changes.
+  /// @returns whether it did
+  /// @throws Aborted, the former values kept
+  template <class TCoordinate, class TValue, class Reader>
+  bool replaceValues(const Execution& execution, std::size_t count, const Reader& read)
   {
-    std::visit(
-      [&](auto& tree) { isopoint::replaceValues(execution, tree, valueAt); }, this->Tree);
+    return isNarrow(count)
+      ? this->replaceValuesAs<SampleFor<TCoordinate, TValue>>(execution, count, read)
+      : this->replaceValuesAs<WideSample>(execution, count, read);
   }
 
   /// Forgets all samples and frees their memory.
@@ -74,6 +76,24 @@ public:
   Isosurface extract(const Execution& execution, double isovalue, double angle);
 
 private:
+  static bool isNarrow(std::size_t count)
+  {
+    return count < std::numeric_limits<std::uint32_t>::max();
+  }
+
+  template <class TSample, class Reader>
+  bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
+  {
+    auto* const tree = std::get_if<SampleTree<TSample>>(&this->Tree);
+    if (!tree || tree->isEmpty() || count != this->ItemCount ||
+      !holdsPositions(execution, *tree, count, read))
+    {
+      return false;
+    }
+    isopoint::replaceValues(execution, *tree, read);
+    return true;
+  }
+
   std::variant<SampleTree<FloatSample>, SampleTree<FloatSampleOfDouble>,
     SampleTree<DoubleSampleOfFloat>, SampleTree<WideSample>>
     Tree;

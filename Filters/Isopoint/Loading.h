@@ -6,6 +6,7 @@
 #include "SampleTree.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -161,11 +162,54 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
+/// Whether a tree holds just the items that take part, at their positions.
+/// @param count of the items, those left out included
+/// @param read as for loadSamples()
+template <class TSample, class Reader>
+bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree, std::size_t count,
+  const Reader& read)
+{
+  constexpr std::size_t grain = 1 << 14;
+  std::atomic<bool> same{ true };
+  forRanges(execution, tree.samples.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end && same; ++i)
+      {
+        TSample sample;
+        if (!read(tree.samples[i].id, sample.position, sample.value) || !isFinite(sample) ||
+          !haveOnePosition(sample, tree.samples[i]))
+        {
+          same = false;
+        }
+      }
+    });
+  throwIfAborted(execution);
+  if (!same || tree.skipped == 0)
+  {
+    return same;
+  }
+  std::atomic<std::size_t> taking{ 0 };
+  forRanges(execution, count, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t takingHere = 0;
+      for (std::size_t id = begin; id < end; ++id)
+      {
+        TSample sample;
+        takingHere += read(id, sample.position, sample.value) && isFinite(sample) ? 1 : 0;
+      }
+      taking += takingHere;
+    });
+  throwIfAborted(execution);
+  return taking == tree.samples.size();
+}
+
 /// Gives the samples of a tree new values and computes the ranges of its nodes anew; the tree
-/// keeps its shape.
-/// @param valueAt(id) the value of the item, finite
-template <class TSample, class ValueAt>
-void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const ValueAt& valueAt)
+/// keeps its shape, since it does not depend on values.
+/// @param read as for loadSamples(); holdsPositions() must be true of it
+template <class TSample, class Reader>
+void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
 {
   constexpr std::size_t grain = 1 << 14;
   forRanges(execution, tree.samples.size(), grain,
@@ -173,8 +217,8 @@ void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const 
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        tree.samples[i].value =
-          static_cast<typename TSample::Value>(valueAt(tree.samples[i].id));
+        typename TSample::Coordinate position[3];
+        read(tree.samples[i].id, position, tree.samples[i].value);
       }
     });
   if (tree.isEmpty())

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointArrays.h"
+
+#include "Isopoint/Execution.h"
+#include "Isopoint/Interpolation.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace
+{
+
+using isopoint::Isopoint;
+using isopoint::Isosurface;
+using isopoint::MergedSamples;
+
+/// A number as an array's type holds it: integers are rounded, and kept within their range, which
+/// a double may leave when 64 bits do not fit it.
+template <class T>
+T toArrayType(double value)
+{
+  if constexpr (std::is_floating_point<T>::value)
+  {
+    return static_cast<T>(value);
+  }
+  else
+  {
+    const double rounded = std::round(value);
+    if (rounded >= static_cast<double>(std::numeric_limits<T>::max()))
+    {
+      return std::numeric_limits<T>::max();
+    }
+    if (rounded <= static_cast<double>(std::numeric_limits<T>::lowest()))
+    {
+      return std::numeric_limits<T>::lowest();
+    }
+    return static_cast<T>(rounded);
+  }
+}
+
+/// A component at a sample, or its mean over those that count as that sample.
+template <class ComponentAt>
+double componentAtSample(
+  const Isosurface& surface, std::uint64_t sample, const ComponentAt& componentAt)
+{
+  if (!surface.merged.empty())
+  {
+    if (const MergedSamples* const group = surface.mergedAt(sample))
+    {
+      return isopoint::meanOf(
+        group->ids.size(), [&](std::size_t i) { return componentAt(group->ids[i]); });
+    }
+  }
+  return componentAt(sample);
+}
+
+/// Calls write(tuple, component, value) for the isopoints [begin, end) of a surface.
+template <class ComponentOf, class Write>
+void interpolatePoints(const Isosurface& surface, std::size_t begin, std::size_t end,
+  int componentCount, const ComponentOf& componentOf, const Write& write)
+{
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const Isopoint& point = surface.points[i];
+    for (int component = 0; component < componentCount; ++component)
+    {
+      const auto at = [&](std::uint64_t sample)
+      { return componentOf(static_cast<vtkIdType>(sample), component); };
+      const double first = componentAtSample(surface, point.first, at);
+      const double second = componentAtSample(surface, point.second, at);
+      write(i, component, isopoint::interpolate(first, second, point.parameter));
+    }
+  }
+}
+
+/// Interpolates the arrays whose type is known, in parallel.
+struct TypedInterpolation
+{
+  const isopoint::Execution& Run;
+  const Isosurface& Surface;
+  vtkIdType FirstTuple;
+
+  template <class TArray>
+  void operator()(TArray* input, vtkDataArray* outputArray) const
+  {
+    using T = typename TArray::ValueType;
+    auto* const output = TArray::FastDownCast(outputArray);
+    constexpr std::size_t grain = 4096;
+    isopoint::forRanges(this->Run, this->Surface.points.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        interpolatePoints(
+          this->Surface, begin, end, input->GetNumberOfComponents(),
+          [&](vtkIdType tuple, int component)
+          { return static_cast<double>(input->GetTypedComponent(tuple, component)); },
+          [&](std::size_t i, int component, double value)
+          {
+            output->SetTypedComponent(
+              this->FirstTuple + static_cast<vtkIdType>(i), component, toArrayType<T>(value));
+          });
+      });
+  }
+};
+
+void interpolateArray(const isopoint::Execution& execution, const Isosurface& surface,
+  vtkDataArray* input, vtkDataArray* output, vtkIdType firstTuple)
+{
+  const TypedInterpolation typed{ execution, surface, firstTuple };
+  if (vtkArrayDispatch::Dispatch::Execute(input, typed, output))
+  {
+    return;
+  }
+  interpolatePoints(
+    surface, 0, surface.points.size(), input->GetNumberOfComponents(),
+    [&](vtkIdType tuple, int component) { return input->GetComponent(tuple, component); },
+    [&](std::size_t i, int component, double value)
+    { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
+}
+
+void copyNearer(
+  const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output, vtkIdType firstTuple)
+{
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  {
+    const Isopoint& point = surface.points[i];
+    const std::uint64_t nearer = point.parameter < 0.5 ? point.first : point.second;
+    output->SetTuple(firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(nearer), input);
+  }
+}
+
+vtkIdType pointCount(const std::vector<vtkContouredIsosurface>& surfaces)
+{
+  std::size_t count = 0;
+  for (const vtkContouredIsosurface& contoured : surfaces)
+  {
+    count += contoured.Surface.points.size();
+  }
+  return static_cast<vtkIdType>(count);
+}
+
+vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdType tuples)
+{
+  auto output = vtkSmartPointer<vtkAbstractArray>::Take(input->NewInstance());
+  output->SetName(input->GetName());
+  output->SetNumberOfComponents(input->GetNumberOfComponents());
+  output->CopyComponentNames(input);
+  output->SetNumberOfTuples(tuples);
+  return output;
+}
+
+/// Adds an array and makes it the active attribute, where it is one (-1: none).
+void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
+{
+  const int index = output->AddArray(array);
+  if (attribute >= 0)
+  {
+    output->SetActiveAttribute(index, attribute);
+  }
+}
+
+bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
+{
+  return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
+    (array->GetName() &&
+      std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+}
+
+} // namespace
+
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
+  vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
+  vtkPointData* output)
+{
+  for (int index = 0; index < input->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = input->GetAbstractArray(index);
+    const int attribute = input->IsArrayAnAttribute(index);
+    if (isLeftOut(array, attribute, contoured))
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkAbstractArray> result = newArrayLike(array, pointCount(surfaces));
+    auto* const numbers = vtkDataArray::SafeDownCast(array);
+    const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
+    vtkIdType firstTuple = 0;
+    for (const vtkContouredIsosurface& contouredSurface : surfaces)
+    {
+      const Isosurface& surface = contouredSurface.Surface;
+      if (isNumeric)
+      {
+        interpolateArray(
+          execution, surface, numbers, vtkDataArray::SafeDownCast(result), firstTuple);
+      }
+      else
+      {
+        copyNearer(surface, array, result, firstTuple);
+      }
+      firstTuple += static_cast<vtkIdType>(surface.points.size());
+    }
+    addArray(attribute, result, output);
+  }
+}
+
+void vtkAddContouredArray(vtkDataArray* contoured,
+  const std::vector<vtkContouredIsosurface>& surfaces, vtkPointData* output)
+{
+  const int type = contoured->GetDataType();
+  const auto result = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
+  result->SetName(contoured->GetName());
+  result->SetNumberOfTuples(pointCount(surfaces));
+  vtkIdType tuple = 0;
+  for (const vtkContouredIsosurface& surface : surfaces)
+  {
+    for (std::size_t i = 0; i < surface.Surface.points.size(); ++i)
+    {
+      result->SetComponent(tuple++, 0, surface.Isovalue);
+    }
+  }
+  addArray(vtkDataSetAttributes::SCALARS, result, output);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointArrays_h
+#define vtkIsopointArrays_h
+
+#include "Isopoint/Isopoint.h"
+
+#include <vector>
+
+namespace isopoint
+{
+struct Execution;
+}
+class vtkDataArray;
+class vtkPointData;
+
+/**
+ * The isopoints of one isovalue.
+ */
+struct vtkContouredIsosurface
+{
+  double Isovalue;
+  isopoint::Isosurface Surface;
+};
+
+/**
+ * Fills the output's point data with the input's arrays at the isopoints of all surfaces, one
+ * surface after the other: numbers interpolated (integers rounded to the nearest), pedigree ids
+ * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays and the
+ * contoured array are left out.
+ */
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
+  vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
+  vtkPointData* output);
+
+/**
+ * Adds the contoured array, each value exactly the isovalue: of the input's type where that is
+ * float or double, of type double otherwise. It becomes the active scalars.
+ */
+void vtkAddContouredArray(vtkDataArray* contoured,
+  const std::vector<vtkContouredIsosurface>& surfaces, vtkPointData* output);
+
+#endif

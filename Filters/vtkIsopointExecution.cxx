@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointExecution.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkIsopointCompatibility.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+namespace
+{
+
+void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+{
+  const auto range = [&task](vtkIdType begin, vtkIdType end)
+  { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); };
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
+}
+
+void forOnOwnThreads(
+  std::size_t threads, std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+{
+  std::atomic<std::size_t> next{ 0 };
+  const auto work = [&]()
+  {
+    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
+    {
+      task(begin, std::min(begin + grain, count));
+    }
+  };
+  std::vector<std::thread> helpers;
+  const std::size_t helperCount = std::min(threads, (count + grain - 1) / grain) - 1;
+  helpers.reserve(helperCount);
+  try
+  {
+    while (helpers.size() < helperCount)
+    {
+      helpers.emplace_back(work);
+    }
+  }
+  catch (const std::system_error&)
+  {
+    // The system grants no more threads: those there are do the work.
+  }
+  work();
+  for (std::thread& helper : helpers)
+  {
+    helper.join();
+  }
+}
+
+/// Whether nobody chose the sequential backend: it is just what VTK was built with.
+bool isSequentialByDefault()
+{
+  const char* const backend = vtkSMPTools::GetBackend();
+  return backend && std::strcmp(backend, "Sequential") == 0 &&
+    !std::getenv("VTK_SMP_BACKEND_IN_USE");
+}
+
+std::size_t allowedThreads()
+{
+  std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
+  if (const char* const limit = std::getenv("VTK_SMP_MAX_THREADS"))
+  {
+    const long parsed = std::strtol(limit, nullptr, 10);
+    threads = parsed > 0 ? std::min(threads, static_cast<std::size_t>(parsed)) : threads;
+  }
+  const int initialized = vtkGetRequestedSMPThreads();
+  return initialized > 0 ? std::min(threads, static_cast<std::size_t>(initialized)) : threads;
+}
+
+} // namespace
+
+isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores)
+{
+  isopoint::Execution execution;
+  if (useAllCores && isSequentialByDefault())
+  {
+    const std::size_t threads = allowedThreads();
+    execution.threads = threads;
+    execution.parallelFor =
+      [threads](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+    { forOnOwnThreads(threads, count, grain, task); };
+  }
+  else
+  {
+    execution.threads =
+      static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
+    execution.parallelFor = forOnSMPTools;
+  }
+  execution.aborted = [filter]() { return vtkIsAborted(filter); };
+  return execution;
+}
+
+isopoint::Execution vtkMakeIsopointStep(
+  const isopoint::Execution& execution, vtkAlgorithm* filter, double begin, double end)
+{
+  isopoint::Execution step = execution;
+  step.progress = [filter, begin, end](double fraction)
+  { filter->UpdateProgress(begin + fraction * (end - begin)); };
+  return step;
+}

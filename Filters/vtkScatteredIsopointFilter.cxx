@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkScatteredIsopointFilter.h"
+
+#include "Isopoint/AngleCriterion.h"
+#include "Isopoint/Interpolation.h"
+#include "Isopoint/IsosurfaceExtractor.h"
+#include "Isopoint/SplatGeometry.h"
+#include "vtkIsopointArrays.h"
+#include "vtkIsopointExecution.h"
+#include "vtkIsopointInput.h"
+
+#include "vtkCellArray.h"
+#include "vtkContourValues.h"
+#include "vtkDataSet.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+#include <new>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using isopoint::Execution;
+using isopoint::Vector;
+
+/// What the tree was built from: modification times are unique among all objects, so equal ones
+/// mean the same arrays, unchanged.
+struct InputState
+{
+  vtkMTimeType Geometry = 0;
+  vtkMTimeType Scalars = 0;
+  vtkMTimeType Ghosts = 0;
+
+  InputState() = default;
+
+  InputState(vtkDataSet* input, vtkDataArray* scalars)
+    : Geometry(input->GetMTime())
+    , Scalars(scalars->GetMTime())
+  {
+    auto* const pointSet = vtkPointSet::SafeDownCast(input);
+    if (pointSet && pointSet->GetPoints())
+    {
+      this->Geometry = pointSet->GetPoints()->GetMTime();
+    }
+    if (auto* const ghosts =
+          input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()))
+    {
+      this->Ghosts = ghosts->GetMTime();
+    }
+  }
+
+  bool operator==(const InputState& other) const
+  {
+    return this->Geometry == other.Geometry && this->Scalars == other.Scalars &&
+      this->Ghosts == other.Ghosts;
+  }
+};
+
+vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtkIdType count)
+{
+  auto* const pointSet = vtkPointSet::SafeDownCast(input);
+  const bool inputIsFloat =
+    pointSet && pointSet->GetPoints() && pointSet->GetPoints()->GetDataType() == VTK_FLOAT;
+  const bool single = precision == vtkAlgorithm::SINGLE_PRECISION ||
+    (precision == vtkAlgorithm::DEFAULT_PRECISION && inputIsFloat);
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetNumberOfPoints(count);
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkNew<vtkIdTypeArray> connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  connectivity->SetNumberOfValues(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    offsets->SetValue(i, i);
+    connectivity->SetValue(i, i);
+  }
+  offsets->SetValue(count, count);
+  auto vertices = vtkSmartPointer<vtkCellArray>::New();
+  vertices->SetData(offsets, connectivity);
+  return vertices;
+}
+
+vtkSmartPointer<vtkFloatArray> newFloats(const char* name, int components, vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// The isopoints of one isovalue in space.
+struct PlacedIsopoints
+{
+  std::vector<Vector> positions;
+  std::vector<Vector> fallingEdges; // along the edge to its end below the isovalue
+};
+
+/// The value of a sample, the mean where several count as one.
+double sampleValue(
+  const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
+{
+  const isopoint::MergedSamples* const group = surface.mergedAt(sample);
+  const auto valueAt = [scalars](std::uint64_t id)
+  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
+  return group
+    ? isopoint::meanOf(group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
+    : valueAt(sample);
+}
+
+PlacedIsopoints placeIsopoints(const Execution& execution, vtkDataSet* input, vtkDataArray* scalars,
+  const vtkContouredIsosurface& contoured)
+{
+  const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
+  const vtkIsopointPositions samplePositions(input);
+  PlacedIsopoints placed;
+  placed.positions.resize(points.size());
+  placed.fallingEdges.resize(points.size());
+  constexpr std::size_t grain = 4096;
+  isopoint::forRanges(execution, points.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        double first[3];
+        double second[3];
+        samplePositions.Get(static_cast<vtkIdType>(points[i].first), first);
+        samplePositions.Get(static_cast<vtkIdType>(points[i].second), second);
+        const bool falls =
+          !(sampleValue(contoured.Surface, scalars, points[i].first) < contoured.Isovalue);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          placed.positions[i][axis] =
+            isopoint::interpolate(first[axis], second[axis], points[i].parameter);
+          const double edge = second[axis] - first[axis];
+          placed.fallingEdges[i][axis] = falls ? edge : -edge;
+        }
+      }
+    });
+  return placed;
+}
+
+/// The names of a data set's point arrays, for an error message.
+std::string arrayNames(vtkPointData* pointData)
+{
+  std::ostringstream names;
+  for (int i = 0; i < pointData->GetNumberOfArrays(); ++i)
+  {
+    const char* const name = pointData->GetArrayName(i);
+    names << (i > 0 ? ", " : "") << (name ? name : "(unnamed)");
+  }
+  return pointData->GetNumberOfArrays() > 0 ? names.str() : std::string("none");
+}
+
+} // namespace
+
+class vtkScatteredIsopointFilter::Internals
+{
+public:
+  isopoint::IsosurfaceExtractor Extractor;
+  InputState LoadedFrom;
+
+  void Clear()
+  {
+    this->Extractor.clear();
+    this->LoadedFrom = InputState();
+  }
+};
+
+vtkStandardNewMacro(vtkScatteredIsopointFilter);
+
+vtkScatteredIsopointFilter::vtkScatteredIsopointFilter()
+  : Angle(isopoint::defaultAngle)
+  , NumberOfNeighbors(isopoint::defaultNeighborCount)
+  , Kept(new Internals)
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkScatteredIsopointFilter::~vtkScatteredIsopointFilter() = default;
+
+void vtkScatteredIsopointFilter::SetValue(int i, double value)
+{
+  this->ContourValues->SetValue(i, value);
+}
+
+double vtkScatteredIsopointFilter::GetValue(int i)
+{
+  return this->ContourValues->GetValue(i);
+}
+
+double* vtkScatteredIsopointFilter::GetValues()
+{
+  return this->ContourValues->GetValues();
+}
+
+void vtkScatteredIsopointFilter::GetValues(double* contourValues)
+{
+  this->ContourValues->GetValues(contourValues);
+}
+
+void vtkScatteredIsopointFilter::SetNumberOfContours(int number)
+{
+  this->ContourValues->SetNumberOfContours(number);
+}
+
+vtkIdType vtkScatteredIsopointFilter::GetNumberOfContours()
+{
+  return this->ContourValues->GetNumberOfContours();
+}
+
+void vtkScatteredIsopointFilter::GenerateValues(int numContours, double range[2])
+{
+  this->ContourValues->GenerateValues(numContours, range);
+}
+
+void vtkScatteredIsopointFilter::GenerateValues(
+  int numContours, double rangeStart, double rangeEnd)
+{
+  this->ContourValues->GenerateValues(numContours, rangeStart, rangeEnd);
+}
+
+vtkMTimeType vtkScatteredIsopointFilter::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->ContourValues->GetMTime());
+}
+
+int vtkScatteredIsopointFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return 1;
+}
+
+int vtkScatteredIsopointFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataSet* const input = vtkDataSet::GetData(inputVector[0]);
+  vtkPolyData* const output = vtkPolyData::GetData(outputVector);
+  this->NumberOfSkippedSamples = 0;
+  if (!input || !output || !this->IsUsable(input))
+  {
+    return 1;
+  }
+  vtkDataArray* const scalars = this->GetContouredArray(inputVector, input);
+  if (!scalars)
+  {
+    return 1;
+  }
+  try
+  {
+    this->Extract(input, scalars, output);
+  }
+  catch (const isopoint::Aborted&)
+  {
+    output->Initialize();
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Kept->Clear();
+    output->Initialize();
+    vtkErrorMacro(<< "Out of memory while contouring " << input->GetNumberOfPoints()
+                  << " points. Close other data, set KeepTree off, or pass fewer points.");
+  }
+  if (!this->KeepTree)
+  {
+    this->Kept->Clear();
+  }
+  return 1;
+}
+
+bool vtkScatteredIsopointFilter::IsUsable(vtkDataSet* input)
+{
+  if (!(this->Angle >= 0.0 && this->Angle <= 180.0))
+  {
+    vtkErrorMacro(<< "The angle is " << this->Angle
+                  << "; it must be within 0 and 180 degrees. See SetAngle().");
+    return false;
+  }
+  if (input->GetNumberOfPoints() == 0)
+  {
+    vtkErrorMacro(<< "The input has no points. Connect a data set with points and a scalar array.");
+    return false;
+  }
+  return true;
+}
+
+vtkDataArray* vtkScatteredIsopointFilter::GetContouredArray(
+  vtkInformationVector** inputVector, vtkDataSet* input)
+{
+  vtkInformation* const wanted = this->GetInputArrayInformation(0);
+  const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkAbstractArray* const array =
+    this->GetInputAbstractArrayToProcess(0, inputVector, association);
+  const std::string remedy = " Choose one with SetInputArrayToProcess(); the point arrays are: " +
+    arrayNames(input->GetPointData()) + ".";
+  if (!array)
+  {
+    if (name)
+    {
+      vtkErrorMacro(<< "The input has no point array named \"" << name << "\"." << remedy);
+    }
+    else
+    {
+      vtkErrorMacro(<< "The input has no active point scalars." << remedy);
+    }
+    return nullptr;
+  }
+  const std::string described =
+    std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS ||
+    array->GetNumberOfTuples() != input->GetNumberOfPoints())
+  {
+    vtkErrorMacro(<< described << "does not belong to the points. For cell data, take the cell"
+                  << " centers first (vtkCellCenters, or ParaView's Cell Centers).");
+    return nullptr;
+  }
+  auto* const scalars = vtkDataArray::SafeDownCast(array);
+  if (!scalars)
+  {
+    vtkErrorMacro(<< described << "holds no numbers." << remedy);
+    return nullptr;
+  }
+  if (scalars->GetNumberOfComponents() != 1)
+  {
+    vtkErrorMacro(<< described << "has " << scalars->GetNumberOfComponents()
+                  << " components where a scalar is needed. Take one component or the magnitude"
+                  << " first (vtkArrayCalculator, or ParaView's Calculator).");
+    return nullptr;
+  }
+  return scalars;
+}
+
+void vtkScatteredIsopointFilter::Extract(
+  vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output)
+{
+  constexpr double loadingShare = 0.1;
+  constexpr double extractionShare = 0.9;
+  const Execution execution = vtkMakeIsopointExecution(this, this->UseAllCores != 0);
+
+  const InputState state(input, scalars);
+  if (!(state == this->Kept->LoadedFrom))
+  {
+    this->Kept->LoadedFrom = InputState();
+    vtkLoadIsopointInput(execution, input, scalars, this->Kept->Extractor);
+    this->Kept->LoadedFrom = state;
+  }
+  this->NumberOfSkippedSamples = static_cast<vtkIdType>(this->Kept->Extractor.skippedCount());
+  this->UpdateProgress(loadingShare);
+
+  const double* const values = this->ContourValues->GetValues();
+  const std::set<double> isovalues(values, values + this->ContourValues->GetNumberOfContours());
+  std::vector<vtkContouredIsosurface> surfaces;
+  std::size_t pointCount = 0;
+  for (const double isovalue : isovalues)
+  {
+    const double share =
+      (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
+    const double begin = loadingShare + share * static_cast<double>(surfaces.size());
+    surfaces.push_back({ isovalue,
+      this->Kept->Extractor.extract(
+        vtkMakeIsopointStep(execution, this, begin, begin + share), isovalue, this->Angle) });
+    pointCount += surfaces.back().Surface.points.size();
+    isopoint::throwIfAborted(execution);
+  }
+
+  const auto count = static_cast<vtkIdType>(pointCount);
+  const vtkSmartPointer<vtkPoints> points =
+    newOutputPoints(input, this->OutputPointsPrecision, count);
+  const vtkSmartPointer<vtkFloatArray> normals = newFloats("Normals", 3, count);
+  const vtkSmartPointer<vtkFloatArray> radii = newFloats("Radius", 1, count);
+  vtkIdType point = 0;
+  for (const vtkContouredIsosurface& surface : surfaces)
+  {
+    const PlacedIsopoints placed = placeIsopoints(execution, input, scalars, surface);
+    std::vector<isopoint::Splat> splats;
+    if (this->ComputeNormals || this->ComputeRadii)
+    {
+      splats = isopoint::computeSplats(
+        execution, placed.positions, placed.fallingEdges, this->NumberOfNeighbors);
+    }
+    for (std::size_t i = 0; i < placed.positions.size(); ++i, ++point)
+    {
+      points->SetPoint(point, placed.positions[i].data());
+      if (!splats.empty())
+      {
+        normals->SetTuple(point, splats[i].normal.data());
+        radii->SetValue(point, static_cast<float>(splats[i].radius));
+      }
+    }
+    isopoint::throwIfAborted(execution);
+  }
+
+  output->SetPoints(points);
+  output->SetVerts(newVertices(count));
+  vtkPointData* const pointData = output->GetPointData();
+  vtkInterpolateIsopointArrays(execution, input->GetPointData(), scalars, surfaces, pointData);
+  if (this->ComputeScalars)
+  {
+    vtkAddContouredArray(scalars, surfaces, pointData);
+  }
+  if (this->ComputeNormals)
+  {
+    pointData->SetNormals(normals);
+  }
+  if (this->ComputeRadii)
+  {
+    pointData->AddArray(radii);
+  }
+  this->UpdateProgress(1.0);
+}
+
+void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto onOff = [](vtkTypeBool flag) { return flag ? "On" : "Off"; };
+  os << indent << "Contour values:\n";
+  this->ContourValues->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "Angle: " << this->Angle << "\n";
+  os << indent << "ComputeNormals: " << onOff(this->ComputeNormals) << "\n";
+  os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";
+  os << indent << "ComputeScalars: " << onOff(this->ComputeScalars) << "\n";
+  os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "KeepTree: " << onOff(this->KeepTree) << "\n";
+  os << indent << "UseAllCores: " << onOff(this->UseAllCores) << "\n";
+  os << indent << "NumberOfSkippedSamples: " << this->NumberOfSkippedSamples << "\n";
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkScatteredIsopointFilter
+ * @brief   extract isosurfaces as points, straight from scattered samples
+ *
+ * vtkScatteredIsopointFilter takes any data set with a scalar at its points, ignores its cells, and
+ * generates points on one or more isosurfaces: no tetrahedra are built and nothing is resampled.
+ * The output is a vtkPolyData of points, each with a vertex cell, a normal and the radius of a
+ * splat; together the splats cover the surface.
+ *
+ * The algorithm is that of Rosenthal and Linsen, "Direct isosurface extraction from scattered
+ * volume data" (EuroVis 2006): a kd-tree parts space until each cell holds one position. Cells that
+ * touch are neighbours. A neighbour is dropped if a closer one lies in nearly the same direction
+ * (see SetAngle). Where the isovalue lies between a sample and a remaining neighbour, the isopoint
+ * is interpolated linearly. Unlike the paper, a node is split along the longest side of its region,
+ * and only the part of the tree that surrounds the surface is ever built.
+ *
+ * What is promised:
+ * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
+ *    whatever the number of threads, the vtkSMPTools backend, and what was asked for before.
+ *    Points are ordered by isovalue (ascending), then by the lower and the higher id of the two
+ *    samples they lie between.
+ * 2. A sample is below an isovalue v if its value is less than v. Each pair of neighbours of which
+ *    one is below gives one point. The point's scalar is v exactly, as the array's type holds it:
+ *    float and double arrays keep their type, integer arrays become double.
+ * 3. Samples with a non-finite coordinate or value, ghost points and hidden points are left out and
+ *    counted (GetNumberOfSkippedSamples).
+ * 4. Samples at exactly one position count as one, with the lowest id among them and the mean of
+ *    their values and attributes.
+ * 5. All point arrays are interpolated with the same weight; arrays that cannot be (strings, ids)
+ *    are copied from the nearer end. Global ids and ghost arrays are dropped.
+ * 6. Wrong use gives one error that says what to do, and an empty output.
+ *
+ * The tree is kept between updates: another isovalue costs only what it adds, another angle or
+ * output option nothing, and new values at the same positions (a time series) keep its shape. It
+ * takes 20 bytes a sample for float points with a scalar that float holds, up to 40 otherwise, plus
+ * what the surface needs. See SetKeepTree.
+ *
+ * @warning
+ * Regions fill the bounding box of the samples. Samples on both sides of a void are neighbours, as
+ * in a Delaunay tetrahedrisation, and can put points into the void.
+ *
+ * @warning
+ * 64-bit integer values beyond 2^53 are rounded to double.
+ *
+ * @sa vtkContourFilter vtkPointGaussianMapper
+ */
+
+#ifndef vtkScatteredIsopointFilter_h
+#define vtkScatteredIsopointFilter_h
+
+#include "vtkNew.h"                                // for the contour values
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+
+#include <memory> // for std::unique_ptr
+
+class vtkContourValues;
+class vtkDataArray;
+class vtkDataSet;
+
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsopointFilter : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkScatteredIsopointFilter* New();
+  vtkTypeMacro(vtkScatteredIsopointFilter, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The isovalues, as in vtkContourFilter. Any finite values; repeated ones count once. A value
+   * outside the scalar's range gives no points. Default: none.
+   */
+  void SetValue(int i, double value);
+  double GetValue(int i);
+  double* GetValues();
+  void GetValues(double* contourValues);
+  void SetNumberOfContours(int number);
+  vtkIdType GetNumberOfContours();
+  void GenerateValues(int numContours, double range[2]);
+  void GenerateValues(int numContours, double rangeStart, double rangeEnd);
+  ///@}
+
+  ///@{
+  /**
+   * The angle of the neighbourhood's criterion in degrees, 0 up to 180: a neighbour is dropped if
+   * a closer one is seen from the sample within less than this angle of it. Smaller angles keep
+   * more neighbours and give more points, a little farther from the true surface. Default: 54.7,
+   * just under the 54.7356 degrees between an edge and a diagonal of a cube.
+   */
+  vtkSetMacro(Angle, double);
+  vtkGetMacro(Angle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the array "Normals" (three floats, of length 1, active normals): they point
+   * to falling values, as vtkContourFilter's do. Default: on.
+   */
+  vtkSetMacro(ComputeNormals, vtkTypeBool);
+  vtkGetMacro(ComputeNormals, vtkTypeBool);
+  vtkBooleanMacro(ComputeNormals, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the array "Radius" (one float, in the units of the points): the radius of
+   * a splat that overlaps its neighbours, so that no hole stays. Default: on.
+   */
+  vtkSetMacro(ComputeRadii, vtkTypeBool);
+  vtkGetMacro(ComputeRadii, vtkTypeBool);
+  vtkBooleanMacro(ComputeRadii, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output has the contoured array, which holds the isovalue of each point. Default:
+   * on.
+   */
+  vtkSetMacro(ComputeScalars, vtkTypeBool);
+  vtkGetMacro(ComputeScalars, vtkTypeBool);
+  vtkBooleanMacro(ComputeScalars, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * How many of the nearest isopoints the plane is fitted through that gives a normal. More make
+   * for smoother normals and rounder edges. 3 up to 1000, default 12.
+   */
+  vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
+  vtkGetMacro(NumberOfNeighbors, int);
+  ///@}
+
+  ///@{
+  /**
+   * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION, the type of the input's points (double for images and rectilinear grids).
+   * Computation is in double in any case. Default: DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the tree is kept from one update to the next, so that further isovalues are found in
+   * a fraction of the time, or freed at the end of each update. Default: on.
+   */
+  vtkSetMacro(KeepTree, vtkTypeBool);
+  vtkGetMacro(KeepTree, vtkTypeBool);
+  vtkBooleanMacro(KeepTree, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * vtkSMPTools decides on the threads, with one exception: where its backend is "Sequential"
+   * only because VTK was built so (as Debian's ParaView is) and the environment variable
+   * VTK_SMP_BACKEND_IN_USE does not say otherwise, the filter runs on all cores all the same,
+   * within VTK_SMP_MAX_THREADS and vtkSMPTools::Initialize(). Off: "Sequential" is taken at its
+   * word. The output is the same in any case. Default: on.
+   */
+  vtkSetMacro(UseAllCores, vtkTypeBool);
+  vtkGetMacro(UseAllCores, vtkTypeBool);
+  vtkBooleanMacro(UseAllCores, vtkTypeBool);
+  ///@}
+
+  /**
+   * Input points that took no part in the last update: non-finite, ghost or hidden ones.
+   */
+  vtkGetMacro(NumberOfSkippedSamples, vtkIdType);
+
+  /**
+   * Also counts changes of the contour values.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkScatteredIsopointFilter();
+  ~vtkScatteredIsopointFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  vtkNew<vtkContourValues> ContourValues;
+  double Angle;
+  vtkTypeBool ComputeNormals = 1;
+  vtkTypeBool ComputeRadii = 1;
+  vtkTypeBool ComputeScalars = 1;
+  int NumberOfNeighbors;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  vtkTypeBool KeepTree = 1;
+  vtkTypeBool UseAllCores = 1;
+  vtkIdType NumberOfSkippedSamples = 0;
+
+private:
+  vtkScatteredIsopointFilter(const vtkScatteredIsopointFilter&) = delete;
+  void operator=(const vtkScatteredIsopointFilter&) = delete;
+
+  vtkDataArray* GetContouredArray(vtkInformationVector** inputVector, vtkDataSet* input);
+  bool IsUsable(vtkDataSet* input);
+  void Extract(vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output);
+
+  class Internals;
+  std::unique_ptr<Internals> Kept;
+};
+
+#endif
