@@ -309,13 +309,16 @@ vtkDataArray* vtkScatteredIsopointFilter::GetContouredArray(
   vtkInformation* const wanted = this->GetInputArrayInformation(0);
   const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  vtkAbstractArray* const array =
-    this->GetInputAbstractArrayToProcess(0, inputVector, association);
+  // ParaView passes an empty name where nothing was chosen.
+  const bool isChosen = name && *name;
+  vtkAbstractArray* const array = isChosen || !name
+    ? this->GetInputAbstractArrayToProcess(0, inputVector, association)
+    : input->GetPointData()->GetScalars();
   const std::string remedy = " Choose one with SetInputArrayToProcess(); the point arrays are: " +
     arrayNames(input->GetPointData()) + ".";
   if (!array)
   {
-    if (name)
+    if (isChosen)
     {
       vtkErrorMacro(<< "The input has no point array named \"" << name << "\"." << remedy);
     }
