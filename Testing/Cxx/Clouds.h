@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef Clouds_h
+#define Clouds_h
+
+#include "Isopoint/IsosurfaceExtractor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <thread>
+#include <vector>
+
+namespace clouds
+{
+
+/// Samples for the tests; ids are indices.
+struct Cloud
+{
+  std::vector<double> positions; // x y z each
+  std::vector<double> values;
+
+  std::size_t size() const { return this->values.size(); }
+
+  void add(double x, double y, double z, double value)
+  {
+    this->positions.insert(this->positions.end(), { x, y, z });
+    this->values.push_back(value);
+  }
+};
+
+/// Uniform numbers in [0, 1), the same on every platform.
+class Random
+{
+public:
+  explicit Random(std::uint64_t seed)
+    : Generator(seed)
+  {
+  }
+
+  double operator()() { return static_cast<double>(this->Generator() >> 11) * 0x1p-53; }
+
+private:
+  std::mt19937_64 Generator;
+};
+
+/// A smooth field with several sheets in the unit cube.
+inline double waves(double x, double y, double z)
+{
+  return std::sin(7.0 * x) + std::cos(5.0 * y + x) + std::sin(6.0 * z - 2.0 * y);
+}
+
+inline Cloud uniform(std::size_t count, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double x = random();
+    const double y = random();
+    const double z = random();
+    cloud.add(x, y, z, waves(x, y, z));
+  }
+  return cloud;
+}
+
+/// Density varies over many orders of magnitude.
+inline Cloud clustered(std::size_t count, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double scale = std::pow(10.0, -4.0 * random());
+    const double x = scale * (random() - 0.5);
+    const double y = scale * (random() - 0.5);
+    const double z = scale * (random() - 0.5);
+    cloud.add(x, y, z, waves(x / scale, y, z) + std::log(scale));
+  }
+  return cloud;
+}
+
+/// A regular lattice, in the order of an image's points.
+inline Cloud lattice(int nx, int ny, int nz)
+{
+  Cloud cloud;
+  for (int z = 0; z < nz; ++z)
+  {
+    for (int y = 0; y < ny; ++y)
+    {
+      for (int x = 0; x < nx; ++x)
+      {
+        cloud.add(x, y, z, std::round(5.0 * waves(0.1 * x, 0.1 * y, 0.1 * z)));
+      }
+    }
+  }
+  return cloud;
+}
+
+/// Coordinates and values from a few whole numbers: many samples share planes, lines and positions.
+inline Cloud coarse(std::size_t count, int steps, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  const auto step = [&]() { return std::floor(steps * random()); };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double x = step();
+    const double y = step();
+    const double z = step();
+    cloud.add(x, y, z, std::floor(10.0 * random()));
+  }
+  return cloud;
+}
+
+/// Keeps only so many of the three coordinates; the others become constant.
+inline Cloud flattened(Cloud cloud, int dimensions)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    for (int axis = dimensions; axis < 3; ++axis)
+    {
+      cloud.positions[3 * i + axis] = 0.25;
+    }
+  }
+  return cloud;
+}
+
+/// Moves a share of the samples to one position.
+inline Cloud heaped(Cloud cloud, double share)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (static_cast<double>((i * 7919) % cloud.size()) < share * static_cast<double>(cloud.size()))
+    {
+      std::copy_n(cloud.positions.begin(), 3, cloud.positions.begin() + 3 * i);
+    }
+  }
+  return cloud;
+}
+
+/// As many threads as asked for, whatever the machine has.
+inline isopoint::Execution executionOn(std::size_t threads)
+{
+  isopoint::Execution execution;
+  execution.threads = threads;
+  if (threads > 1)
+  {
+    execution.parallelFor =
+      [threads](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+    {
+      std::atomic<std::size_t> next{ 0 };
+      const auto work = [&]()
+      {
+        for (std::size_t begin = next.fetch_add(grain); begin < count;
+             begin = next.fetch_add(grain))
+        {
+          task(begin, std::min(begin + grain, count));
+        }
+      };
+      std::vector<std::thread> helpers;
+      for (std::size_t i = 1; i < threads; ++i)
+      {
+        helpers.emplace_back(work);
+      }
+      work();
+      for (std::thread& helper : helpers)
+      {
+        helper.join();
+      }
+    };
+  }
+  return execution;
+}
+
+/// Reads a cloud for an extractor.
+inline auto readerOf(const Cloud& cloud)
+{
+  return [&cloud](std::size_t id, auto* position, auto& value)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = static_cast<std::decay_t<decltype(*position)>>(
+        cloud.positions[3 * id + static_cast<std::size_t>(axis)]);
+    }
+    value = static_cast<std::decay_t<decltype(value)>>(cloud.values[id]);
+    return true;
+  };
+}
+
+template <class TCoordinate = double, class TValue = double>
+isopoint::Isosurface extract(
+  const Cloud& cloud, double isovalue, double angle, std::size_t threads = 1)
+{
+  const isopoint::Execution execution = executionOn(threads);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
+  return extractor.extract(execution, isovalue, angle);
+}
+
+} // namespace clouds
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The core against the definition: every isopoint equal, bit for bit.
+#include "BruteForce.h"
+#include "Clouds.h"
+
+#include "Isopoint/AngleCriterion.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace
+{
+
+void expectSamePoints(
+  const std::vector<bruteforce::Point>& expected, const std::vector<isopoint::Isopoint>& found)
+{
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    ASSERT_EQ(expected[i].first, found[i].first) << "point " << i;
+    ASSERT_EQ(expected[i].second, found[i].second) << "point " << i;
+    ASSERT_EQ(0, std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)))
+      << "point " << i;
+  }
+}
+
+/// @returns how many isopoints there were
+std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isovalues)
+{
+  std::size_t count = 0;
+  for (const double isovalue : isovalues)
+  {
+    for (const double angle : { 0.0, 30.0, isopoint::defaultAngle, 80.0, 90.0, 180.0 })
+    {
+      SCOPED_TRACE(testing::Message() << "isovalue " << isovalue << ", angle " << angle);
+      const auto expected = bruteforce::extract(cloud, isovalue, angle);
+      expectSamePoints(expected, clouds::extract(cloud, isovalue, angle).points);
+      count += expected.size();
+    }
+  }
+  return count;
+}
+
+clouds::Cloud roundedToFloat(clouds::Cloud cloud)
+{
+  for (double& coordinate : cloud.positions)
+  {
+    coordinate = static_cast<float>(coordinate);
+  }
+  for (double& value : cloud.values)
+  {
+    value = static_cast<float>(value);
+  }
+  return cloud;
+}
+
+} // namespace
+
+TEST(BruteForce, Uniform)
+{
+  for (const std::uint64_t seed : { 1, 2, 3 })
+  {
+    EXPECT_GT(compare(clouds::uniform(700, seed), { -0.5, 0.3 }), 0u);
+  }
+}
+
+TEST(BruteForce, UniformLargeEnoughForEveryPathOfSplitting)
+{
+  const clouds::Cloud cloud = clouds::uniform(12000, 4);
+  expectSamePoints(bruteforce::extract(cloud, 0.4, isopoint::defaultAngle),
+    clouds::extract(cloud, 0.4, isopoint::defaultAngle).points);
+}
+
+TEST(BruteForce, Clustered)
+{
+  EXPECT_GT(compare(clouds::clustered(1500, 5), { -4.0, 0.0 }), 0u);
+}
+
+TEST(BruteForce, Lattice)
+{
+  EXPECT_GT(compare(clouds::lattice(9, 10, 11), { 0.0, 2.0, 2.5 }), 0u);
+  EXPECT_GT(compare(clouds::lattice(8, 8, 8), { 1.0 }), 0u);
+}
+
+TEST(BruteForce, SharedPlanesLinesAndPositions)
+{
+  for (const int steps : { 2, 3, 5, 9 })
+  {
+    EXPECT_GT(compare(clouds::coarse(600, steps, 6), { 4.5, 5.0 }), 0u);
+  }
+}
+
+TEST(BruteForce, CoplanarAndCollinear)
+{
+  EXPECT_GT(compare(clouds::flattened(clouds::uniform(500, 7), 2), { 0.4 }), 0u);
+  EXPECT_GT(compare(clouds::flattened(clouds::uniform(500, 8), 1), { 0.9 }), 0u);
+  EXPECT_GT(compare(clouds::flattened(clouds::coarse(500, 7, 9), 2), { 5.0 }), 0u);
+  EXPECT_GT(compare(clouds::flattened(clouds::coarse(500, 50, 9), 1), { 5.0 }), 0u);
+}
+
+TEST(BruteForce, HeapsAtOnePosition)
+{
+  for (const double share : { 0.3, 0.6, 0.9 })
+  {
+    EXPECT_GT(compare(clouds::heaped(clouds::uniform(500, 10), share), { 0.3 }), 0u);
+  }
+  EXPECT_EQ(compare(clouds::heaped(clouds::uniform(50, 10), 1.0), { 0.3 }), 0u);
+}
+
+TEST(BruteForce, Tiny)
+{
+  for (std::size_t count = 0; count <= 9; ++count)
+  {
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+      compare(clouds::uniform(count, seed), { 0.5 });
+      compare(clouds::coarse(count, 2, seed), { 5.0 });
+    }
+  }
+}
+
+TEST(BruteForce, SortedInput)
+{
+  clouds::Cloud sorted;
+  for (int i = 0; i < 1000; ++i)
+  {
+    sorted.add(0.001 * i, (i * 37) % 101, (i * 53) % 97, clouds::waves(0.001 * i, i % 7, 0.0));
+  }
+  EXPECT_GT(compare(sorted, { 0.5 }), 0u);
+}
+
+TEST(BruteForce, EverySampleLayout)
+{
+  const clouds::Cloud cloud = roundedToFloat(clouds::uniform(800, 11));
+  const auto expected = bruteforce::extract(cloud, 0.25, isopoint::defaultAngle);
+  const auto check = [&](const isopoint::Isosurface& found)
+  { expectSamePoints(expected, found.points); };
+  check(clouds::extract<float, float>(cloud, 0.25, isopoint::defaultAngle));
+  check(clouds::extract<float, double>(cloud, 0.25, isopoint::defaultAngle));
+  check(clouds::extract<double, float>(cloud, 0.25, isopoint::defaultAngle));
+  check(clouds::extract<double, double>(cloud, 0.25, isopoint::defaultAngle));
+}
+
+TEST(BruteForce, ExtremeCoordinates)
+{
+  for (const double scale : { 1e-30, 1e-9, 1e9, 1e30 })
+  {
+    clouds::Cloud cloud = clouds::uniform(400, 12);
+    for (double& coordinate : cloud.positions)
+    {
+      coordinate = scale * (coordinate - 0.5);
+    }
+    EXPECT_GT(compare(cloud, { 0.3 }), 0u);
+  }
+  clouds::Cloud far = clouds::uniform(400, 13);
+  for (double& coordinate : far.positions)
+  {
+    coordinate = 1e9 + 1e-2 * coordinate;
+  }
+  EXPECT_GT(compare(far, { 0.3 }), 0u);
+}
+
+TEST(BruteForce, IsovaluesThatCrossNothing)
+{
+  const clouds::Cloud cloud = clouds::uniform(300, 14);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double isovalue : { 1e9, -1e9, infinity, -infinity,
+         std::numeric_limits<double>::quiet_NaN() })
+  {
+    EXPECT_TRUE(clouds::extract(cloud, isovalue, isopoint::defaultAngle).points.empty());
+  }
+}

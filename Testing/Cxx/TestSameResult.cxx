@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What must not change the result: threads, the order of questions, a kept tree.
+#include "Clouds.h"
+
+#include "Isopoint/AngleCriterion.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace
+{
+
+using isopoint::Isosurface;
+using isopoint::IsosurfaceExtractor;
+
+void expectSameBytes(const Isosurface& expected, const Isosurface& found)
+{
+  ASSERT_EQ(expected.points.size(), found.points.size());
+  EXPECT_EQ(0,
+    std::memcmp(expected.points.data(), found.points.data(),
+      expected.points.size() * sizeof(isopoint::Isopoint)));
+  ASSERT_EQ(expected.merged.size(), found.merged.size());
+  for (std::size_t i = 0; i < expected.merged.size(); ++i)
+  {
+    EXPECT_EQ(expected.merged[i].ids, found.merged[i].ids);
+  }
+}
+
+IsosurfaceExtractor loaded(const clouds::Cloud& cloud, std::size_t threads = 1)
+{
+  IsosurfaceExtractor extractor;
+  extractor.load<float, float>(
+    clouds::executionOn(threads), cloud.size(), clouds::readerOf(cloud));
+  return extractor;
+}
+
+// Large enough for nodes that all threads split together.
+constexpr std::size_t manySamples = 400000;
+
+} // namespace
+
+TEST(SameResult, ForAnyNumberOfThreads)
+{
+  for (const clouds::Cloud& cloud : { clouds::uniform(manySamples, 1),
+         clouds::heaped(clouds::clustered(manySamples, 2), 0.1), clouds::lattice(70, 71, 72) })
+  {
+    const Isosurface expected = clouds::extract(cloud, 0.2, isopoint::defaultAngle, 1);
+    EXPECT_FALSE(expected.points.empty());
+    for (const std::size_t threads : { 2, 4, 7 })
+    {
+      SCOPED_TRACE(threads);
+      expectSameBytes(
+        expected, clouds::extract(cloud, 0.2, isopoint::defaultAngle, threads));
+    }
+  }
+}
+
+TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
+{
+  const clouds::Cloud cloud = clouds::uniform(60000, 3);
+  const isopoint::Execution execution = clouds::executionOn(2);
+  IsosurfaceExtractor kept = loaded(cloud);
+  for (const double isovalue : { 0.5, 0.45, -1.5, 0.5, 9.0, 1.9, -1.5 })
+  {
+    for (const double angle : { 54.7, 20.0 })
+    {
+      IsosurfaceExtractor fresh = loaded(cloud);
+      expectSameBytes(
+        fresh.extract(execution, isovalue, angle), kept.extract(execution, isovalue, angle));
+    }
+  }
+}
+
+TEST(SameResult, ForNewValuesAtKeptPositions)
+{
+  clouds::Cloud cloud = clouds::heaped(clouds::uniform(30000, 4), 0.05);
+  const isopoint::Execution execution = clouds::executionOn(2);
+  IsosurfaceExtractor kept = loaded(cloud);
+  kept.extract(execution, 0.5, 54.7);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    cloud.values[i] = cloud.positions[3 * i] - cloud.positions[3 * i + 1];
+  }
+  const auto read = clouds::readerOf(cloud);
+  ASSERT_TRUE((kept.replaceValues<float, float>(execution, cloud.size(), read)));
+  IsosurfaceExtractor fresh = loaded(cloud);
+  const Isosurface expected = fresh.extract(execution, 0.1, 54.7);
+  EXPECT_FALSE(expected.points.empty());
+  expectSameBytes(expected, kept.extract(execution, 0.1, 54.7));
+}
+
+TEST(SameResult, OtherPositionsAreNotTakenForTheSame)
+{
+  clouds::Cloud cloud = clouds::uniform(1000, 5);
+  const isopoint::Execution execution;
+  IsosurfaceExtractor kept = loaded(cloud);
+  cloud.positions[1500] += 0.25;
+  EXPECT_FALSE((kept.replaceValues<float, float>(
+    execution, cloud.size(), clouds::readerOf(cloud))));
+  cloud.positions[1500] -= 0.25;
+  EXPECT_FALSE((kept.replaceValues<double, float>(
+    execution, cloud.size(), clouds::readerOf(cloud))));
+  EXPECT_FALSE((kept.replaceValues<float, float>(
+    execution, cloud.size() - 1, clouds::readerOf(cloud))));
+  cloud.values[7] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE((kept.replaceValues<float, float>(
+    execution, cloud.size(), clouds::readerOf(cloud))));
+}
+
+TEST(SameResult, WithSamplesLeftOut)
+{
+  const clouds::Cloud cloud = clouds::uniform(200000, 6);
+  clouds::Cloud holey = cloud;
+  const double bad[3] = { std::numeric_limits<double>::quiet_NaN(),
+    std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  clouds::Cloud remaining;
+  std::vector<std::uint64_t> ids;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (i % 5 == 2)
+    {
+      (i % 2 ? holey.values[i] : holey.positions[3 * i + i % 3]) = bad[i % 3];
+    }
+    else
+    {
+      remaining.add(cloud.positions[3 * i], cloud.positions[3 * i + 1],
+        cloud.positions[3 * i + 2], cloud.values[i]);
+      ids.push_back(i);
+    }
+  }
+  IsosurfaceExtractor extractor = loaded(holey, 3);
+  EXPECT_EQ(extractor.skippedCount(), cloud.size() - remaining.size());
+  const isopoint::Execution execution;
+  Isosurface expected = loaded(remaining).extract(execution, 0.5, 54.7);
+  for (isopoint::Isopoint& point : expected.points)
+  {
+    point.first = ids[point.first];
+    point.second = ids[point.second];
+  }
+  expectSameBytes(expected, extractor.extract(execution, 0.5, 54.7));
+}
+
+TEST(SameResult, AfterAnAbort)
+{
+  const clouds::Cloud cloud = clouds::uniform(manySamples, 7);
+  IsosurfaceExtractor fresh = loaded(cloud);
+  const Isosurface expected = fresh.extract(clouds::executionOn(1), 0.5, 54.7);
+  for (int patience = 0; patience < 12; ++patience)
+  {
+    isopoint::Execution impatient = clouds::executionOn(2);
+    int asked = 0;
+    impatient.aborted = [&]() { return asked++ >= patience; };
+    IsosurfaceExtractor extractor = loaded(cloud);
+    EXPECT_THROW(extractor.extract(impatient, 0.5, 54.7), isopoint::Aborted);
+    expectSameBytes(expected, extractor.extract(clouds::executionOn(2), 0.5, 54.7));
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The paper's sphere (section 9) in small, against the analytic surface.
+#include "Clouds.h"
+
+#include "Isopoint/Interpolation.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace
+{
+
+struct TableRow
+{
+  double angle;
+  double deviation; // of 8 million samples, in the paper's Table 2
+};
+
+constexpr double radius = 70.0;
+constexpr std::size_t sampleCount = 250000;
+
+clouds::Cloud sphereCloud()
+{
+  clouds::Random random(1);
+  clouds::Cloud cloud;
+  for (std::size_t i = 0; i < sampleCount; ++i)
+  {
+    const double x = 200.0 * random() - 100.0;
+    const double y = 200.0 * random() - 100.0;
+    const double z = 200.0 * random() - 100.0;
+    cloud.add(x, y, z, std::sqrt(x * x + y * y + z * z));
+  }
+  return cloud;
+}
+
+double largestDeviation(const clouds::Cloud& cloud, const isopoint::Isosurface& surface)
+{
+  double largest = 0.0;
+  for (const isopoint::Isopoint& point : surface.points)
+  {
+    double squared = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double coordinate = isopoint::interpolate(cloud.positions[3 * point.first + axis],
+        cloud.positions[3 * point.second + axis], point.parameter);
+      squared += coordinate * coordinate;
+    }
+    largest = std::max(largest, std::abs(std::sqrt(squared) - radius));
+  }
+  return largest;
+}
+
+} // namespace
+
+// Deviation grows with the square of the samples' spacing.
+TEST(Sphere, DeviatesNoMoreThanThePaperSays)
+{
+  const clouds::Cloud cloud = sphereCloud();
+  const double coarser = std::pow(8e6 / static_cast<double>(sampleCount), 2.0 / 3.0);
+  std::size_t fewer = cloud.size();
+  for (const TableRow& row : std::array<TableRow, 4>{
+         { { 15.0, 0.0425 }, { 35.0, 0.0355 }, { 55.0, 0.0320 }, { 80.0, 0.0182 } } })
+  {
+    const isopoint::Isosurface surface = clouds::extract(cloud, radius, row.angle, 2);
+    EXPECT_LE(largestDeviation(cloud, surface), coarser * row.deviation) << row.angle;
+    EXPECT_LT(surface.points.size(), fewer) << row.angle;
+    fewer = surface.points.size();
+  }
+  EXPECT_GT(fewer, 4000u);
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fast halving against the definition, in orders that selection algorithms dislike.
+#include "Clouds.h"
+
+#include "Isopoint/Splitting.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace
+{
+
+using isopoint::FloatSample;
+using isopoint::Halves;
+
+std::vector<FloatSample> samplesOf(
+  std::size_t count, const std::function<double(std::size_t, int)>& coordinate)
+{
+  std::vector<FloatSample> samples(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      samples[i].position[axis] = static_cast<float>(coordinate(i, axis));
+    }
+    samples[i].id = static_cast<std::uint32_t>(i);
+    samples[i].value = static_cast<float>(i);
+  }
+  return samples;
+}
+
+std::vector<std::uint32_t> sortedIds(const FloatSample* begin, const FloatSample* end)
+{
+  std::vector<std::uint32_t> ids;
+  for (const FloatSample* sample = begin; sample != end; ++sample)
+  {
+    ids.push_back(sample->id);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<FloatSample> expected = samples;
+    const Halves byDefinition =
+      isopoint::halveByDefinition(expected.data(), expected.size(), axis);
+    const auto check = [&](std::vector<FloatSample>& found, const Halves& halves)
+    {
+      ASSERT_EQ(byDefinition.lowerCount, halves.lowerCount);
+      ASSERT_EQ(byDefinition.plane, halves.plane);
+      const auto lower = static_cast<std::ptrdiff_t>(halves.lowerCount);
+      const FloatSample* const begin = found.data();
+      const FloatSample* const end = begin + found.size();
+      EXPECT_EQ(sortedIds(expected.data(), expected.data() + lower),
+        sortedIds(begin, begin + lower));
+      EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
+        sortedIds(begin + lower, end));
+    };
+    isopoint::SplittingScratch<FloatSample> scratch;
+    std::vector<FloatSample> alone = samples;
+    check(alone, isopoint::halve(alone.data(), alone.size(), axis, scratch));
+    std::vector<FloatSample> together = samples;
+    check(together,
+      isopoint::halveTogether(
+        clouds::executionOn(3), together.data(), together.size(), axis));
+  }
+}
+
+} // namespace
+
+TEST(Splitting, AnyOrder)
+{
+  for (const std::size_t count : { 2, 3, 5, 383, 384, 385, 1000, 4096, 50001 })
+  {
+    SCOPED_TRACE(count);
+    const double n = static_cast<double>(count);
+    clouds::Random random(count);
+    expectHalvedByDefinition(samplesOf(count, [&](std::size_t, int) { return random(); }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t i, int axis) { return axis == 0 ? double(i) : n - double(i); }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t i, int) { return double(std::min(i, count - i)); }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t i, int axis) { return axis == 1 ? double(i) : 1.0; }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t, int) { return std::floor(3.0 * random()); }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t i, int) { return i % 10 == 0 ? random() : 0.5; }));
+    expectHalvedByDefinition(samplesOf(count,
+      [&](std::size_t, int) { return std::pow(10.0, 60.0 * random() - 30.0); }));
+  }
+}
+
+TEST(Splitting, OnePositionIsNotSplit)
+{
+  for (const std::size_t count : { 2, 500, 70000 })
+  {
+    std::vector<FloatSample> samples = samplesOf(count, [](std::size_t, int) { return 0.5; });
+    isopoint::SplittingScratch<FloatSample> scratch;
+    EXPECT_EQ(isopoint::halve(samples.data(), count, 0, scratch).lowerCount, 0u);
+  }
+}
+
+TEST(Splitting, SignedZerosAreOnePosition)
+{
+  std::vector<FloatSample> samples =
+    samplesOf(2, [](std::size_t i, int) { return i == 0 ? 0.0 : -0.0; });
+  EXPECT_EQ(isopoint::halveByDefinition(samples.data(), 2, 0).lowerCount, 0u);
+}
