@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The filter's promises, from C++.
+#include "vtkScatteredIsopointFilter.h"
+
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSMPTools.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+template <class TArray = vtkFloatArray>
+vtkSmartPointer<TArray> newArray(const char* name, vtkIdType tuples, int components = 1)
+{
+  auto array = vtkSmartPointer<TArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// Random points in a cube of side 2 around the origin; "distance" to the origin, "x" and "position".
+vtkSmartPointer<vtkPolyData> newCloud(vtkIdType count, int pointType = VTK_FLOAT)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(pointType);
+  points->SetNumberOfPoints(count);
+  const auto distance = newArray<vtkDoubleArray>("distance", count);
+  const auto x = newArray("x", count);
+  const auto position = newArray("position", count, 3);
+  std::mt19937 random(1);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3];
+    for (double& coordinate : p)
+    {
+      coordinate = static_cast<float>(random() * 0x1p-31 - 1.0);
+    }
+    points->SetPoint(i, p);
+    position->SetTuple(i, p);
+    x->SetValue(i, static_cast<float>(p[0]));
+    distance->SetValue(i, std::hypot(p[0], p[1], p[2]));
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  cloud->GetPointData()->SetScalars(distance);
+  cloud->GetPointData()->AddArray(x);
+  cloud->GetPointData()->AddArray(position);
+  return cloud;
+}
+
+/// Counts a filter's errors and keeps the last message.
+class ErrorWatcher : public vtkCommand
+{
+public:
+  static ErrorWatcher* New() { return new ErrorWatcher; }
+
+  void Execute(vtkObject*, unsigned long, void* message) override
+  {
+    ++this->Count;
+    this->Last = static_cast<const char*>(message);
+  }
+
+  int Count = 0;
+  std::string Last;
+};
+
+vtkSmartPointer<ErrorWatcher> watchErrors(vtkScatteredIsopointFilter* filter)
+{
+  const auto watcher = vtkSmartPointer<ErrorWatcher>::Take(ErrorWatcher::New());
+  filter->AddObserver(vtkCommand::ErrorEvent, watcher);
+  return watcher;
+}
+
+std::vector<double> pointsOf(vtkPolyData* output)
+{
+  std::vector<double> coordinates;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    coordinates.insert(
+      coordinates.end(), output->GetPoint(i), output->GetPoint(i) + 3);
+  }
+  return coordinates;
+}
+
+void expectEmpty(vtkPolyData* output)
+{
+  EXPECT_EQ(output->GetNumberOfPoints(), 0);
+  EXPECT_EQ(output->GetNumberOfCells(), 0);
+}
+
+} // namespace
+
+TEST(Filter, OutputIsWhatTheConventionsSay)
+{
+  const auto cloud = newCloud(20000);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  vtkPolyData* const output = filter->GetOutput();
+  const vtkIdType count = output->GetNumberOfPoints();
+  ASSERT_GT(count, 1000);
+  EXPECT_EQ(output->GetNumberOfVerts(), count);
+  EXPECT_EQ(output->GetNumberOfCells(), count);
+  EXPECT_EQ(output->GetPoints()->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 0);
+
+  vtkPointData* const data = output->GetPointData();
+  ASSERT_TRUE(data->GetScalars());
+  EXPECT_STREQ(data->GetScalars()->GetName(), "distance");
+  ASSERT_TRUE(vtkFloatArray::SafeDownCast(data->GetNormals()));
+  EXPECT_STREQ(data->GetNormals()->GetName(), "Normals");
+  ASSERT_TRUE(vtkFloatArray::SafeDownCast(data->GetArray("Radius")));
+  vtkDataArray* const position = data->GetArray("position");
+  ASSERT_TRUE(position && data->GetArray("x"));
+  ASSERT_EQ(position->GetNumberOfComponents(), 3);
+
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    output->GetVerts()->GetCellAtId(i, size, ids);
+    ASSERT_TRUE(size == 1 && ids[0] == i);
+    ASSERT_EQ(data->GetScalars()->GetComponent(i, 0), 0.7);
+    double p[3];
+    output->GetPoint(i, p);
+    const double r = std::hypot(p[0], p[1], p[2]);
+    ASSERT_NEAR(r, 0.7, 0.03);
+    double falling = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_NEAR(position->GetComponent(i, axis), p[axis], 1e-6);
+      falling -= data->GetNormals()->GetComponent(i, axis) * p[axis] / r;
+    }
+    ASSERT_GT(falling, 0.95);
+    ASSERT_NEAR(data->GetArray("x")->GetComponent(i, 0), p[0], 1e-6);
+    ASSERT_GT(data->GetArray("Radius")->GetComponent(i, 0), 0.0);
+  }
+}
+
+TEST(Filter, SeveralIsovaluesAreOrderedAndRepeatedOnesCountOnce)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(5000));
+  std::vector<double> expected;
+  std::vector<double> isovalues;
+  for (const double isovalue : { 0.4, 0.6, 0.8 })
+  {
+    filter->SetNumberOfContours(1);
+    filter->SetValue(0, isovalue);
+    filter->Update();
+    const std::vector<double> points = pointsOf(filter->GetOutput());
+    expected.insert(expected.end(), points.begin(), points.end());
+    isovalues.insert(isovalues.end(), points.size() / 3, isovalue);
+  }
+  filter->SetNumberOfContours(4);
+  filter->SetValue(0, 0.8);
+  filter->SetValue(1, 0.4);
+  filter->SetValue(2, 0.6);
+  filter->SetValue(3, 0.8);
+  filter->Update();
+  EXPECT_EQ(pointsOf(filter->GetOutput()), expected);
+  for (std::size_t i = 0; i < isovalues.size(); ++i)
+  {
+    ASSERT_EQ(filter->GetOutput()->GetPointData()->GetScalars()->GetComponent(
+                static_cast<vtkIdType>(i), 0),
+      isovalues[i]);
+  }
+  filter->GenerateValues(3, 0.4, 0.8);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfContours(), 3);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints() * 3,
+    static_cast<vtkIdType>(expected.size()));
+}
+
+TEST(Filter, OutputsCanBeSwitchedOff)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(3000));
+  filter->SetValue(0, 0.7);
+  filter->ComputeNormalsOff();
+  filter->ComputeRadiiOff();
+  filter->ComputeScalarsOff();
+  filter->Update();
+  vtkPointData* const data = filter->GetOutput()->GetPointData();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_FALSE(data->GetNormals() || data->GetArray("Radius") || data->GetArray("distance"));
+  EXPECT_TRUE(data->GetArray("x"));
+}
+
+TEST(Filter, PrecisionOfThePoints)
+{
+  for (const int inputType : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(newCloud(500, inputType));
+    filter->SetValue(0, 0.7);
+    const int types[3] = { VTK_FLOAT, VTK_DOUBLE, inputType };
+    for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION,
+           vtkAlgorithm::DEFAULT_PRECISION })
+    {
+      filter->SetOutputPointsPrecision(precision);
+      filter->Update();
+      EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), types[precision]);
+    }
+  }
+}
+
+TEST(Filter, AnIsovalueOutOfRangeGivesAnEmptyOutputWithAllArrays)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(500));
+  const auto errors = watchErrors(filter);
+  filter->SetValue(0, 99.0);
+  filter->Update();
+  expectEmpty(filter->GetOutput());
+  for (const char* const name : { "distance", "x", "position", "Normals", "Radius" })
+  {
+    EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
+  }
+  EXPECT_EQ(errors->Count, 0);
+}
+
+TEST(Filter, EveryDataSetGivesTheSameFromTheSamePoints)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(12, 13, 14);
+  image->SetOrigin(-1.0, -1.0, -1.0);
+  image->SetSpacing(0.17, 0.16, 0.15);
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(12, 13, 14);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vtkNew<vtkDoubleArray> coordinates;
+    for (int i = 0; i < image->GetDimensions()[axis]; ++i)
+    {
+      coordinates->InsertNextValue(image->GetOrigin()[axis] + i * image->GetSpacing()[axis]);
+    }
+    axis == 0 ? rectilinear->SetXCoordinates(coordinates)
+      : axis == 1 ? rectilinear->SetYCoordinates(coordinates)
+                  : rectilinear->SetZCoordinates(coordinates);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const auto scalars = newArray("f", image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    image->GetPoint(i, p);
+    points->InsertNextPoint(p);
+    scalars->SetValue(i, static_cast<float>(p[0] * p[0] + p[1] + 0.3 * p[2]));
+  }
+  vtkNew<vtkPolyData> polyData;
+  polyData->SetPoints(points);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+
+  std::vector<double> expected;
+  for (vtkDataSet* const input : std::initializer_list<vtkDataSet*>{
+         image, rectilinear, polyData, grid })
+  {
+    SCOPED_TRACE(input->GetClassName());
+    input->GetPointData()->SetScalars(scalars);
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(input);
+    filter->SetValue(0, 0.3);
+    filter->Update();
+    const std::vector<double> found = pointsOf(filter->GetOutput());
+    EXPECT_FALSE(found.empty());
+    if (expected.empty())
+    {
+      expected = found;
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(Filter, ScalarsOfAnyType)
+{
+  for (const int type : { VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT,
+         VTK_UNSIGNED_SHORT, VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG,
+         VTK_UNSIGNED_LONG_LONG, VTK_FLOAT, VTK_DOUBLE, VTK_ID_TYPE })
+  {
+    SCOPED_TRACE(type);
+    const auto cloud = newCloud(4000);
+    vtkDataArray* const distance = cloud->GetPointData()->GetArray("distance");
+    const auto typed = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+    typed->SetName("typed");
+    typed->SetNumberOfTuples(4000);
+    for (vtkIdType i = 0; i < 4000; ++i)
+    {
+      typed->SetComponent(i, 0, std::floor(60.0 * distance->GetComponent(i, 0)));
+    }
+    cloud->GetPointData()->AddArray(typed);
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(cloud);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "typed");
+    filter->SetValue(0, 42.5);
+    filter->Update();
+    ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+    vtkDataArray* const contoured = filter->GetOutput()->GetPointData()->GetArray("typed");
+    EXPECT_EQ(contoured->GetDataType(), type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+    EXPECT_EQ(contoured->GetComponent(0, 0), 42.5);
+    double p[3];
+    filter->GetOutput()->GetPoint(0, p);
+    EXPECT_NEAR(std::hypot(p[0], p[1], p[2]), 0.71, 0.05);
+  }
+}
+
+TEST(Filter, InterpolatesWhatCanBeAndCopiesWhatCannot)
+{
+  vtkNew<vtkPolyData> pair;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  pair->SetPoints(points);
+  const auto f = newArray("f", 3);
+  const auto whole = newArray<vtkIntArray>("whole", 3);
+  const auto ids = newArray<vtkIdTypeArray>("pedigree", 3);
+  const auto globalIds = newArray<vtkIdTypeArray>("global", 3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("names");
+  const float values[3] = { 0.0f, 3.0f, 5.0f }; // the two at one position count as 4
+  for (int i = 0; i < 3; ++i)
+  {
+    f->SetValue(i, values[i]);
+    whole->SetValue(i, 10 * i);
+    ids->SetValue(i, 100 + i);
+    globalIds->SetValue(i, i);
+    names->InsertNextValue(std::string(1, static_cast<char>('a' + i)));
+  }
+  vtkPointData* const input = pair->GetPointData();
+  input->SetScalars(f);
+  input->AddArray(whole);
+  input->SetPedigreeIds(ids);
+  input->SetGlobalIds(globalIds);
+  input->AddArray(names);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(pair);
+  filter->SetValue(0, 3.0);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 1);
+  vtkPointData* const output = filter->GetOutput()->GetPointData();
+  EXPECT_EQ(filter->GetOutput()->GetPoint(0)[0], 0.75);
+  EXPECT_EQ(output->GetArray("whole")->GetComponent(0, 0), 11); // 0.75 * (10 + 20) / 2, rounded
+  ASSERT_TRUE(output->GetPedigreeIds());
+  EXPECT_EQ(output->GetPedigreeIds()->GetVariantValue(0).ToInt(), 101);
+  EXPECT_FALSE(output->GetGlobalIds());
+  auto* const outputNames = vtkStringArray::SafeDownCast(output->GetAbstractArray("names"));
+  ASSERT_TRUE(outputNames);
+  EXPECT_EQ(outputNames->GetValue(0), "b");
+}
+
+TEST(Filter, LeavesOutGhostsAndWhatIsNotFinite)
+{
+  const auto cloud = newCloud(2000);
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(cloud->GetPoints());
+  cloud->SetPoints(points);
+  const auto ghosts =
+    newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 2000);
+  ghosts->Fill(0);
+  ghosts->SetValue(3, vtkDataSetAttributes::DUPLICATEPOINT);
+  ghosts->SetValue(4, vtkDataSetAttributes::HIDDENPOINT);
+  cloud->GetPointData()->AddArray(ghosts);
+  points->SetPoint(5, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  cloud->GetPointData()->GetScalars()->SetComponent(
+    6, 0, std::numeric_limits<double>::infinity());
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 4);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_FALSE(
+    filter->GetOutput()->GetPointData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
+}
+
+TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
+{
+  const auto cloud = newCloud(500);
+  vtkNew<vtkStringArray> names;
+  names->SetName("names");
+  names->SetNumberOfValues(500);
+  cloud->GetPointData()->AddArray(names);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetValue(0, 0.7);
+  const auto errors = watchErrors(filter);
+  const auto expectError = [&](const char* words)
+  {
+    errors->Count = 0;
+    filter->Update();
+    EXPECT_EQ(errors->Count, 1) << words;
+    EXPECT_NE(errors->Last.find(words), std::string::npos) << errors->Last;
+    expectEmpty(filter->GetOutput());
+  };
+  const auto choose = [&](const char* name)
+  { filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name); };
+
+  filter->SetInputData(cloud);
+  choose("missing");
+  expectError("no point array named \"missing\"");
+  choose("position");
+  expectError("has 3 components");
+  choose("names");
+  expectError("holds no numbers");
+  choose("distance");
+  for (const double angle : { -1.0, 180.5, std::numeric_limits<double>::quiet_NaN() })
+  {
+    filter->SetAngle(angle);
+    expectError("within 0 and 180");
+  }
+  filter->SetAngle(54.7);
+  vtkNew<vtkPolyData> nothing;
+  filter->SetInputData(nothing);
+  expectError("no points");
+
+  filter->SetInputData(cloud);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)
+{
+  const auto cloud = newCloud(150000);
+  std::vector<double> expected;
+  for (const char* const backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
+  {
+    for (const int threads : { 1, 2, 4 })
+    {
+      for (const bool useAllCores : { false, true })
+      {
+        vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, backend, false },
+          [&]()
+          {
+            vtkNew<vtkScatteredIsopointFilter> filter;
+            filter->SetInputData(cloud);
+            filter->SetUseAllCores(useAllCores);
+            filter->SetValue(0, 0.7);
+            filter->Update();
+            const std::vector<double> found = pointsOf(filter->GetOutput());
+            expected = expected.empty() ? found : expected;
+            EXPECT_EQ(found, expected) << backend << " " << threads;
+          });
+      }
+    }
+  }
+  EXPECT_FALSE(expected.empty());
+}
+
+TEST(Filter, AKeptTreeGivesWhatAFreshOneDoes)
+{
+  const auto cloud = newCloud(20000);
+  vtkNew<vtkScatteredIsopointFilter> kept;
+  kept->SetInputData(cloud);
+  const auto compare = [&]()
+  {
+    kept->Update();
+    vtkNew<vtkScatteredIsopointFilter> fresh;
+    fresh->SetInputData(cloud);
+    fresh->KeepTreeOff();
+    fresh->SetValue(0, kept->GetValue(0));
+    fresh->SetAngle(kept->GetAngle());
+    fresh->Update();
+    EXPECT_GT(fresh->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(pointsOf(kept->GetOutput()), pointsOf(fresh->GetOutput()));
+  };
+  kept->SetValue(0, 0.7);
+  compare();
+  kept->SetValue(0, 0.5);
+  compare();
+  kept->SetAngle(30.0);
+  compare();
+
+  // New values in place, in a new array, and then new positions.
+  vtkDataArray* const distance = cloud->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < 20000; i += 3)
+  {
+    distance->SetComponent(i, 0, 0.9 * distance->GetComponent(i, 0));
+  }
+  distance->Modified();
+  compare();
+  const auto replaced = newArray<vtkDoubleArray>("distance", 20000);
+  for (vtkIdType i = 0; i < 20000; ++i)
+  {
+    replaced->SetValue(i, 0.4 + std::abs(cloud->GetPoint(i)[2]));
+  }
+  cloud->GetPointData()->SetScalars(replaced);
+  compare();
+  vtkNew<vtkPoints> moved;
+  moved->DeepCopy(cloud->GetPoints());
+  moved->SetPoint(17, 0.1, 0.2, 0.3);
+  cloud->SetPoints(moved);
+  compare();
+}
+
+TEST(Filter, ProgressRisesAndAbortLeavesAReusableFilter)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(100000));
+  filter->SetValue(0, 0.7);
+  struct Watcher : vtkCommand
+  {
+    void Execute(vtkObject* caller, unsigned long, void*) override
+    {
+      auto* const algorithm = static_cast<vtkAlgorithm*>(caller);
+      this->Progress.push_back(algorithm->GetProgress());
+      if (this->Progress.back() >= this->AbortAt)
+      {
+        algorithm->SetAbortExecute(1);
+      }
+    }
+    std::vector<double> Progress;
+    double AbortAt = 2.0;
+  };
+  const auto watcher = vtkSmartPointer<Watcher>::Take(new Watcher);
+  filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+  filter->Update();
+  EXPECT_GE(watcher->Progress.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(watcher->Progress.begin(), watcher->Progress.end()));
+  EXPECT_EQ(watcher->Progress.back(), 1.0);
+  const std::vector<double> expected = pointsOf(filter->GetOutput());
+
+  for (const double abortAt : { 0.05, 0.3, 0.6 })
+  {
+    watcher->AbortAt = abortAt;
+    filter->SetValue(0, 0.3 + abortAt);
+    filter->Update();
+    expectEmpty(filter->GetOutput());
+    watcher->AbortAt = 2.0;
+    filter->SetAbortExecute(0);
+    filter->SetValue(0, 0.7);
+    filter->Update();
+    EXPECT_EQ(pointsOf(filter->GetOutput()), expected);
+  }
+}

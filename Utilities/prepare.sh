@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs what is missing of Debian's packages and builds the project: prepare.sh PRESET
+# Quick when there is nothing to do. Needs root only where packages are missing.
+set -euo pipefail
+
+preset=$1
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$source_dir"
+
+missing_packages()
+{
+  local package
+  while read -r package; do
+    case $package in '' | '#'*) continue ;; esac
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null |
+      grep -qx installed || echo "$package"
+  done < Utilities/debian-packages.txt
+}
+
+if ! command -v dpkg-query > /dev/null; then
+  echo "$0: this is not a Debian system. Install the equivalents of the packages in" >&2
+  echo "Utilities/debian-packages.txt, then use cmake as the README says." >&2
+  exit 1
+fi
+mapfile -t missing < <(missing_packages)
+if ((${#missing[@]} > 0)); then
+  if ((EUID != 0)); then
+    echo "$0: ${#missing[@]} packages are missing. Run this once as root, or install them with" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  echo "installing ${#missing[@]} packages" >&2
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update --quiet=2
+  apt-get install --quiet=2 --yes --no-install-recommends "${missing[@]}" > /dev/null
+fi
+
+if [[ ! -f build/$preset/build.ninja ]]; then
+  cmake --preset "$preset" > "/tmp/configure-$$.log" 2>&1 || {
+    cat "/tmp/configure-$$.log" >&2
+    exit 1
+  }
+  rm -f "/tmp/configure-$$.log"
+fi
+cmake --build --preset "$preset" -- --quiet
