@@ -1,6 +1,13 @@
 # The Python package `scatteredisopoints`: the wrapped modules, and an __init__.py that names their
-# classes. It is importable from the build folder and, installed, from Debian's own place.
-set(SCATTEREDISOPOINTS_PYTHON_DIR "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages" CACHE STRING
+# classes. It is importable from the build folder; installed under /usr/local, Debian's python3
+# finds it by itself.
+if (EXISTS /etc/debian_version)
+  set(python_packages dist-packages)
+else ()
+  set(python_packages site-packages)
+endif ()
+set(SCATTEREDISOPOINTS_PYTHON_DIR
+  "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages}" CACHE STRING
   "Where the Python package is installed, relative to the prefix or absolute")
 
 vtk_module_wrap_python(
@@ -17,3 +24,9 @@ configure_file("${package_source}"
   "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints/__init__.py" COPYONLY)
 install(FILES "${package_source}"
   DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
+
+# From the package's folder to the modules' libraries, wherever the tree is moved to.
+file(RELATIVE_PATH libraries_from_package
+  "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(vtkScatteredIsopointFiltersPython PROPERTIES
+  INSTALL_RPATH "$ORIGIN/${libraries_from_package}")

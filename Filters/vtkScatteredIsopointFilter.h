@@ -69,7 +69,7 @@ public:
   ///@{
   /**
    * The isovalues, as in vtkContourFilter. Any finite values; repeated ones count once. A value
-   * outside the scalar's range gives no points. Default: none.
+   * outside the scalar's range gives no points. Default: one, 0.
    */
   void SetValue(int i, double value);
   double GetValue(int i);

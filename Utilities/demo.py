@@ -93,7 +93,7 @@ def show(isopoints, path):
 
 
 def main(plugin, arguments):
-    simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+    simple.LoadPlugin(plugin)
     if arguments:
         path, array, isovalue = arguments
         source = file_samples(path, array, isovalue)

@@ -24,7 +24,7 @@ struct Splat
 
 /// Normals and radii for the points of one surface (section 8 of the paper): the normal of the
 /// least-squares plane through a point and its nearest ones, turned to the falling side, and the
-/// distance of the 6th nearest, so that neighbouring splats overlap. Points at one position
+/// distance of the 12th nearest, so that neighbouring splats overlap. Points at one position
 /// count as one among the nearest. Where fewer than three positions, or only collinear ones, are
 /// there, the point's own edge is taken for the normal; where there is only one position, half
 /// its length for the radius.

@@ -66,7 +66,7 @@ TEST(Splats, NormalsOfASphereFallOutwards)
   }
 }
 
-TEST(Splats, RadiusIsTheDistanceOfTheSixthNearest)
+TEST(Splats, RadiusIsTheDistanceOfTheTwelfthNearest)
 {
   const Sphere sphere(800, 1.0, 0.0);
   const std::vector<Splat> splats = splatsOf(sphere.positions, sphere.edges);
@@ -80,7 +80,7 @@ TEST(Splats, RadiusIsTheDistanceOfTheSixthNearest)
       distances.push_back(std::sqrt(dot(d, d)));
     }
     std::sort(distances.begin(), distances.end());
-    ASSERT_NEAR(splats[i].radius, distances[6], 1e-12);
+    ASSERT_NEAR(splats[i].radius, distances[12], 1e-12);
   }
 }
 

@@ -1,0 +1,14 @@
+# Installs to a fresh prefix; Python package and plugin must work from there alone.
+function (run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
+  if (NOT result EQUAL 0)
+    message(FATAL_ERROR "failed: ${ARGN}")
+  endif ()
+endfunction ()
+
+file(REMOVE_RECURSE "${PREFIX}")
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
+run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
+  "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestFilter.py")
+run("${XVFB_RUN}" --auto-servernum "${PVPYTHON}" "${SOURCE_DIR}/Testing/ParaView/TestPipeline.py"
+  "${PREFIX}/${LIB_DIR}/ScatteredIsopoints/ScatteredIsopoints.so")

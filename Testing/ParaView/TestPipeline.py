@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin in ParaView: a pipeline from a file to a picture, as a user's script builds it."""
+
+import os
+import sys
+import tempfile
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("failed: " + message)
+
+
+def write_cloud(path):
+    positions = np.random.default_rng(1).random((40000, 3)) * 2.0 - 1.0
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    for name, values in (("noise", positions[:, 0]), ("r", np.linalg.norm(positions, axis=1))):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(path)
+    writer.SetDataModeToBinary()
+    writer.SetInputData(data)
+    check(writer.Write() == 1, "writing " + path)
+
+
+def pixels(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[..., :3]
+
+
+def main(plugin):
+    simple.LoadPlugin(plugin)
+    folder = tempfile.mkdtemp()
+    cloud = os.path.join(folder, "cloud.vtp")
+    write_cloud(cloud)
+
+    reader = simple.OpenDataFile(cloud)
+    isopoints = simple.ScatteredIsopoints(Input=reader)
+    isopoints.ContourBy = ["POINTS", "r"]
+    isopoints.Isosurfaces = [0.5, 0.75]
+    isopoints.UpdatePipeline()
+    check(isopoints.Angle == 54.7, "the default angle")
+    check(list(isopoints.PointData["r"].GetRange()) == [0.5, 0.75], "the isovalues")
+    check(isopoints.PointData["Normals"].GetNumberOfComponents() == 3, "normals")
+    check(isopoints.PointData["Radius"].GetRange()[0] > 0.0, "radii")
+    check(isopoints.PointData["noise"] is not None, "other arrays")
+    isopoints.SMProxy.UpdatePropertyInformation()
+    skipped = isopoints.SMProxy.GetProperty("NumberOfSkippedSamples")
+    check(skipped.GetElement(0) == 0, "skipped samples")
+
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [300, 300]
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [0.0, 0.0, 1.0]
+    isopoints.Isosurfaces = [0.75]
+    display = simple.Show(isopoints, view)
+    check(display.Representation == "Isopoint Disks", "the default representation")
+    simple.ColorBy(display, None)
+    display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 1.0]
+    view.CameraParallelProjection = 1
+    view.CameraPosition = [0.0, 0.0, 5.0]
+    view.CameraFocalPoint = [0.0, 0.0, 0.0]
+    view.CameraParallelScale = 1.0
+    picture = os.path.join(folder, "picture.png")
+    simple.SaveScreenshot(picture, view)
+
+    image = pixels(picture).astype(int)
+    rows, columns = np.mgrid[0:300, 0:300]
+    distance = np.hypot(rows - 149.5, columns - 149.5) / 150.0
+    background = (image == [0, 0, 255]).all(axis=2)
+    check(background[distance > 0.95].all(), "nothing far outside the sphere")
+    check(not background[distance < 0.74].any(), "no hole in the sphere")
+
+
+main(sys.argv[1])
+print("passed")

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filter as a VTK script author uses it."""
+
+import unittest
+
+import numpy as np
+from scatteredisopoints import vtkScatteredIsopointFilter
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+
+def cloud(count, seed=1):
+    positions = np.random.default_rng(seed).random((count, 3)) * 2.0 - 1.0
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    distance = numpy_to_vtk(np.linalg.norm(positions, axis=1), deep=True)
+    distance.SetName("distance")
+    data.GetPointData().SetScalars(distance)
+    return data
+
+
+class FilterTest(unittest.TestCase):
+    def test_four_lines(self):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetInputData(cloud(30000))
+        isopoints.SetValue(0, 0.7)
+        isopoints.Update()
+        output = isopoints.GetOutput()
+        positions = vtk_to_numpy(output.GetPoints().GetData())
+        radii = np.linalg.norm(positions, axis=1)
+        self.assertGreater(len(positions), 1000)
+        self.assertLess(np.abs(radii - 0.7).max(), 0.02)
+        normals = vtk_to_numpy(output.GetPointData().GetNormals())
+        outwards = -(normals * positions).sum(axis=1) / radii
+        self.assertGreater(outwards.min(), 0.95)
+
+    def test_the_splats_leave_no_hole(self):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetInputData(cloud(30000))
+        isopoints.SetValue(0, 0.7)
+        isopoints.Update()
+        output = isopoints.GetOutput()
+        positions = vtk_to_numpy(output.GetPoints().GetData())
+        reach = vtk_to_numpy(output.GetPointData().GetArray("Radius"))
+        directions = np.random.default_rng(2).normal(size=(3000, 3))
+        surface = 0.7 * directions / np.linalg.norm(directions, axis=1)[:, None]
+        for chunk in np.array_split(surface, 30):
+            distances = np.linalg.norm(chunk[:, None, :] - positions[None], axis=2)
+            self.assertTrue((distances < reach).any(axis=1).all())
+
+    def test_defaults_and_properties(self):
+        isopoints = vtkScatteredIsopointFilter()
+        self.assertEqual(isopoints.GetAngle(), 54.7)
+        self.assertEqual(isopoints.GetNumberOfNeighbors(), 12)
+        self.assertEqual(isopoints.GetNumberOfContours(), 1)
+        self.assertEqual(isopoints.GetValue(0), 0.0)
+        for name in ("ComputeNormals", "ComputeRadii", "ComputeScalars", "KeepTree"):
+            self.assertEqual(getattr(isopoints, "Get" + name)(), 1)
+            getattr(isopoints, name + "Off")()
+            self.assertEqual(getattr(isopoints, "Get" + name)(), 0)
+        isopoints.SetNumberOfNeighbors(1)
+        self.assertEqual(isopoints.GetNumberOfNeighbors(), 3)
+        isopoints.GenerateValues(3, 0.0, 1.0)
+        self.assertEqual([isopoints.GetValue(i) for i in range(3)], [0.0, 0.5, 1.0])
+
+    def test_no_isovalue_gives_nothing(self):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetNumberOfContours(0)
+        isopoints.SetInputData(cloud(100))
+        isopoints.Update()
+        self.assertEqual(isopoints.GetOutput().GetNumberOfPoints(), 0)
+
+    def test_prints(self):
+        self.assertIn("Angle: 54.7", str(vtkScatteredIsopointFilter()))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
