@@ -86,10 +86,12 @@ struct MiddleBracket
     const auto begin = subset.begin();
     if (margin < middle && middle + margin < size)
     {
-      std::nth_element(begin, begin + (middle - margin), subset.end());
-      std::nth_element(begin + (middle - margin), begin + (middle + margin), subset.end());
-      this->lower = subset[middle - margin];
-      this->upper = subset[middle + margin];
+      const auto low = begin + static_cast<std::ptrdiff_t>(middle - margin);
+      const auto high = begin + static_cast<std::ptrdiff_t>(middle + margin);
+      std::nth_element(begin, low, subset.end());
+      this->lower = *low;
+      std::nth_element(low, high, subset.end());
+      this->upper = *high;
     }
     this->expectedCount = count / size * (2 * margin + 2);
   }
