@@ -47,10 +47,11 @@ public:
     const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
     const double value = leafValue(this->Tree, node);
     const bool isBelow = value < this->Isovalue;
-    if (!this->collectNeighbors(leaf, isBelow))
+    if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
     {
       return;
     }
+    this->collectNeighbors(leaf, isBelow);
     const TSample& sample = this->Tree.samples[node.begin];
     this->measureNeighbors(sample);
     for (const Crossing& crossing : this->Crossings)
@@ -75,8 +76,8 @@ private:
     double value;
   };
 
-  /// @returns whether any neighbour lies on the other side
-  bool collectNeighbors(const Path& leaf, bool isBelow)
+  /// Lists all neighbours, and which of them lie on the other side.
+  void collectNeighbors(const Path& leaf, bool isBelow)
   {
     this->Slots.clear();
     this->Crossings.clear();
@@ -91,7 +92,6 @@ private:
         this->Slots.push_back(slot);
         return false;
       });
-    return !this->Crossings.empty();
   }
 
   void measureNeighbors(const TSample& sample)

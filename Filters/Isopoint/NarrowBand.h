@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <vector>
 
@@ -19,25 +20,20 @@ namespace isopoint
 struct BandNode
 {
   NodeIndex index;
+  std::size_t slot;
   bool isCrossing;
 };
 
 /// Whether samples below the isovalue and others stand in the node or in it and one that touches
 /// it: then the surface may pass here.
 template <class TSample>
-bool isCrossing(
-  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
+bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
 {
   const Node<TSample>& node = tree.nodes[path.slot()];
   const bool hasBelow = node.minimum < isovalue;
   const bool hasAbove = node.maximum >= isovalue;
   return (hasBelow && hasAbove) ||
-    visitTouching(tree, path, nodeDepth,
-      [&](std::size_t slot)
-      {
-        const Node<TSample>& other = tree.nodes[slot];
-        return hasBelow ? other.maximum >= isovalue : other.minimum < isovalue;
-      });
+    touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
 }
 
 /// Refines a tree around the isosurface of one isovalue (DESIGN section 2), treelet by treelet:
@@ -62,7 +58,7 @@ public:
     const Node<TSample>& root = this->Tree.nodes[SampleTree<TSample>::rootSlot];
     if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue)
     {
-      front.push_back({ rootIndex, true });
+      front.push_back({ rootIndex, SampleTree<TSample>::rootSlot, true });
     }
     const int expectedDepth = depthOf(root.count()) + 1;
     for (int depth = 0; !front.empty(); depth += treeletLevels)
@@ -73,7 +69,7 @@ public:
       {
         break;
       }
-      this->markCrossing(front, depth + treeletLevels);
+      this->mark(front, depth + treeletLevels);
       front = this->neededBelow(front, depth + treeletLevels);
       throwIfAborted(this->Run);
     }
@@ -91,13 +87,12 @@ public:
 private:
   using NodeType = Node<TSample>;
 
+  /// A treelet to be split off a node.
   struct Growth
   {
-    NodeIndex index;
+    BandNode node;
     std::size_t firstPair;
   };
-
-  NodeType& nodeAt(const Path& path) { return this->Tree.nodes[path.slot()]; }
 
   void forFront(const std::vector<BandNode>& front, const std::function<void(Path&, bool)>& task)
   {
@@ -128,13 +123,12 @@ private:
       std::size_t samples = 0;
       for (; begin < front.size() && samples < batchSamples; ++begin)
       {
-        const Path path = pathTo(this->Tree, front[begin].index);
-        const NodeType& node = this->nodeAt(path);
+        const NodeType& node = this->Tree.nodes[front[begin].slot];
         if (node.isSplit() || node.isLeaf)
         {
           continue;
         }
-        batch.push_back({ front[begin].index, pairs });
+        batch.push_back({ front[begin], pairs });
         pairs += maximumTreeletPairs(node.count());
         samples += node.count();
       }
@@ -153,14 +147,14 @@ private:
     std::vector<Growth> alone;
     for (const Growth& growth : batch)
     {
-      const Path path = pathTo(this->Tree, growth.index);
-      if (this->nodeAt(path).count() < togetherCount)
+      NodeType& node = this->Tree.nodes[growth.node.slot];
+      if (node.count() < togetherCount)
       {
         alone.push_back(growth);
         continue;
       }
       TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
-      splitter.splitTogether(this->Run, this->nodeAt(path), path.region);
+      splitter.splitTogether(this->Run, node, pathTo(this->Tree, growth.node.index).region);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -169,9 +163,9 @@ private:
         TreeletSplitter<TSample> splitter(this->Tree, 0);
         for (std::size_t i = begin; i < end; ++i)
         {
-          const Path path = pathTo(this->Tree, alone[i].index);
           splitter.moveTo(alone[i].firstPair);
-          splitter.split(this->nodeAt(path), path.region);
+          splitter.split(this->Tree.nodes[alone[i].node.slot],
+            pathTo(this->Tree, alone[i].node.index).region);
         }
       });
   }
@@ -180,27 +174,36 @@ private:
   bool isComplete(const std::vector<BandNode>& front)
   {
     std::atomic<bool> complete{ true };
-    this->forFront(front,
-      [&](Path& path, bool)
+    constexpr std::size_t grain = 1024;
+    forRanges(this->Run, front.size(), grain,
+      [&](std::size_t begin, std::size_t end)
       {
-        if (complete)
+        for (std::size_t i = begin; i < end && complete; ++i)
         {
-          forEachBelow(this->Tree, path, path.depth + treeletLevels,
-            [&](const Path& below)
-            {
-              if (!this->nodeAt(below).isLeaf)
-              {
-                complete = false;
-              }
-            });
+          if (!this->hasOnlyLeaves(this->Tree.nodes[front[i].slot], treeletLevels))
+          {
+            complete = false;
+          }
         }
       });
     return complete;
   }
 
-  /// Marks the crossing nodes of a depth. Only below crossing nodes can there be any.
-  void markCrossing(const std::vector<BandNode>& front, int depth)
+  bool hasOnlyLeaves(const NodeType& node, int levels) const
   {
+    if (!node.isSplit() || levels == 0)
+    {
+      return node.isLeaf;
+    }
+    return this->hasOnlyLeaves(this->Tree.nodes[node.lowerSlot()], levels - 1) &&
+      this->hasOnlyLeaves(this->Tree.nodes[node.upperSlot()], levels - 1);
+  }
+
+  /// Marks the crossing nodes of a depth and all that touch one. Only below crossing nodes can
+  /// there be crossing ones.
+  void mark(const std::vector<BandNode>& front, int depth)
+  {
+    this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
     this->forFront(front,
       [&](Path& path, bool mayCross)
       {
@@ -209,14 +212,29 @@ private:
           forEachBelow(this->Tree, path, depth,
             [&](const Path& below)
             {
-              this->nodeAt(below).isCrossing =
-                isCrossing(this->Tree, below, depth, this->Isovalue);
+              if (isCrossing(this->Tree, below, depth, this->Isovalue))
+              {
+                this->markAround(below, depth);
+              }
             });
         }
       });
   }
 
-  /// The nodes of a depth that are crossing or touch a crossing one, and clears the marks.
+  void markAround(const Path& crossing, int depth)
+  {
+    this->Marks[crossing.slot()].store(Mark::Crossing, std::memory_order_relaxed);
+    visitTouching(this->Tree, crossing, depth,
+      [this](std::size_t slot)
+      {
+        Mark none = Mark::None;
+        this->Marks[slot].compare_exchange_strong(
+          none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
+        return false;
+      });
+  }
+
+  /// The marked nodes of a depth.
   std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
   {
     std::vector<BandNode> needed;
@@ -232,33 +250,30 @@ private:
           forEachBelow(this->Tree, path, depth,
             [&](const Path& below)
             {
-              const bool crossing = this->nodeAt(below).isCrossing;
-              if (crossing ||
-                visitTouching(this->Tree, below, depth,
-                  [this](std::size_t slot) { return this->Tree.nodes[slot].isCrossing; }))
+              const Mark mark = this->Marks[below.slot()].load(std::memory_order_relaxed);
+              if (mark != Mark::None)
               {
-                found.push_back({ below.index, crossing });
+                found.push_back({ below.index, below.slot(), mark == Mark::Crossing });
               }
             });
         }
         const std::lock_guard<std::mutex> lock(mutex);
         needed.insert(needed.end(), found.begin(), found.end());
       });
-    this->forFront(front,
-      [&](Path& path, bool mayCross)
-      {
-        if (mayCross)
-        {
-          forEachBelow(this->Tree, path, depth,
-            [&](const Path& below) { this->nodeAt(below).isCrossing = false; });
-        }
-      });
     return needed;
   }
+
+  enum class Mark : std::uint8_t
+  {
+    None,
+    Needed,
+    Crossing
+  };
 
   SampleTree<TSample>& Tree;
   const double Isovalue;
   const Execution& Run;
+  std::vector<std::atomic<Mark>> Marks; // by slot, of the depth at hand
 };
 
 } // namespace isopoint

@@ -9,72 +9,101 @@
 namespace isopoint
 {
 
-/// Visits the nodes of the depth `maximumNodeDepth`, and those above it that are not split, in the
-/// subtree at `slot` of depth `depth`, whose region touches the given one. That the subtree's
-/// root touches it must hold already: then each plane is decided by a single comparison.
-/// @returns whether a visit returned true, which ends the search
-template <class TSample, class Visitor>
-bool visitTouchingInSubtree(const SampleTree<TSample>& tree, std::size_t slot, int depth,
-  int maximumNodeDepth, const Region& region, Visitor& visit)
+/// A node met in a search.
+struct FoundNode
 {
-  struct Entry
-  {
-    std::size_t slot;
-    int depth;
-  };
-  Entry stack[maximumDepth + 1];
+  std::size_t slot;
+  int depth;
+};
+
+/// Visits the nodes of the depth `nodeDepth`, and those above it that are not split, in the subtree
+/// at `top`, whose region touches the given one. That the subtree's root touches it must hold
+/// already: then each plane is decided by a single comparison.
+/// @param enter(node) whether the node and those below it are of interest
+/// @returns whether a visit returned true, which ends the search
+template <class TSample, class Filter, class Visitor>
+bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int nodeDepth,
+  const Region& region, const Filter& enter, const Visitor& visit)
+{
+  FoundNode stack[maximumDepth + 2];
   int stackSize = 0;
-  stack[stackSize++] = { slot, depth };
+  stack[stackSize++] = top;
   while (stackSize > 0)
   {
-    const Entry entry = stack[--stackSize];
-    const Node<TSample>& node = tree.nodes[entry.slot];
-    if (entry.depth == maximumNodeDepth || !node.isSplit())
+    const FoundNode found = stack[--stackSize];
+    const Node<TSample>& node = tree.nodes[found.slot];
+    if (!enter(node))
     {
-      if (visit(entry.slot))
+      continue;
+    }
+    if (found.depth == nodeDepth || !node.isSplit())
+    {
+      if (visit(found.slot))
       {
         return true;
       }
       continue;
     }
-    if (node.plane <= region.upper[node.axis])
-    {
-      stack[stackSize++] = { node.upperSlot(), entry.depth + 1 };
-    }
-    if (node.plane >= region.lower[node.axis])
-    {
-      stack[stackSize++] = { node.lowerSlot(), entry.depth + 1 };
-    }
+    // Both children are written and the stack grows by those that touch: which ones do is nothing
+    // a branch predictor could learn.
+    stack[stackSize] = { node.upperSlot(), found.depth + 1 };
+    stackSize += node.plane <= region.upper[node.axis] ? 1 : 0;
+    stack[stackSize] = { node.lowerSlot(), found.depth + 1 };
+    stackSize += node.plane >= region.lower[node.axis] ? 1 : 0;
   }
   return false;
 }
 
-/// Visits all nodes of the depth `maximumNodeDepth`, and those above it that are not split, other
-/// than the path's own, whose closed region shares a point with the closed region of the path's
-/// node (the neighbourhood N(c), section 5 of the paper). Each lies across a plane that bounds the
-/// node's region; that plane belongs to an ancestor whose split of this axis has the node on this
-/// side. The nearest such ancestor bounds the region, and so does every farther one whose plane
-/// has the same coordinate, as in lattices: the search crosses them all.
-/// @returns whether a visit returned true, which ends the search
+/// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
+/// path's own, whose closed region shares a point with the closed region of the path's node (the
+/// neighbourhood N(c), section 5 of the paper). Each lies across a plane that bounds the node's
+/// region; that plane belongs to an ancestor whose split of this axis has the node on this side.
+/// The nearest such ancestor bounds the region, and so does every farther one whose plane has the
+/// same coordinate, as in lattices: the search crosses them all.
+/// @param enter(node) whether a node and those below it are of interest
+/// @param visit(slot) returns whether to end the search
+/// @returns whether a visit did
 /// Complexity: O(depth + nodes visited); 14.5 neighbours on average in a uniform cloud.
-template <class TSample, class Visitor>
-bool visitTouching(
-  const SampleTree<TSample>& tree, const Path& path, int maximumNodeDepth, Visitor visit)
+template <class TSample, class Filter, class Visitor>
+bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
+  const Filter& enter, const Visitor& visit)
 {
   for (int depth = path.depth; depth > 0; --depth)
   {
     const bool upper = isUpperChild(ancestorAtDepth(path.index, path.depth, depth));
-    const Node<TSample>& parent = tree.nodes[path.slots[depth - 1]];
-    const double bound =
-      upper ? path.region.lower[parent.axis] : path.region.upper[parent.axis];
-    if (bound == parent.plane &&
-      visitTouchingInSubtree(
-        tree, tree.child(parent, !upper), depth, maximumNodeDepth, path.region, visit))
+    const int axis = path.axes[depth - 1];
+    const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
+    const FoundNode across{ siblingOf(path.slots[depth]), depth };
+    if (bound == path.planes[depth - 1] &&
+      visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit))
     {
       return true;
     }
   }
   return false;
+}
+
+/// The same with every node of interest.
+template <class TSample, class Visitor>
+bool visitTouching(
+  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, const Visitor& visit)
+{
+  const auto enterAll = [](const Node<TSample>&) { return true; };
+  return visitTouching(tree, path, nodeDepth, enterAll, visit);
+}
+
+/// Whether a node that touches the path's has samples on the other side of the isovalue than
+/// where the path's node has some: `isBelow` tells that side. Ranges steer the search, so that it
+/// is short where there is none.
+template <class TSample>
+bool touchesOtherSide(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
+  double isovalue, bool isBelow)
+{
+  return visitTouching(
+    tree, path, nodeDepth,
+    [isovalue, isBelow](const Node<TSample>& node)
+    { return isBelow ? node.maximum >= isovalue : node.minimum < isovalue; },
+    [](std::size_t) { return true; });
 }
 
 } // namespace isopoint

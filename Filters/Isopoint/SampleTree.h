@@ -32,7 +32,6 @@ struct Node
   Value maximum;  //
   std::uint8_t axis; // the plane's, once split
   bool isLeaf;       // all its samples share one position
-  bool isCrossing;   // a mark of the narrow band's, false between extractions
 
   bool isSplit() const { return this->childPair != 0; }
   std::size_t lowerSlot() const { return 2 * static_cast<std::size_t>(this->childPair); }
@@ -65,6 +64,12 @@ struct SampleTree
     return upper ? node.upperSlot() : node.lowerSlot();
   }
 };
+
+/// Siblings stand side by side.
+inline std::size_t siblingOf(std::size_t slot)
+{
+  return slot ^ 1;
+}
 
 /// Makes room for that many more pairs of children. @returns the first one's number
 /// @throws std::bad_alloc, the tree unchanged
@@ -119,6 +124,8 @@ struct Path
   NodeIndex index = rootIndex;
   int depth = 0;
   std::size_t slots[maximumDepth + 1]; // of the ancestors by depth, the node's own last
+  double planes[maximumDepth];         // that cut their regions
+  std::uint8_t axes[maximumDepth];     // of these planes
   Region region{};
 
   std::size_t slot() const { return this->slots[this->depth]; }
@@ -140,6 +147,8 @@ double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
   const Node<TSample>& node = tree.nodes[path.slot()];
   path.index = upper ? upperChild(path.index) : lowerChild(path.index);
   assert(path.depth < maximumDepth);
+  path.planes[path.depth] = node.plane;
+  path.axes[path.depth] = node.axis;
   path.slots[++path.depth] = tree.child(node, upper);
   double& bound = upper ? path.region.lower[node.axis] : path.region.upper[node.axis];
   const double former = bound;
@@ -148,14 +157,13 @@ double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
 }
 
 /// Goes back to the parent; `former` is what descend() gave.
-template <class TSample>
-void ascend(const SampleTree<TSample>& tree, Path& path, double former)
+inline void ascend(Path& path, double former)
 {
   const bool upper = isUpperChild(path.index);
   path.index >>= 1;
   --path.depth;
-  const Node<TSample>& node = tree.nodes[path.slot()];
-  (upper ? path.region.lower[node.axis] : path.region.upper[node.axis]) = former;
+  const int axis = path.axes[path.depth];
+  (upper ? path.region.lower[axis] : path.region.upper[axis]) = former;
 }
 
 /// The path to the node of that name, found by its bits alone. O(depth)
@@ -184,7 +192,7 @@ void forEachBelow(const SampleTree<TSample>& tree, Path& path, int nodeDepth, co
   {
     const double former = descend(tree, path, upper);
     forEachBelow(tree, path, nodeDepth, visit);
-    ascend(tree, path, former);
+    ascend(path, former);
   }
 }
 

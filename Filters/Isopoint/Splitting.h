@@ -3,16 +3,13 @@
 #define isopoint_Splitting_h
 
 #include "Execution.h"
+#include "MedianSelection.h"
 #include "Partition.h"
 #include "Region.h"
 #include "Sample.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <mutex>
 #include <vector>
 
 namespace isopoint
@@ -57,126 +54,6 @@ Halves halveByDefinition(TSample* samples, std::size_t count, int axis)
     splittingPlaneBetween(last->position[axis], first->position[axis]) };
 }
 
-/// Bounds that very likely enclose the coordinates of the two samples in the middle, few others,
-/// read off a sorted random subset (Floyd and Rivest, "Expected time bounds for selection", 1975).
-/// The generator is seeded by the count, so that a run can be repeated to the last move.
-template <class TSample>
-struct MiddleBracket
-{
-  using Coordinate = typename TSample::Coordinate;
-  Coordinate lower = -std::numeric_limits<Coordinate>::infinity();
-  Coordinate upper = std::numeric_limits<Coordinate>::infinity();
-  std::size_t expectedCount = 0;
-
-  MiddleBracket(
-    const TSample* samples, std::size_t count, int axis, std::vector<Coordinate>& subset)
-  {
-    const double root = std::cbrt(static_cast<double>(count));
-    const std::size_t size = std::min<std::size_t>(static_cast<std::size_t>(root * root), 32768);
-    subset.resize(size);
-    std::uint64_t state = count;
-    for (Coordinate& coordinate : subset)
-    {
-      state = state * 6364136223846793005u + 1442695040888963407u;
-      coordinate = samples[(state >> 16) % count].position[axis];
-    }
-    // The middle's rank in the subset has a standard deviation of sqrt(size) / 2.
-    const auto margin = static_cast<std::size_t>(1.75 * std::sqrt(static_cast<double>(size))) + 1;
-    const std::size_t middle = size / 2;
-    const auto begin = subset.begin();
-    if (margin < middle && middle + margin < size)
-    {
-      const auto low = begin + static_cast<std::ptrdiff_t>(middle - margin);
-      const auto high = begin + static_cast<std::ptrdiff_t>(middle + margin);
-      std::nth_element(begin, low, subset.end());
-      this->lower = *low;
-      std::nth_element(low, high, subset.end());
-      this->upper = *high;
-    }
-    this->expectedCount = count / size * (2 * margin + 2);
-  }
-};
-
-/// What a search for the middle needs besides the samples, kept to spare allocations.
-template <class TSample>
-struct SplittingScratch
-{
-  std::vector<typename TSample::Coordinate> subset;
-  std::vector<TSample> candidates;
-};
-
-/// What one pass over samples found of the middle.
-struct MiddleCount
-{
-  std::size_t below = 0;      // samples below the bracket
-  std::size_t candidates = 0; // samples in it
-  bool complete = true;       // no more candidates than allowed
-};
-
-/// Counts the samples below the bracket and lists those inside it, at most `limit` of them, at the
-/// beginning of `candidates`, which only grows.
-template <class TSample>
-MiddleCount collectMiddle(const TSample* samples, std::size_t count, int axis,
-  const MiddleBracket<TSample>& bracket, std::size_t limit, std::vector<TSample>& candidates)
-{
-  constexpr std::size_t blockSize = 256;
-  const auto lower = bracket.lower;
-  const auto upper = bracket.upper;
-  MiddleCount result;
-  for (std::size_t block = 0; block < count; block += blockSize)
-  {
-    if (result.candidates > limit)
-    {
-      result.complete = false;
-      break;
-    }
-    if (candidates.size() < result.candidates + blockSize)
-    {
-      candidates.resize(2 * result.candidates + blockSize);
-    }
-    TSample* const listed = candidates.data();
-    std::size_t below = 0;
-    std::size_t found = result.candidates;
-    const std::size_t end = std::min(block + blockSize, count);
-    for (std::size_t i = block; i < end; ++i)
-    {
-      const auto coordinate = samples[i].position[axis];
-      listed[found] = samples[i];
-      found += (coordinate >= lower) & (coordinate <= upper) ? 1 : 0;
-      below += coordinate < lower ? 1 : 0;
-    }
-    result.candidates = found;
-    result.below += below;
-  }
-  return result;
-}
-
-/// The first sample of the upper half and the plane, where the candidates from the bracket settle
-/// it; the order of the candidates changes.
-template <class TSample>
-struct Middle
-{
-  bool found = false;
-  TSample first{};
-  double plane = 0.0;
-
-  Middle(std::size_t count, int axis, const MiddleCount& counted, TSample* candidates)
-  {
-    const std::size_t rank = count / 2;
-    if (!counted.complete || counted.below >= rank || counted.below + counted.candidates <= rank)
-    {
-      return;
-    }
-    const SplittingOrder<TSample> order(axis);
-    TSample* const middle = candidates + (rank - counted.below);
-    std::nth_element(candidates, middle, candidates + counted.candidates, order);
-    const TSample& last = *std::max_element(candidates, middle, order);
-    this->found = !haveOnePosition(last, *middle);
-    this->first = *middle;
-    this->plane = splittingPlaneBetween(last.position[axis], middle->position[axis]);
-  }
-};
-
 /// Whether a sample comes before the first one of the upper half. Equal coordinates are the
 /// exception, so that the common case is a single comparison.
 template <class TSample>
@@ -206,64 +83,83 @@ struct BelongsLower
   SplittingOrder<TSample> Order;
 };
 
-/// Halves the samples of one node along an axis, in place: one pass that finds the middle and one
-/// that moves each misplaced sample once. Both are free of unpredictable branches.
+/// The samples in the middle of a node where they share their coordinate on the axis, so that the
+/// other coordinates and the ids settle who is first of the upper half.
 template <class TSample>
-Halves halve(TSample* samples, std::size_t count, int axis, SplittingScratch<TSample>& scratch)
+struct TiedMiddle
 {
-  constexpr std::size_t smallCount = 384;
-  if (count >= smallCount)
+  TSample first{};
+  bool haveOnePosition = false; // the last of the lower half and the first of the upper
+
+  TiedMiddle(const TSample* samples, std::size_t count, int axis,
+    typename TSample::Coordinate coordinate)
   {
-    const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-    const MiddleCount counted = collectMiddle(
-      samples, count, axis, bracket, 2 * bracket.expectedCount + 256, scratch.candidates);
-    const Middle<TSample> middle(count, axis, counted, scratch.candidates.data());
-    if (middle.found)
+    std::vector<TSample> tied;
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < count; ++i)
     {
-      const std::size_t lowerCount = count / 2;
-      exchangeMisplaced(samples, lowerCount, samples + lowerCount, count - lowerCount,
-        BelongsLower<TSample>(middle.first, axis));
-      return { lowerCount, middle.plane };
+      below += samples[i].position[axis] < coordinate ? 1 : 0;
+      if (samples[i].position[axis] == coordinate)
+      {
+        tied.push_back(samples[i]);
+      }
     }
+    const SplittingOrder<TSample> order(axis);
+    const auto middle = tied.begin() + static_cast<std::ptrdiff_t>(count / 2 - below);
+    std::nth_element(tied.begin(), middle, tied.end(), order);
+    this->first = *middle;
+    this->haveOnePosition =
+      isopoint::haveOnePosition(*std::max_element(tied.begin(), middle, order), *middle);
   }
-  return halveByDefinition(samples, count, axis);
+};
+
+/// Moves the samples to their halves, where the middle coordinates are known.
+/// @param partition(lowerCount, belongsLower) moves them
+template <class TSample, class Partition>
+Halves halveAtMiddle(TSample* samples, std::size_t count, int axis,
+  const MiddleCoordinates<typename TSample::Coordinate>& middle, const Partition& partition)
+{
+  const std::size_t lowerCount = count / 2;
+  if (middle.last < middle.first)
+  {
+    partition(lowerCount,
+      [axis, first = middle.first](const TSample& sample) { return sample.position[axis] < first; });
+  }
+  else
+  {
+    const TiedMiddle<TSample> tied(samples, count, axis, middle.first);
+    if (tied.haveOnePosition)
+    {
+      return halveByDefinition(samples, count, axis);
+    }
+    partition(lowerCount, BelongsLower<TSample>(tied.first, axis));
+  }
+  return { lowerCount, splittingPlaneBetween(middle.last, middle.first) };
+}
+
+/// Halves the samples of one node along an axis, in place: one pass that finds the middle and one
+/// that moves each misplaced sample once.
+template <class TSample>
+Halves halve(TSample* samples, std::size_t count, int axis,
+  SelectionScratch<typename TSample::Coordinate>& scratch)
+{
+  return halveAtMiddle(samples, count, axis, findMiddle(samples, count, axis, scratch),
+    [&](std::size_t lowerCount, const auto& belongsLower)
+    {
+      exchangeMisplaced(
+        samples, lowerCount, samples + lowerCount, count - lowerCount, belongsLower);
+    });
 }
 
 /// The same with every thread at work on one node.
 template <class TSample>
 Halves halveTogether(const Execution& execution, TSample* samples, std::size_t count, int axis)
 {
-  SplittingScratch<TSample> scratch;
-  const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-  const std::size_t limit = 2 * bracket.expectedCount + 256;
-  std::mutex mutex;
-  MiddleCount total;
-  forRanges(execution, count, count / (4 * execution.threads) + 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<TSample> candidates;
-      const MiddleCount counted =
-        collectMiddle(samples + begin, end - begin, axis, bracket, limit, candidates);
-      const std::lock_guard<std::mutex> lock(mutex);
-      total.complete = total.complete && counted.complete;
-      if (total.complete)
-      {
-        total.below += counted.below;
-        total.candidates += counted.candidates;
-        scratch.candidates.insert(scratch.candidates.end(), candidates.begin(),
-          candidates.begin() + static_cast<std::ptrdiff_t>(counted.candidates));
-      }
-    });
+  const auto middle = findMiddleTogether(execution, samples, count, axis);
   throwIfAborted(execution);
-  const Middle<TSample> middle(count, axis, total, scratch.candidates.data());
-  if (middle.found)
-  {
-    const std::size_t lowerCount = count / 2;
-    partitionTogether(
-      execution, samples, count, lowerCount, BelongsLower<TSample>(middle.first, axis));
-    return { lowerCount, middle.plane };
-  }
-  return halveByDefinition(samples, count, axis);
+  return halveAtMiddle(samples, count, axis, middle,
+    [&](std::size_t lowerCount, const auto& belongsLower)
+    { partitionTogether(execution, samples, count, lowerCount, belongsLower); });
 }
 
 } // namespace isopoint

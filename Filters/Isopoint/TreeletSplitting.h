@@ -118,7 +118,7 @@ private:
 
   SampleTree<TSample>& Tree;
   std::size_t NextPair;
-  SplittingScratch<TSample> Scratch;
+  SelectionScratch<typename TSample::Coordinate> Scratch;
 };
 
 } // namespace isopoint

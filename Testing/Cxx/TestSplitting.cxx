@@ -60,7 +60,7 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
       EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
         sortedIds(begin + lower, end));
     };
-    isopoint::SplittingScratch<FloatSample> scratch;
+    isopoint::SelectionScratch<float> scratch;
     std::vector<FloatSample> alone = samples;
     check(alone, isopoint::halve(alone.data(), alone.size(), axis, scratch));
     std::vector<FloatSample> together = samples;
@@ -100,7 +100,7 @@ TEST(Splitting, OnePositionIsNotSplit)
   for (const std::size_t count : { 2, 500, 70000 })
   {
     std::vector<FloatSample> samples = samplesOf(count, [](std::size_t, int) { return 0.5; });
-    isopoint::SplittingScratch<FloatSample> scratch;
+    isopoint::SelectionScratch<float> scratch;
     EXPECT_EQ(isopoint::halve(samples.data(), count, 0, scratch).lowerCount, 0u);
   }
 }
