@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef BenchmarkClouds_h
+#define BenchmarkClouds_h
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <string>
+
+/// The clouds measured. All but those of files hold, in the array "value", the distance to the
+/// centre of a cube of side 200 around the origin, as the paper's sphere does.
+namespace clouds
+{
+
+constexpr double side = 200.0;
+
+/// Random positions, all places equally likely.
+vtkSmartPointer<vtkPolyData> uniform(std::size_t count);
+
+/// Random positions whose density varies ten-thousandfold, highest at a point of the sphere.
+vtkSmartPointer<vtkPolyData> clustered(std::size_t count);
+
+/// Random positions in a slab twenty times thinner than wide, through the centre.
+vtkSmartPointer<vtkPolyData> slab(std::size_t count);
+
+/// A regular lattice of about so many samples, in the order of an image's points.
+vtkSmartPointer<vtkPolyData> lattice(std::size_t count);
+
+/// Random positions in the box of a VTK XML image file, its first point array interpolated, as the
+/// paper did with its engine. @throws std::runtime_error if the file is no such image
+vtkSmartPointer<vtkPolyData> resampled(const std::string& file, std::size_t count);
+
+} // namespace clouds
+
+#endif
