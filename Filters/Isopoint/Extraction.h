@@ -33,6 +33,8 @@ template <class TSample>
 class EdgeFinder
 {
 public:
+  using Id = typename TSample::Id;
+
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion)
     : Tree(tree)
     , Isovalue(isovalue)
@@ -47,18 +49,27 @@ public:
     const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
     const double value = leafValue(this->Tree, node);
     const bool isBelow = value < this->Isovalue;
-    if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
+    this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
+    if (this->Neighbors.isEmpty())
+    {
+      if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
+      {
+        return;
+      }
+      this->searchNeighbors(leaf);
+    }
+    this->findCrossings(isBelow);
+    if (this->Crossings.empty())
     {
       return;
     }
-    this->collectNeighbors(leaf, isBelow);
     const TSample& sample = this->Tree.samples[node.begin];
     this->measureNeighbors(sample);
     for (const Crossing& crossing : this->Crossings)
     {
       if (this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), crossing.neighbor))
       {
-        const Node<TSample>& other = this->Tree.nodes[this->Slots[crossing.neighbor]];
+        const Node<TSample>& other = this->Tree.nodes[this->Neighbors[crossing.neighbor]];
         this->addPoint(sample, value, this->Tree.samples[other.begin], crossing.value);
         this->addMerged(node);
         this->addMerged(other);
@@ -69,6 +80,9 @@ public:
   std::vector<Isopoint>& points() { return this->Points; }
   std::vector<MergedSamples>& merged() { return this->Merged; }
 
+  /// The neighbourhoods searched for, as NeighborhoodCache::add() takes them.
+  std::vector<Id>& records() { return this->Records; }
+
 private:
   struct Crossing
   {
@@ -76,29 +90,41 @@ private:
     double value;
   };
 
-  /// Lists all neighbours, and which of them lie on the other side.
-  void collectNeighbors(const Path& leaf, bool isBelow)
+  void searchNeighbors(const Path& leaf)
   {
-    this->Slots.clear();
-    this->Crossings.clear();
+    const std::size_t begin = this->Records.size();
+    this->Records.push_back(static_cast<Id>(leaf.slot()));
+    this->Records.push_back(0);
     visitTouching(this->Tree, leaf, maximumDepth,
-      [&](std::size_t slot)
+      [this](std::size_t slot)
       {
-        const double value = leafValue(this->Tree, this->Tree.nodes[slot]);
-        if ((value < this->Isovalue) != isBelow)
-        {
-          this->Crossings.push_back({ this->Slots.size(), value });
-        }
-        this->Slots.push_back(slot);
+        this->Records.push_back(static_cast<Id>(slot));
         return false;
       });
+    const std::size_t count = this->Records.size() - begin - 2;
+    this->Records[begin + 1] = static_cast<Id>(count);
+    this->Neighbors = { this->Records.data() + begin + 2, count };
+  }
+
+  /// Lists the neighbours on the other side.
+  void findCrossings(bool isBelow)
+  {
+    this->Crossings.clear();
+    for (std::size_t i = 0; i < this->Neighbors.count; ++i)
+    {
+      const double value = leafValue(this->Tree, this->Tree.nodes[this->Neighbors[i]]);
+      if ((value < this->Isovalue) != isBelow)
+      {
+        this->Crossings.push_back({ i, value });
+      }
+    }
   }
 
   void measureNeighbors(const TSample& sample)
   {
     const double center[3] = { sample.position[0], sample.position[1], sample.position[2] };
     this->Offsets.clear();
-    for (const std::size_t slot : this->Slots)
+    for (const std::size_t slot : this->Neighbors)
     {
       const TSample& other = this->Tree.samples[this->Tree.nodes[slot].begin];
       const double position[3] = { other.position[0], other.position[1], other.position[2] };
@@ -134,7 +160,8 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
-  std::vector<std::size_t> Slots;
+  SlotList<Id> Neighbors;
+  std::vector<Id> Records;
   std::vector<Offset> Offsets;
   std::vector<Crossing> Crossings;
   std::vector<Isopoint> Points;
@@ -157,6 +184,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   const std::vector<NodeIndex> crossing = NarrowBand<TSample>(tree, isovalue, execution).refine();
   const AngleCriterion criterion(angle);
   std::vector<Isopoint> points;
+  std::vector<std::vector<typename TSample::Id>> records;
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forRanges(execution, crossing.size(), grain,
@@ -171,12 +199,17 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
       }
       const std::lock_guard<std::mutex> lock(mutex);
       points.insert(points.end(), finder.points().begin(), finder.points().end());
+      records.push_back(std::move(finder.records()));
       for (MergedSamples& group : finder.merged())
       {
         result.merged.push_back(std::move(group));
       }
     });
   throwIfAborted(execution);
+  for (const std::vector<typename TSample::Id>& found : records)
+  {
+    tree.neighborhoods.add(found, tree.nodes.size(), tree.samples.size());
+  }
 
   result.points = sortedUnique(
     execution, points, idCount, [](const Isopoint& point) { return point.first; });

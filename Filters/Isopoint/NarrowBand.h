@@ -55,22 +55,24 @@ public:
   std::vector<NodeIndex> refine()
   {
     std::vector<BandNode> front;
-    const Node<TSample>& root = this->Tree.nodes[SampleTree<TSample>::rootSlot];
+    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootSlot];
     if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue)
     {
       front.push_back({ rootIndex, SampleTree<TSample>::rootSlot, true });
     }
     const int expectedDepth = depthOf(root.count()) + 1;
-    for (int depth = 0; !front.empty(); depth += treeletLevels)
+    for (int depth = 0; !front.empty();)
     {
-      this->splitFront(front);
-      this->Run.progress(std::min(1.0, (depth + 0.5 * treeletLevels) / expectedDepth));
+      const int bottom = treeletBottom(depth, root.count());
+      this->splitFront(front, bottom - depth);
+      this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
       if (this->isComplete(front))
       {
         break;
       }
-      this->mark(front, depth + treeletLevels);
-      front = this->neededBelow(front, depth + treeletLevels);
+      this->mark(front, bottom);
+      front = this->neededBelow(front, bottom);
+      depth = bottom;
       throwIfAborted(this->Run);
     }
     std::vector<NodeIndex> crossing;
@@ -108,7 +110,7 @@ private:
       });
   }
 
-  void splitFront(const std::vector<BandNode>& front)
+  void splitFront(const std::vector<BandNode>& front, int levels)
   {
     // Nodes are split together while there are too few of them to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
@@ -129,7 +131,7 @@ private:
           continue;
         }
         batch.push_back({ front[begin], pairs });
-        pairs += maximumTreeletPairs(node.count());
+        pairs += maximumTreeletPairs(node.count(), levels);
         samples += node.count();
       }
       const std::size_t firstPair = appendPairs(this->Tree, pairs);
@@ -137,12 +139,12 @@ private:
       {
         growth.firstPair += firstPair;
       }
-      this->splitBatch(batch, together ? togetherCount : samples + 1);
+      this->splitBatch(batch, levels, together ? togetherCount : samples + 1);
       throwIfAborted(this->Run);
     }
   }
 
-  void splitBatch(const std::vector<Growth>& batch, std::size_t togetherCount)
+  void splitBatch(const std::vector<Growth>& batch, int levels, std::size_t togetherCount)
   {
     std::vector<Growth> alone;
     for (const Growth& growth : batch)
@@ -154,7 +156,8 @@ private:
         continue;
       }
       TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
-      splitter.splitTogether(this->Run, node, pathTo(this->Tree, growth.node.index).region);
+      splitter.splitTogether(
+        this->Run, node, pathTo(this->Tree, growth.node.index).region, levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -165,7 +168,7 @@ private:
         {
           splitter.moveTo(alone[i].firstPair);
           splitter.split(this->Tree.nodes[alone[i].node.slot],
-            pathTo(this->Tree, alone[i].node.index).region);
+            pathTo(this->Tree, alone[i].node.index).region, levels);
         }
       });
   }

@@ -2,6 +2,7 @@
 #ifndef isopoint_SampleTree_h
 #define isopoint_SampleTree_h
 
+#include "NeighborhoodCache.h"
 #include "NodeIndex.h"
 #include "RawArray.h"
 #include "Region.h"
@@ -54,6 +55,7 @@ struct SampleTree
   std::size_t usedPairs = 0; // pairs of slots given out, slots 0 and 1 included
   Region region{};           // the root's
   std::size_t skipped = 0;   // samples left out
+  NeighborhoodCache<typename TSample::Id> neighborhoods;
 
   static constexpr std::size_t rootSlot = 1;
 

@@ -16,10 +16,19 @@ namespace isopoint
 /// next, and all work on a treelet is done while its samples are in cache.
 constexpr int treeletLevels = 3;
 
-/// How many pairs of children a treelet below a node of that many samples takes at most.
-inline std::size_t maximumTreeletPairs(std::size_t sampleCount)
+/// The depth that treelets below nodes of the given depth reach. Treelets are aligned to the
+/// bottom of a tree without samples of one position: its last ones, by far the most, are then whole.
+inline int treeletBottom(int depth, std::size_t sampleCount)
 {
-  return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << treeletLevels) - 1);
+  const int bottom = sampleCount > 1 ? depthOf(sampleCount - 1) + 1 : 0;
+  const int remaining = bottom - depth;
+  return depth + (remaining > treeletLevels ? (remaining - 1) % treeletLevels + 1 : treeletLevels);
+}
+
+/// How many pairs of children a treelet below a node of that many samples takes at most.
+inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
+{
+  return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
 }
 
 /// Splits nodes by the definition of the canonical tree (DESIGN section 1; section 4 of the
@@ -40,7 +49,7 @@ public:
 
   /// Splits a node and what is below it, so many levels deep, in the calling thread, and computes
   /// the value ranges of all new nodes.
-  void split(Node<TSample>& node, const Region& region, int levels = treeletLevels)
+  void split(Node<TSample>& node, const Region& region, int levels)
   {
     const auto halveAlone = [this](TSample* samples, std::size_t count, int axis)
     { return halve(samples, count, axis, this->Scratch); };
@@ -50,7 +59,8 @@ public:
   }
 
   /// The same with every thread at work on each node.
-  void splitTogether(const Execution& execution, Node<TSample>& node, const Region& region)
+  void splitTogether(
+    const Execution& execution, Node<TSample>& node, const Region& region, int levels)
   {
     const auto halveAll = [&execution](TSample* samples, std::size_t count, int axis)
     {
@@ -59,7 +69,7 @@ public:
     };
     const auto rangeAll = [this, &execution](Node<TSample>& bottom)
     { this->computeRangeTogether(execution, bottom); };
-    this->split(node, region, treeletLevels, halveAll, rangeAll);
+    this->split(node, region, levels, halveAll, rangeAll);
   }
 
 private:

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NeighborhoodCache_h
+#define isopoint_NeighborhoodCache_h
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Neighbours of a leaf, as slots.
+template <class TId>
+struct SlotList
+{
+  const TId* first = nullptr;
+  std::size_t count = 0;
+
+  bool isEmpty() const { return this->count == 0; }
+  const TId* begin() const { return this->first; }
+  const TId* end() const { return this->first + this->count; }
+  std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
+};
+
+/// Remembers the neighbourhoods of leaves near surfaces extracted before. They do not depend on
+/// isovalues, angles or values, and finding them is most of the work of an extraction from a tree
+/// that is refined already. Takes one number for each neighbour and each node, and holds no more
+/// numbers than a given limit; what does not fit is not remembered.
+template <class TId>
+class NeighborhoodCache
+{
+public:
+  /// What is known of a leaf, empty if nothing.
+  SlotList<TId> at(std::size_t slot) const
+  {
+    if (slot >= this->Offsets.size() || this->Offsets[slot] == 0)
+    {
+      return {};
+    }
+    const TId* const list = this->Lists.data() + this->Offsets[slot];
+    return { list + 1, static_cast<std::size_t>(list[0]) };
+  }
+
+  /// Takes over neighbourhoods, one after the other as slot, count, neighbours.
+  /// @param slotCount above every slot
+  /// @param limit numbers held at most
+  void add(const std::vector<TId>& records, std::size_t slotCount, std::size_t limit)
+  {
+    const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
+    if (slotCount > std::numeric_limits<TId>::max() ||
+      this->Lists.size() + records.size() > largest)
+    {
+      return;
+    }
+    this->Offsets.resize(std::max(this->Offsets.size(), slotCount), 0);
+    for (std::size_t i = 0; i < records.size(); i += 2 + static_cast<std::size_t>(records[i + 1]))
+    {
+      const auto record = records.begin() + static_cast<std::ptrdiff_t>(i);
+      this->Offsets[static_cast<std::size_t>(record[0])] = static_cast<TId>(this->Lists.size());
+      this->Lists.insert(
+        this->Lists.end(), record + 1, record + 2 + static_cast<std::ptrdiff_t>(record[1]));
+    }
+  }
+
+private:
+  std::vector<TId> Offsets;                  // by slot, into Lists; 0: not known
+  std::vector<TId> Lists = std::vector<TId>(1); // count, neighbours; the first number is unused
+};
+
+} // namespace isopoint
+
+#endif
