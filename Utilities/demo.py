@@ -72,15 +72,34 @@ def file_samples(path, array, isovalue):
     return source
 
 
+def point_size(view, radii):
+    """The pixels that nearly all splats are wide, seen at the distance of the view's centre."""
+    camera = view.GetActiveCamera()
+    seen_height = 2.0 * camera.GetDistance() * np.tan(np.radians(0.5 * camera.GetViewAngle()))
+    width = 2.0 * np.percentile(radii, 90) * view.ViewSize[1] / seen_height
+    return float(np.clip(width, 3.0, 40.0))
+
+
+def light_both_sides(view):
+    """A light over the viewer's shoulder and its opposite, for normals that point away."""
+    view.UseLight = 0
+    for side in (1.0, -1.0):
+        light = simple.AddLight(view=view)
+        light.Coords = "Camera"
+        light.Position = [-0.4 * side, 0.5 * side, 1.0 * side]
+        light.FocalPoint = [0.0, 0.0, 0.0]
+
+
 def show(isopoints, path):
-    """Renders the isopoints as lit disks, seen from an angle."""
+    """Renders the isopoints as points lit by their normals and as wide as their splats."""
     view = simple.CreateView("RenderView")
     view.ViewSize = [1000, 800]
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
+    light_both_sides(view)
     display = simple.Show(isopoints, view)
-    display.Representation = "Isopoint Disks"
+    display.Representation = "Surface"
     simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [0.85, 0.72, 0.5]
     simple.ResetCamera(view)
@@ -89,6 +108,8 @@ def show(isopoints, path):
     camera.Azimuth(35)
     camera.OrthogonalizeViewUp()
     simple.ResetCamera(view)
+    radii = isopoints.GetClientSideObject().GetOutput().GetPointData().GetArray("Radius")
+    display.PointSize = point_size(view, vtk_to_numpy(radii))
     simple.SaveScreenshot(path, view)
 
 
