@@ -11,5 +11,7 @@ if (($# != 0 && $# != 3)) || [[ ${1-} == -* ]]; then
 fi
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$source_dir/Utilities/prepare.sh" release
+# By the environment: pvbatch would take arguments that begin with a minus for its own.
+export ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
 exec xvfb-run --auto-servernum pvbatch "$source_dir/Utilities/demo.py" \
-  "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so" "$@"
+  "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"

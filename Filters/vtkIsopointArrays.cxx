@@ -169,6 +169,7 @@ void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
 bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
+    array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
     (array->GetName() &&
       std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
 }

@@ -25,8 +25,8 @@ struct vtkContouredIsosurface
 /**
  * Fills the output's point data with the input's arrays at the isopoints of all surfaces, one
  * surface after the other: numbers interpolated (integers rounded to the nearest), pedigree ids
- * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays and the
- * contoured array are left out.
+ * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays, arrays
+ * that are not as long as the contoured one and the contoured array itself are left out.
  */
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
   vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,

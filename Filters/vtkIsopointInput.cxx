@@ -124,7 +124,7 @@ const unsigned char* ghostsOf(vtkDataSet* input)
 {
   auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
     input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  return ghosts && ghosts->GetNumberOfTuples() == input->GetNumberOfPoints()
+  return ghosts && ghosts->GetNumberOfValues() == input->GetNumberOfPoints()
     ? ghosts->GetPointer(0)
     : nullptr;
 }

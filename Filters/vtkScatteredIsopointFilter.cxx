@@ -10,6 +10,7 @@
 #include "vtkIsopointInput.h"
 
 #include "vtkCellArray.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
 #include "vtkDataSet.h"
 #include "vtkFloatArray.h"
@@ -21,12 +22,16 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <new>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -36,7 +41,7 @@ using isopoint::Execution;
 using isopoint::Vector;
 
 /// What the tree was built from: modification times are unique among all objects, so equal ones
-/// mean the same arrays, unchanged.
+/// mean the same data set and arrays, unchanged.
 struct InputState
 {
   vtkMTimeType Geometry = 0;
@@ -49,10 +54,13 @@ struct InputState
     : Geometry(input->GetMTime())
     , Scalars(scalars->GetMTime())
   {
-    auto* const pointSet = vtkPointSet::SafeDownCast(input);
-    if (pointSet && pointSet->GetPoints())
+    if (auto* const grid = vtkRectilinearGrid::SafeDownCast(input))
     {
-      this->Geometry = pointSet->GetPoints()->GetMTime();
+      for (vtkDataArray* const coordinates :
+        { grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates() })
+      {
+        this->Geometry = std::max(this->Geometry, coordinates->GetMTime());
+      }
     }
     if (auto* const ghosts =
           input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()))
@@ -247,24 +255,40 @@ vtkMTimeType vtkScatteredIsopointFilter::GetMTime()
 int vtkScatteredIsopointFilter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  // Taken, only to be refused with one clear error instead of being contoured block by block.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
 
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataSet* const input = vtkDataSet::GetData(inputVector[0]);
   vtkPolyData* const output = vtkPolyData::GetData(outputVector);
   this->NumberOfSkippedSamples = 0;
-  if (!input || !output || !this->IsUsable(input))
+  if (vtkCompositeDataSet::GetData(inputVector[0]))
   {
-    return 1;
+    vtkErrorMacro(<< "The input is made of blocks. Merge them first (vtkAppendFilter, or ParaView's"
+                  << " Merge Blocks), so that the surface runs across their borders.");
   }
-  vtkDataArray* const scalars = this->GetContouredArray(inputVector, input);
-  if (!scalars)
+  else if (vtkDataSet* const input = vtkDataSet::GetData(inputVector[0]))
   {
-    return 1;
+    vtkDataArray* const scalars =
+      this->IsUsable(input) ? this->GetContouredArray(inputVector, input) : nullptr;
+    if (scalars)
+    {
+      this->ExtractSafely(input, scalars, output);
+    }
   }
+  if (!this->KeepTree)
+  {
+    this->Kept->Clear();
+  }
+  return 1;
+}
+
+void vtkScatteredIsopointFilter::ExtractSafely(
+  vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output)
+{
   try
   {
     this->Extract(input, scalars, output);
@@ -280,15 +304,23 @@ int vtkScatteredIsopointFilter::RequestData(
     vtkErrorMacro(<< "Out of memory while contouring " << input->GetNumberOfPoints()
                   << " points. Close other data, set KeepTree off, or pass fewer points.");
   }
-  if (!this->KeepTree)
+  catch (const std::exception& error)
   {
     this->Kept->Clear();
+    output->Initialize();
+    vtkErrorMacro(<< "Cannot contour these points: " << error.what() << ".");
   }
-  return 1;
 }
 
 bool vtkScatteredIsopointFilter::IsUsable(vtkDataSet* input)
 {
+  const double* const values = this->ContourValues->GetValues();
+  const vtkIdType valueCount = this->ContourValues->GetNumberOfContours();
+  if (std::any_of(values, values + valueCount, [](double value) { return std::isnan(value); }))
+  {
+    vtkErrorMacro(<< "An isovalue is not a number. See SetValue().");
+    return false;
+  }
   if (!(this->Angle >= 0.0 && this->Angle <= 180.0))
   {
     vtkErrorMacro(<< "The angle is " << this->Angle
@@ -357,7 +389,7 @@ void vtkScatteredIsopointFilter::Extract(
   vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output)
 {
   constexpr double loadingShare = 0.1;
-  constexpr double extractionShare = 0.9;
+  constexpr double extractionShare = 0.7;
   const Execution execution = vtkMakeIsopointExecution(this, this->UseAllCores != 0);
 
   const InputState state(input, scalars);
@@ -394,12 +426,21 @@ void vtkScatteredIsopointFilter::Extract(
   vtkIdType point = 0;
   for (const vtkContouredIsosurface& surface : surfaces)
   {
+    const auto shareUpTo = [=](std::size_t points)
+    {
+      return extractionShare +
+        (1.0 - extractionShare) * static_cast<double>(points) /
+        static_cast<double>(std::max<std::size_t>(pointCount, 1));
+    };
+    const auto before = static_cast<std::size_t>(point);
+    const Execution step = vtkMakeIsopointStep(
+      execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
     const PlacedIsopoints placed = placeIsopoints(execution, input, scalars, surface);
     std::vector<isopoint::Splat> splats;
     if (this->ComputeNormals || this->ComputeRadii)
     {
       splats = isopoint::computeSplats(
-        execution, placed.positions, placed.fallingEdges, this->NumberOfNeighbors);
+        step, placed.positions, placed.fallingEdges, this->NumberOfNeighbors);
     }
     for (std::size_t i = 0; i < placed.positions.size(); ++i, ++point)
     {
@@ -420,6 +461,16 @@ void vtkScatteredIsopointFilter::Extract(
   if (this->ComputeScalars)
   {
     vtkAddContouredArray(scalars, surfaces, pointData);
+  }
+  for (const auto& [computed, array] :
+    { std::make_pair(this->ComputeNormals, normals), std::make_pair(this->ComputeRadii, radii) })
+  {
+    if (computed && pointData->HasArray(array->GetName()))
+    {
+      vtkWarningMacro(<< "The input's array \"" << array->GetName()
+                      << "\" gives way to the computed one of that name. Switch off Compute"
+                      << (array == radii ? "Radii" : "Normals") << " or rename it to keep it.");
+    }
   }
   if (this->ComputeNormals)
   {

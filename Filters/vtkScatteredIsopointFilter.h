@@ -28,7 +28,9 @@
  * 4. Samples at exactly one position count as one, with the lowest id among them and the mean of
  *    their values and attributes.
  * 5. All point arrays are interpolated with the same weight; arrays that cannot be (strings, ids)
- *    are copied from the nearer end. Global ids and ghost arrays are dropped.
+ *    are copied from the nearer end. Global ids, ghost arrays and arrays that are not as long as
+ *    there are points are dropped. Arrays named "Normals" or "Radius" give way to computed ones,
+ *    with a warning.
  * 6. Wrong use gives one error that says what to do, and an empty output.
  *
  * The tree is kept between updates: another isovalue costs only what it adds, another angle or
@@ -39,6 +41,13 @@
  * @warning
  * Regions fill the bounding box of the samples. Samples on both sides of a void are neighbours, as
  * in a Delaunay tetrahedrisation, and can put points into the void.
+ *
+ * @warning
+ * Composite data are refused: merge the blocks first.
+ *
+ * @warning
+ * Distances between samples are squared in double: neighbours closer than 1e-150 or farther apart
+ * than 1e150 escape the angle criterion.
  *
  * @warning
  * 64-bit integer values beyond 2^53 are rounded to double.
@@ -68,7 +77,7 @@ public:
 
   ///@{
   /**
-   * The isovalues, as in vtkContourFilter. Any finite values; repeated ones count once. A value
+   * The isovalues, as in vtkContourFilter. Any numbers; repeated ones count once. A value
    * outside the scalar's range gives no points. Default: one, 0.
    */
   void SetValue(int i, double value);
@@ -105,7 +114,9 @@ public:
   ///@{
   /**
    * Whether to compute the array "Radius" (one float, in the units of the points): the radius of
-   * a splat that overlaps its neighbours, so that no hole stays. Default: on.
+   * a splat that overlaps its neighbours: the distance of the 12th nearest isopoint, or three
+   * quarters of the edges' length around it where that is more. On clouds that are about as
+   * dense in one direction as in another no hole stays. Default: on.
    */
   vtkSetMacro(ComputeRadii, vtkTypeBool);
   vtkGetMacro(ComputeRadii, vtkTypeBool);
@@ -153,11 +164,11 @@ public:
 
   ///@{
   /**
-   * vtkSMPTools decides on the threads, with one exception: where its backend is "Sequential"
-   * only because VTK was built so (as Debian's ParaView is) and the environment variable
-   * VTK_SMP_BACKEND_IN_USE does not say otherwise, the filter runs on all cores all the same,
-   * within VTK_SMP_MAX_THREADS and vtkSMPTools::Initialize(). Off: "Sequential" is taken at its
-   * word. The output is the same in any case. Default: on.
+   * vtkSMPTools decides on the threads, with one exception: where its backend is "Sequential", as
+   * it is by default in Debian's ParaView, and the environment variable VTK_SMP_BACKEND_IN_USE is
+   * not set, the filter runs on all cores all the same, within VTK_SMP_MAX_THREADS and
+   * vtkSMPTools::Initialize(). Off: "Sequential" is taken at its word. The output is the same in
+   * any case. Default: on.
    */
   vtkSetMacro(UseAllCores, vtkTypeBool);
   vtkGetMacro(UseAllCores, vtkTypeBool);
@@ -199,6 +210,7 @@ private:
 
   vtkDataArray* GetContouredArray(vtkInformationVector** inputVector, vtkDataSet* input);
   bool IsUsable(vtkDataSet* input);
+  void ExtractSafely(vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output);
   void Extract(vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output);
 
   class Internals;

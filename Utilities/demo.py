@@ -2,8 +2,8 @@
 """The main job in one script, for pvbatch: samples in, isopoints.vtp and isosurface.png out.
 
 Without arguments it makes its own samples: random positions in a cube of side 200, the value being
-the distance to the centre, so that the true surface is known. With FILE ARRAY ISOVALUE it takes
-anything that ParaView reads.
+the distance to the centre, so that the true surface is known. With ISOPOINTS_FILE, ISOPOINTS_ARRAY and
+ISOPOINTS_ISOVALUE in the environment it takes anything that ParaView reads.
 """
 
 import os
@@ -46,11 +46,14 @@ def file_samples(path, array, isovalue):
     if not os.path.isfile(path):
         fail("there is no file " + path)
     try:
-        float(isovalue)
+        finite = np.isfinite(float(isovalue))
     except ValueError:
+        finite = False
+    if not finite:
         fail("the isovalue " + isovalue + " is not a number")
-    source = simple.OpenDataFile(path)
-    if source is None:
+    try:
+        source = simple.OpenDataFile(path)
+    except RuntimeError:
         fail("ParaView has no reader for " + path)
     source.UpdatePipeline()
     if source.GetDataInformation().DataInformation.IsCompositeDataSet():
@@ -113,10 +116,12 @@ def show(isopoints, path):
     simple.SaveScreenshot(path, view)
 
 
-def main(plugin, arguments):
+def main(plugin):
     simple.LoadPlugin(plugin)
-    if arguments:
-        path, array, isovalue = arguments
+    path = os.environ.get("ISOPOINTS_FILE")
+    if path:
+        array = os.environ["ISOPOINTS_ARRAY"]
+        isovalue = os.environ["ISOPOINTS_ISOVALUE"]
         source = file_samples(path, array, isovalue)
     else:
         array, isovalue = "distance", RADIUS
@@ -138,7 +143,7 @@ def main(plugin, arguments):
     if count == 0:
         limits = source.PointData[array].GetRange()
         fail("no isopoints: the values of %s lie within %g and %g" % (array, *limits))
-    if not arguments:
+    if not path:
         positions = vtk_to_numpy(output.GetPoints().GetData()).astype(float)
         deviation = np.abs(np.linalg.norm(positions - 0.5 * SIDE, axis=1) - RADIUS)
         print("largest deviation %.5f" % deviation.max())
@@ -150,4 +155,4 @@ def main(plugin, arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    main(sys.argv[1])

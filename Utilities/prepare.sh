@@ -4,7 +4,7 @@
 # Quick when there is nothing to do. Needs root only where packages are missing.
 set -euo pipefail
 
-preset=$1
+preset=${1:?usage: prepare.sh PRESET, one of CMakePresets.json}
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_dir"
 
@@ -37,10 +37,11 @@ if ((${#missing[@]} > 0)); then
 fi
 
 if [[ ! -f build/$preset/build.ninja ]]; then
-  cmake --preset "$preset" > "/tmp/configure-$$.log" 2>&1 || {
-    cat "/tmp/configure-$$.log" >&2
+  log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
+  cmake --preset "$preset" > "$log" 2>&1 || {
+    cat "$log" >&2
     exit 1
   }
-  rm -f "/tmp/configure-$$.log"
 fi
 cmake --build --preset "$preset" -- --quiet

@@ -72,7 +72,8 @@ public:
   /// The canonical isosurface: the same for any execution and any order of calls.
   /// @param isovalue any; none is found where no two samples lie on either side of it
   /// @param angle of the angle criterion in degrees, 0 up to 180
-  /// @throws std::bad_alloc or Aborted; the next call works as if this one had not been
+  /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
+  /// if this one had not been
   Isosurface extract(const Execution& execution, double isovalue, double angle);
 
 private:

@@ -60,9 +60,9 @@ template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectMiddle(
   TCoordinate* coordinates, std::size_t count, std::size_t rank)
 {
-  constexpr std::size_t countingLimit = 64;
-  constexpr std::size_t subsetSize = 32;
-  constexpr std::size_t margin = 6; // two standard deviations of the rank in the subset
+  constexpr std::size_t countingLimit = 40;
+  constexpr std::size_t subsetSize = 16;
+  constexpr std::size_t margin = 4; // two standard deviations of the rank in the subset
   while (count > countingLimit)
   {
     TCoordinate subset[subsetSize];
@@ -70,11 +70,14 @@ MiddleCoordinates<TCoordinate> selectMiddle(
     {
       subset[i] = coordinates[(2 * i + 1) * count / (2 * subsetSize)];
     }
-    std::sort(subset, subset + subsetSize);
     const std::size_t middle = rank * subsetSize / count;
     constexpr TCoordinate infinity = std::numeric_limits<TCoordinate>::infinity();
-    const TCoordinate lower = middle >= margin ? subset[middle - margin] : -infinity;
-    const TCoordinate upper = middle + margin < subsetSize ? subset[middle + margin] : infinity;
+    const TCoordinate lower = middle > margin
+      ? selectByCounting(subset, subsetSize, middle - margin).first
+      : -infinity;
+    const TCoordinate upper = middle + margin < subsetSize
+      ? selectByCounting(subset, subsetSize, middle + margin).first
+      : infinity;
     std::size_t below = 0;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < count; ++i)

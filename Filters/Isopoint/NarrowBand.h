@@ -6,10 +6,12 @@
 #include "NeighborSearch.h"
 #include "TreeletSplitting.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <stdexcept>
 #include <vector>
 
 namespace isopoint
@@ -52,6 +54,8 @@ public:
   /// @returns nodes below which every node is split down to leaves, and so is everything that
   /// touches such a leaf: every leaf with a crossing edge is among those below them
   /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
+  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more than
+  /// 2^31 samples in nested heaps
   std::vector<NodeIndex> refine()
   {
     std::vector<BandNode> front;
@@ -60,10 +64,14 @@ public:
     {
       front.push_back({ rootIndex, SampleTree<TSample>::rootSlot, true });
     }
-    const int expectedDepth = depthOf(root.count()) + 1;
+    const int expectedDepth = std::max(1, levelsToHalve(root.count()));
     for (int depth = 0; !front.empty();)
     {
       const int bottom = treeletBottom(depth, root.count());
+      if (bottom > maximumDepth)
+      {
+        throw std::length_error("too many heaps of samples at one position inside each other");
+      }
       this->splitFront(front, bottom - depth);
       this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
       if (this->isComplete(front))

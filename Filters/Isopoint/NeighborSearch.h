@@ -70,7 +70,7 @@ bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDe
 {
   for (int depth = path.depth; depth > 0; --depth)
   {
-    const bool upper = isUpperChild(ancestorAtDepth(path.index, path.depth, depth));
+    const bool upper = path.uppers[depth - 1];
     const int axis = path.axes[depth - 1];
     const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
     const FoundNode across{ siblingOf(path.slots[depth]), depth };

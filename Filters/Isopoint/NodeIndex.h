@@ -2,7 +2,7 @@
 #ifndef isopoint_NodeIndex_h
 #define isopoint_NodeIndex_h
 
-#include <cstdint>
+#include <cstddef>
 
 namespace isopoint
 {
@@ -10,14 +10,15 @@ namespace isopoint
 /// The name of a node of the kd-tree (section 4 of the paper): the root is 1, and below the
 /// leading 1 each bit tells the way down, 0 to the lower and 1 to the upper child. The name alone
 /// answers where a node stands among the others; no tree is needed.
-using NodeIndex = std::uint64_t;
+__extension__ using NodeIndex = unsigned __int128;
 
 constexpr NodeIndex rootIndex = 1;
 
-/// No index is deeper than its 64 bits allow. Halving at the median keeps a tree of n samples
-/// within ceil(log2 n) levels; samples of one position add at most four (they stay together,
-/// which parts off what lies behind them once for each axis, then the rest).
-constexpr int maximumDepth = 63;
+/// No index is deeper than its 128 bits allow. Halving at the median keeps a tree of n samples
+/// within ceil(log2 n) levels. Samples of one position stay together, which can part off as little
+/// as one sample on each axis before the heap is alone: heaps nested in heaps take up to four
+/// levels for each halving, 4 log2 n in all.
+constexpr int maximumDepth = 127;
 
 constexpr NodeIndex lowerChild(NodeIndex node)
 {
@@ -45,11 +46,10 @@ constexpr int depthOf(NodeIndex node)
   return depth;
 }
 
-/// The node itself or the one above it that stands `depth` levels below the root,
-/// 0 <= depth <= depthOf(node).
-constexpr NodeIndex ancestorAtDepth(NodeIndex node, int nodeDepth, int depth)
+/// The levels of a tree that halves so many samples exactly: ceil(log2 count), count at least 1.
+constexpr int levelsToHalve(std::size_t count)
 {
-  return node >> (nodeDepth - depth);
+  return count > 1 ? depthOf(count - 1) + 1 : 0;
 }
 
 } // namespace isopoint

@@ -128,6 +128,7 @@ struct Path
   std::size_t slots[maximumDepth + 1]; // of the ancestors by depth, the node's own last
   double planes[maximumDepth];         // that cut their regions
   std::uint8_t axes[maximumDepth];     // of these planes
+  bool uppers[maximumDepth];           // whether the way went to their upper sides
   Region region{};
 
   std::size_t slot() const { return this->slots[this->depth]; }
@@ -151,6 +152,7 @@ double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
   assert(path.depth < maximumDepth);
   path.planes[path.depth] = node.plane;
   path.axes[path.depth] = node.axis;
+  path.uppers[path.depth] = upper;
   path.slots[++path.depth] = tree.child(node, upper);
   double& bound = upper ? path.region.lower[node.axis] : path.region.upper[node.axis];
   const double former = bound;
@@ -161,9 +163,9 @@ double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
 /// Goes back to the parent; `former` is what descend() gave.
 inline void ascend(Path& path, double former)
 {
-  const bool upper = isUpperChild(path.index);
   path.index >>= 1;
   --path.depth;
+  const bool upper = path.uppers[path.depth];
   const int axis = path.axes[path.depth];
   (upper ? path.region.lower[axis] : path.region.upper[axis]) = former;
 }

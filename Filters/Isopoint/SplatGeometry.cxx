@@ -43,6 +43,11 @@ using Tree = Search::Tree;
 /// 1.5 sample spacings away on average, none was found.
 constexpr std::size_t radiusNeighbor = 12;
 
+/// The share of the edges around a point that its splat reaches at least: where samples stand
+/// closer in one direction than in another, the nearest isopoints may all lie in one row, and the
+/// next row is about an edge away.
+constexpr double edgeShare = 0.75;
+
 double dot(const Vector& a, const Vector& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -131,7 +136,8 @@ public:
       return { own, 0.5 * lengthOf(this->FallingEdges[point]) };
     }
     const std::size_t last = std::min(radiusNeighbor, this->Nearest.size()) - 1;
-    const double radius = this->Nearest[last].distance;
+    const double radius =
+      std::max(this->Nearest[last].distance, edgeShare * this->middleEdgeLength());
     Vector normal = this->fitPlane(self);
     if (lengthOf(normal) == 0.0)
     {
@@ -189,6 +195,21 @@ private:
     return planeNormal(this->PlanePoints);
   }
 
+  /// The median length of the edges of the nearest positions.
+  double middleEdgeLength()
+  {
+    this->EdgeLengths.clear();
+    for (const Neighbor& neighbor : this->Nearest)
+    {
+      this->EdgeLengths.push_back(
+        lengthOf(this->FallingEdges[this->Distinct.firstUser[neighbor.index]]));
+    }
+    const auto middle =
+      this->EdgeLengths.begin() + static_cast<std::ptrdiff_t>(this->EdgeLengths.size() / 2);
+    std::nth_element(this->EdgeLengths.begin(), middle, this->EdgeLengths.end());
+    return *middle;
+  }
+
   /// The mean direction of the edges around that fall to the same side as the point's own: a
   /// single edge may run nearly along the surface, and edges of a sheet close by fall the other
   /// way.
@@ -213,6 +234,7 @@ private:
   const std::size_t PlaneNeighbors;
   std::vector<Neighbor> Nearest;
   std::vector<Point> PlanePoints;
+  std::vector<double> EdgeLengths;
 };
 
 } // namespace
@@ -221,6 +243,10 @@ std::vector<Splat> computeSplats(const Execution& execution, const std::vector<V
   const std::vector<Vector>& fallingEdges, int neighborCount)
 {
   std::vector<Splat> splats(positions.size());
+  if (positions.empty())
+  {
+    return splats; // CGAL's tree takes no empty set
+  }
   const DistinctPositions distinct(positions);
   std::vector<std::size_t> indices(distinct.points.size());
   std::iota(indices.begin(), indices.end(), std::size_t{ 0 });
@@ -230,15 +256,22 @@ std::vector<Splat> computeSplats(const Execution& execution, const std::vector<V
   throwIfAborted(execution);
 
   constexpr std::size_t grain = 512;
-  forRanges(execution, positions.size(), grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      SplatFitter fitter(tree, distinct, fallingEdges, neighborCount);
-      for (std::size_t i = begin; i < end; ++i)
+  const std::size_t batch = 8192 * execution.threads;
+  for (std::size_t done = 0; done < positions.size(); done += batch)
+  {
+    forRanges(execution, std::min(batch, positions.size() - done), grain,
+      [&](std::size_t begin, std::size_t end)
       {
-        splats[i] = fitter.fit(i);
-      }
-    });
+        SplatFitter fitter(tree, distinct, fallingEdges, neighborCount);
+        for (std::size_t i = done + begin; i < done + end; ++i)
+        {
+          splats[i] = fitter.fit(i);
+        }
+      });
+    throwIfAborted(execution);
+    execution.progress(std::min(
+      1.0, static_cast<double>(done + batch) / static_cast<double>(positions.size())));
+  }
   return splats;
 }
 

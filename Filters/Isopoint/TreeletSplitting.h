@@ -20,8 +20,7 @@ constexpr int treeletLevels = 3;
 /// bottom of a tree without samples of one position: its last ones, by far the most, are then whole.
 inline int treeletBottom(int depth, std::size_t sampleCount)
 {
-  const int bottom = sampleCount > 1 ? depthOf(sampleCount - 1) + 1 : 0;
-  const int remaining = bottom - depth;
+  const int remaining = levelsToHalve(sampleCount) - depth;
   return depth + (remaining > treeletLevels ? (remaining - 1) % treeletLevels + 1 : treeletLevels);
 }
 

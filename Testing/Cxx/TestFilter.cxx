@@ -9,6 +9,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -436,6 +437,16 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
     expectError("within 0 and 180");
   }
   filter->SetAngle(54.7);
+  filter->SetNumberOfContours(2);
+  filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());
+  filter->SetValue(1, 0.7);
+  expectError("not a number");
+  filter->SetNumberOfContours(1);
+  filter->SetValue(0, 0.7);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, cloud);
+  filter->SetInputData(blocks);
+  expectError("made of blocks");
   vtkNew<vtkPolyData> nothing;
   filter->SetInputData(nothing);
   expectError("no points");
@@ -449,8 +460,27 @@ TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)
 {
   const auto cloud = newCloud(150000);
   std::vector<double> expected;
+  const auto everythingOf = [](vtkPolyData* output)
+  {
+    std::vector<double> everything = pointsOf(output);
+    for (const char* const name : { "Normals", "Radius", "position", "x", "distance" })
+    {
+      vtkDataArray* const array = output->GetPointData()->GetArray(name);
+      for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+      {
+        everything.push_back(array->GetVariantValue(i).ToDouble());
+      }
+    }
+    return everything;
+  };
+  const std::string former = vtkSMPTools::GetBackend();
   for (const char* const backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
   {
+    if (!vtkSMPTools::SetBackend(backend))
+    {
+      continue; // not built into this VTK
+    }
+    vtkSMPTools::SetBackend(former.c_str());
     for (const int threads : { 1, 2, 4 })
     {
       for (const bool useAllCores : { false, true })
@@ -463,7 +493,7 @@ TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)
             filter->SetUseAllCores(useAllCores);
             filter->SetValue(0, 0.7);
             filter->Update();
-            const std::vector<double> found = pointsOf(filter->GetOutput());
+            const std::vector<double> found = everythingOf(filter->GetOutput());
             expected = expected.empty() ? found : expected;
             EXPECT_EQ(found, expected) << backend << " " << threads;
           });
@@ -519,6 +549,90 @@ TEST(Filter, AKeptTreeGivesWhatAFreshOneDoes)
   compare();
 }
 
+// A data set that only says itself that it changed, and coordinates of a grid.
+TEST(Filter, AKeptTreeSeesPositionsChangedInPlace)
+{
+  const auto expectFresh = [](vtkScatteredIsopointFilter* kept, vtkDataSet* input, double isovalue)
+  {
+    kept->SetValue(0, isovalue);
+    kept->Update();
+    vtkNew<vtkScatteredIsopointFilter> fresh;
+    fresh->SetInputData(input);
+    fresh->SetValue(0, isovalue);
+    fresh->Update();
+    EXPECT_GT(fresh->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(pointsOf(kept->GetOutput()), pointsOf(fresh->GetOutput()));
+  };
+  const auto cloud = newCloud(3000);
+  vtkNew<vtkScatteredIsopointFilter> kept;
+  kept->SetInputData(cloud);
+  expectFresh(kept, cloud, 0.7);
+  for (vtkIdType i = 0; i < 3000; i += 2)
+  {
+    const double* const p = cloud->GetPoint(i);
+    cloud->GetPoints()->SetPoint(i, p[1], 1.5 * p[0], p[2]);
+  }
+  cloud->Modified();
+  expectFresh(kept, cloud, 0.6);
+
+  vtkNew<vtkRectilinearGrid> grid;
+  grid->SetDimensions(9, 9, 9);
+  vtkNew<vtkDoubleArray> coordinates[3];
+  const auto values = newArray("values", 9 * 9 * 9);
+  for (int i = 0; i < 9; ++i)
+  {
+    for (vtkDoubleArray* const array : { coordinates[0].Get(), coordinates[1].Get(), coordinates[2].Get() })
+    {
+      array->InsertNextValue(0.1 * i);
+    }
+  }
+  for (vtkIdType i = 0; i < 9 * 9 * 9; ++i)
+  {
+    values->SetValue(i, static_cast<float>((i * 37) % 101));
+  }
+  grid->SetXCoordinates(coordinates[0]);
+  grid->SetYCoordinates(coordinates[1]);
+  grid->SetZCoordinates(coordinates[2]);
+  grid->GetPointData()->SetScalars(values);
+  kept->SetInputData(grid);
+  expectFresh(kept, grid, 50.5);
+  coordinates[0]->SetValue(8, 7.0);
+  coordinates[0]->SetValue(7, 5.0);
+  coordinates[0]->Modified();
+  expectFresh(kept, grid, 30.5);
+}
+
+TEST(Filter, ArraysOfAnotherLengthAreLeftOut)
+{
+  const auto cloud = newCloud(500);
+  cloud->GetPointData()->AddArray(newArray("short", 5));
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  const auto errors = watchErrors(filter);
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("short"));
+  EXPECT_EQ(errors->Count, 0);
+}
+
+TEST(Filter, AnArrayThatGivesWayIsWarnedOf)
+{
+  const auto cloud = newCloud(500);
+  cloud->GetPointData()->GetScalars()->SetName("Radius");
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  const auto warnings = vtkSmartPointer<ErrorWatcher>::Take(ErrorWatcher::New());
+  filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  EXPECT_EQ(warnings->Count, 1);
+  filter->ComputeRadiiOff();
+  filter->Update();
+  EXPECT_EQ(warnings->Count, 1);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Radius")->GetComponent(0, 0), 0.7);
+}
+
 TEST(Filter, ProgressRisesAndAbortLeavesAReusableFilter)
 {
   vtkNew<vtkScatteredIsopointFilter> filter;
@@ -546,7 +660,7 @@ TEST(Filter, ProgressRisesAndAbortLeavesAReusableFilter)
   EXPECT_EQ(watcher->Progress.back(), 1.0);
   const std::vector<double> expected = pointsOf(filter->GetOutput());
 
-  for (const double abortAt : { 0.05, 0.3, 0.6 })
+  for (const double abortAt : { 0.05, 0.3, 0.6, 0.8 })
   {
     watcher->AbortAt = abortAt;
     filter->SetValue(0, 0.3 + abortAt);

@@ -18,9 +18,10 @@ using isopoint::IsosurfaceExtractor;
 void expectSameBytes(const Isosurface& expected, const Isosurface& found)
 {
   ASSERT_EQ(expected.points.size(), found.points.size());
-  EXPECT_EQ(0,
-    std::memcmp(expected.points.data(), found.points.data(),
-      expected.points.size() * sizeof(isopoint::Isopoint)));
+  for (std::size_t i = 0; i < expected.points.size(); ++i)
+  {
+    ASSERT_EQ(0, std::memcmp(&expected.points[i], &found.points[i], sizeof(isopoint::Isopoint)));
+  }
   ASSERT_EQ(expected.merged.size(), found.merged.size());
   for (std::size_t i = 0; i < expected.merged.size(); ++i)
   {
