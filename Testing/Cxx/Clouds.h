@@ -140,6 +140,28 @@ inline Cloud heaped(Cloud cloud, double share)
   return cloud;
 }
 
+/// Heaps at one position inside each other: each holds half of the samples that are left, and
+/// three more stand around it so that parting it off takes four levels of the tree.
+inline Cloud nestedHeaps(std::size_t count)
+{
+  Cloud cloud;
+  double center = 0.0;
+  double size = 1.0;
+  for (std::size_t remaining = count; remaining >= 8; remaining /= 2)
+  {
+    for (std::size_t i = 0; i < remaining / 2; ++i)
+    {
+      cloud.add(center, center, center, static_cast<double>(i % 7));
+    }
+    cloud.add(center + size, center, center, 9.0);
+    cloud.add(center, center + size, center, -9.0);
+    cloud.add(center, center, center + size, 9.0);
+    center -= 0.3 * size;
+    size *= 0.4;
+  }
+  return cloud;
+}
+
 /// As many threads as asked for, whatever the machine has.
 inline isopoint::Execution executionOn(std::size_t threads)
 {

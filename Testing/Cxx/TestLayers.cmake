@@ -1,7 +1,7 @@
 # Fails where a layer includes what it must not know.
 function (forbid folder pattern reason)
   file(GLOB_RECURSE files "${SOURCE_DIR}/${folder}/*.h" "${SOURCE_DIR}/${folder}/*.cxx")
-  if (NOT files AND NOT folder STREQUAL "Rendering")
+  if (NOT files)
     message(FATAL_ERROR "no sources found in ${SOURCE_DIR}/${folder}")
   endif ()
   foreach (file IN LISTS files)
@@ -14,4 +14,3 @@ endfunction ()
 
 forbid(Filters/Isopoint "(vtk|\\.\\./)" "The algorithm knows no VTK.")
 forbid(Filters "vtk[A-Za-z]*(OpenGL|Render|Mapper|Actor|Shader|Camera)" "Filters know no rendering.")
-forbid(Rendering "(Isopoint/|vtkScatteredIsopoint)" "Rendering knows no filter.")

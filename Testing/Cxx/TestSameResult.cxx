@@ -3,6 +3,7 @@
 #include "Clouds.h"
 
 #include "Isopoint/AngleCriterion.h"
+#include "Isopoint/NarrowBand.h"
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,25 @@ TEST(SameResult, WithSamplesLeftOut)
     point.second = ids[point.second];
   }
   expectSameBytes(expected, extractor.extract(execution, 0.5, 54.7));
+}
+
+// Deeper than the 64 levels that a machine word could name.
+TEST(SameResult, ForVeryDeepTrees)
+{
+  const clouds::Cloud cloud = clouds::nestedHeaps(std::size_t{ 1 } << 21);
+  const isopoint::Execution execution = clouds::executionOn(2);
+  auto tree = isopoint::loadSamples<isopoint::WideSample>(
+    execution, cloud.size(), clouds::readerOf(cloud));
+  int deepest = 0;
+  for (const isopoint::NodeIndex index :
+    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine())
+  {
+    deepest = std::max(deepest, isopoint::depthOf(index));
+  }
+  EXPECT_GT(deepest, 64);
+  const Isosurface alone = clouds::extract(cloud, 3.5, 54.7, 1);
+  EXPECT_FALSE(alone.points.empty());
+  expectSameBytes(alone, clouds::extract(cloud, 3.5, 54.7, 3));
 }
 
 TEST(SameResult, AfterAnAbort)
