@@ -147,7 +147,7 @@ inline Cloud nestedHeaps(std::size_t count)
   Cloud cloud;
   double center = 0.0;
   double size = 1.0;
-  for (std::size_t remaining = count; remaining >= 8; remaining /= 2)
+  for (std::size_t remaining = count; remaining >= 10; remaining -= remaining / 2 + 3)
   {
     for (std::size_t i = 0; i < remaining / 2; ++i)
     {
