@@ -12,9 +12,9 @@ import time
 
 import numpy as np
 from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from paraview.vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 SIDE = 200.0
 RADIUS = 70.0
@@ -36,9 +36,7 @@ def sphere_samples():
     scalars = numpy_to_vtk(distances.astype(np.float32), deep=True)
     scalars.SetName("distance")
     samples.GetPointData().SetScalars(scalars)
-    source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(samples)
-    return source
+    return producer_of(samples)
 
 
 def file_samples(path, array, isovalue):
@@ -75,35 +73,56 @@ def file_samples(path, array, isovalue):
     return source
 
 
-def point_size(view, radii):
-    """The pixels that nearly all splats are wide, seen at the distance of the view's centre."""
-    camera = view.GetActiveCamera()
-    seen_height = 2.0 * camera.GetDistance() * np.tan(np.radians(0.5 * camera.GetViewAngle()))
-    width = 2.0 * np.percentile(radii, 90) * view.ViewSize[1] / seen_height
-    return float(np.clip(width, 3.0, 40.0))
+def disks(isopoints, corners=8):
+    """The isopoints' splats as polygons, each with the normal of its isopoint."""
+    data = isopoints.GetPointData()
+    centers = vtk_to_numpy(isopoints.GetPoints().GetData()).astype(np.float32)
+    normals = vtk_to_numpy(data.GetNormals())
+    radii = vtk_to_numpy(data.GetArray("Radius"))
+    # Any axis that is not nearly the normal gives a first direction across it.
+    axes = np.eye(3, dtype=np.float32)[np.argmin(np.abs(normals), axis=1)]
+    first = np.cross(normals, axes)
+    first *= (radii / np.linalg.norm(first, axis=1))[:, None]
+    second = np.cross(normals, first)
+    angles = 2.0 * np.pi * np.arange(corners, dtype=np.float32) / corners
+    positions = (
+        centers[:, None]
+        + np.cos(angles)[None, :, None] * first[:, None]
+        + np.sin(angles)[None, :, None] * second[:, None]
+    ).reshape(-1, 3)
+
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    polygons = vtkCellArray()
+    polygons.SetData(
+        numpy_to_vtkIdTypeArray(np.arange(0, len(positions) + 1, corners), deep=True),
+        numpy_to_vtkIdTypeArray(np.arange(len(positions)), deep=True),
+    )
+    result = vtkPolyData()
+    result.SetPoints(points)
+    result.SetPolys(polygons)
+    result.GetPointData().SetNormals(
+        numpy_to_vtk(np.repeat(normals, corners, axis=0), deep=True)
+    )
+    return result
 
 
-def light_both_sides(view):
-    """A light over the viewer's shoulder and its opposite, for normals that point away."""
-    view.UseLight = 0
-    for side in (1.0, -1.0):
-        light = simple.AddLight(view=view)
-        light.Coords = "Camera"
-        light.Position = [-0.4 * side, 0.5 * side, 1.0 * side]
-        light.FocalPoint = [0.0, 0.0, 0.0]
+def producer_of(data):
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
 
 
 def show(isopoints, path):
-    """Renders the isopoints as points lit by their normals and as wide as their splats."""
+    """Renders the isopoints' splats as lit disks, seen from an angle."""
     view = simple.CreateView("RenderView")
     view.ViewSize = [1000, 800]
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
-    light_both_sides(view)
-    display = simple.Show(isopoints, view)
+    display = simple.Show(producer_of(disks(isopoints)), view)
     display.Representation = "Surface"
-    simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [0.85, 0.72, 0.5]
     simple.ResetCamera(view)
     camera = view.GetActiveCamera()
@@ -111,8 +130,6 @@ def show(isopoints, path):
     camera.Azimuth(35)
     camera.OrthogonalizeViewUp()
     simple.ResetCamera(view)
-    radii = isopoints.GetClientSideObject().GetOutput().GetPointData().GetArray("Radius")
-    display.PointSize = point_size(view, vtk_to_numpy(radii))
     simple.SaveScreenshot(path, view)
 
 
@@ -126,7 +143,6 @@ def main(plugin):
     else:
         array, isovalue = "distance", RADIUS
         source = sphere_samples()
-        source.UpdatePipeline()
 
     isopoints = simple.ScatteredIsopoints(Input=source)
     isopoints.ContourBy = ["POINTS", array]
@@ -150,7 +166,7 @@ def main(plugin):
         print("mean deviation    %.5f" % deviation.mean())
 
     simple.SaveData("isopoints.vtp", proxy=isopoints, DataMode="Binary")
-    show(isopoints, "isosurface.png")
+    show(output, "isosurface.png")
     print("wrote isopoints.vtp and isosurface.png")
 
 
