@@ -125,8 +125,8 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
     { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
 }
 
-void copyNearer(
-  const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output, vtkIdType firstTuple)
+void copyNearer(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
+  vtkIdType firstTuple)
 {
   for (std::size_t i = 0; i < surface.points.size(); ++i)
   {
@@ -169,9 +169,9 @@ void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
 bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
-    array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
-    (array->GetName() &&
-      std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+         array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
+         (array->GetName() &&
+           std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
 }
 
 } // namespace

@@ -60,7 +60,7 @@ bool isSequentialByDefault()
 {
   const char* const backend = vtkSMPTools::GetBackend();
   return backend && std::strcmp(backend, "Sequential") == 0 &&
-    !std::getenv("VTK_SMP_BACKEND_IN_USE");
+         !std::getenv("VTK_SMP_BACKEND_IN_USE");
 }
 
 std::size_t allowedThreads()
@@ -84,8 +84,8 @@ isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCo
   {
     const std::size_t threads = allowedThreads();
     execution.threads = threads;
-    execution.parallelFor =
-      [threads](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+    execution.parallelFor = [threads](
+                              std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
     { forOnOwnThreads(threads, count, grain, task); };
   }
   else

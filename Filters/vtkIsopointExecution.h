@@ -7,10 +7,10 @@
 class vtkAlgorithm;
 
 /**
- * How the core runs on behalf of a filter: on vtkSMPTools' threads, and asking the filter whether to
- * abort. Where useAllCores is set and vtkSMPTools runs sequentially only because it was built so,
- * on threads of its own (see vtkScatteredIsopointFilter::SetUseAllCores); vtkSMPTools' global state
- * is left alone, since changing it is not safe while other filters run.
+ * How the core runs on behalf of a filter: on vtkSMPTools' threads, and asking the filter whether
+ * to abort. Where useAllCores is set and vtkSMPTools runs sequentially only because it was built
+ * so, on threads of its own (see vtkScatteredIsopointFilter::SetUseAllCores); vtkSMPTools' global
+ * state is left alone, since changing it is not safe while other filters run.
  */
 isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores);
 

@@ -99,8 +99,7 @@ void withPositions(vtkDataSet* input, const Action& action)
 template <class Action>
 void withValues(vtkDataArray* scalars, const Action& action)
 {
-  const bool fitsFloat =
-    scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
+  const bool fitsFloat = scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
   if (const float* const floats = packedArray<float>(scalars))
   {
     action(PackedValues<float>{ floats });
@@ -124,9 +123,8 @@ const unsigned char* ghostsOf(vtkDataSet* input)
 {
   auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
     input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  return ghosts && ghosts->GetNumberOfValues() == input->GetNumberOfPoints()
-    ? ghosts->GetPointer(0)
-    : nullptr;
+  return ghosts && ghosts->GetNumberOfValues() == input->GetNumberOfPoints() ? ghosts->GetPointer(0)
+                                                                             : nullptr;
 }
 
 } // namespace

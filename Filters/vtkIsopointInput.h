@@ -8,7 +8,7 @@ namespace isopoint
 {
 struct Execution;
 class IsosurfaceExtractor;
-}
+} // namespace isopoint
 class vtkDataArray;
 class vtkDataSet;
 

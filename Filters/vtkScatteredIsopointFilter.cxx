@@ -72,7 +72,7 @@ struct InputState
   bool operator==(const InputState& other) const
   {
     return this->Geometry == other.Geometry && this->Scalars == other.Scalars &&
-      this->Ghosts == other.Ghosts;
+           this->Ghosts == other.Ghosts;
   }
 };
 
@@ -82,7 +82,7 @@ vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtk
   const bool inputIsFloat =
     pointSet && pointSet->GetPoints() && pointSet->GetPoints()->GetDataType() == VTK_FLOAT;
   const bool single = precision == vtkAlgorithm::SINGLE_PRECISION ||
-    (precision == vtkAlgorithm::DEFAULT_PRECISION && inputIsFloat);
+                      (precision == vtkAlgorithm::DEFAULT_PRECISION && inputIsFloat);
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
   points->SetNumberOfPoints(count);
@@ -123,15 +123,14 @@ struct PlacedIsopoints
 };
 
 /// The value of a sample, the mean where several count as one.
-double sampleValue(
-  const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
+double sampleValue(const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
 {
   const isopoint::MergedSamples* const group = surface.mergedAt(sample);
   const auto valueAt = [scalars](std::uint64_t id)
   { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
-  return group
-    ? isopoint::meanOf(group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
-    : valueAt(sample);
+  return group ? isopoint::meanOf(
+                   group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
+               : valueAt(sample);
 }
 
 PlacedIsopoints placeIsopoints(const Execution& execution, vtkDataSet* input, vtkDataArray* scalars,
@@ -241,8 +240,7 @@ void vtkScatteredIsopointFilter::GenerateValues(int numContours, double range[2]
   this->ContourValues->GenerateValues(numContours, range);
 }
 
-void vtkScatteredIsopointFilter::GenerateValues(
-  int numContours, double rangeStart, double rangeEnd)
+void vtkScatteredIsopointFilter::GenerateValues(int numContours, double rangeStart, double rangeEnd)
 {
   this->ContourValues->GenerateValues(numContours, rangeStart, rangeEnd);
 }
@@ -343,11 +341,11 @@ vtkDataArray* vtkScatteredIsopointFilter::GetContouredArray(
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
   // ParaView passes an empty name where nothing was chosen.
   const bool isChosen = name && *name;
-  vtkAbstractArray* const array = isChosen || !name
-    ? this->GetInputAbstractArrayToProcess(0, inputVector, association)
-    : input->GetPointData()->GetScalars();
+  vtkAbstractArray* const array =
+    isChosen || !name ? this->GetInputAbstractArrayToProcess(0, inputVector, association)
+                      : input->GetPointData()->GetScalars();
   const std::string remedy = " Choose one with SetInputArrayToProcess(); the point arrays are: " +
-    arrayNames(input->GetPointData()) + ".";
+                             arrayNames(input->GetPointData()) + ".";
   if (!array)
   {
     if (isChosen)
@@ -363,7 +361,7 @@ vtkDataArray* vtkScatteredIsopointFilter::GetContouredArray(
   const std::string described =
     std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
   if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS ||
-    array->GetNumberOfTuples() != input->GetNumberOfPoints())
+      array->GetNumberOfTuples() != input->GetNumberOfPoints())
   {
     vtkErrorMacro(<< described << "does not belong to the points. For cell data, take the cell"
                   << " centers first (vtkCellCenters, or ParaView's Cell Centers).");
@@ -408,8 +406,7 @@ void vtkScatteredIsopointFilter::Extract(
   std::size_t pointCount = 0;
   for (const double isovalue : isovalues)
   {
-    const double share =
-      (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
+    const double share = (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
     surfaces.push_back({ isovalue,
       this->Kept->Extractor.extract(
@@ -428,9 +425,8 @@ void vtkScatteredIsopointFilter::Extract(
   {
     const auto shareUpTo = [=](std::size_t points)
     {
-      return extractionShare +
-        (1.0 - extractionShare) * static_cast<double>(points) /
-        static_cast<double>(std::max<std::size_t>(pointCount, 1));
+      return extractionShare + (1.0 - extractionShare) * static_cast<double>(points) /
+                                 static_cast<double>(std::max<std::size_t>(pointCount, 1));
     };
     const auto before = static_cast<std::size_t>(point);
     const Execution step = vtkMakeIsopointStep(

@@ -58,7 +58,7 @@
 #ifndef vtkScatteredIsopointFilter_h
 #define vtkScatteredIsopointFilter_h
 
-#include "vtkNew.h"                                // for the contour values
+#include "vtkNew.h" // for the contour values
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
 

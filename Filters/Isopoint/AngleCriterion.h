@@ -27,8 +27,8 @@ inline Offset offsetBetween(const double from[3], const double to[3])
   {
     offset.vector[axis] = to[axis] - from[axis];
   }
-  offset.squaredLength = offset.vector[0] * offset.vector[0] +
-    offset.vector[1] * offset.vector[1] + offset.vector[2] * offset.vector[2];
+  offset.squaredLength = offset.vector[0] * offset.vector[0] + offset.vector[1] * offset.vector[1] +
+                         offset.vector[2] * offset.vector[2];
   offset.length = std::sqrt(offset.squaredLength);
   return offset;
 }

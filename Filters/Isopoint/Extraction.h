@@ -22,9 +22,9 @@ template <class TSample>
 double leafValue(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
 {
   const TSample* const samples = tree.samples.data() + leaf.begin;
-  return leaf.count() == 1
-    ? static_cast<double>(samples[0].value)
-    : meanOf(leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
+  return leaf.count() == 1 ? static_cast<double>(samples[0].value)
+                           : meanOf(leaf.count(), [samples](std::size_t i)
+                               { return static_cast<double>(samples[i].value); });
 }
 
 /// Finds the crossing edges of leaves, one leaf at a time, and interpolates on them. Scratch is
@@ -194,8 +194,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
       for (std::size_t i = begin; i < end; ++i)
       {
         Path path = pathTo(tree, crossing[i]);
-        forEachBelow(
-          tree, path, maximumDepth, [&finder](const Path& leaf) { finder.find(leaf); });
+        forEachBelow(tree, path, maximumDepth, [&finder](const Path& leaf) { finder.find(leaf); });
       }
       const std::lock_guard<std::mutex> lock(mutex);
       points.insert(points.end(), finder.points().begin(), finder.points().end());
@@ -211,14 +210,14 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     tree.neighborhoods.add(found, tree.nodes.size(), tree.samples.size());
   }
 
-  result.points = sortedUnique(
-    execution, points, idCount, [](const Isopoint& point) { return point.first; });
+  result.points =
+    sortedUnique(execution, points, idCount, [](const Isopoint& point) { return point.first; });
   const auto idsOf = [](const MergedSamples& group) { return group.ids.front(); };
   std::sort(result.merged.begin(), result.merged.end(),
     [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) < idsOf(b); });
-  result.merged.erase(std::unique(result.merged.begin(), result.merged.end(),
-                        [&](const MergedSamples& a, const MergedSamples& b)
-                        { return idsOf(a) == idsOf(b); }),
+  result.merged.erase(
+    std::unique(result.merged.begin(), result.merged.end(),
+      [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) == idsOf(b); }),
     result.merged.end());
   return result;
 }

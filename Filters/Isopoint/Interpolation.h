@@ -12,9 +12,8 @@ namespace isopoint
 inline double edgeParameter(double first, double second, double value)
 {
   const double difference = second - first;
-  return std::isfinite(difference)
-    ? (value - first) / difference
-    : (0.5 * value - 0.5 * first) / (0.5 * second - 0.5 * first);
+  return std::isfinite(difference) ? (value - first) / difference
+                                   : (0.5 * value - 0.5 * first) / (0.5 * second - 0.5 * first);
 }
 
 /// Linear interpolation along an edge. The second form is for differences beyond double's range.

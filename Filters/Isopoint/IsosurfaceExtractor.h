@@ -56,8 +56,8 @@ public:
   bool replaceValues(const Execution& execution, std::size_t count, const Reader& read)
   {
     return isNarrow(count)
-      ? this->replaceValuesAs<SampleFor<TCoordinate, TValue>>(execution, count, read)
-      : this->replaceValuesAs<WideSample>(execution, count, read);
+             ? this->replaceValuesAs<SampleFor<TCoordinate, TValue>>(execution, count, read)
+             : this->replaceValuesAs<WideSample>(execution, count, read);
   }
 
   /// Forgets all samples and frees their memory.
@@ -87,7 +87,7 @@ private:
   {
     auto* const tree = std::get_if<SampleTree<TSample>>(&this->Tree);
     if (!tree || tree->isEmpty() || count != this->ItemCount ||
-      !holdsPositions(execution, *tree, count, read))
+        !holdsPositions(execution, *tree, count, read))
     {
       return false;
     }

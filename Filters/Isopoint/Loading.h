@@ -19,7 +19,7 @@ template <class TSample>
 bool isFinite(const TSample& sample)
 {
   return std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
-    std::isfinite(sample.position[2]) && std::isfinite(sample.value);
+         std::isfinite(sample.position[2]) && std::isfinite(sample.value);
 }
 
 /// What a slice of the input held.
@@ -178,7 +178,7 @@ bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
       {
         TSample sample;
         if (!read(tree.samples[i].id, sample.position, sample.value) || !isFinite(sample) ||
-          !haveOnePosition(sample, tree.samples[i]))
+            !haveOnePosition(sample, tree.samples[i]))
         {
           same = false;
         }

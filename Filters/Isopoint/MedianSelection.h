@@ -72,12 +72,11 @@ MiddleCoordinates<TCoordinate> selectMiddle(
     }
     const std::size_t middle = rank * subsetSize / count;
     constexpr TCoordinate infinity = std::numeric_limits<TCoordinate>::infinity();
-    const TCoordinate lower = middle > margin
-      ? selectByCounting(subset, subsetSize, middle - margin).first
-      : -infinity;
+    const TCoordinate lower =
+      middle > margin ? selectByCounting(subset, subsetSize, middle - margin).first : -infinity;
     const TCoordinate upper = middle + margin < subsetSize
-      ? selectByCounting(subset, subsetSize, middle + margin).first
-      : infinity;
+                                ? selectByCounting(subset, subsetSize, middle + margin).first
+                                : infinity;
     std::size_t below = 0;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -104,8 +103,8 @@ MiddleCoordinates<TCoordinate> selectMiddle(
 }
 
 /// Bounds that very likely enclose both middle coordinates, and few others, read off a random
-/// subset (Floyd and Rivest, "Expected time bounds for selection", 1975). The generator is seeded by
-/// the count, so that a run can be repeated to the last move.
+/// subset (Floyd and Rivest, "Expected time bounds for selection", 1975). The generator is seeded
+/// by the count, so that a run can be repeated to the last move.
 template <class TSample>
 struct MiddleBracket
 {
@@ -215,8 +214,7 @@ MiddleCoordinates<typename TSample::Coordinate> findMiddle(const TSample* sample
     const MiddleCount counted = collectMiddle(samples, count, axis, bracket, scratch.candidates);
     if (counted.enclosesMiddle(count))
     {
-      return selectMiddle(
-        scratch.candidates.data(), counted.candidates, count / 2 - counted.below);
+      return selectMiddle(scratch.candidates.data(), counted.candidates, count / 2 - counted.below);
     }
   }
   scratch.candidates.resize(std::max(scratch.candidates.size(), count));
@@ -249,8 +247,8 @@ MiddleCoordinates<typename TSample::Coordinate> findMiddleTogether(
         candidates.begin() + static_cast<std::ptrdiff_t>(counted.candidates));
     });
   return total.enclosesMiddle(count)
-    ? selectMiddle(scratch.candidates.data(), total.candidates, count / 2 - total.below)
-    : findMiddle(samples, count, axis, scratch);
+           ? selectMiddle(scratch.candidates.data(), total.candidates, count / 2 - total.below)
+           : findMiddle(samples, count, axis, scratch);
 }
 
 } // namespace isopoint

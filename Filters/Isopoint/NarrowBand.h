@@ -34,8 +34,7 @@ bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth
   const Node<TSample>& node = tree.nodes[path.slot()];
   const bool hasBelow = node.minimum < isovalue;
   const bool hasAbove = node.maximum >= isovalue;
-  return (hasBelow && hasAbove) ||
-    touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
+  return (hasBelow && hasAbove) || touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
 }
 
 /// Refines a tree around the isosurface of one isovalue (DESIGN section 2), treelet by treelet:
@@ -54,8 +53,8 @@ public:
   /// @returns nodes below which every node is split down to leaves, and so is everything that
   /// touches such a leaf: every leaf with a crossing edge is among those below them
   /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
-  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more than
-  /// 2^31 samples in nested heaps
+  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
+  /// than 2^31 samples in nested heaps
   std::vector<NodeIndex> refine()
   {
     std::vector<BandNode> front;
@@ -164,8 +163,7 @@ private:
         continue;
       }
       TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
-      splitter.splitTogether(
-        this->Run, node, pathTo(this->Tree, growth.node.index).region, levels);
+      splitter.splitTogether(this->Run, node, pathTo(this->Tree, growth.node.index).region, levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -207,7 +205,7 @@ private:
       return node.isLeaf;
     }
     return this->hasOnlyLeaves(this->Tree.nodes[node.lowerSlot()], levels - 1) &&
-      this->hasOnlyLeaves(this->Tree.nodes[node.upperSlot()], levels - 1);
+           this->hasOnlyLeaves(this->Tree.nodes[node.upperSlot()], levels - 1);
   }
 
   /// Marks the crossing nodes of a depth and all that touch one. Only below crossing nodes can

@@ -75,7 +75,7 @@ bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDe
     const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
     const FoundNode across{ siblingOf(path.slots[depth]), depth };
     if (bound == path.planes[depth - 1] &&
-      visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit))
+        visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit))
     {
       return true;
     }
@@ -96,8 +96,8 @@ bool visitTouching(
 /// where the path's node has some: `isBelow` tells that side. Ranges steer the search, so that it
 /// is short where there is none.
 template <class TSample>
-bool touchesOtherSide(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
-  double isovalue, bool isBelow)
+bool touchesOtherSide(
+  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue, bool isBelow)
 {
   return visitTouching(
     tree, path, nodeDepth,

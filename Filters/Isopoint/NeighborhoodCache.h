@@ -49,7 +49,7 @@ public:
   {
     const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
     if (slotCount > std::numeric_limits<TId>::max() ||
-      this->Lists.size() + records.size() > largest)
+        this->Lists.size() + records.size() > largest)
     {
       return;
     }
@@ -64,7 +64,7 @@ public:
   }
 
 private:
-  std::vector<TId> Offsets;                  // by slot, into Lists; 0: not known
+  std::vector<TId> Offsets;                     // by slot, into Lists; 0: not known
   std::vector<TId> Lists = std::vector<TId>(1); // count, neighbours; the first number is unused
 };
 

@@ -36,7 +36,7 @@ template <class TSample>
 bool haveOnePosition(const TSample& a, const TSample& b)
 {
   return a.position[0] == b.position[0] && a.position[1] == b.position[1] &&
-    a.position[2] == b.position[2];
+         a.position[2] == b.position[2];
 }
 
 /// The strict total order in which a node's samples are halved: by the coordinate on `axis`, then

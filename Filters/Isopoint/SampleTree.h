@@ -25,12 +25,12 @@ struct Node
   using Value = typename TSample::Value;
   using Id = typename TSample::Id;
 
-  double plane;   // where the region is cut, once split
-  Id begin;       // its samples are [begin, end) of the tree's
-  Id end;         //
-  Id childPair;   // the children's slots are 2 childPair and 2 childPair + 1
-  Value minimum;  // of the samples' values
-  Value maximum;  //
+  double plane;      // where the region is cut, once split
+  Id begin;          // its samples are [begin, end) of the tree's
+  Id end;            //
+  Id childPair;      // the children's slots are 2 childPair and 2 childPair + 1
+  Value minimum;     // of the samples' values
+  Value maximum;     //
   std::uint8_t axis; // the plane's, once split
   bool isLeaf;       // all its samples share one position
 

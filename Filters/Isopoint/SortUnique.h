@@ -16,8 +16,8 @@ namespace isopoint
 /// their key, and the buckets sorted independently.
 /// @param key(element) a number below keyCount that never falls as elements ascend
 template <class T, class Key>
-std::vector<T> sortedUnique(
-  const Execution& execution, const std::vector<T>& elements, std::uint64_t keyCount, const Key& key)
+std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& elements,
+  std::uint64_t keyCount, const Key& key)
 {
   const std::size_t bucketCount =
     std::min<std::size_t>(elements.size() / 2048 + 1, 64 * execution.threads);

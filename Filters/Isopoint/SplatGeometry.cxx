@@ -269,8 +269,8 @@ std::vector<Splat> computeSplats(const Execution& execution, const std::vector<V
         }
       });
     throwIfAborted(execution);
-    execution.progress(std::min(
-      1.0, static_cast<double>(done + batch) / static_cast<double>(positions.size())));
+    execution.progress(
+      std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(positions.size())));
   }
   return splats;
 }

@@ -91,8 +91,8 @@ struct TiedMiddle
   TSample first{};
   bool haveOnePosition = false; // the last of the lower half and the first of the upper
 
-  TiedMiddle(const TSample* samples, std::size_t count, int axis,
-    typename TSample::Coordinate coordinate)
+  TiedMiddle(
+    const TSample* samples, std::size_t count, int axis, typename TSample::Coordinate coordinate)
   {
     std::vector<TSample> tied;
     std::size_t below = 0;
@@ -122,8 +122,8 @@ Halves halveAtMiddle(TSample* samples, std::size_t count, int axis,
   const std::size_t lowerCount = count / 2;
   if (middle.last < middle.first)
   {
-    partition(lowerCount,
-      [axis, first = middle.first](const TSample& sample) { return sample.position[axis] < first; });
+    partition(lowerCount, [axis, first = middle.first](const TSample& sample)
+      { return sample.position[axis] < first; });
   }
   else
   {

@@ -17,7 +17,8 @@ namespace isopoint
 constexpr int treeletLevels = 3;
 
 /// The depth that treelets below nodes of the given depth reach. Treelets are aligned to the
-/// bottom of a tree without samples of one position: its last ones, by far the most, are then whole.
+/// bottom of a tree without samples of one position: its last ones, by far the most, are then
+/// whole.
 inline int treeletBottom(int depth, std::size_t sampleCount)
 {
   const int remaining = levelsToHalve(sampleCount) - depth;

@@ -87,8 +87,8 @@ double interpolated(vtkDataArray* values, const int dimensions[3], const Positio
     {
       weight *= step[axis] ? t[axis] : 1.0 - t[axis];
     }
-    const vtkIdType id = cell[0] + step[0] +
-      dimensions[0] * (cell[1] + step[1] + dimensions[1] * (cell[2] + step[2]));
+    const vtkIdType id =
+      cell[0] + step[0] + dimensions[0] * (cell[1] + step[1] + dimensions[1] * (cell[2] + step[2]));
     sum += weight * values->GetComponent(id, 0);
   }
   return sum;
@@ -146,8 +146,9 @@ vtkSmartPointer<vtkPolyData> lattice(std::size_t count)
   const double spacing = side / static_cast<double>(n);
   const auto coordinate = [=](std::size_t i)
   { return spacing * (static_cast<double>(i) + 0.5) - side / 2; };
-  const auto positionAt = [=](std::size_t i)
-  { return Position{ coordinate(i % n), coordinate(i / n % n), coordinate(i / n / n) }; };
+  const auto positionAt = [=](std::size_t i) {
+    return Position{ coordinate(i % n), coordinate(i / n % n), coordinate(i / n / n) };
+  };
   return makeCloud(n * n * n, positionAt, distanceToCenter);
 }
 
@@ -174,8 +175,8 @@ vtkSmartPointer<vtkPolyData> resampled(const std::string& file, std::size_t coun
     }
     return p;
   };
-  return makeCloud(count, positionAt,
-    [&](const Position& p) { return interpolated(values, dimensions, p); });
+  return makeCloud(
+    count, positionAt, [&](const Position& p) { return interpolated(values, dimensions, p); });
 }
 
 } // namespace clouds

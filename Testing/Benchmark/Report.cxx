@@ -56,8 +56,7 @@ std::string deviation(double value)
 Row measure(const Row& description, const std::function<void()>& work)
 {
   Row row = description;
-  std::cerr << row.cloud << ", " << row.samples << " samples: " << row.what << " ..."
-            << std::flush;
+  std::cerr << row.cloud << ", " << row.samples << " samples: " << row.what << " ..." << std::flush;
   resetPeakMemory();
   const double before = statusBytes("VmRSS:");
   const auto start = std::chrono::steady_clock::now();

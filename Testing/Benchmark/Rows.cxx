@@ -87,8 +87,7 @@ Row measureResampling(const Task& task, double copy, std::size_t surfacePoints)
   int dimensions[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    dimensions[axis] =
-      static_cast<int>((bounds[2 * axis + 1] - bounds[2 * axis]) / spacing) + 1;
+    dimensions[axis] = static_cast<int>((bounds[2 * axis + 1] - bounds[2 * axis]) / spacing) + 1;
   }
   grid->SetDimensions(dimensions);
   grid->SetSpacing(spacing, spacing, spacing);
@@ -132,11 +131,10 @@ Row measureCgal(const Task& task, double copy, bool parallel)
   const tbb::global_control limit(
     tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(task.threads));
   vtkSmartPointer<vtkPolyData> surface;
-  Row row = measure(
-    describe(task,
-      parallel ? "CGAL: Delaunay, parallel + crossing edges"
-               : "CGAL: Delaunay, sequential + crossing edges",
-      copy),
+  Row row = measure(describe(task,
+                      parallel ? "CGAL: Delaunay, parallel + crossing edges"
+                               : "CGAL: Delaunay, sequential + crossing edges",
+                      copy),
     [&]() { surface = contourDelaunay(task.samples, task.isovalue, parallel); });
   row.threads = parallel ? task.threads : 1;
   measureSphere(row, surface, task.isovalue);
@@ -182,8 +180,8 @@ std::vector<Row> measureOurs(const Task& task, double copy)
   }
   vtkDataArray* const scalars = task.samples->GetPointData()->GetScalars();
   scalars->Modified();
-  rows.push_back(measureUpdate(
-    task, "then new values at the same positions", copy, filter, task.isovalue));
+  rows.push_back(
+    measureUpdate(task, "then new values at the same positions", copy, filter, task.isovalue));
 
   if (task.threads > 1)
   {

@@ -110,7 +110,7 @@ private:
         const auto p = this->positionOf(a);
         const auto q = this->positionOf(b);
         return std::make_tuple(p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3], a) <
-          std::make_tuple(q[axis], q[(axis + 1) % 3], q[(axis + 2) % 3], b);
+               std::make_tuple(q[axis], q[(axis + 1) % 3], q[(axis + 2) % 3], b);
       });
     std::size_t middle = ids.size() / 2;
     while (middle < ids.size() && samePosition(ids[middle - 1], ids[middle]))
@@ -124,8 +124,8 @@ private:
         --middle;
       }
     }
-    const double plane = 0.5 *
-      (this->positionOf(ids[middle - 1])[axis] + this->positionOf(ids[middle])[axis]);
+    const double plane =
+      0.5 * (this->positionOf(ids[middle - 1])[axis] + this->positionOf(ids[middle])[axis]);
     Cell lower = region;
     lower.upper[axis] = plane;
     Cell upper = region;
@@ -188,7 +188,7 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
     {
       const double zz = product(cells[x], cells[z], cells[z]);
       return angle > 0.0 && zz < yy &&
-        product(cells[x], cells[y], cells[z]) > cosine * (std::sqrt(yy) * std::sqrt(zz));
+             product(cells[x], cells[y], cells[z]) > cosine * (std::sqrt(yy) * std::sqrt(zz));
     });
 }
 
@@ -203,7 +203,7 @@ inline std::vector<Point> extract(const clouds::Cloud& cloud, double isovalue, d
     for (const std::size_t y : neighbors[x])
     {
       if ((cells[x].value < isovalue) != (cells[y].value < isovalue) &&
-        survives(cells, neighbors[x], x, y, angle))
+          survives(cells, neighbors[x], x, y, angle))
       {
         const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
         const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];

@@ -169,8 +169,8 @@ inline isopoint::Execution executionOn(std::size_t threads)
   execution.threads = threads;
   if (threads > 1)
   {
-    execution.parallelFor =
-      [threads](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+    execution.parallelFor = [threads](
+                              std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
     {
       std::atomic<std::size_t> next{ 0 };
       const auto work = [&]()

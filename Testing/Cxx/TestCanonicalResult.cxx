@@ -171,8 +171,8 @@ TEST(BruteForce, IsovaluesThatCrossNothing)
 {
   const clouds::Cloud cloud = clouds::uniform(300, 14);
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double isovalue : { 1e9, -1e9, infinity, -infinity,
-         std::numeric_limits<double>::quiet_NaN() })
+  for (const double isovalue :
+    { 1e9, -1e9, infinity, -infinity, std::numeric_limits<double>::quiet_NaN() })
   {
     EXPECT_TRUE(clouds::extract(cloud, isovalue, isopoint::defaultAngle).points.empty());
   }

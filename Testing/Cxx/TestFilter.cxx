@@ -43,7 +43,8 @@ vtkSmartPointer<TArray> newArray(const char* name, vtkIdType tuples, int compone
   return array;
 }
 
-/// Random points in a cube of side 2 around the origin; "distance" to the origin, "x" and "position".
+/// Random points in a cube of side 2 around the origin; "distance" to the origin, "x" and
+/// "position".
 vtkSmartPointer<vtkPolyData> newCloud(vtkIdType count, int pointType = VTK_FLOAT)
 {
   vtkNew<vtkPoints> points;
@@ -101,8 +102,7 @@ std::vector<double> pointsOf(vtkPolyData* output)
   std::vector<double> coordinates;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    coordinates.insert(
-      coordinates.end(), output->GetPoint(i), output->GetPoint(i) + 3);
+    coordinates.insert(coordinates.end(), output->GetPoint(i), output->GetPoint(i) + 3);
   }
   return coordinates;
 }
@@ -187,15 +187,14 @@ TEST(Filter, SeveralIsovaluesAreOrderedAndRepeatedOnesCountOnce)
   EXPECT_EQ(pointsOf(filter->GetOutput()), expected);
   for (std::size_t i = 0; i < isovalues.size(); ++i)
   {
-    ASSERT_EQ(filter->GetOutput()->GetPointData()->GetScalars()->GetComponent(
-                static_cast<vtkIdType>(i), 0),
+    ASSERT_EQ(
+      filter->GetOutput()->GetPointData()->GetScalars()->GetComponent(static_cast<vtkIdType>(i), 0),
       isovalues[i]);
   }
   filter->GenerateValues(3, 0.4, 0.8);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfContours(), 3);
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints() * 3,
-    static_cast<vtkIdType>(expected.size()));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints() * 3, static_cast<vtkIdType>(expected.size()));
 }
 
 TEST(Filter, OutputsCanBeSwitchedOff)
@@ -261,9 +260,9 @@ TEST(Filter, EveryDataSetGivesTheSameFromTheSamePoints)
     {
       coordinates->InsertNextValue(image->GetOrigin()[axis] + i * image->GetSpacing()[axis]);
     }
-    axis == 0 ? rectilinear->SetXCoordinates(coordinates)
-      : axis == 1 ? rectilinear->SetYCoordinates(coordinates)
-                  : rectilinear->SetZCoordinates(coordinates);
+    axis == 0   ? rectilinear->SetXCoordinates(coordinates)
+    : axis == 1 ? rectilinear->SetYCoordinates(coordinates)
+                : rectilinear->SetZCoordinates(coordinates);
   }
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -281,8 +280,8 @@ TEST(Filter, EveryDataSetGivesTheSameFromTheSamePoints)
   grid->SetPoints(points);
 
   std::vector<double> expected;
-  for (vtkDataSet* const input : std::initializer_list<vtkDataSet*>{
-         image, rectilinear, polyData, grid })
+  for (vtkDataSet* const input :
+    std::initializer_list<vtkDataSet*>{ image, rectilinear, polyData, grid })
   {
     SCOPED_TRACE(input->GetClassName());
     input->GetPointData()->SetScalars(scalars);
@@ -383,15 +382,13 @@ TEST(Filter, LeavesOutGhostsAndWhatIsNotFinite)
   vtkNew<vtkPoints> points;
   points->DeepCopy(cloud->GetPoints());
   cloud->SetPoints(points);
-  const auto ghosts =
-    newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 2000);
+  const auto ghosts = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 2000);
   ghosts->Fill(0);
   ghosts->SetValue(3, vtkDataSetAttributes::DUPLICATEPOINT);
   ghosts->SetValue(4, vtkDataSetAttributes::HIDDENPOINT);
   cloud->GetPointData()->AddArray(ghosts);
   points->SetPoint(5, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
-  cloud->GetPointData()->GetScalars()->SetComponent(
-    6, 0, std::numeric_limits<double>::infinity());
+  cloud->GetPointData()->GetScalars()->SetComponent(6, 0, std::numeric_limits<double>::infinity());
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(cloud);
   filter->SetValue(0, 0.7);
@@ -581,7 +578,8 @@ TEST(Filter, AKeptTreeSeesPositionsChangedInPlace)
   const auto values = newArray("values", 9 * 9 * 9);
   for (int i = 0; i < 9; ++i)
   {
-    for (vtkDoubleArray* const array : { coordinates[0].Get(), coordinates[1].Get(), coordinates[2].Get() })
+    for (vtkDoubleArray* const array :
+      { coordinates[0].Get(), coordinates[1].Get(), coordinates[2].Get() })
     {
       array->InsertNextValue(0.1 * i);
     }

@@ -33,8 +33,7 @@ void expectSameBytes(const Isosurface& expected, const Isosurface& found)
 IsosurfaceExtractor loaded(const clouds::Cloud& cloud, std::size_t threads = 1)
 {
   IsosurfaceExtractor extractor;
-  extractor.load<float, float>(
-    clouds::executionOn(threads), cloud.size(), clouds::readerOf(cloud));
+  extractor.load<float, float>(clouds::executionOn(threads), cloud.size(), clouds::readerOf(cloud));
   return extractor;
 }
 
@@ -53,8 +52,7 @@ TEST(SameResult, ForAnyNumberOfThreads)
     for (const std::size_t threads : { 2, 4, 7 })
     {
       SCOPED_TRACE(threads);
-      expectSameBytes(
-        expected, clouds::extract(cloud, 0.2, isopoint::defaultAngle, threads));
+      expectSameBytes(expected, clouds::extract(cloud, 0.2, isopoint::defaultAngle, threads));
     }
   }
 }
@@ -99,16 +97,16 @@ TEST(SameResult, OtherPositionsAreNotTakenForTheSame)
   const isopoint::Execution execution;
   IsosurfaceExtractor kept = loaded(cloud);
   cloud.positions[1500] += 0.25;
-  EXPECT_FALSE((kept.replaceValues<float, float>(
-    execution, cloud.size(), clouds::readerOf(cloud))));
+  EXPECT_FALSE(
+    (kept.replaceValues<float, float>(execution, cloud.size(), clouds::readerOf(cloud))));
   cloud.positions[1500] -= 0.25;
-  EXPECT_FALSE((kept.replaceValues<double, float>(
-    execution, cloud.size(), clouds::readerOf(cloud))));
-  EXPECT_FALSE((kept.replaceValues<float, float>(
-    execution, cloud.size() - 1, clouds::readerOf(cloud))));
+  EXPECT_FALSE(
+    (kept.replaceValues<double, float>(execution, cloud.size(), clouds::readerOf(cloud))));
+  EXPECT_FALSE(
+    (kept.replaceValues<float, float>(execution, cloud.size() - 1, clouds::readerOf(cloud))));
   cloud.values[7] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE((kept.replaceValues<float, float>(
-    execution, cloud.size(), clouds::readerOf(cloud))));
+  EXPECT_FALSE(
+    (kept.replaceValues<float, float>(execution, cloud.size(), clouds::readerOf(cloud))));
 }
 
 TEST(SameResult, WithSamplesLeftOut)
@@ -127,8 +125,8 @@ TEST(SameResult, WithSamplesLeftOut)
     }
     else
     {
-      remaining.add(cloud.positions[3 * i], cloud.positions[3 * i + 1],
-        cloud.positions[3 * i + 2], cloud.values[i]);
+      remaining.add(cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2],
+        cloud.values[i]);
       ids.push_back(i);
     }
   }
@@ -149,8 +147,8 @@ TEST(SameResult, ForVeryDeepTrees)
 {
   const clouds::Cloud cloud = clouds::nestedHeaps(std::size_t{ 1 } << 21);
   const isopoint::Execution execution = clouds::executionOn(2);
-  auto tree = isopoint::loadSamples<isopoint::WideSample>(
-    execution, cloud.size(), clouds::readerOf(cloud));
+  auto tree =
+    isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
   int deepest = 0;
   for (const isopoint::NodeIndex index :
     isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine())

@@ -43,8 +43,8 @@ struct Sphere
         this->positions.push_back(
           { offset + scale * n[0], offset + scale * n[1], offset + scale * n[2] });
         const double askew = 1.2 * (random() - 0.5);
-        this->edges.push_back({ scale * 0.1 * (n[0] + askew), scale * 0.1 * n[1],
-          scale * 0.1 * (n[2] - askew) });
+        this->edges.push_back(
+          { scale * 0.1 * (n[0] + askew), scale * 0.1 * n[1], scale * 0.1 * (n[2] - askew) });
       }
     }
   }

@@ -46,8 +46,7 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
   for (int axis = 0; axis < 3; ++axis)
   {
     std::vector<FloatSample> expected = samples;
-    const Halves byDefinition =
-      isopoint::halveByDefinition(expected.data(), expected.size(), axis);
+    const Halves byDefinition = isopoint::halveByDefinition(expected.data(), expected.size(), axis);
     const auto check = [&](std::vector<FloatSample>& found, const Halves& halves)
     {
       ASSERT_EQ(byDefinition.lowerCount, halves.lowerCount);
@@ -55,8 +54,8 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
       const auto lower = static_cast<std::ptrdiff_t>(halves.lowerCount);
       const FloatSample* const begin = found.data();
       const FloatSample* const end = begin + found.size();
-      EXPECT_EQ(sortedIds(expected.data(), expected.data() + lower),
-        sortedIds(begin, begin + lower));
+      EXPECT_EQ(
+        sortedIds(expected.data(), expected.data() + lower), sortedIds(begin, begin + lower));
       EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
         sortedIds(begin + lower, end));
     };
@@ -65,8 +64,7 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
     check(alone, isopoint::halve(alone.data(), alone.size(), axis, scratch));
     std::vector<FloatSample> together = samples;
     check(together,
-      isopoint::halveTogether(
-        clouds::executionOn(3), together.data(), together.size(), axis));
+      isopoint::halveTogether(clouds::executionOn(3), together.data(), together.size(), axis));
   }
 }
 
@@ -80,18 +78,18 @@ TEST(Splitting, AnyOrder)
     const double n = static_cast<double>(count);
     clouds::Random random(count);
     expectHalvedByDefinition(samplesOf(count, [&](std::size_t, int) { return random(); }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t i, int axis) { return axis == 0 ? double(i) : n - double(i); }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t i, int) { return double(std::min(i, count - i)); }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t i, int axis) { return axis == 1 ? double(i) : 1.0; }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t, int) { return std::floor(3.0 * random()); }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t i, int) { return i % 10 == 0 ? random() : 0.5; }));
-    expectHalvedByDefinition(samplesOf(count,
-      [&](std::size_t, int) { return std::pow(10.0, 60.0 * random() - 30.0); }));
+    expectHalvedByDefinition(samplesOf(
+      count, [&](std::size_t i, int axis) { return axis == 0 ? double(i) : n - double(i); }));
+    expectHalvedByDefinition(
+      samplesOf(count, [&](std::size_t i, int) { return double(std::min(i, count - i)); }));
+    expectHalvedByDefinition(
+      samplesOf(count, [&](std::size_t i, int axis) { return axis == 1 ? double(i) : 1.0; }));
+    expectHalvedByDefinition(
+      samplesOf(count, [&](std::size_t, int) { return std::floor(3.0 * random()); }));
+    expectHalvedByDefinition(
+      samplesOf(count, [&](std::size_t i, int) { return i % 10 == 0 ? random() : 0.5; }));
+    expectHalvedByDefinition(
+      samplesOf(count, [&](std::size_t, int) { return std::pow(10.0, 60.0 * random() - 30.0); }));
   }
 }
 

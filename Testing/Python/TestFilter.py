@@ -22,13 +22,17 @@ def cloud(count, seed=1):
     return data
 
 
+def contoured():
+    isopoints = vtkScatteredIsopointFilter()
+    isopoints.SetInputData(cloud(30000))
+    isopoints.SetValue(0, 0.7)
+    isopoints.Update()
+    return isopoints.GetOutput()
+
+
 class FilterTest(unittest.TestCase):
     def test_four_lines(self):
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(cloud(30000))
-        isopoints.SetValue(0, 0.7)
-        isopoints.Update()
-        output = isopoints.GetOutput()
+        output = contoured()
         positions = vtk_to_numpy(output.GetPoints().GetData())
         radii = np.linalg.norm(positions, axis=1)
         self.assertGreater(len(positions), 1000)
@@ -38,11 +42,7 @@ class FilterTest(unittest.TestCase):
         self.assertGreater(outwards.min(), 0.95)
 
     def test_the_splats_leave_no_hole(self):
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(cloud(30000))
-        isopoints.SetValue(0, 0.7)
-        isopoints.Update()
-        output = isopoints.GetOutput()
+        output = contoured()
         positions = vtk_to_numpy(output.GetPoints().GetData())
         reach = vtk_to_numpy(output.GetPointData().GetArray("Radius"))
         directions = np.random.default_rng(2).normal(size=(3000, 3))
