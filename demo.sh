@@ -13,5 +13,5 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$source_dir/Utilities/prepare.sh" release
 # By the environment: pvbatch would take arguments that begin with a minus for its own.
 export ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
-exec xvfb-run --auto-servernum pvbatch "$source_dir/Utilities/demo.py" \
+exec "$source_dir/Utilities/offscreen.sh" pvbatch "$source_dir/Utilities/demo.py" \
   "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"

@@ -2,12 +2,12 @@
 #include "vtkScatteredIsopointFilter.h"
 
 #include "Isopoint/AngleCriterion.h"
-#include "Isopoint/Interpolation.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Isopoint/SplatGeometry.h"
 #include "vtkIsopointArrays.h"
 #include "vtkIsopointExecution.h"
 #include "vtkIsopointInput.h"
+#include "vtkIsopointPlacement.h"
 
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
@@ -38,7 +38,6 @@ namespace
 {
 
 using isopoint::Execution;
-using isopoint::Vector;
 
 /// What the tree was built from: modification times are unique among all objects, so equal ones
 /// mean the same data set and arrays, unchanged.
@@ -113,56 +112,6 @@ vtkSmartPointer<vtkFloatArray> newFloats(const char* name, int components, vtkId
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   return array;
-}
-
-/// The isopoints of one isovalue in space.
-struct PlacedIsopoints
-{
-  std::vector<Vector> positions;
-  std::vector<Vector> fallingEdges; // along the edge to its end below the isovalue
-};
-
-/// The value of a sample, the mean where several count as one.
-double sampleValue(const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
-{
-  const isopoint::MergedSamples* const group = surface.mergedAt(sample);
-  const auto valueAt = [scalars](std::uint64_t id)
-  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
-  return group ? isopoint::meanOf(
-                   group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
-               : valueAt(sample);
-}
-
-PlacedIsopoints placeIsopoints(const Execution& execution, vtkDataSet* input, vtkDataArray* scalars,
-  const vtkContouredIsosurface& contoured)
-{
-  const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
-  const vtkIsopointPositions samplePositions(input);
-  PlacedIsopoints placed;
-  placed.positions.resize(points.size());
-  placed.fallingEdges.resize(points.size());
-  constexpr std::size_t grain = 4096;
-  isopoint::forRanges(execution, points.size(), grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        double first[3];
-        double second[3];
-        samplePositions.Get(static_cast<vtkIdType>(points[i].first), first);
-        samplePositions.Get(static_cast<vtkIdType>(points[i].second), second);
-        const bool falls =
-          !(sampleValue(contoured.Surface, scalars, points[i].first) < contoured.Isovalue);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          placed.positions[i][axis] =
-            isopoint::interpolate(first[axis], second[axis], points[i].parameter);
-          const double edge = second[axis] - first[axis];
-          placed.fallingEdges[i][axis] = falls ? edge : -edge;
-        }
-      }
-    });
-  return placed;
 }
 
 /// The names of a data set's point arrays, for an error message.
@@ -431,7 +380,7 @@ void vtkScatteredIsopointFilter::Extract(
     const auto before = static_cast<std::size_t>(point);
     const Execution step = vtkMakeIsopointStep(
       execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
-    const PlacedIsopoints placed = placeIsopoints(execution, input, scalars, surface);
+    const vtkPlacedIsopoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
     std::vector<isopoint::Splat> splats;
     if (this->ComputeNormals || this->ComputeRadii)
     {

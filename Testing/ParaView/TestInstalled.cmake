@@ -10,5 +10,5 @@ file(REMOVE_RECURSE "${PREFIX}")
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
   "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestFilter.py")
-run("${XVFB_RUN}" --auto-servernum "${PVPYTHON}" "${SOURCE_DIR}/Testing/ParaView/TestPipeline.py"
+run("${OFFSCREEN}" "${PVPYTHON}" "${SOURCE_DIR}/Testing/ParaView/TestPipeline.py"
   "${PREFIX}/${LIB_DIR}/ScatteredIsopoints/ScatteredIsopoints.so")

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointPlacement.h"
+
+#include "Isopoint/Execution.h"
+#include "Isopoint/Interpolation.h"
+#include "vtkIsopointInput.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+
+namespace
+{
+
+/// The value of a sample, the mean where several count as one.
+double sampleValue(const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
+{
+  const isopoint::MergedSamples* const group = surface.mergedAt(sample);
+  const auto valueAt = [scalars](std::uint64_t id)
+  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
+  return group ? isopoint::meanOf(
+                   group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
+               : valueAt(sample);
+}
+
+} // namespace
+
+vtkPlacedIsopoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDataSet* input,
+  vtkDataArray* scalars, const vtkContouredIsosurface& contoured)
+{
+  const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
+  const vtkIsopointPositions samplePositions(input);
+  vtkPlacedIsopoints placed;
+  placed.positions.resize(points.size());
+  placed.fallingEdges.resize(points.size());
+  constexpr std::size_t grain = 4096;
+  isopoint::forRanges(execution, points.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        double first[3];
+        double second[3];
+        samplePositions.Get(static_cast<vtkIdType>(points[i].first), first);
+        samplePositions.Get(static_cast<vtkIdType>(points[i].second), second);
+        const bool falls =
+          !(sampleValue(contoured.Surface, scalars, points[i].first) < contoured.Isovalue);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          placed.positions[i][axis] =
+            isopoint::interpolate(first[axis], second[axis], points[i].parameter);
+          const double edge = second[axis] - first[axis];
+          placed.fallingEdges[i][axis] = falls ? edge : -edge;
+        }
+      }
+    });
+  return placed;
+}
