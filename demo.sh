@@ -5,7 +5,7 @@
 # isopoints.vtp and isosurface.png to the current folder.
 set -euo pipefail
 
-if (($# != 0 && $# != 3)) || [[ ${1-} == -* ]]; then
+if (($# != 0 && $# != 3)) || [[ ${1-samples} == '' || ${1-} == -* ]]; then
   echo "usage: $0 [FILE ARRAY ISOVALUE]" >&2
   exit 2
 fi

@@ -39,40 +39,34 @@ namespace
 
 using isopoint::Execution;
 
-/// What the tree was built from: modification times are unique among all objects, so equal ones
-/// mean the same data set and arrays, unchanged.
+/// What the tree was built from: the modification times of the objects that positions, scalars and
+/// ghosts belong to. Each is unique among all objects, so equal ones mean the same objects,
+/// unchanged; a maximum over several would not.
 struct InputState
 {
-  vtkMTimeType Geometry = 0;
-  vtkMTimeType Scalars = 0;
-  vtkMTimeType Ghosts = 0;
+  std::vector<vtkMTimeType> Times;
 
   InputState() = default;
 
   InputState(vtkDataSet* input, vtkDataArray* scalars)
-    : Geometry(input->GetMTime())
-    , Scalars(scalars->GetMTime())
+    : Times{ input->vtkObject::GetMTime(), scalars->GetMTime() }
   {
+    if (auto* const pointSet = vtkPointSet::SafeDownCast(input))
+    {
+      this->Add(pointSet->GetPoints());
+    }
     if (auto* const grid = vtkRectilinearGrid::SafeDownCast(input))
     {
-      for (vtkDataArray* const coordinates :
-        { grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates() })
-      {
-        this->Geometry = std::max(this->Geometry, coordinates->GetMTime());
-      }
+      this->Add(grid->GetXCoordinates());
+      this->Add(grid->GetYCoordinates());
+      this->Add(grid->GetZCoordinates());
     }
-    if (auto* const ghosts =
-          input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()))
-    {
-      this->Ghosts = ghosts->GetMTime();
-    }
+    this->Add(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
   }
 
-  bool operator==(const InputState& other) const
-  {
-    return this->Geometry == other.Geometry && this->Scalars == other.Scalars &&
-           this->Ghosts == other.Ghosts;
-  }
+  void Add(vtkObject* object) { this->Times.push_back(object ? object->GetMTime() : 0); }
+
+  bool operator==(const InputState& other) const { return this->Times == other.Times; }
 };
 
 vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtkIdType count)

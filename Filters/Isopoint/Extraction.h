@@ -10,8 +10,11 @@
 #include "SortUnique.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
+#include <new>
 #include <vector>
 
 namespace isopoint
@@ -35,10 +38,13 @@ class EdgeFinder
 public:
   using Id = typename TSample::Id;
 
-  EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion)
+  /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
+  EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
+    std::atomic<std::int64_t>& room)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)
+    , Room(room)
   {
   }
 
@@ -81,7 +87,11 @@ public:
   std::vector<MergedSamples>& merged() { return this->Merged; }
 
   /// The neighbourhoods searched for, as NeighborhoodCache::add() takes them.
-  std::vector<Id>& records() { return this->Records; }
+  std::vector<Id>& records()
+  {
+    this->Records.resize(this->KeptRecords);
+    return this->Records;
+  }
 
 private:
   struct Crossing
@@ -92,7 +102,8 @@ private:
 
   void searchNeighbors(const Path& leaf)
   {
-    const std::size_t begin = this->Records.size();
+    const std::size_t begin = this->KeptRecords;
+    this->Records.resize(begin);
     this->Records.push_back(static_cast<Id>(leaf.slot()));
     this->Records.push_back(0);
     visitTouching(this->Tree, leaf, maximumDepth,
@@ -104,6 +115,11 @@ private:
     const std::size_t count = this->Records.size() - begin - 2;
     this->Records[begin + 1] = static_cast<Id>(count);
     this->Neighbors = { this->Records.data() + begin + 2, count };
+    if (this->Room.fetch_sub(static_cast<std::int64_t>(count + 2)) >
+        static_cast<std::int64_t>(count + 2))
+    {
+      this->KeptRecords = this->Records.size();
+    }
   }
 
   /// Lists the neighbours on the other side.
@@ -160,8 +176,10 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
+  std::atomic<std::int64_t>& Room;
   SlotList<Id> Neighbors;
-  std::vector<Id> Records;
+  std::vector<Id> Records; // the last one only for the leaf at hand, where there is no room left
+  std::size_t KeptRecords = 0;
   std::vector<Offset> Offsets;
   std::vector<Crossing> Crossings;
   std::vector<Isopoint> Points;
@@ -185,12 +203,14 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   const AngleCriterion criterion(angle);
   std::vector<Isopoint> points;
   std::vector<std::vector<typename TSample::Id>> records;
+  std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
+    tree.neighborhoods.room(tree.samples.size())) };
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forRanges(execution, crossing.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(tree, isovalue, criterion);
+      EdgeFinder<TSample> finder(tree, isovalue, criterion, room);
       for (std::size_t i = begin; i < end; ++i)
       {
         Path path = pathTo(tree, crossing[i]);
@@ -205,9 +225,16 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
       }
     });
   throwIfAborted(execution);
-  for (const std::vector<typename TSample::Id>& found : records)
+  try
   {
-    tree.neighborhoods.add(found, tree.nodes.size(), tree.samples.size());
+    for (const std::vector<typename TSample::Id>& found : records)
+    {
+      tree.neighborhoods.add(found, tree.nodes.size());
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    // What is not remembered is searched for again.
   }
 
   result.points =

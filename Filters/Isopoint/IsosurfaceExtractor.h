@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -51,7 +50,7 @@ public:
   /// Takes over new values, where positions, types and the items that take part are those of the
   /// last load(): the tree is kept. Otherwise nothing changes.
   /// @returns whether it did
-  /// @throws Aborted, the former values kept
+  /// @throws Aborted, the former values kept; std::bad_alloc, and then holds no samples
   template <class TCoordinate, class TValue, class Reader>
   bool replaceValues(const Execution& execution, std::size_t count, const Reader& read)
   {
@@ -77,10 +76,7 @@ public:
   Isosurface extract(const Execution& execution, double isovalue, double angle);
 
 private:
-  static bool isNarrow(std::size_t count)
-  {
-    return count < std::numeric_limits<std::uint32_t>::max();
-  }
+  static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 
   template <class TSample, class Reader>
   bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
@@ -91,7 +87,15 @@ private:
     {
       return false;
     }
-    isopoint::replaceValues(execution, *tree, read);
+    try
+    {
+      isopoint::replaceValues(execution, *tree, read);
+    }
+    catch (...)
+    {
+      this->clear(); // values and ranges may disagree
+      throw;
+    }
     return true;
   }
 

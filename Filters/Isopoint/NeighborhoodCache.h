@@ -25,8 +25,7 @@ struct SlotList
 
 /// Remembers the neighbourhoods of leaves near surfaces extracted before. They do not depend on
 /// isovalues, angles or values, and finding them is most of the work of an extraction from a tree
-/// that is refined already. Takes one number for each neighbour and each node, and holds no more
-/// numbers than a given limit; what does not fit is not remembered.
+/// that is refined already. Takes one number for each neighbour and one for each node.
 template <class TId>
 class NeighborhoodCache
 {
@@ -42,18 +41,23 @@ public:
     return { list + 1, static_cast<std::size_t>(list[0]) };
   }
 
-  /// Takes over neighbourhoods, one after the other as slot, count, neighbours.
-  /// @param slotCount above every slot
-  /// @param limit numbers held at most
-  void add(const std::vector<TId>& records, std::size_t slotCount, std::size_t limit)
+  /// How many more numbers of neighbourhoods there is room for within a limit.
+  std::size_t room(std::size_t limit) const
   {
     const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
-    if (slotCount > std::numeric_limits<TId>::max() ||
-        this->Lists.size() + records.size() > largest)
-    {
-      return;
-    }
+    return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
+  }
+
+  /// Takes over neighbourhoods, one after the other as slot, count, neighbours.
+  /// @param slotCount above every slot
+  /// @throws std::bad_alloc, the cache as before
+  void add(const std::vector<TId>& records, std::size_t slotCount)
+  {
     this->Offsets.resize(std::max(this->Offsets.size(), slotCount), 0);
+    if (this->Lists.capacity() < this->Lists.size() + records.size())
+    {
+      this->Lists.reserve(std::max(2 * this->Lists.size(), this->Lists.size() + records.size()));
+    }
     for (std::size_t i = 0; i < records.size(); i += 2 + static_cast<std::size_t>(records[i + 1]))
     {
       const auto record = records.begin() + static_cast<std::ptrdiff_t>(i);

@@ -23,8 +23,9 @@ struct Sample
   TValue value;
 };
 
-/// The layouts in use. The 32-bit ones serve clouds of fewer than 2^32 - 1 samples; any cloud
-/// fits the wide one, since float converts to double exactly.
+/// The layouts in use. The 32-bit ones serve clouds of fewer than 2^30 samples: ids also number the
+/// tree's slots, two for each sample, and some that are set aside stay empty. Any cloud fits the
+/// wide one, since float converts to double exactly.
 using FloatSample = Sample<float, float, std::uint32_t>;
 using FloatSampleOfDouble = Sample<float, double, std::uint32_t>;
 using DoubleSampleOfFloat = Sample<double, float, std::uint32_t>;

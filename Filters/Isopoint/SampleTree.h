@@ -12,7 +12,8 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <limits>
+#include <stdexcept>
 
 namespace isopoint
 {
@@ -74,12 +75,17 @@ inline std::size_t siblingOf(std::size_t slot)
 }
 
 /// Makes room for that many more pairs of children. @returns the first one's number
-/// @throws std::bad_alloc, the tree unchanged
+/// @throws std::bad_alloc, or std::length_error if an id cannot number the slots; the tree
+/// unchanged
 template <class TSample>
 std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
 {
   const std::size_t first = tree.usedPairs;
   const std::size_t slots = 2 * (first + pairCount);
+  if (slots > std::numeric_limits<typename TSample::Id>::max())
+  {
+    throw std::length_error("the tree has more nodes than its ids can number");
+  }
   if (slots > tree.nodes.size())
   {
     tree.nodes.resize(slots);

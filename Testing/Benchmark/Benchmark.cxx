@@ -45,22 +45,37 @@ Options parse(int argumentCount, char** arguments)
     std::cerr << usage;
     std::exit(2);
   };
+  const auto number = [&fail](const char* text)
+  {
+    char* end = nullptr;
+    const double value = std::strtod(text, &end);
+    if (end == text || *end != '\0')
+    {
+      fail();
+    }
+    return value;
+  };
   for (int i = 1; i < argumentCount; ++i)
   {
     const std::string argument = arguments[i];
     const int remaining = argumentCount - i - 1;
+    if (argument == "--help")
+    {
+      std::cout << usage;
+      std::exit(0);
+    }
     if (argument == "--threads" && remaining >= 1)
     {
-      options.threads = std::max(1, std::atoi(arguments[++i]));
+      options.threads = static_cast<int>(number(arguments[++i]));
     }
     else if (argument == "--largest" && remaining >= 1)
     {
-      options.largestMillions = std::atof(arguments[++i]);
+      options.largestMillions = number(arguments[++i]);
     }
     else if (argument == "--file" && remaining >= 2)
     {
       options.file = arguments[++i];
-      options.isovalue = std::atof(arguments[++i]);
+      options.isovalue = number(arguments[++i]);
     }
     else if (argument == "--paper")
     {
@@ -70,6 +85,10 @@ Options parse(int argumentCount, char** arguments)
     {
       fail();
     }
+  }
+  if (options.threads < 1)
+  {
+    fail();
   }
   return options;
 }
@@ -86,7 +105,7 @@ void compare(const Options& options)
   constexpr double million = 1e6;
   constexpr double largestWithPeers = 4.0;
   std::vector<Row> rows;
-  for (const double millions : { 0.1, 0.25, 1.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0 })
+  for (const double millions : { 0.05, 0.25, 1.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0 })
   {
     if (millions <= options.largestMillions)
     {
@@ -137,6 +156,7 @@ void repeatPaper(const Options& options)
   {
     throw std::runtime_error("cannot write paper.md");
   }
+  std::fprintf(out, "Ours on %d threads, a single run each.\n\n", options.threads);
   std::fprintf(out, "| samples, million | angle | paper: points | ours | paper: seconds | ours |"
                     " paper: largest deviation | ours |\n|---|---|---|---|---|---|---|---|\n");
   for (const PaperRow& paper : table)

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <malloc.h>
 #include <sstream>
 
 namespace
@@ -57,6 +58,7 @@ Row measure(const Row& description, const std::function<void()>& work)
 {
   Row row = description;
   std::cerr << row.cloud << ", " << row.samples << " samples: " << row.what << " ..." << std::flush;
+  malloc_trim(0); // memory that was freed must not hide what is taken now
   resetPeakMemory();
   const double before = statusBytes("VmRSS:");
   const auto start = std::chrono::steady_clock::now();

@@ -82,7 +82,9 @@ private:
       minimum = std::min(minimum, this->Samples.values[id]);
       maximum = std::max(maximum, this->Samples.values[id]);
     }
-    cell.value = std::clamp(sum / static_cast<double>(ids.size()), minimum, maximum);
+    cell.value = ids.size() == 1
+                   ? minimum
+                   : std::clamp(sum / static_cast<double>(ids.size()), minimum, maximum);
     this->cells.push_back(cell);
   }
 

@@ -600,6 +600,34 @@ TEST(Filter, AKeptTreeSeesPositionsChangedInPlace)
   expectFresh(kept, grid, 30.5);
 }
 
+// Two data sets that share an array changed last of all.
+TEST(Filter, AKeptTreeTellsDataSetsApartThatShareScalars)
+{
+  const auto first = newCloud(3000);
+  vtkNew<vtkPolyData> second;
+  vtkNew<vtkPoints> moved;
+  moved->DeepCopy(first->GetPoints());
+  for (vtkIdType i = 0; i < 3000; ++i)
+  {
+    const double* const p = first->GetPoint(i);
+    moved->SetPoint(i, p[2], 3.0 * p[0], p[1] * p[1]);
+  }
+  second->SetPoints(moved);
+  second->GetPointData()->SetScalars(first->GetPointData()->GetScalars());
+  first->GetPointData()->GetScalars()->Modified();
+  const auto pointsFrom = [](vtkScatteredIsopointFilter* filter, vtkPolyData* input)
+  {
+    filter->SetInputData(input);
+    filter->SetValue(0, 0.7);
+    filter->Update();
+    return pointsOf(filter->GetOutput());
+  };
+  vtkNew<vtkScatteredIsopointFilter> kept;
+  vtkNew<vtkScatteredIsopointFilter> fresh;
+  pointsFrom(kept, first);
+  EXPECT_EQ(pointsFrom(kept, second), pointsFrom(fresh, second));
+}
+
 TEST(Filter, ArraysOfAnotherLengthAreLeftOut)
 {
   const auto cloud = newCloud(500);
