@@ -20,7 +20,6 @@ namespace
 
 using isopoint::Isopoint;
 using isopoint::Isosurface;
-using isopoint::MergedSamples;
 
 /// A number as an array's type holds it: integers are rounded, and kept within their range, which
 /// a double may leave when 64 bits do not fit it.
@@ -46,22 +45,6 @@ T toArrayType(double value)
   }
 }
 
-/// A component at a sample, or its mean over those that count as that sample.
-template <class ComponentAt>
-double componentAtSample(
-  const Isosurface& surface, std::uint64_t sample, const ComponentAt& componentAt)
-{
-  if (!surface.merged.empty())
-  {
-    if (const MergedSamples* const group = surface.mergedAt(sample))
-    {
-      return isopoint::meanOf(
-        group->ids.size(), [&](std::size_t i) { return componentAt(group->ids[i]); });
-    }
-  }
-  return componentAt(sample);
-}
-
 /// Calls write(tuple, component, value) for the isopoints [begin, end) of a surface.
 template <class ComponentOf, class Write>
 void interpolatePoints(const Isosurface& surface, std::size_t begin, std::size_t end,
@@ -74,8 +57,8 @@ void interpolatePoints(const Isosurface& surface, std::size_t begin, std::size_t
     {
       const auto at = [&](std::uint64_t sample)
       { return componentOf(static_cast<vtkIdType>(sample), component); };
-      const double first = componentAtSample(surface, point.first, at);
-      const double second = componentAtSample(surface, point.second, at);
+      const double first = isopoint::attributeOf(surface, point.first, at);
+      const double second = isopoint::attributeOf(surface, point.second, at);
       write(i, component, isopoint::interpolate(first, second, point.parameter));
     }
   }

@@ -8,27 +8,13 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 
-namespace
-{
-
-/// The value of a sample, the mean where several count as one.
-double sampleValue(const isopoint::Isosurface& surface, vtkDataArray* scalars, std::uint64_t sample)
-{
-  const isopoint::MergedSamples* const group = surface.mergedAt(sample);
-  const auto valueAt = [scalars](std::uint64_t id)
-  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
-  return group ? isopoint::meanOf(
-                   group->ids.size(), [&](std::size_t i) { return valueAt(group->ids[i]); })
-               : valueAt(sample);
-}
-
-} // namespace
-
 vtkPlacedIsopoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDataSet* input,
   vtkDataArray* scalars, const vtkContouredIsosurface& contoured)
 {
   const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
   const vtkIsopointPositions samplePositions(input);
+  const auto valueAt = [scalars](std::uint64_t id)
+  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
   vtkPlacedIsopoints placed;
   placed.positions.resize(points.size());
   placed.fallingEdges.resize(points.size());
@@ -42,8 +28,8 @@ vtkPlacedIsopoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDa
         double second[3];
         samplePositions.Get(static_cast<vtkIdType>(points[i].first), first);
         samplePositions.Get(static_cast<vtkIdType>(points[i].second), second);
-        const bool falls =
-          !(sampleValue(contoured.Surface, scalars, points[i].first) < contoured.Isovalue);
+        const bool falls = !(
+          isopoint::attributeOf(contoured.Surface, points[i].first, valueAt) < contoured.Isovalue);
         for (int axis = 0; axis < 3; ++axis)
         {
           placed.positions[i][axis] =

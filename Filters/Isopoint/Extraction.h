@@ -178,7 +178,7 @@ private:
   const AngleCriterion& Criterion;
   std::atomic<std::int64_t>& Room;
   SlotList<Id> Neighbors;
-  std::vector<Id> Records; // the last one only for the leaf at hand, where there is no room left
+  std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
   std::size_t KeptRecords = 0;
   std::vector<Offset> Offsets;
   std::vector<Crossing> Crossings;
@@ -189,7 +189,8 @@ private:
 /// The canonical isopoints of one isovalue (DESIGN section 1), refining the tree as far as needed.
 /// @param angle in degrees, 0 up to 180
 /// @param idCount above every id
-/// @throws Aborted, std::bad_alloc; the tree can be used again afterwards
+/// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
+/// again afterwards
 template <class TSample>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, double isovalue,
   double angle, std::uint64_t idCount)

@@ -71,6 +71,18 @@ double meanOf(std::size_t count, const ValueAt& valueAt)
   return std::min(std::max(sum / static_cast<double>(count), minimum), maximum);
 }
 
+/// What a sample has of an attribute: its own, or the mean over those that count as it.
+/// @param attributeAt(id) the attribute of a sample by itself, as a double
+template <class AttributeAt>
+double attributeOf(const Isosurface& surface, std::uint64_t id, const AttributeAt& attributeAt)
+{
+  if (const MergedSamples* const group = surface.mergedAt(id))
+  {
+    return meanOf(group->ids.size(), [&](std::size_t i) { return attributeAt(group->ids[i]); });
+  }
+  return attributeAt(id);
+}
+
 } // namespace isopoint
 
 #endif

@@ -8,7 +8,6 @@
 #include "SampleTree.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 #include <variant>
 

@@ -54,7 +54,7 @@ public:
   /// touches such a leaf: every leaf with a crossing edge is among those below them
   /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
   /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
-  /// than 2^31 samples in nested heaps
+  /// than 2^31 samples in nested heaps, or has more nodes than its ids can number
   std::vector<NodeIndex> refine()
   {
     std::vector<BandNode> front;
@@ -96,26 +96,15 @@ public:
 private:
   using NodeType = Node<TSample>;
 
+  /// Nodes of the front that are searched below at a time.
+  static constexpr std::size_t searchGrain = 64;
+
   /// A treelet to be split off a node.
   struct Growth
   {
     BandNode node;
     std::size_t firstPair;
   };
-
-  void forFront(const std::vector<BandNode>& front, const std::function<void(Path&, bool)>& task)
-  {
-    constexpr std::size_t grain = 64;
-    forRanges(this->Run, front.size(), grain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          Path path = pathTo(this->Tree, front[i].index);
-          task(path, front[i].isCrossing);
-        }
-      });
-  }
 
   void splitFront(const std::vector<BandNode>& front, int levels)
   {
@@ -213,11 +202,16 @@ private:
   void mark(const std::vector<BandNode>& front, int depth)
   {
     this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
-    this->forFront(front,
-      [&](Path& path, bool mayCross)
+    forRanges(this->Run, front.size(), searchGrain,
+      [&](std::size_t begin, std::size_t end)
       {
-        if (mayCross)
+        for (std::size_t i = begin; i < end; ++i)
         {
+          if (!front[i].isCrossing)
+          {
+            continue;
+          }
+          Path path = pathTo(this->Tree, front[i].index);
           forEachBelow(this->Tree, path, depth,
             [&](const Path& below)
             {
@@ -248,8 +242,7 @@ private:
   {
     std::vector<BandNode> needed;
     std::mutex mutex;
-    constexpr std::size_t grain = 64;
-    forRanges(this->Run, front.size(), grain,
+    forRanges(this->Run, front.size(), searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<BandNode> found;

@@ -48,7 +48,6 @@ struct Node
 template <class TSample>
 struct SampleTree
 {
-  using SampleType = TSample;
   using NodeType = Node<TSample>;
 
   RawArray<TSample> samples;

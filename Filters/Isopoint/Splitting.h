@@ -23,8 +23,8 @@ struct Halves
   double plane;
 };
 
-/// Halves by the definition, with the standard library's selection: for small nodes, and wherever
-/// a position stands on both sides of the middle. Linear time on average, O(n log n) at worst.
+/// Halves by the definition, with the standard library's selection, for nodes where a position
+/// stands on both sides of the middle. Linear time on average, O(n log n) at worst.
 template <class TSample>
 Halves halveByDefinition(TSample* samples, std::size_t count, int axis)
 {
