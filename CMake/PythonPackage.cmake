@@ -28,5 +28,5 @@ install(FILES "${package_source}"
 # From the package's folder to the modules' libraries, wherever the tree is moved to.
 file(RELATIVE_PATH libraries_from_package
   "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(vtkScatteredIsopointFiltersPython PROPERTIES
+set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython PROPERTIES
   INSTALL_RPATH "$ORIGIN/${libraries_from_package}")

@@ -2,3 +2,4 @@
 """Isosurfaces straight from scattered samples, as VTK classes."""
 
 from .vtkScatteredIsopointFilters import *  # noqa: F401,F403
+from .vtkScatteredIsopointRendering import *  # noqa: F401,F403

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatBuffers.h"
+
+#include "vtkIsopointSplatOpenGL.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkMath.h"
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkShaderProgram.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace
+{
+
+struct Disk
+{
+  float Position[3];
+  float Normal[3];
+  float Radius;
+};
+
+bool isFinite(const double* vector)
+{
+  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
+std::array<double, 3> centerOf(vtkPoints* points)
+{
+  double bounds[6];
+  points->GetBounds(bounds);
+  std::array<double, 3> center;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double middle = 0.5 * bounds[2 * axis] + 0.5 * bounds[2 * axis + 1];
+    center[axis] = std::isfinite(middle) ? middle : 0.0;
+  }
+  return center;
+}
+
+/// Three components as floats; zeros where they are not finite.
+void copyVector(vtkDataArray* array, vtkIdType index, float* vector)
+{
+  double values[3];
+  array->GetTuple(index, values);
+  const bool isUsable = isFinite(values);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vector[axis] = isUsable ? static_cast<float>(values[axis]) : 0.0f;
+  }
+}
+
+template <class TElement>
+void upload(vtkOpenGLBufferObject* buffer, const std::vector<TElement>& elements)
+{
+  buffer->Upload(elements, vtkOpenGLBufferObject::ArrayBuffer);
+}
+
+} // namespace
+
+struct vtkIsopointSplatBuffers::Program
+{
+  vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
+};
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatBuffers::vtkIsopointSplatBuffers() = default;
+vtkIsopointSplatBuffers::~vtkIsopointSplatBuffers() = default;
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shape)
+{
+  vtkPoints* const points = polyData->GetPoints();
+  vtkUnsignedCharArray* const ghosts = polyData->GetPointData()->GetGhostArray();
+  constexpr int skipped = vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+  this->NumberOfSplats = points->GetNumberOfPoints();
+  this->Center = centerOf(points);
+  this->Normals = shape.Normals != nullptr;
+  this->Ellipses = shape.Axis1 != nullptr && shape.Axis2 != nullptr;
+
+  std::vector<Disk> disks(static_cast<std::size_t>(this->NumberOfSplats));
+  std::vector<float> axes(this->Ellipses ? 6 * disks.size() : 0);
+  vtkSMPTools::For(0, this->NumberOfSplats,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        double position[3];
+        points->GetPoint(i, position);
+        Disk& disk = disks[i];
+        double radius = shape.Radius;
+        if (shape.Radii)
+        {
+          shape.Radii->GetTuple(i, &radius);
+        }
+        const bool isDrawn = isFinite(position) && radius > 0.0 && std::isfinite(radius) &&
+                             !(ghosts && (ghosts->GetValue(i) & skipped));
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          disk.Position[axis] =
+            isDrawn ? static_cast<float>(position[axis] - this->Center[axis]) : 0.0f;
+          disk.Normal[axis] = 0.0f;
+        }
+        disk.Radius = isDrawn ? static_cast<float>(radius) : 0.0f;
+        if (shape.Normals)
+        {
+          copyVector(shape.Normals, i, disk.Normal);
+        }
+        if (this->Ellipses)
+        {
+          copyVector(shape.Axis1, i, &axes[6 * i]);
+          copyVector(shape.Axis2, i, &axes[6 * i + 3]);
+        }
+      }
+    });
+  upload(this->Disks, disks);
+  if (this->Ellipses)
+  {
+    upload(this->Axes, axes);
+  }
+  this->SubsetStride = 0;
+  this->ForgetPrograms();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::SetColors(vtkUnsignedCharArray* colors)
+{
+  this->ColorComponents = colors ? 4 : 0;
+  if (colors)
+  {
+    this->Colors->Upload(colors->GetPointer(0),
+      4 * static_cast<std::size_t>(colors->GetNumberOfTuples()),
+      vtkOpenGLBufferObject::ArrayBuffer);
+  }
+  this->ForgetPrograms();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::SetColorCoordinates(vtkDataArray* coordinates)
+{
+  std::vector<float> values(2 * static_cast<std::size_t>(coordinates->GetNumberOfTuples()));
+  vtkSMPTools::For(0, coordinates->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        double tuple[2];
+        coordinates->GetTuple(i, tuple);
+        // Beyond the map's ends there is nothing but its border.
+        values[2 * i] = static_cast<float>(vtkMath::ClampValue(tuple[0], 0.0, 1.0));
+        values[2 * i + 1] = static_cast<float>(vtkMath::ClampValue(tuple[1], 0.0, 1.0));
+      }
+    });
+  upload(this->Colors, values);
+  this->ColorComponents = 2;
+  this->ForgetPrograms();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::Draw(vtkShaderProgram* program, int stride)
+{
+  if (this->NumberOfSplats == 0)
+  {
+    return;
+  }
+  this->Bind(program);
+  if (stride > 1)
+  {
+    this->BindSubset(stride);
+    glDrawElements(GL_POINTS, static_cast<GLsizei>(this->SubsetSize), GL_UNSIGNED_INT, nullptr);
+    this->Subset->Release();
+  }
+  else
+  {
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(this->NumberOfSplats));
+  }
+  glBindVertexArray(0);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
+{
+  std::unique_ptr<Program>& entry = this->Programs[program->GetHandle()];
+  if (entry)
+  {
+    entry->VertexArray->Bind();
+    return;
+  }
+  entry = std::make_unique<Program>();
+  vtkOpenGLVertexArrayObject* const vertexArray = entry->VertexArray;
+  vertexArray->Bind();
+  const auto add = [&](vtkOpenGLBufferObject* buffer, const char* name, std::size_t offset,
+                     std::size_t stride, int type, int components)
+  {
+    if (program->IsAttributeUsed(name))
+    {
+      vertexArray->AddAttributeArray(program, buffer, name, static_cast<int>(offset), stride, type,
+        components, type == VTK_UNSIGNED_CHAR);
+    }
+  };
+  add(this->Disks, "centerMC", offsetof(Disk, Position), sizeof(Disk), VTK_FLOAT, 3);
+  add(this->Disks, "normalMC", offsetof(Disk, Normal), sizeof(Disk), VTK_FLOAT, 3);
+  add(this->Disks, "radius", offsetof(Disk, Radius), sizeof(Disk), VTK_FLOAT, 1);
+  if (this->Ellipses)
+  {
+    constexpr std::size_t vectorSize = 3 * sizeof(float);
+    add(this->Axes, "axis1MC", 0, 2 * vectorSize, VTK_FLOAT, 3);
+    add(this->Axes, "axis2MC", vectorSize, 2 * vectorSize, VTK_FLOAT, 3);
+  }
+  if (this->ColorComponents == 4)
+  {
+    add(this->Colors, "color", 0, 4, VTK_UNSIGNED_CHAR, 4);
+  }
+  else if (this->ColorComponents == 2)
+  {
+    add(this->Colors, "color", 0, 2 * sizeof(float), VTK_FLOAT, 2);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::BindSubset(int stride)
+{
+  if (this->SubsetStride != stride)
+  {
+    // Multiples of the golden ratio modulo 1 are spread evenly, whichever part of the points is
+    // looked at: neighbours in the file are neighbours in space.
+    constexpr std::uint32_t goldenRatio = 2654435769u;
+    const std::uint32_t limit = std::numeric_limits<std::uint32_t>::max() / stride;
+    std::vector<std::uint32_t> indices;
+    indices.reserve(static_cast<std::size_t>(this->NumberOfSplats / stride + 16));
+    for (vtkIdType i = 0; i < this->NumberOfSplats; ++i)
+    {
+      if (static_cast<std::uint32_t>(i) * goldenRatio <= limit)
+      {
+        indices.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    this->Subset->Upload(indices, vtkOpenGLBufferObject::ElementArrayBuffer);
+    this->SubsetSize = static_cast<vtkIdType>(indices.size());
+    this->SubsetStride = stride;
+  }
+  this->Subset->Bind();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::ForgetPrograms()
+{
+  this->Programs.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::ReleaseGraphicsResources()
+{
+  for (auto& entry : this->Programs)
+  {
+    entry.second->VertexArray->ReleaseGraphicsResources();
+  }
+  this->ForgetPrograms();
+  this->Disks->ReleaseGraphicsResources();
+  this->Axes->ReleaseGraphicsResources();
+  this->Colors->ReleaseGraphicsResources();
+  this->Subset->ReleaseGraphicsResources();
+  this->SubsetStride = 0;
+}

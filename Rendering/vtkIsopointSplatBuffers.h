@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSplatBuffers_h
+#define vtkIsopointSplatBuffers_h
+
+#include "vtkNew.h"
+#include "vtkType.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+class vtkDataArray;
+class vtkOpenGLBufferObject;
+class vtkOpenGLVertexArrayObject;
+class vtkPolyData;
+class vtkShaderProgram;
+class vtkUnsignedCharArray;
+
+/**
+ * The splats of one vtkPolyData in buffers of the graphics card, ready for every pass.
+ *
+ * Positions are kept relative to a centre, which the caller's matrices add in double precision, so
+ * that points around 1e9 do not tremble.
+ */
+class vtkIsopointSplatBuffers
+{
+public:
+  vtkIsopointSplatBuffers();
+  ~vtkIsopointSplatBuffers();
+  vtkIsopointSplatBuffers(const vtkIsopointSplatBuffers&) = delete;
+  vtkIsopointSplatBuffers& operator=(const vtkIsopointSplatBuffers&) = delete;
+
+  /// Arrays that shape the splats, one tuple a point; null where there is none.
+  struct Shape
+  {
+    vtkDataArray* Normals = nullptr; // of 3 components
+    vtkDataArray* Radii = nullptr;   // of 1 component
+    vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
+    vtkDataArray* Axis2 = nullptr;
+    double Radius = 1.0; // of all splats where Radii is null
+  };
+
+  /// Takes the points of a polydata of at most 2^31 - 1 points. Splats of a radius that is not
+  /// positive, of a position that is not finite, and hidden or duplicated ghost points are not
+  /// drawn.
+  void SetSplats(vtkPolyData* polyData, const Shape& shape);
+
+  /// One color of 4 components a point; null for none.
+  void SetColors(vtkUnsignedCharArray* colors);
+
+  /// Coordinates of 2 components in a color map, one a point.
+  void SetColorCoordinates(vtkDataArray* coordinates);
+
+  /// Draws about every stride-th splat with a program that is in use.
+  void Draw(vtkShaderProgram* program, int stride);
+
+  void ReleaseGraphicsResources();
+
+  /// The point that positions are relative to.
+  const std::array<double, 3>& GetCenter() const { return this->Center; }
+  vtkIdType GetNumberOfSplats() const { return this->NumberOfSplats; }
+  bool HasNormals() const { return this->Normals; }
+  bool HasEllipses() const { return this->Ellipses; }
+  bool HasColors() const { return this->ColorComponents > 0; }
+
+private:
+  struct Program;
+
+  void Bind(vtkShaderProgram* program);
+  void BindSubset(int stride);
+  void ForgetPrograms();
+
+  vtkNew<vtkOpenGLBufferObject> Disks; // position, normal, radius
+  vtkNew<vtkOpenGLBufferObject> Axes;
+  vtkNew<vtkOpenGLBufferObject> Colors;
+  vtkNew<vtkOpenGLBufferObject> Subset; // indices of a random part of the splats
+  std::map<unsigned int, std::unique_ptr<Program>> Programs; // by the program's handle
+  std::array<double, 3> Center = { 0.0, 0.0, 0.0 };
+  vtkIdType NumberOfSplats = 0;
+  vtkIdType SubsetSize = 0;
+  int SubsetStride = 0;
+  int ColorComponents = 0; // 4: colors, 2: coordinates in a color map
+  bool Normals = false;
+  bool Ellipses = false;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkIsopointSplatBuffers.h

@@ -1,0 +1,94 @@
+//VTK::System::Dec
+
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A triangle around a splat in its own plane: the rasteriser then gives every fragment its
+// exact place within the ellipse and on the plane, in perspective too. All passes give the same
+// place on the screen and differ in depth only, so that they meet the same fragments.
+//VTK::Define::Dec
+
+layout(points) in;
+layout(triangle_strip, max_vertices = 3) out;
+
+in vec3 centerVS[];
+in vec3 axis1VS[];
+in vec3 axis2VS[];
+in vec3 normalVS[];
+in vec4 colorVS[];
+in float radiusVS[];
+flat in uint pointIdVS[];
+flat in float baseWeightVS[];
+
+uniform mat4 VCDCMatrix;
+uniform int cameraParallel;
+uniform float blendDepth; // in radii
+uniform int clippingPlaneCount;
+uniform vec4 clippingPlanes[6]; // in view coordinates
+
+out vec2 placeGS; // within the unit circle where the splat is
+#ifdef SPLAT_BLEND
+out float depthGS; // z in view coordinates
+flat out vec3 normalGS;
+flat out vec4 colorGS;
+flat out float baseWeightGS;
+#endif
+#ifdef SPLAT_IDS
+flat out uint pointIdGS;
+#endif
+#ifdef SPLAT_CLIPPED
+out float gl_ClipDistance[6];
+#endif
+#ifdef SPLAT_DEEPER_LAYER
+noperspective out float nearerDepthGS; // depth of the fragment, drawn nearer by the blend depth
+#endif
+
+// Window depth of a point moved along its view ray by a distance, away from the camera.
+float movedDepth(vec3 point, float distance)
+{
+  vec3 ray = cameraParallel == 1 ? vec3(0.0, 0.0, -1.0) : normalize(point);
+  vec4 moved = VCDCMatrix * vec4(point + distance * ray, 1.0);
+  return moved.w > 0.0 ? min(moved.z / moved.w, 1.0) : -1.0;
+}
+
+void emitCorner(vec2 place)
+{
+  vec3 corner = centerVS[0] + place.x * axis1VS[0] + place.y * axis2VS[0];
+  gl_Position = VCDCMatrix * vec4(corner, 1.0);
+  placeGS = place;
+#ifdef SPLAT_BLEND
+  depthGS = corner.z;
+  normalGS = normalVS[0];
+  colorGS = colorVS[0];
+  baseWeightGS = baseWeightVS[0];
+#endif
+#ifdef SPLAT_IDS
+  pointIdGS = pointIdVS[0];
+#endif
+#ifdef SPLAT_DEEPER_LAYER
+  nearerDepthGS = 0.5 + 0.5 * movedDepth(corner, -blendDepth * radiusVS[0]);
+#endif
+#ifdef SPLAT_VISIBILITY
+  if (gl_Position.w > 0.0)
+  {
+    gl_Position.z = movedDepth(corner, blendDepth * radiusVS[0]) * gl_Position.w;
+  }
+#endif
+#ifdef SPLAT_CLIPPED
+  for (int i = 0; i < clippingPlaneCount; ++i)
+  {
+    gl_ClipDistance[i] = dot(clippingPlanes[i], vec4(corner, 1.0));
+  }
+#endif
+  EmitVertex();
+}
+
+void main()
+{
+  if (!(radiusVS[0] > 0.0))
+  {
+    return;
+  }
+  emitCorner(vec2(0.0, 2.0));
+  emitCorner(vec2(-sqrt(3.0), -1.0));
+  emitCorner(vec2(sqrt(3.0), -1.0));
+  EndPrimitive();
+}

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatMapperInternals.h"
+
+#include "vtkIsopointSplatOpenGL.h"
+
+#include "vtkActor.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkOpenGLActor.h"
+#include "vtkOpenGLCamera.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkOpenGLTexture.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace
+{
+
+vtkDataArray* arrayOf(vtkPolyData* data, const char* name, int components)
+{
+  vtkDataArray* const array = name ? data->GetPointData()->GetArray(name) : nullptr;
+  return array && array->GetNumberOfComponents() == components ? array : nullptr;
+}
+
+const char* orNothing(const char* name)
+{
+  return name ? name : "";
+}
+
+/// Of points spread over a surface whose area is the bounding box's diagonal, squared.
+double automaticRadius(vtkPolyData* data)
+{
+  const double diagonal = data->GetLength();
+  const double radius = 2.0 * diagonal / std::sqrt(static_cast<double>(data->GetNumberOfPoints()));
+  return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
+}
+
+/// A color of each point, where colors belong to points, to vertex cells or to the field data.
+vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
+  vtkIsopointSplatBlocks::Block& block, vtkUnsignedCharArray* colors, int cellFlag, vtkIdType tuple)
+{
+  if (cellFlag == 0)
+  {
+    return colors;
+  }
+  const auto result = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  result->SetNumberOfComponents(4);
+  result->SetNumberOfTuples(block.Data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < result->GetNumberOfTuples(); ++i)
+  {
+    const vtkIdType source =
+      cellFlag == 2 && tuple >= 0 ? tuple : vtkIsopointSplatBlocks::CellOfPoint(block, i);
+    unsigned char color[4] = { 255, 255, 255, 255 };
+    if (source < colors->GetNumberOfTuples())
+    {
+      colors->GetTypedTuple(source, color);
+    }
+    result->SetTypedTuple(i, color);
+  }
+  return result;
+}
+
+bool hasTranslucent(vtkUnsignedCharArray* colors)
+{
+  for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
+  {
+    if (colors->GetTypedComponent(i, 3) < 255)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
+  vtkIsopointSplatMapper* mapper, vtkPolyData* data) const
+{
+  vtkIsopointSplatBuffers::Shape shape;
+  shape.Normals = data->GetPointData()->GetNormals();
+  shape.Radii = arrayOf(data, mapper->RadiusArrayName, 1);
+  shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+  if (mapper->Shape == vtkIsopointSplatMapper::ELLIPSE)
+  {
+    shape.Axis1 = arrayOf(data, mapper->SplatAxis1ArrayName, 3);
+    shape.Axis2 = arrayOf(data, mapper->SplatAxis2ArrayName, 3);
+  }
+  return shape;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::UpdateGeometry(vtkIsopointSplatMapper* mapper)
+{
+  for (const auto& block : this->Blocks.Get())
+  {
+    std::ostringstream state;
+    state << block->Data->GetMTime() << '\n'
+          << orNothing(mapper->RadiusArrayName) << '\n'
+          << orNothing(mapper->SplatAxis1ArrayName) << '\n'
+          << orNothing(mapper->SplatAxis2ArrayName) << '\n'
+          << mapper->Shape << '\n'
+          << std::hexfloat << mapper->Radius;
+    if (block->GeometryState == state.str())
+    {
+      continue;
+    }
+    block->GeometryState = state.str();
+    block->ColorState.clear();
+    block->CellOfPoint.clear();
+    block->Version = ++this->LastVersion;
+    const vtkIsopointSplatBuffers::Shape shape = this->ShapeOf(mapper, block->Data);
+    if (!shape.Normals && !this->WarnedOfNormals)
+    {
+      vtkWarningWithObjectMacro(mapper,
+        "The input has no point normals: its splats face the camera. Compute normals, for example "
+        "with vtkPCANormalEstimation, and make them the active normals.");
+      this->WarnedOfNormals = true;
+    }
+    if (block->Data->GetNumberOfPoints() > std::numeric_limits<GLsizei>::max())
+    {
+      vtkErrorWithObjectMacro(mapper, "A block of "
+                                        << block->Data->GetNumberOfPoints()
+                                        << " points is not drawn: split it into blocks of at most "
+                                        << std::numeric_limits<GLsizei>::max() << " points.");
+      continue;
+    }
+    block->Buffers.SetSplats(block->Data, shape);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatMapper::Internals::CanUseColorMap(vtkIsopointSplatMapper* mapper) const
+{
+  const auto& blocks = this->Blocks.Get();
+  return std::all_of(blocks.begin(), blocks.end(),
+    [mapper](const std::unique_ptr<vtkIsopointSplatBlocks::Block>& block)
+    {
+      int cellFlag = 0;
+      return vtkAbstractMapper::GetAbstractScalars(block->Data, mapper->ScalarMode,
+               mapper->ArrayAccessMode, mapper->ArrayId, mapper->ArrayName, cellFlag) != nullptr &&
+             cellFlag == 0;
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* mapper)
+{
+  const vtkTypeBool interpolates = mapper->InterpolateScalarsBeforeMapping;
+  const bool usesMap = interpolates && this->CanUseColorMap(mapper);
+  const auto stateOf = [&]()
+  {
+    vtkScalarsToColors* const table = mapper->LookupTable;
+    std::ostringstream state;
+    state << mapper->ScalarVisibility << ' ' << mapper->ScalarMode << ' ' << mapper->ColorMode
+          << ' ' << mapper->ArrayAccessMode << ' ' << mapper->ArrayId << ' '
+          << mapper->ArrayComponent << ' ' << mapper->UseLookupTableScalarRange << ' '
+          << std::hexfloat << mapper->ScalarRange[0] << ' ' << mapper->ScalarRange[1] << ' '
+          << usesMap << ' ' << mapper->FieldDataTupleId << ' ' << table << ' '
+          << (table ? table->GetMTime() : 0) << '\n'
+          << mapper->ArrayName;
+    return state.str();
+  };
+  const std::string state = stateOf();
+  const auto& blocks = this->Blocks.Get();
+  if (std::all_of(blocks.begin(), blocks.end(),
+        [&state](const auto& block) { return block->ColorState == state; }))
+  {
+    return;
+  }
+  this->ColoredBy = Coloring::Material;
+  this->HasTranslucentColors = false;
+  mapper->InterpolateScalarsBeforeMapping = usesMap;
+  for (const auto& block : blocks)
+  {
+    this->UpdateColors(mapper, *block);
+  }
+  mapper->InterpolateScalarsBeforeMapping = interpolates;
+  // Mapping may build the table.
+  const std::string newState = stateOf();
+  for (const auto& block : blocks)
+  {
+    block->ColorState = newState;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::UpdateColors(
+  vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block)
+{
+  const auto forget = [mapper](auto*& array)
+  {
+    if (array)
+    {
+      array->UnRegister(mapper);
+      array = nullptr;
+    }
+  };
+  // Else the mapper would take the former block's to be this one's.
+  forget(mapper->Colors);
+  forget(mapper->ColorCoordinates);
+  int cellFlag = 0;
+  mapper->MapScalars(block.Data, 1.0, cellFlag);
+  if (mapper->ColorTextureMap && mapper->ColorCoordinates)
+  {
+    if (!mapper->InternalColorTexture)
+    {
+      mapper->InternalColorTexture = vtkOpenGLTexture::New();
+      mapper->InternalColorTexture->RepeatOff();
+    }
+    mapper->InternalColorTexture->SetInputData(mapper->ColorTextureMap);
+    block.Buffers.SetColorCoordinates(mapper->ColorCoordinates);
+    this->ColoredBy = Coloring::ColorMap;
+  }
+  else if (mapper->Colors)
+  {
+    const auto colors = colorsOfPoints(block, mapper->Colors, cellFlag, mapper->FieldDataTupleId);
+    block.Buffers.SetColors(colors);
+    this->ColoredBy = Coloring::Colors;
+    this->HasTranslucentColors = this->HasTranslucentColors || hasTranslucent(colors);
+  }
+  else
+  {
+    block.Buffers.SetColors(nullptr);
+  }
+  forget(mapper->Colors);
+  forget(mapper->ColorCoordinates);
+  block.Version = ++this->LastVersion;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapper,
+  vtkRenderer* renderer, vtkActor* actor, vtkIsopointSplatPasses::Settings& settings)
+{
+  const auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  int viewport[4];
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->ViewportOrigin[axis] = viewport[axis];
+    settings.Size[axis] = std::max(viewport[2 + axis], 1);
+  }
+
+  const auto camera = static_cast<vtkOpenGLCamera*>(renderer->GetActiveCamera());
+  vtkMatrix4x4* worldToView;
+  vtkMatrix4x4* worldToClip;
+  vtkMatrix4x4* viewToClip;
+  vtkMatrix3x3* normals;
+  camera->GetKeyMatrices(renderer, worldToView, normals, viewToClip, worldToClip);
+  settings.ViewToClip->DeepCopy(viewToClip);
+  settings.ParallelProjection = camera->GetParallelProjection() != 0;
+  if (actor->GetIsIdentity())
+  {
+    settings.ModelToView->DeepCopy(worldToView);
+  }
+  else
+  {
+    vtkMatrix4x4* modelToWorld;
+    static_cast<vtkOpenGLActor*>(actor)->GetKeyMatrices(modelToWorld, normals);
+    vtkMatrix4x4::Multiply4x4(modelToWorld, worldToView, settings.ModelToView);
+  }
+
+  const int planes = mapper->GetNumberOfClippingPlanes();
+  vtkNew<vtkMatrix4x4> planeToView;
+  vtkMatrix4x4::Invert(worldToView, planeToView);
+  for (int i = 0; i < std::min(planes, 6); ++i)
+  {
+    vtkPlane* const plane = mapper->GetClippingPlanes()->GetItem(i);
+    double equation[4];
+    plane->GetNormal(equation);
+    equation[3] = -vtkMath::Dot(equation, plane->GetOrigin());
+    std::array<double, 4> inView;
+    planeToView->MultiplyPoint(equation, inView.data());
+    settings.ClippingPlanes.push_back(inView);
+  }
+  if (planes > 6)
+  {
+    vtkErrorWithObjectMacro(mapper,
+      "Of " << planes << " clipping planes the first 6 clip: OpenGL has no more. Remove some.");
+  }
+
+  vtkProperty* const property = actor->GetProperty();
+  settings.CulledFacing =
+    property->GetFrontfaceCulling() ? 1 : (property->GetBackfaceCulling() ? -1 : 0);
+  settings.RadiusScale = mapper->RadiusScale;
+  settings.BlendDepth = mapper->BlendDepth;
+  settings.Stride = mapper->Stride;
+  settings.Ids = renderer->GetSelector() != nullptr;
+  settings.NumberOfLayers = actor->IsRenderingTranslucentPolygonalGeometry() && !settings.Ids
+                              ? mapper->MaximumNumberOfLayers
+                              : 1;
+  settings.TranslucentColors = this->HasTranslucentColors && this->ColoredBy == Coloring::Colors;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkIsopointSplatPasses::Block> vtkIsopointSplatMapper::Internals::GetPassBlocks(
+  vtkActor* actor)
+{
+  double color[3];
+  actor->GetProperty()->GetDiffuseColor(color);
+  std::vector<vtkIsopointSplatPasses::Block> result;
+  for (const auto& block : this->Blocks.Get())
+  {
+    result.push_back({ &block->Buffers, block->Version, block->FlatIndex,
+      { static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]),
+        1.0f } });
+  }
+  return result;
+}

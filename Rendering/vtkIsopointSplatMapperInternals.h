@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSplatMapperInternals_h
+#define vtkIsopointSplatMapperInternals_h
+
+#include "vtkIsopointSplatBlocks.h"
+#include "vtkIsopointSplatMapper.h"
+#include "vtkIsopointSplatPasses.h"
+
+class vtkIsopointSplatMapper::Internals
+{
+public:
+  /// Where a splat's color comes from; the values stand in the resolving shader as well.
+  enum class Coloring
+  {
+    Material = 0,
+    Colors = 1,
+    ColorMap = 2
+  };
+
+  void UpdateGeometry(vtkIsopointSplatMapper* mapper);
+  void UpdateColors(vtkIsopointSplatMapper* mapper);
+  void SetUpPasses(vtkIsopointSplatMapper* mapper, vtkRenderer* renderer, vtkActor* actor,
+    vtkIsopointSplatPasses::Settings& settings);
+  std::vector<vtkIsopointSplatPasses::Block> GetPassBlocks(vtkActor* actor);
+
+  vtkIsopointSplatBlocks Blocks;
+  vtkIsopointSplatPasses Passes;
+  Coloring ColoredBy = Coloring::Material;
+  bool HasTranslucentColors = false;
+  bool WarnedOfNormals = false;
+  bool ShaderOfComposite = false; // whether the shader at hand was built for composite input
+  int ViewportOrigin[2] = { 0, 0 };
+
+private:
+  vtkIsopointSplatBuffers::Shape ShapeOf(vtkIsopointSplatMapper* mapper, vtkPolyData* data) const;
+  bool CanUseColorMap(vtkIsopointSplatMapper* mapper) const;
+  void UpdateColors(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
+
+  unsigned int LastVersion = 0;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkIsopointSplatMapperInternals.h

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatPasses.h"
+
+#include "vtkIsopointSplatFS.h"
+#include "vtkIsopointSplatGS.h"
+#include "vtkIsopointSplatOpenGL.h"
+#include "vtkIsopointSplatVS.h"
+
+#include "vtkMatrix3x3.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+
+/// In pixels. Above half of a pixel's diagonal, so that every splat covers the middle of one.
+constexpr float minimumHalfAxis = 0.75f;
+
+constexpr unsigned int maximumClippingPlanes = 6;
+
+void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
+{
+  if (texture->GetHandle() == 0)
+  {
+    texture->Allocate2D(size[0], size[1], components, VTK_FLOAT);
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  }
+  texture->Resize(size[0], size[1]);
+}
+
+void prepareDepthTexture(vtkTextureObject* texture, const int size[2])
+{
+  if (texture->GetHandle() == 0)
+  {
+    texture->AllocateDepth(size[0], size[1], vtkTextureObject::Float32);
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  }
+  texture->Resize(size[0], size[1]);
+}
+
+void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
+{
+  framebuffer->Bind();
+  framebuffer->DeactivateDrawBuffers();
+  framebuffer->ActivateDrawBuffers(buffers);
+}
+
+/// Model coordinates relative to a centre to view coordinates; transposed, as VTK has them.
+void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
+{
+  vtkNew<vtkMatrix4x4> translation;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    translation->SetElement(3, axis, center[axis]);
+  }
+  vtkMatrix4x4::Multiply4x4(translation, modelToView, out);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatPasses::vtkIsopointSplatPasses() = default;
+vtkIsopointSplatPasses::~vtkIsopointSplatPasses() = default;
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vector<Block>& blocks)
+{
+  std::vector<double> state = { static_cast<double>(settings.Size[0]),
+    static_cast<double>(settings.Size[1]), settings.ParallelProjection ? 1.0 : 0.0,
+    settings.RadiusScale, settings.BlendDepth, static_cast<double>(settings.Stride),
+    static_cast<double>(settings.CulledFacing), static_cast<double>(settings.NumberOfLayers),
+    settings.TranslucentColors ? 1.0 : 0.0, settings.Ids ? 1.0 : 0.0 };
+  state.insert(state.end(), settings.ModelToView->GetData(), settings.ModelToView->GetData() + 16);
+  state.insert(state.end(), settings.ViewToClip->GetData(), settings.ViewToClip->GetData() + 16);
+  for (const std::array<double, 4>& plane : settings.ClippingPlanes)
+  {
+    state.insert(state.end(), plane.begin(), plane.end());
+  }
+  for (const Block& block : blocks)
+  {
+    state.push_back(static_cast<double>(block.Version));
+    state.push_back(static_cast<double>(block.Index));
+    state.insert(state.end(), block.PlainColor.begin(), block.PlainColor.end());
+  }
+  const bool isSame = state == this->State;
+  this->State = std::move(state);
+  return isSame;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::Render(
+  vtkOpenGLRenderWindow* window, const Settings& settings, const std::vector<Block>& blocks)
+{
+  if (this->Window != window)
+  {
+    this->ReleaseGraphicsResources(this->Window);
+    this->Window = window;
+  }
+  if (this->IsUpToDate(settings, blocks))
+  {
+    return;
+  }
+  vtkOpenGLState* const state = window->GetState();
+  state->Push();
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_STENCIL_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglViewport(0, 0, settings.Size[0], settings.Size[1]);
+  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
+  {
+    glEnable(GL_CLIP_DISTANCE0 + i);
+  }
+  this->NumberOfLayers = 0;
+  while (this->NumberOfLayers < settings.NumberOfLayers &&
+         this->RenderLayer(this->NumberOfLayers, settings, blocks))
+  {
+    ++this->NumberOfLayers;
+  }
+  if (settings.Ids && this->NumberOfLayers > 0)
+  {
+    this->RenderIds(settings, blocks);
+  }
+  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
+  {
+    glDisable(GL_CLIP_DISTANCE0 + i);
+  }
+  state->Pop();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings)
+{
+  if (!layer.Framebuffer->GetContext())
+  {
+    layer.Framebuffer->SetContext(this->Window);
+    for (vtkTextureObject* texture :
+      { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(), layer.Opacity.Get() })
+    {
+      texture->SetContext(this->Window);
+    }
+    layer.HasOpacity = false;
+  }
+  const bool isNew = layer.Depth->GetHandle() == 0;
+  prepareDepthTexture(layer.Depth, settings.Size);
+  prepareColorTexture(layer.Surface, settings.Size, 4);
+  prepareColorTexture(layer.Color, settings.Size, 4);
+  if (settings.TranslucentColors)
+  {
+    prepareColorTexture(layer.Opacity, settings.Size, 1);
+  }
+  layer.Framebuffer->Bind();
+  if (isNew)
+  {
+    layer.Framebuffer->AddDepthAttachment(layer.Depth);
+    layer.Framebuffer->AddColorAttachment(0, layer.Surface);
+    layer.Framebuffer->AddColorAttachment(1, layer.Color);
+  }
+  if (settings.TranslucentColors && !layer.HasOpacity)
+  {
+    layer.Framebuffer->AddColorAttachment(2, layer.Opacity);
+    layer.HasOpacity = true;
+  }
+  else if (!settings.TranslucentColors && layer.HasOpacity)
+  {
+    layer.Framebuffer->RemoveColorAttachment(2);
+    layer.HasOpacity = false;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatPasses::RenderLayer(
+  int index, const Settings& settings, const std::vector<Block>& blocks)
+{
+  if (index >= static_cast<int>(this->Layers.size()))
+  {
+    this->Layers.push_back(std::make_unique<Layer>());
+  }
+  Layer& layer = *this->Layers[index];
+  this->PrepareLayer(layer, settings);
+  bind(layer.Framebuffer, settings.TranslucentColors ? 3 : 2);
+
+  vtkOpenGLState* const state = this->Window->GetState();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  state->vtkglClearDepth(1.0);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+  GLuint query = 0;
+  if (index > 0)
+  {
+    glGenQueries(1, &query);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+  }
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  state->vtkglDepthFunc(GL_LESS);
+  this->DrawBlocks(Pass::Visibility, index, settings, blocks);
+  if (index > 0)
+  {
+    GLuint samples = 0;
+    glEndQuery(GL_SAMPLES_PASSED);
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &samples);
+    glDeleteQueries(1, &query);
+    if (samples == 0)
+    {
+      return false;
+    }
+  }
+
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  this->DrawBlocks(Pass::Blend, index, settings, blocks);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::PrepareIds(const Settings& settings)
+{
+  if (!this->IdFramebuffer->GetContext())
+  {
+    this->IdFramebuffer->SetContext(this->Window);
+    this->Ids->SetContext(this->Window);
+    this->IdDepth->SetContext(this->Window);
+  }
+  const bool isNew = this->Ids->GetHandle() == 0;
+  prepareColorTexture(this->Ids, settings.Size, 4);
+  prepareDepthTexture(this->IdDepth, settings.Size);
+  this->IdFramebuffer->Bind();
+  if (isNew)
+  {
+    this->IdFramebuffer->AddDepthAttachment(this->IdDepth);
+    this->IdFramebuffer->AddColorAttachment(0, this->Ids);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::RenderIds(const Settings& settings, const std::vector<Block>& blocks)
+{
+  this->PrepareIds(settings);
+  bind(this->IdFramebuffer, 1);
+  vtkOpenGLState* const state = this->Window->GetState();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_LESS);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  this->DrawBlocks(Pass::Ids, 0, settings, blocks);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::DrawBlocks(
+  Pass pass, int layer, const Settings& settings, const std::vector<Block>& blocks)
+{
+  vtkTextureObject* depth = nullptr;
+  if (pass == Pass::Ids)
+  {
+    depth = this->Layers[0]->Depth;
+  }
+  else if (layer > 0)
+  {
+    depth = this->Layers[layer - 1]->Depth;
+  }
+  if (depth)
+  {
+    depth->Activate();
+  }
+  for (const Block& block : blocks)
+  {
+    vtkShaderProgram* const program = this->ReadyProgram(pass, layer > 0, settings, *block.Buffers);
+    if (!program)
+    {
+      continue;
+    }
+    this->SetUniforms(program, settings, block);
+    if (depth)
+    {
+      program->SetUniformi(
+        pass == Pass::Ids ? "visibleDepth" : "previousDepth", depth->GetTextureUnit());
+    }
+    block.Buffers->Draw(program, settings.Stride);
+  }
+  if (depth)
+  {
+    depth->Deactivate();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
+  Pass pass, bool isDeeper, const Settings& settings, const vtkIsopointSplatBuffers& buffers)
+{
+  std::string definitions = pass == Pass::Visibility ? "#define SPLAT_VISIBILITY\n"
+                            : pass == Pass::Blend    ? "#define SPLAT_BLEND\n"
+                                                     : "#define SPLAT_IDS\n";
+  const auto define = [&definitions](bool condition, const char* name)
+  {
+    if (condition)
+    {
+      definitions += std::string("#define ") + name + "\n";
+    }
+  };
+  define(isDeeper, "SPLAT_DEEPER_LAYER");
+  define(buffers.HasNormals(), "SPLAT_NORMALS");
+  define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
+  define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
+  define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
+  define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
+
+  std::string sources[3] = { vtkIsopointSplatVS, vtkIsopointSplatFS, vtkIsopointSplatGS };
+  for (std::string& source : sources)
+  {
+    vtkShaderProgram::Substitute(source, "//VTK::Define::Dec", definitions);
+  }
+  return this->Window->GetShaderCache()->ReadyShaderProgram(
+    sources[0].c_str(), sources[1].c_str(), sources[2].c_str());
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::SetUniforms(
+  vtkShaderProgram* program, const Settings& settings, const Block& block)
+{
+  vtkNew<vtkMatrix4x4> centerToView;
+  placeCenter(block.Buffers->GetCenter(), settings.ModelToView, centerToView);
+  // Normals take the transposed inverse; matrices reach the shader transposed once more.
+  vtkNew<vtkMatrix3x3> linear;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      linear->SetElement(row, column, centerToView->GetElement(row, column));
+    }
+  }
+  const double viewScale = std::cbrt(std::abs(linear->Determinant()));
+  vtkNew<vtkMatrix3x3> normalMatrix;
+  vtkMatrix3x3::Invert(linear, normalMatrix);
+  normalMatrix->Transpose();
+
+  program->SetUniformMatrix("MCVCMatrix", centerToView);
+  program->SetUniformMatrix("VCDCMatrix", settings.ViewToClip);
+  program->SetUniformMatrix("normalMatrix", normalMatrix);
+  const float size[2] = { static_cast<float>(settings.Size[0]),
+    static_cast<float>(settings.Size[1]) };
+  program->SetUniform2f("viewportSize", size);
+  const double scale = settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
+  program->SetUniformf("radiusScale", static_cast<float>(scale));
+  program->SetUniformf("viewScale", static_cast<float>(viewScale));
+  program->SetUniformf("blendDepth", static_cast<float>(settings.BlendDepth));
+  program->SetUniformf("minimumHalfAxis", minimumHalfAxis);
+  program->SetUniformi("cameraParallel", settings.ParallelProjection ? 1 : 0);
+  program->SetUniformi("culledFacing", settings.CulledFacing);
+  program->SetUniform4f("plainColor", block.PlainColor.data());
+  program->SetUniformf("blockIndex", static_cast<float>(block.Index));
+
+  float planes[maximumClippingPlanes][4] = {};
+  const int planeCount = static_cast<int>(settings.ClippingPlanes.size());
+  for (int i = 0; i < planeCount; ++i)
+  {
+    for (int component = 0; component < 4; ++component)
+    {
+      planes[i][component] = static_cast<float>(settings.ClippingPlanes[i][component]);
+    }
+  }
+  if (planeCount > 0)
+  {
+    program->SetUniformi("clippingPlaneCount", planeCount);
+    program->SetUniform4fv("clippingPlanes", planeCount, planes);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window)
+{
+  for (const std::unique_ptr<Layer>& layer : this->Layers)
+  {
+    layer->Framebuffer->ReleaseGraphicsResources(window);
+    for (vtkTextureObject* texture :
+      { layer->Depth.Get(), layer->Surface.Get(), layer->Color.Get(), layer->Opacity.Get() })
+    {
+      texture->ReleaseGraphicsResources(window);
+    }
+  }
+  this->Layers.clear();
+  this->NumberOfLayers = 0;
+  this->IdFramebuffer->ReleaseGraphicsResources(window);
+  this->Ids->ReleaseGraphicsResources(window);
+  this->IdDepth->ReleaseGraphicsResources(window);
+  this->State.clear();
+}

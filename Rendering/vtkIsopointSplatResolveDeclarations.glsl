@@ -1,0 +1,11 @@
+uniform sampler2D splatSurfaceSums; // weight x (normal, z) in view coordinates
+uniform sampler2D splatColorSums; // weight x color; alpha: the weight
+uniform sampler2D splatOpacitySums; // weight x opacity
+uniform sampler2D splatColorMap;
+uniform sampler2D splatIds; // lower and upper 16 bits of the point's id, the block's
+uniform int splatColoring; // 0: the material's color, 1: colors, 2: coordinates in the color map
+uniform int splatOpacities; // 1: each splat has an opacity of its own
+uniform ivec2 splatOrigin; // of the viewport, in pixels
+uniform vec2 splatViewportSize;
+uniform mat4 splatVCDCMatrix;
+uniform int splatCameraParallel;

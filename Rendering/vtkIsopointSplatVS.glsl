@@ -1,0 +1,153 @@
+//VTK::System::Dec
+
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turns a splat into two conjugate half-axes of its ellipse in view coordinates. They are chosen
+// so that their projections are orthogonal on the screen: where the shorter one falls below a
+// pixel's half it can be lengthened without touching the other, and no splat slips between pixels.
+//VTK::Define::Dec
+
+in vec3 centerMC;
+in float radius; // not positive: not drawn
+#ifdef SPLAT_NORMALS
+in vec3 normalMC;
+#endif
+#ifdef SPLAT_ELLIPSES
+in vec3 axis1MC;
+in vec3 axis2MC;
+#endif
+#ifdef SPLAT_COLORS
+in vec4 color;
+#endif
+
+uniform mat4 MCVCMatrix;
+uniform mat3 normalMatrix;
+uniform mat4 VCDCMatrix;
+uniform vec2 viewportSize; // in pixels
+uniform float radiusScale;
+uniform float viewScale; // length in view coordinates of a length of 1 in the model's
+uniform float minimumHalfAxis; // in pixels
+uniform vec4 plainColor; // of splats without a color of their own
+uniform int cameraParallel;
+uniform int culledFacing; // 1: front faces are not drawn, -1: back faces, 0: all are
+
+out vec3 centerVS;
+out vec3 axis1VS;
+out vec3 axis2VS;
+out vec3 normalVS;
+out vec4 colorVS;
+out float radiusVS; // in view coordinates
+flat out uint pointIdVS;
+flat out float baseWeightVS; // added to the blending weight all over the splat
+
+// Two unit vectors orthogonal to a unit vector and to each other, and continuous but for z = 0
+// (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+void tangents(vec3 n, out vec3 t1, out vec3 t2)
+{
+  float s = n.z >= 0.0 ? 1.0 : -1.0;
+  float a = -1.0 / (s + n.z);
+  float b = n.x * n.y * a;
+  t1 = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+  t2 = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+// How far on the screen, in pixels, an offset from the centre reaches.
+vec2 toPixels(vec3 offset, vec4 centerDC)
+{
+  vec4 offsetDC = VCDCMatrix * vec4(offset, 0.0);
+  return 0.5 * viewportSize * (offsetDC.xy - centerDC.xy / centerDC.w * offsetDC.w) / centerDC.w;
+}
+
+// The offset parallel to the screen that reaches that far.
+vec3 fromPixels(vec2 pixels, vec4 centerDC)
+{
+  return vec3(
+    pixels * centerDC.w / (0.5 * viewportSize * vec2(VCDCMatrix[0][0], VCDCMatrix[1][1])), 0.0);
+}
+
+void main()
+{
+  vec4 centerVC = MCVCMatrix * vec4(centerMC, 1.0);
+  vec3 center = centerVC.xyz;
+  vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
+  float r = radius * radiusScale;
+  float reach = r * viewScale;
+  vec3 axis1;
+  vec3 axis2;
+#ifdef SPLAT_NORMALS
+  vec3 normal = normalize(normalMatrix * normalMC);
+  vec3 unitNormalMC = normalize(normalMC);
+  tangents(unitNormalMC, axis1, axis2);
+  axis1 = mat3(MCVCMatrix) * (axis1 * r);
+  axis2 = mat3(MCVCMatrix) * (axis2 * r);
+  if (dot(normalMC, normalMC) == 0.0)
+  {
+    normal = towardsCamera;
+    tangents(normal, axis1, axis2);
+    axis1 *= reach;
+    axis2 *= reach;
+  }
+#else
+  vec3 normal = towardsCamera;
+  tangents(normal, axis1, axis2);
+  axis1 *= reach;
+  axis2 *= reach;
+#endif
+#ifdef SPLAT_ELLIPSES
+  if (dot(axis1MC, axis1MC) > 0.0 && dot(axis2MC, axis2MC) > 0.0)
+  {
+    axis1 = mat3(MCVCMatrix) * (axis1MC * radiusScale);
+    axis2 = mat3(MCVCMatrix) * (axis2MC * radiusScale);
+  }
+#endif
+
+  vec4 centerDC = VCDCMatrix * vec4(center, 1.0);
+  baseWeightVS = 1e-4;
+  if (centerDC.w > 0.0)
+  {
+    vec2 p1 = toPixels(axis1, centerDC);
+    vec2 p2 = toPixels(axis2, centerDC);
+    // Half the angle of (difference, 2 x product), without trigonometry.
+    float product = dot(p1, p2);
+    float halfDifference = 0.5 * (dot(p1, p1) - dot(p2, p2));
+    float size = length(vec2(halfDifference, product));
+    float cosine = size > 0.0 ? sqrt(max(0.5 + 0.5 * halfDifference / size, 0.0)) : 1.0;
+    float sine = size > 0.0 ? sqrt(max(0.5 - 0.5 * halfDifference / size, 0.0)) : 0.0;
+    sine = product < 0.0 ? -sine : sine;
+    vec3 longer = cosine * axis1 + sine * axis2;
+    vec3 shorter = cosine * axis2 - sine * axis1;
+    vec2 longerPixels = cosine * p1 + sine * p2;
+    vec2 shorterPixels = cosine * p2 - sine * p1;
+    // Where splats are that small, single ones have to do as the surface.
+    bool isSmall = length(longerPixels) < 2.0;
+    baseWeightVS = isSmall ? 0.5 : baseWeightVS;
+    if (length(longerPixels) < minimumHalfAxis)
+    {
+      longerPixels = vec2(minimumHalfAxis, 0.0);
+      longer = fromPixels(longerPixels, centerDC);
+      shorter = fromPixels(vec2(0.0, minimumHalfAxis), centerDC);
+    }
+    else if (isSmall && length(shorterPixels) < minimumHalfAxis)
+    {
+      vec2 direction = normalize(vec2(-longerPixels.y, longerPixels.x));
+      shorter = fromPixels(direction * minimumHalfAxis, centerDC);
+    }
+    axis1 = longer;
+    axis2 = shorter;
+  }
+
+  bool facesCamera = dot(normal, towardsCamera) >= 0.0;
+  bool culled = facesCamera ? culledFacing == 1 : culledFacing == -1;
+
+  centerVS = center;
+  axis1VS = axis1;
+  axis2VS = axis2;
+  normalVS = normal;
+  radiusVS = culled ? 0.0 : reach;
+#ifdef SPLAT_COLORS
+  colorVS = color;
+#else
+  colorVS = plainColor;
+#endif
+  pointIdVS = uint(gl_VertexID);
+  gl_Position = centerDC;
+}
