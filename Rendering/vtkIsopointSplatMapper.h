@@ -158,6 +158,8 @@ protected:
     vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
   void GetShaderTemplate(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderRenderPass(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
+    vtkActor* actor, bool prePass) override;
   void ReplaceShaderColor(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderEdges(std::map<vtkShader::Type, vtkShader*>, vtkRenderer*, vtkActor*) override

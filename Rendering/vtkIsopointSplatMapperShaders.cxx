@@ -108,11 +108,23 @@ void vtkIsopointSplatMapper::ReplaceShaderDepth(
     "    discard;\n"
     "  }\n"
     "  gl_FragDepth = splatDepth;\n");
-  // The triangle over the viewport always shows its front.
-  vtkShader* const fragment = shaders[vtkShader::Fragment];
-  std::string source = fragment->GetSource();
-  vtkShaderProgram::Substitute(source, "gl_FrontFacing", "splatFrontFacing");
-  fragment->SetSource(source);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::ReplaceShaderRenderPass(std::map<vtkShader::Type, vtkShader*> shaders,
+  vtkRenderer* renderer, vtkActor* actor, bool prePass)
+{
+  this->Superclass::ReplaceShaderRenderPass(shaders, renderer, actor, prePass);
+  if (!prePass)
+  {
+    // What the rasteriser knows of the triangle over the viewport is not the surface's.
+    vtkShader* const fragment = shaders[vtkShader::Fragment];
+    std::string source = fragment->GetSource();
+    vtkShaderProgram::Substitute(source, "gl_FrontFacing", "splatFrontFacing");
+    vtkShaderProgram::Substitute(source, "gl_FragCoord.z", "splatDepth");
+    vtkShaderProgram::Substitute(source, "gl_FragCoord.w", "(1.0 / splatPlaceDC.w)");
+    fragment->SetSource(source);
+  }
 }
 
 //------------------------------------------------------------------------------
