@@ -11,7 +11,7 @@ set(SCATTEREDISOPOINTS_PYTHON_DIR
   "Where the Python package is installed, relative to the prefix or absolute")
 
 vtk_module_wrap_python(
-  MODULES ${modules}
+  MODULES ${python_modules}
   TARGET ScatteredIsopoints::ScatteredIsopointsPython
   PYTHON_PACKAGE "scatteredisopoints"
   MODULE_DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}"
@@ -28,5 +28,5 @@ install(FILES "${package_source}"
 # From the package's folder to the modules' libraries, wherever the tree is moved to.
 file(RELATIVE_PATH libraries_from_package
   "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython PROPERTIES
-  INSTALL_RPATH "$ORIGIN/${libraries_from_package}")
+set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython
+  PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_package}")

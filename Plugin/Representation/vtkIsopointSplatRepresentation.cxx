@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatRepresentation.h"
+
+#include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIsopointSplatMapper.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+
+vtkStandardNewMacro(vtkIsopointSplatRepresentation);
+
+namespace
+{
+
+vtkSmartPointer<vtkPoints> pointsOf(vtkDataSet* data)
+{
+  if (vtkPointSet* const pointSet = vtkPointSet::SafeDownCast(data))
+  {
+    return pointSet->GetPoints();
+  }
+  const auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetNumberOfPoints(data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    double position[3];
+    data->GetPoint(i, position);
+    points->SetPoint(i, position);
+  }
+  return points;
+}
+
+/// The points of a data set with their arrays; null where there are none.
+vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
+{
+  vtkDataSet* const data = vtkDataSet::SafeDownCast(object);
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    return nullptr;
+  }
+  const auto splats = vtkSmartPointer<vtkPolyData>::New();
+  if (vtkPolyData* const polyData = vtkPolyData::SafeDownCast(data))
+  {
+    // With its vertex cells, which can be selected.
+    splats->ShallowCopy(polyData);
+    return splats;
+  }
+  splats->SetPoints(pointsOf(data));
+  splats->GetPointData()->ShallowCopy(data->GetPointData());
+  splats->SetFieldData(data->GetFieldData());
+  return splats;
+}
+
+/// The same for composite data, block by block; others become one block, since the client of a
+/// server, which has no data, must expect something.
+vtkSmartPointer<vtkDataObject> compositeSplatsOf(vtkDataObject* object)
+{
+  vtkCompositeDataSet* const input = vtkCompositeDataSet::SafeDownCast(object);
+  if (!input)
+  {
+    const auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    blocks->SetBlock(0, splatsOf(object));
+    return blocks;
+  }
+  const auto output = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
+  output->CopyStructure(input);
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(input->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    output->SetDataSet(iterator, splatsOf(iterator->GetCurrentDataObject()));
+  }
+  return output;
+}
+
+void boundsOf(vtkDataObject* object, double bounds[6])
+{
+  vtkBoundingBox box;
+  if (vtkCompositeDataSet* const data = vtkCompositeDataSet::SafeDownCast(object))
+  {
+    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      if (vtkDataSet* const leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+      {
+        box.AddBounds(leaf->GetBounds());
+      }
+    }
+  }
+  box.GetBounds(bounds);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
+  : Property(this->Actor->GetProperty())
+{
+  this->Actor->SetMapper(this->Mapper);
+}
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatRepresentation::~vtkIsopointSplatRepresentation() = default;
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatRepresentation::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  // The client of a server has no data.
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->Splats = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  if (inputVector[0]->GetNumberOfInformationObjects() > 0)
+  {
+    this->Splats = compositeSplatsOf(vtkDataObject::GetData(inputVector[0], 0));
+  }
+  return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatRepresentation::AddToView(vtkView* view)
+{
+  vtkPVRenderView* const renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->AddActor(this->Actor);
+  renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::AddToView(view);
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatRepresentation::RemoveFromView(vtkView* view)
+{
+  vtkPVRenderView* const renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->RemoveActor(this->Actor);
+  renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::RemoveFromView(view);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* requestType, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(requestType, inInfo, outInfo))
+  {
+    return 0;
+  }
+  if (requestType == vtkPVView::REQUEST_UPDATE())
+  {
+    this->ProvideData(inInfo, outInfo);
+  }
+  else if (requestType == vtkPVView::REQUEST_RENDER())
+  {
+    const bool isLowerDetail = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
+    this->Mapper->SetStride(isLowerDetail ? this->LODStride : 1);
+    this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
+    this->UpdateColoring();
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::ProvideData(vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  double bounds[6];
+  boundsOf(this->Splats, bounds);
+  vtkNew<vtkMatrix4x4> matrix;
+  this->Actor->GetMatrix(matrix);
+  vtkPVRenderView::SetPiece(inInfo, this, this->Splats);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+  if (this->MayBeTranslucent())
+  {
+    outInfo->Set(vtkPVRenderView::NEED_ORDERED_COMPOSITING(), 1);
+  }
+  vtkPVRenderView::SetOrderedCompositingConfiguration(inInfo, this,
+    vtkPVRenderView::DATA_IS_REDISTRIBUTABLE | vtkPVRenderView::USE_DATA_FOR_LOAD_BALANCING);
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatRepresentation::MayBeTranslucent()
+{
+  vtkScalarsToColors* const table = this->Mapper->GetLookupTable();
+  const bool hasOpaqueColors =
+    !this->Mapper->GetScalarVisibility() ||
+    (this->Mapper->GetColorMode() != VTK_COLOR_MODE_DIRECT_SCALARS && table && table->IsOpaque());
+  return this->Property->GetOpacity() < 1.0 || !hasOpaqueColors;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::UpdateColoring()
+{
+  vtkInformation* const info = this->GetInputArrayInformation(0);
+  const char* const name =
+    info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) && info->Has(vtkDataObject::FIELD_NAME())
+      ? info->Get(vtkDataObject::FIELD_NAME())
+      : nullptr;
+  if (!name || !name[0])
+  {
+    this->Mapper->SetScalarVisibility(0);
+    this->Mapper->SelectColorArray(static_cast<const char*>(nullptr));
+    return;
+  }
+  this->Mapper->SetScalarVisibility(1);
+  this->Mapper->SelectColorArray(name);
+  this->Mapper->SetUseLookupTableScalarRange(1);
+  switch (info->Get(vtkDataObject::FIELD_ASSOCIATION()))
+  {
+    case vtkDataObject::FIELD_ASSOCIATION_CELLS:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
+      break;
+    case vtkDataObject::FIELD_ASSOCIATION_NONE:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
+      this->Mapper->SetFieldDataTupleId(0);
+      break;
+    default:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::SetVisibility(bool visible)
+{
+  this->Actor->SetVisibility(visible);
+  this->Superclass::SetVisibility(visible);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::SetMapScalars(int mapsScalars)
+{
+  this->Mapper->SetColorMode(
+    mapsScalars ? VTK_COLOR_MODE_MAP_SCALARS : VTK_COLOR_MODE_DIRECT_SCALARS);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::SetBackfaceRepresentation(int representation)
+{
+  this->Property->SetBackfaceCulling(representation == 401);
+  this->Property->SetFrontfaceCulling(representation == 402);
+}
+
+//------------------------------------------------------------------------------
+#define vtkForwardMacro(object, method, type)                                                      \
+  void vtkIsopointSplatRepresentation::method(type value)                                          \
+  {                                                                                                \
+    this->object->method(value);                                                                   \
+  }
+#define vtkForward3Macro(object, method)                                                           \
+  void vtkIsopointSplatRepresentation::method(double x, double y, double z)                        \
+  {                                                                                                \
+    this->object->method(x, y, z);                                                                 \
+  }
+
+vtkForwardMacro(Mapper, SetRadiusArrayName, const char*);
+vtkForwardMacro(Mapper, SetRadius, double);
+vtkForwardMacro(Mapper, SetRadiusScale, double);
+vtkForwardMacro(Mapper, SetBlendDepth, double);
+vtkForwardMacro(Mapper, SetShape, int);
+vtkForwardMacro(Mapper, SetMaximumNumberOfLayers, int);
+vtkForwardMacro(Mapper, SetLookupTable, vtkScalarsToColors*);
+vtkForwardMacro(Mapper, SetInterpolateScalarsBeforeMapping, int);
+vtkForward3Macro(Actor, SetOrientation);
+vtkForward3Macro(Actor, SetOrigin);
+vtkForward3Macro(Actor, SetPosition);
+vtkForward3Macro(Actor, SetScale);
+vtkForwardMacro(Actor, SetPickable, int);
+vtkForward3Macro(Property, SetAmbientColor);
+vtkForward3Macro(Property, SetDiffuseColor);
+vtkForward3Macro(Property, SetSpecularColor);
+vtkForward3Macro(Property, SetEdgeTint);
+vtkForward3Macro(Property, SetCoatColor);
+vtkForwardMacro(Property, SetAmbient, double);
+vtkForwardMacro(Property, SetDiffuse, double);
+vtkForwardMacro(Property, SetSpecular, double);
+vtkForwardMacro(Property, SetSpecularPower, double);
+vtkForwardMacro(Property, SetOpacity, double);
+vtkForwardMacro(Property, SetInterpolation, int);
+vtkForwardMacro(Property, SetMetallic, double);
+vtkForwardMacro(Property, SetRoughness, double);
+vtkForwardMacro(Property, SetBaseIOR, double);
+vtkForwardMacro(Property, SetCoatIOR, double);
+vtkForwardMacro(Property, SetCoatRoughness, double);
+vtkForwardMacro(Property, SetCoatStrength, double);
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LODStride: " << this->LODStride << "\n";
+  os << indent << "Mapper:\n";
+  this->Mapper->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkIsopointSplatRepresentation
+ * @brief   shows the points of any data set as one lit surface
+ *
+ * ParaView's representation "Isopoint Splats": a vtkIsopointSplatMapper on the input's points. Data
+ * sets other than vtkPolyData give their points and point arrays, composite ones those of each
+ * block. While the user interacts with a large data set, one splat in LODStride is drawn.
+ *
+ * @sa vtkIsopointSplatMapper
+ */
+#ifndef vtkIsopointSplatRepresentation_h
+#define vtkIsopointSplatRepresentation_h
+
+#include "vtkNew.h"
+#include "vtkPVDataRepresentation.h"
+#include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+#include "vtkSmartPointer.h"
+
+class vtkActor;
+class vtkDataObject;
+class vtkIsopointSplatMapper;
+class vtkProperty;
+class vtkScalarsToColors;
+
+class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkIsopointSplatRepresentation
+  : public vtkPVDataRepresentation
+{
+public:
+  static vtkIsopointSplatRepresentation* New();
+  vtkTypeMacro(vtkIsopointSplatRepresentation, vtkPVDataRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(vtkInformationRequestKey* requestType, vtkInformation* inInfo,
+    vtkInformation* outInfo) override;
+  void SetVisibility(bool visible) override;
+
+  ///@{
+  /**
+   * Of the mapper; see vtkIsopointSplatMapper.
+   */
+  void SetRadiusArrayName(const char* name);
+  void SetRadius(double radius);
+  void SetRadiusScale(double scale);
+  void SetBlendDepth(double depth);
+  void SetShape(int shape);
+  void SetMaximumNumberOfLayers(int count);
+  void SetLookupTable(vtkScalarsToColors* table);
+  void SetInterpolateScalarsBeforeMapping(int interpolates);
+  ///@}
+
+  /**
+   * 1: values are mapped through the lookup table; 0: they are colors. Default: 1.
+   */
+  void SetMapScalars(int mapsScalars);
+
+  ///@{
+  /**
+   * One splat in so many is drawn where the view asks for a lower level of detail. At least 1.
+   * Default: 8.
+   */
+  vtkSetClampMacro(LODStride, int, 1, VTK_INT_MAX);
+  vtkGetMacro(LODStride, int);
+  ///@}
+
+  ///@{
+  /**
+   * Of the actor; see vtkActor.
+   */
+  void SetOrientation(double x, double y, double z);
+  void SetOrigin(double x, double y, double z);
+  void SetPosition(double x, double y, double z);
+  void SetScale(double x, double y, double z);
+  void SetPickable(int pickable);
+  ///@}
+
+  ///@{
+  /**
+   * Of the actor's material; see vtkProperty.
+   */
+  void SetAmbientColor(double red, double green, double blue);
+  void SetDiffuseColor(double red, double green, double blue);
+  void SetSpecularColor(double red, double green, double blue);
+  void SetEdgeTint(double red, double green, double blue);
+  void SetCoatColor(double red, double green, double blue);
+  void SetAmbient(double value);
+  void SetDiffuse(double value);
+  void SetSpecular(double value);
+  void SetSpecularPower(double value);
+  void SetOpacity(double value);
+  void SetInterpolation(int value);
+  void SetMetallic(double value);
+  void SetRoughness(double value);
+  void SetBaseIOR(double value);
+  void SetCoatIOR(double value);
+  void SetCoatRoughness(double value);
+  void SetCoatStrength(double value);
+  ///@}
+
+  /**
+   * What becomes of splats seen from behind, in ParaView's numbers: 401 leaves those out that turn
+   * their backs, 402 those that turn their fronts; any other draws both. Default: both.
+   */
+  void SetBackfaceRepresentation(int representation);
+
+protected:
+  vtkIsopointSplatRepresentation();
+  ~vtkIsopointSplatRepresentation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+  int LODStride = 8;
+
+private:
+  vtkIsopointSplatRepresentation(const vtkIsopointSplatRepresentation&) = delete;
+  void operator=(const vtkIsopointSplatRepresentation&) = delete;
+
+  void ProvideData(vtkInformation* inInfo, vtkInformation* outInfo);
+  void UpdateColoring();
+  bool MayBeTranslucent();
+
+  vtkNew<vtkIsopointSplatMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+  vtkProperty* const Property;           // the actor's
+  vtkSmartPointer<vtkDataObject> Splats; // vtkPolyData, within composite data
+};
+
+#endif
