@@ -15,6 +15,7 @@
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderTimer.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLTexture.h"
@@ -47,6 +48,7 @@ vtkIsopointSplatMapper::vtkIsopointSplatMapper()
 //------------------------------------------------------------------------------
 vtkIsopointSplatMapper::~vtkIsopointSplatMapper()
 {
+  this->ReleaseSplats();
   this->SetRadiusArrayName(nullptr);
   this->SetSplatAxis1ArrayName(nullptr);
   this->SetSplatAxis2ArrayName(nullptr);
@@ -114,6 +116,10 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   }
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
+  if (this->Internal->Passes.GetWindow() != renderer->GetRenderWindow())
+  {
+    this->ReleaseSplats();
+  }
   this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0));
   if (this->Internal->Blocks.IsEmpty())
   {
@@ -313,9 +319,35 @@ void vtkIsopointSplatMapper::ProcessSelectorPixelBuffers(
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Internal->Blocks.ReleaseGraphicsResources();
-  this->Internal->Passes.ReleaseGraphicsResources(vtkOpenGLRenderWindow::SafeDownCast(window));
+  this->ReleaseSplats();
   this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::ReleaseSplats()
+{
+  // The window that they were made for may not be the current one, or may be gone.
+  vtkOpenGLRenderWindow* const window = this->Internal->Passes.GetWindow();
+  if (window)
+  {
+    window->PushContext();
+  }
+  this->Internal->Blocks.ReleaseGraphicsResources();
+  this->Internal->Passes.ReleaseGraphicsResources();
+  // The superclass releases its own only if it has rendered by itself.
+  for (vtkOpenGLHelper& helper : this->Primitives)
+  {
+    helper.ReleaseGraphicsResources(window);
+  }
+  this->TimerQuery->ReleaseGraphicsResources();
+  if (this->InternalColorTexture)
+  {
+    this->InternalColorTexture->ReleaseGraphicsResources(window);
+  }
+  if (window)
+  {
+    window->PopContext();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -198,6 +198,8 @@ private:
   vtkIsopointSplatMapper(const vtkIsopointSplatMapper&) = delete;
   void operator=(const vtkIsopointSplatMapper&) = delete;
 
+  void ReleaseSplats();
+
   class Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -54,6 +54,51 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
   framebuffer->ActivateDrawBuffers(buffers);
 }
 
+/// Leaves OpenGL as it was found. vtkOpenGLState::Push and Pop would bind again what was bound when
+/// they last looked, buffers among it that are gone.
+class StateKeeper
+{
+public:
+  explicit StateKeeper(vtkOpenGLState* state)
+    : State(state)
+    , Blend(state, GL_BLEND)
+    , CullFace(state, GL_CULL_FACE)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , ScissorTest(state, GL_SCISSOR_TEST)
+    , StencilTest(state, GL_STENCIL_TEST)
+    , BlendFunction(state)
+    , ClearColor(state)
+    , ColorMask(state)
+    , DepthFunction(state)
+    , DepthMask(state)
+    , Viewport(state)
+  {
+    glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->BlendEquations[0]);
+    glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->BlendEquations[1]);
+    state->PushFramebufferBindings();
+  }
+
+  ~StateKeeper()
+  {
+    this->State->PopFramebufferBindings();
+    this->State->vtkglBlendEquationSeparate(this->BlendEquations[0], this->BlendEquations[1]);
+  }
+
+  StateKeeper(const StateKeeper&) = delete;
+  StateKeeper& operator=(const StateKeeper&) = delete;
+
+private:
+  vtkOpenGLState* const State;
+  vtkOpenGLState::ScopedglEnableDisable Blend, CullFace, DepthTest, ScissorTest, StencilTest;
+  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  vtkOpenGLState::ScopedglClearColor ClearColor;
+  vtkOpenGLState::ScopedglColorMask ColorMask;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
+  vtkOpenGLState::ScopedglViewport Viewport;
+  GLint BlendEquations[2];
+};
+
 /// Model coordinates relative to a centre to view coordinates; transposed, as VTK has them.
 void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
 {
@@ -78,7 +123,7 @@ bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vec
     static_cast<double>(settings.Size[1]), settings.ParallelProjection ? 1.0 : 0.0,
     settings.RadiusScale, settings.BlendDepth, static_cast<double>(settings.Stride),
     static_cast<double>(settings.CulledFacing), static_cast<double>(settings.NumberOfLayers),
-    settings.TranslucentColors ? 1.0 : 0.0, settings.Ids ? 1.0 : 0.0 };
+    settings.TranslucentColors ? 1.0 : 0.0 };
   state.insert(state.end(), settings.ModelToView->GetData(), settings.ModelToView->GetData() + 16);
   state.insert(state.end(), settings.ViewToClip->GetData(), settings.ViewToClip->GetData() + 16);
   for (const std::array<double, 4>& plane : settings.ClippingPlanes)
@@ -102,15 +147,16 @@ void vtkIsopointSplatPasses::Render(
 {
   if (this->Window != window)
   {
-    this->ReleaseGraphicsResources(this->Window);
+    this->ReleaseGraphicsResources();
     this->Window = window;
   }
-  if (this->IsUpToDate(settings, blocks))
+  const bool isUpToDate = this->IsUpToDate(settings, blocks);
+  if (isUpToDate && (this->HasIds || !settings.Ids))
   {
     return;
   }
   vtkOpenGLState* const state = window->GetState();
-  state->Push();
+  const StateKeeper keeper(state);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDisable(GL_STENCIL_TEST);
   state->vtkglDisable(GL_CULL_FACE);
@@ -120,21 +166,31 @@ void vtkIsopointSplatPasses::Render(
   {
     glEnable(GL_CLIP_DISTANCE0 + i);
   }
+  if (!isUpToDate)
+  {
+    this->RenderLayers(settings, blocks);
+  }
+  if (settings.Ids && this->NumberOfLayers > 0)
+  {
+    this->RenderIds(settings, blocks);
+  }
+  this->HasIds = settings.Ids;
+  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
+  {
+    glDisable(GL_CLIP_DISTANCE0 + i);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::RenderLayers(
+  const Settings& settings, const std::vector<Block>& blocks)
+{
   this->NumberOfLayers = 0;
   while (this->NumberOfLayers < settings.NumberOfLayers &&
          this->RenderLayer(this->NumberOfLayers, settings, blocks))
   {
     ++this->NumberOfLayers;
   }
-  if (settings.Ids && this->NumberOfLayers > 0)
-  {
-    this->RenderIds(settings, blocks);
-  }
-  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
-  {
-    glDisable(GL_CLIP_DISTANCE0 + i);
-  }
-  state->Pop();
 }
 
 //------------------------------------------------------------------------------
@@ -382,21 +438,22 @@ void vtkIsopointSplatPasses::SetUniforms(
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatPasses::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window)
+void vtkIsopointSplatPasses::ReleaseGraphicsResources()
 {
   for (const std::unique_ptr<Layer>& layer : this->Layers)
   {
-    layer->Framebuffer->ReleaseGraphicsResources(window);
+    layer->Framebuffer->ReleaseGraphicsResources(this->Window);
     for (vtkTextureObject* texture :
       { layer->Depth.Get(), layer->Surface.Get(), layer->Color.Get(), layer->Opacity.Get() })
     {
-      texture->ReleaseGraphicsResources(window);
+      texture->ReleaseGraphicsResources(this->Window);
     }
   }
   this->Layers.clear();
   this->NumberOfLayers = 0;
-  this->IdFramebuffer->ReleaseGraphicsResources(window);
-  this->Ids->ReleaseGraphicsResources(window);
-  this->IdDepth->ReleaseGraphicsResources(window);
+  this->IdFramebuffer->ReleaseGraphicsResources(this->Window);
+  this->Ids->ReleaseGraphicsResources(this->Window);
+  this->IdDepth->ReleaseGraphicsResources(this->Window);
   this->State.clear();
+  this->HasIds = false;
 }

@@ -6,7 +6,7 @@
 
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
-#include "vtkSmartPointer.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkWeakPointer.h"
 
 #include <array>
@@ -14,7 +14,6 @@
 #include <vector>
 
 class vtkOpenGLFramebufferObject;
-class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkTextureObject;
 
@@ -79,7 +78,11 @@ public:
   const Layer& GetLayer(int index) const { return *this->Layers[index]; }
   vtkTextureObject* GetIds() const { return this->Ids; }
 
-  void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
+  /// That the layers were last rendered for; null where it is gone.
+  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
+
+  /// To be called in that window's context.
+  void ReleaseGraphicsResources();
 
 private:
   enum class Pass
@@ -89,6 +92,7 @@ private:
     Ids
   };
 
+  void RenderLayers(const Settings& settings, const std::vector<Block>& blocks);
   bool IsUpToDate(const Settings& settings, const std::vector<Block>& blocks);
   void PrepareLayer(Layer& layer, const Settings& settings);
   void PrepareIds(const Settings& settings);
@@ -106,6 +110,7 @@ private:
   vtkNew<vtkTextureObject> IdDepth;
   vtkNew<vtkOpenGLFramebufferObject> IdFramebuffer;
   std::vector<double> State; // what the layers were drawn of
+  bool HasIds = false;       // of these layers
 };
 
 #endif

@@ -16,6 +16,15 @@
     : splatTowardsCamera;
   // Blended normals lean over the horizon a little: that is not yet the back.
   bool splatFrontFacing = dot(splatNormal, splatTowardsCamera) > -0.1;
-  // Disks stick out over the horizon: where the surface turns away, rims alone do not cover.
-  splatCovers = splatCovers &&
-    splatWeight > 0.4 * (1.0 - abs(dot(splatNormal, splatTowardsCamera)) / 0.3);
+  // Disks stick out over the horizon. Where the surface turns away and only rims cover, the pixels
+  // along the outline are left out; those within it never are.
+  if (splatCovers &&
+    splatWeight < 0.2 * (1.0 - abs(dot(splatNormal, splatTowardsCamera)) / 0.3))
+  {
+    for (int i = 0; i < 9; ++i)
+    {
+      ivec2 splatNeighbor = clamp(
+        splatPixel + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), textureSize(splatColorSums, 0) - 1);
+      splatCovers = splatCovers && texelFetch(splatColorSums, splatNeighbor, 0).a > 0.0;
+    }
+  }

@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the splat mapper does with each kind of input, good and bad."""
+
+import gc
+
+import numpy as np
+from scatteredisopoints import vtkIsopointSplatMapper
+from scenes import (
+    BACKGROUND,
+    Scene,
+    actor_of,
+    add_array,
+    check,
+    color_by,
+    differs,
+    parts,
+    polydata,
+    psnr,
+    torus_splats,
+)
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkDataSetAttributes,
+    vtkMultiBlockDataSet,
+    vtkPolyData,
+)
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+UP = [0.0, -1.0, 1.0]  # towards the scene's camera
+
+
+def events_of(mapper):
+    events = []
+    mapper.AddObserver("WarningEvent", lambda *_: events.append("warning"))
+    mapper.AddObserver("ErrorEvent", lambda *_: events.append("error"))
+    return events
+
+
+def disk(center=(0, 0, 0), radius=0.3, normal=UP, **arrays):
+    return polydata([center], [normal], Radius=np.array([float(radius)]), **arrays)
+
+
+def area(image):
+    return np.count_nonzero(differs(image))
+
+
+def draws_nothing():
+    empty = vtkPolyData()
+    nan = float("nan")
+    for name, data in (
+        ("no points", empty),
+        ("no blocks", vtkMultiBlockDataSet()),
+        ("an empty block", blocks_of(empty)),
+        ("a position that is not finite", disk((nan, 0, 0))),
+        ("an infinite position", disk((float("inf"), 0, 0))),
+        ("a radius of 0", disk(radius=0)),
+        ("a negative radius", disk(radius=-1)),
+        ("a radius that is not a number", disk(radius=nan)),
+        ("an infinite radius", disk(radius=float("inf"))),
+    ):
+        scene = Scene(actor_of(data))
+        check(area(scene.image()) == 0, name)
+
+
+def blocks_of(*blocks):
+    data = vtkMultiBlockDataSet()
+    for i, block in enumerate(blocks):
+        data.SetBlock(i, block)
+    return data
+
+
+def leaves_out_only_what_cannot_be_drawn():
+    good = Scene(actor_of(disk())).image()
+    points = [(0, 0, 0), (np.nan, 0, 0), (0.2, 0, 0), (np.inf, 0, 0)]
+    mixed = polydata(points, [UP] * 4, Radius=np.array([0.3, 0.3, -1.0, 0.3]))
+    check(np.array_equal(Scene(actor_of(mixed)).image(), good), "one good splat of four")
+    ghosts = vtkUnsignedCharArray()
+    ghosts.SetName(vtkDataSetAttributes.GhostArrayName())
+    for value in (0, vtkDataSetAttributes.HIDDENPOINT, vtkDataSetAttributes.DUPLICATEPOINT):
+        ghosts.InsertNextValue(value)
+    marked = polydata([(0, 0, 0), (0.5, 0, 0), (-0.5, 0, 0)], [UP] * 3, Radius=np.full(3, 0.3))
+    marked.GetPointData().AddArray(ghosts)
+    check(np.array_equal(Scene(actor_of(marked)).image(), good), "ghost points")
+
+
+def has_the_size_it_is_told():
+    scene = Scene(actor_of(disk(radius=0.5)))
+    scene.camera.ParallelProjectionOn()
+    scene.camera.SetParallelScale(1.0)
+    expected = np.pi * 150**2
+    check(abs(area(scene.image()) / expected - 1) < 0.02, "a disk of 300 pixels")
+    mapper = scene.renderer.GetActors().GetLastActor().GetMapper()
+    mapper.SetRadiusScale(0.5)
+    check(abs(area(scene.image()) / expected - 0.25) < 0.01, "half its radius")
+    mapper.SetRadiusScale(1.0)
+    mapper.SetRadiusArrayName("nothing")
+    mapper.SetRadius(0.25)
+    check(abs(area(scene.image()) / expected - 0.25) < 0.01, "a constant radius")
+    mapper.SetRadius(0.0)
+    mapper.SetRadiusArrayName(None)
+    check(area(scene.image()) > 0, "an automatic radius")
+
+
+def draws_ellipses():
+    side, up = np.array([1.0, 0, 0]), np.array([0, np.sqrt(0.5), np.sqrt(0.5)])
+    data = disk(
+        radius=0.6,
+        SplatAxis1=np.array([0.6 * side]),
+        SplatAxis2=np.array([0.15 * up]),
+    )
+    scene = Scene(actor_of(data))
+    scene.camera.ParallelProjectionOn()
+    scene.camera.SetParallelScale(1.0)
+    image = scene.image()
+    covered = differs(image)
+    check(abs(covered.sum() / (np.pi * 180 * 45) - 1) < 0.02, "the area of an ellipse")
+    check(abs(covered.any(0).sum() - 360) <= 2, "its width")
+    check(abs(covered.any(1).sum() - 90) <= 2, "its height")
+    mapper = scene.renderer.GetActors().GetLastActor().GetMapper()
+    mapper.SetShapeToCircle()
+    check(abs(area(scene.image()) / (np.pi * 180**2) - 1) < 0.02, "a circle instead")
+    # Axes of no length, of one splat among many: a disk.
+    data.GetPointData().GetArray("SplatAxis1").Fill(0.0)
+    data.GetPointData().GetArray("SplatAxis1").Modified()
+    mapper.SetShapeToEllipse()
+    check(abs(area(scene.image()) / (np.pi * 180**2) - 1) < 0.02, "no axis")
+
+
+def warns_once_without_normals():
+    data = polydata([(0, 0, 0), (1, 0, 0)], None, Radius=np.full(2, 0.3))
+    actor = actor_of(data)
+    events = events_of(actor.GetMapper())
+    scene = Scene(actor)
+    check(area(scene.image()) > 0, "splats without normals")
+    data.Modified()
+    scene.image()
+    check(events == ["warning"], f"one warning, not {events}")
+    zero = Scene(actor_of(disk(normal=(0, 0, 0))))
+    check(area(zero.image()) > 0, "a normal of no length faces the camera")
+
+
+def colors_of_every_kind():
+    points, normals = [(-0.6, 0, 0), (0.6, 0, 0)], [UP] * 2
+    data = polydata(
+        points,
+        normals,
+        Radius=np.full(2, 0.5),
+        value=np.array([0.0, 1.0]),
+        rgb=np.array([[255, 0, 0], [0, 255, 0]], dtype=np.uint8),
+    )
+    add_to_cells = numpy_to_vtk(np.array([1.0, 0.0]), deep=True)
+    add_to_cells.SetName("of cells")
+    data.GetCellData().AddArray(add_to_cells)
+    of_field = numpy_to_vtk(np.array([1.0]), deep=True)
+    of_field.SetName("of field")
+    data.GetFieldData().AddArray(of_field)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(2)
+    table.SetTableValue(0, 1, 0, 0, 1)
+    table.SetTableValue(1, 0, 1, 0, 1)
+    red, green = [255, 0, 0], [0, 255, 0]
+
+    def seen(prepare):
+        actor = actor_of(data)
+        actor.GetProperty().LightingOff()
+        mapper = actor.GetMapper()
+        mapper.SetLookupTable(table)
+        mapper.ScalarVisibilityOn()
+        prepare(mapper)
+        image = Scene(actor).image()
+        return [image[300, x].tolist() for x in (190, 410)]
+
+    def points_by(name):
+        def prepare(mapper):
+            mapper.SetScalarModeToUsePointFieldData()
+            mapper.SelectColorArray(name)
+
+        return prepare
+
+    def color_map(mapper):
+        points_by("value")(mapper)
+        mapper.InterpolateScalarsBeforeMappingOn()
+
+    def direct(mapper):
+        points_by("rgb")(mapper)
+        mapper.SetColorModeToDirectScalars()
+
+    def cells(mapper):
+        mapper.SetScalarModeToUseCellFieldData()
+        mapper.SelectColorArray("of cells")
+
+    def field(mapper):
+        mapper.SetScalarModeToUseFieldData()
+        mapper.SelectColorArray("of field")
+        mapper.SetFieldDataTupleId(0)
+
+    check(seen(points_by("value")) == [red, green], "values of points")
+    check(seen(color_map) == [red, green], "a color map")
+    check(seen(direct) == [red, green], "colors of points")
+    check(seen(cells) == [green, red], "values of vertex cells")
+    check(seen(field) == [green, green], "a value of the field data")
+    check(seen(points_by("nothing")) == [[255] * 3] * 2, "no such array")
+
+    actor = actor_of(data)
+    actor.GetProperty().LightingOff()
+    points_by("value")(actor.GetMapper())
+    actor.GetMapper().SetLookupTable(table)
+    actor.GetMapper().ScalarVisibilityOn()
+    scene = Scene(actor)
+    scene.image()
+    table.SetTableValue(0, 0, 0, 1, 1)
+    check(scene.image()[300, 190].tolist() == [0, 0, 255], "a changed color table")
+
+
+def blocks_with_and_without_the_array():
+    left = disk((-0.6, 0, 0), 0.5, value=np.array([1.0]))
+    right = disk((0.6, 0, 0), 0.5)
+    for interpolates in (False, True):
+        actor = actor_of(blocks_of(left, None, right))
+        color_by(actor, "value", 0, 1)
+        table = vtkLookupTable()
+        table.SetNumberOfTableValues(1)
+        table.SetTableValue(0, 1, 0, 0, 1)
+        actor.GetMapper().SetLookupTable(table)
+        actor.GetMapper().SetInterpolateScalarsBeforeMapping(interpolates)
+        actor.GetProperty().LightingOff()
+        actor.GetProperty().SetColor(0, 0, 1)
+        image = Scene(actor).image()
+        check(image[300, 190].tolist() == [255, 0, 0], "the block with the array")
+        check(image[300, 410].tolist() == [0, 0, 255], "the block without it")
+
+
+def follows_changes():
+    source = vtkSphereSource()
+    source.SetThetaResolution(100)
+    source.SetPhiResolution(100)
+    mapper = vtkIsopointSplatMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.SetRadius(0.05)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    scene = Scene(actor)
+    small = area(scene.image())
+    source.SetRadius(0.7)
+    check(area(scene.image()) > 1.5 * small, "a changed input")
+    scene.window.SetSize(300, 500)
+    check(scene.image().shape[:2] == (500, 300), "a changed window")
+    actor.VisibilityOff()
+    check(area(scene.image()) == 0, "hidden")
+    actor.VisibilityOn()
+    mapper.SetInputDataObject(blocks_of(source.GetOutput()))
+    check(area(scene.image()) > 0, "composite input instead")
+    mapper.SetInputDataObject(source.GetOutput())
+    check(area(scene.image()) > 0, "and back")
+
+
+def one_mapper_in_two_windows():
+    data = torus_splats(50_000)
+    first, actor = Scene(actor_of(data)), actor_of(data)
+    reference = first.image()
+    one, other = Scene(actor), Scene(actor)
+    for _ in range(2):
+        check(np.array_equal(one.image(), reference), "the one window")
+        check(np.array_equal(other.image(), reference), "the other")
+    one.renderer.RemoveActor(actor)
+    check(np.array_equal(other.image(), reference), "removed from the one")
+    del one
+    gc.collect()
+    check(np.array_equal(other.image(), reference), "the one is gone")
+    mapper = actor.GetMapper()
+    del other, actor
+    gc.collect()
+    mapper.ReleaseGraphicsResources(None)
+    del mapper
+    gc.collect()
+    check(np.array_equal(first.image(), reference), "the first window")
+
+
+def fewer_splats_look_alike():
+    data = torus_splats(300_000)
+    actor = actor_of(data)
+    scene = Scene(actor)
+    all_splats = scene.image()
+    for stride in (2, 8):
+        actor.GetMapper().SetStride(stride)
+        image = scene.image()
+        inside = differs(all_splats)
+        check(np.count_nonzero(~differs(image) & inside) < 0.01 * inside.sum(), "few holes")
+        check(psnr(image, all_splats) > 24, f"stride {stride}")
+        check(not np.array_equal(image, all_splats), f"stride {stride} is another picture")
+    actor.GetMapper().SetStride(1)
+    check(np.array_equal(scene.image(), all_splats), "all splats again")
+
+
+def does_not_disturb_other_actors():
+    """What is drawn after splats looks as without them where they are not."""
+    ball = vtkSphereSource()
+    ball.SetCenter(0, 0, 0)
+    ball.SetRadius(0.4)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(ball.GetOutputPort())
+    other = vtkActor()
+    other.SetMapper(mapper)
+    alone = Scene(other).image()
+    splats = actor_of(disk((1.2, 0, 0), 0.1))
+    for order in ((splats, other), (other, splats)):
+        image = Scene(*order).image()
+        same = np.all(image == alone, axis=2)
+        check(np.count_nonzero(~same) < 2000 and not same.all(), "only the splat differs")
+
+
+def defaults_and_ranges():
+    mapper = vtkIsopointSplatMapper()
+    check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
+    check(mapper.GetSplatAxis1ArrayName() == "SplatAxis1", "SplatAxis1ArrayName")
+    check(mapper.GetSplatAxis2ArrayName() == "SplatAxis2", "SplatAxis2ArrayName")
+    for name, default, low, high in (
+        ("Radius", 0.0, 0.0, None),
+        ("RadiusScale", 1.0, 0.0, None),
+        ("BlendDepth", 1.0, 0.0, None),
+        ("Shape", vtkIsopointSplatMapper.ELLIPSE, 0, 1),
+        ("Stride", 1, 1, None),
+        ("MaximumNumberOfLayers", 8, 1, 32),
+    ):
+        get, set_to = getattr(mapper, "Get" + name), getattr(mapper, "Set" + name)
+        check(get() == default, "default of " + name)
+        set_to(-5)
+        check(get() == low, "least " + name)
+        if high is not None:
+            set_to(1000)
+            check(get() == high, "greatest " + name)
+    other = vtkIsopointSplatMapper()
+    other.ShallowCopy(mapper)
+    check(other.GetMaximumNumberOfLayers() == 32 and other.GetStride() == 1, "ShallowCopy")
+    check("BlendDepth" in str(mapper), "PrintSelf")
+
+
+def bounds():
+    mapper = vtkIsopointSplatMapper()
+    mapper.SetInputDataObject(blocks_of(disk((-1, 0, 0)), None, disk((2, 3, 4))))
+    check(list(mapper.GetBounds()) == [-1, 2, 0, 3, 0, 4], "bounds of blocks")
+    mapper.SetInputDataObject(vtkPolyData())
+    low, high = mapper.GetBounds()[:2]
+    check(low > high, "no bounds without points")
+
+
+if __name__ == "__main__":
+    for test in (
+        defaults_and_ranges,
+        bounds,
+        draws_nothing,
+        leaves_out_only_what_cannot_be_drawn,
+        has_the_size_it_is_told,
+        draws_ellipses,
+        warns_once_without_normals,
+        colors_of_every_kind,
+        blocks_with_and_without_the_array,
+        follows_changes,
+        one_mapper_in_two_windows,
+        fewer_splats_look_alike,
+        does_not_disturb_other_actors,
+    ):
+        print(test.__name__, flush=True)
+        test()

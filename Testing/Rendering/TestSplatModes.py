@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Splats against a mesh of the same surface, rendered in the same process, in each way to render."""
+
+import sys
+
+import numpy as np
+from scenes import (
+    Scene,
+    actor_of,
+    check,
+    color_by,
+    differs,
+    parts,
+    polydata,
+    psnr,
+    torus_mesh,
+    torus_splats,
+)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPlane
+from vtkmodules.vtkFiltersSources import vtkCubeSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkProperty
+from vtkmodules.vtkRenderingOpenGL2 import (
+    vtkCameraPass,
+    vtkOpaquePass,
+    vtkRenderPassCollection,
+    vtkSequencePass,
+    vtkShadowMapBakerPass,
+    vtkShadowMapPass,
+)
+
+LOOKING_AT_BOTH_SIDES = vtkPlane()
+LOOKING_AT_BOTH_SIDES.SetOrigin(0, 0, 0.1)
+LOOKING_AT_BOTH_SIDES.SetNormal(0.5, 0.5, -1)
+
+
+def box(center, size, color=(1, 1, 1)):
+    source = vtkCubeSource()
+    source.SetCenter(*center)
+    source.SetXLength(size[0])
+    source.SetYLength(size[1])
+    source.SetZLength(size[2])
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*color)
+    return actor
+
+
+def plain(scene, actor):
+    pass
+
+
+def colored(scene, actor):
+    color_by(actor, "x", -1.4, 1.4)
+
+
+def color_map(scene, actor):
+    color_by(actor, "x", -1.4, 1.4)
+    actor.GetMapper().InterpolateScalarsBeforeMappingOn()
+
+
+def light_kit(scene, actor):
+    scene.renderer.AutomaticLightCreationOff()
+    for position, intensity in (((5, 5, 9), 0.7), ((-5, 3, 0), 0.4), ((0, -9, -2), 0.5)):
+        light = vtkLight()
+        light.SetPosition(*position)
+        light.SetIntensity(intensity)
+        scene.renderer.AddLight(light)
+
+
+def spot_light(scene, actor):
+    scene.renderer.AutomaticLightCreationOff()
+    light = vtkLight()
+    light.SetPosition(1, -1, 3)
+    light.SetFocalPoint(0.5, -0.5, 0)
+    light.PositionalOn()
+    light.SetConeAngle(50)
+    scene.renderer.AddLight(light)
+
+
+def specular(scene, actor):
+    actor.GetProperty().SetSpecular(0.6)
+    actor.GetProperty().SetSpecularPower(30)
+    actor.GetProperty().SetColor(0.8, 0.5, 0.3)
+
+
+def physically_based(scene, actor):
+    light_kit(scene, actor)
+    actor.GetProperty().SetInterpolationToPBR()
+    actor.GetProperty().SetMetallic(0.4)
+    actor.GetProperty().SetRoughness(0.4)
+    actor.GetProperty().SetCoatStrength(0.3)
+
+
+def ambient_occlusion(scene, actor):
+    scene.renderer.AddActor(box((0, 0, -0.45), (3, 3, 0.1)))
+    scene.renderer.UseSSAOOn()
+    scene.renderer.SetSSAORadius(0.5)
+    scene.renderer.SetSSAOBias(0.01)
+    scene.renderer.SSAOBlurOn()
+
+
+def antialiased(scene, actor):
+    scene.renderer.UseFXAAOn()
+
+
+def parallel(scene, actor):
+    scene.camera.ParallelProjectionOn()
+
+
+def sub_viewport(scene, actor):
+    scene.renderer.SetViewport(0.3, 0.2, 0.9, 0.7)
+
+
+def transformed(scene, actor):
+    actor.SetScale(0.9, 0.6, 0.4)
+    actor.RotateX(40)
+    actor.SetPosition(0.1, 0.2, 0.3)
+
+
+def clipped(scene, actor):
+    actor.GetMapper().AddClippingPlane(LOOKING_AT_BOTH_SIDES)
+
+
+def back_face(scene, actor):
+    clipped(scene, actor)
+    back = vtkProperty()
+    back.SetColor(1, 0.2, 0.2)
+    actor.SetBackfaceProperty(back)
+
+
+def front_culled(scene, actor):
+    actor.GetProperty().FrontfaceCullingOn()
+
+
+def back_culled(scene, actor):
+    clipped(scene, actor)
+    actor.GetProperty().BackfaceCullingOn()
+
+
+def composite(scene, actor):
+    mapper = actor.GetMapper()
+    if mapper.IsA("vtkIsopointSplatMapper"):
+        points, normals, radii = parts(mapper.GetInputDataObject(0, 0))
+        blocks = vtkMultiBlockDataSet()
+        for i, chosen in enumerate((points[:, 0] < 0, points[:, 0] >= 0)):
+            block = polydata(points[chosen], normals[chosen], Radius=radii[chosen])
+            blocks.SetBlock(2 * i, block)
+        mapper.SetInputDataObject(blocks)
+
+
+def mixed(scene, actor):
+    scene.renderer.AddActor(box((0, 0, 0), (2.2, 0.5, 0.5), (0.3, 0.8, 0.4)))
+
+
+def far_away(scene, actor):
+    scene.camera.Dolly(0.05)
+    scene.renderer.ResetCameraClippingRange()
+
+
+def very_close(scene, actor):
+    scene.camera.SetPosition(0, -1.3, 1.0)
+    scene.camera.SetFocalPoint(0, -1, 0.3)
+    scene.camera.SetClippingRange(0.01, 10)
+
+
+def from_inside(scene, actor):
+    scene.camera.SetPosition(1, 0, 0)
+    scene.camera.SetFocalPoint(0.8, 0.8, 0)
+    scene.camera.SetClippingRange(0.01, 10)
+
+
+def shadowed(scene, actor):
+    scene.renderer.AddActor(box((0, -1, 0.9), (0.8, 0.3, 0.1)))
+    scene.renderer.AddActor(box((0, 0, -0.6), (3, 3, 0.1)))
+    scene.renderer.AutomaticLightCreationOff()
+    light = vtkLight()
+    light.SetPosition(0.3, -1, 5)
+    light.PositionalOn()
+    light.SetConeAngle(40)
+    scene.renderer.AddLight(light)
+    shadows, baker = vtkShadowMapPass(), vtkShadowMapBakerPass()
+    shadows.SetShadowMapBakerPass(baker)
+    passes = vtkRenderPassCollection()
+    passes.AddItem(baker)
+    passes.AddItem(shadows)
+    sequence = vtkSequencePass()
+    sequence.SetPasses(passes)
+    camera = vtkCameraPass()
+    camera.SetDelegatePass(sequence)
+    scene.renderer.SetPass(camera)
+
+
+def far_from_the_origin(scene, actor):
+    """Floats are 8 apart there, the torus is as large as a third of that."""
+    mapper = actor.GetMapper()
+    data = mapper.GetInputDataObject(0, 0)
+    moved = data.NewInstance()
+    moved.DeepCopy(data)
+    offset = 1e8
+    doubles = vtkPoints()
+    doubles.SetDataTypeToDouble()
+    doubles.SetData(
+        numpy_to_vtk(vtk_to_numpy(moved.GetPoints().GetData()).astype(float) + offset, deep=True)
+    )
+    moved.SetPoints(doubles)
+    mapper.SetInputDataObject(moved)
+    mapper.SetVBOShiftScaleMethod(1)
+    scene.camera.SetPosition(offset, offset - 3, offset + 3)
+    scene.camera.SetFocalPoint(offset, offset, offset)
+    scene.renderer.ResetCamera(
+        offset - 1.4, offset + 1.4, offset - 1.4, offset + 1.4, offset - 0.4, offset + 0.4
+    )
+
+
+# The least ratio in decibels of each.
+MODES = {
+    plain: 40,
+    colored: 38,
+    color_map: 38,
+    light_kit: 35,
+    spot_light: 35,
+    specular: 35,
+    physically_based: 35,
+    ambient_occlusion: 35,
+    antialiased: 35,
+    parallel: 35,
+    sub_viewport: 35,
+    transformed: 35,
+    clipped: 35,
+    back_face: 35,
+    front_culled: 35,
+    back_culled: 35,
+    composite: 35,
+    mixed: 35,
+    far_away: 35,
+    very_close: 35,
+    from_inside: 35,
+    shadowed: 35,
+    far_from_the_origin: 35,
+}
+
+# What must change the picture to be tested at all.
+NOT_DIFFERENT = {plain, composite, far_from_the_origin}
+
+
+def picture(data, splats, mode):
+    actor = actor_of(data, splats)
+    scene = Scene(actor)
+    mode(scene, actor)
+    image = scene.image()
+    scene.save(f"{mode.__name__}_{'splats' if splats else 'mesh'}.png")
+    return image
+
+
+def main(chosen):
+    splats, mesh = torus_splats(), torus_mesh()
+    check(abs(splats.GetNumberOfPoints() - 40_000) < 2_000, "about 40,000 isopoints")
+    reference = picture(mesh, False, plain)
+    failed = []
+    for mode, least in MODES.items():
+        if chosen and mode.__name__ not in chosen:
+            continue
+        truth = picture(mesh, False, mode)
+        ratio = psnr(truth, picture(splats, True, mode))
+        print(f"{mode.__name__:22} {ratio:6.2f} dB, at least {least}", flush=True)
+        if not differs(truth).any():
+            failed.append(mode.__name__ + " shows nothing")
+        if mode not in NOT_DIFFERENT and np.array_equal(truth, reference):
+            failed.append(mode.__name__ + " changes nothing")
+        if not ratio >= least:
+            failed.append(mode.__name__)
+    check(not failed, ", ".join(failed))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

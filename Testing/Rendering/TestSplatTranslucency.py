@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Translucent splats show the layers that a translucent mesh shows."""
+
+import numpy as np
+from scenes import Scene, actor_of, check, color_by, psnr, torus_mesh, torus_splats
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+
+def peel(scene):
+    scene.window.SetAlphaBitPlanes(1)
+    scene.renderer.UseDepthPeelingOn()
+    scene.renderer.SetMaximumNumberOfPeels(16)
+    scene.renderer.SetOcclusionRatio(0)
+
+
+def half(actor):
+    actor.GetProperty().SetOpacity(0.5)
+    actor.GetProperty().SetColor(0.9, 0.6, 0.3)
+
+
+def ball(opacity):
+    source = vtkSphereSource()
+    source.SetCenter(1.0, 0.0, 0.0)
+    source.SetRadius(0.25)
+    source.SetThetaResolution(60)
+    source.SetPhiResolution(60)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.1, 0.3, 0.9)
+    actor.GetProperty().SetOpacity(opacity)
+    return actor
+
+
+def with_depth_peeling(scene, actor):
+    half(actor)
+    peel(scene)
+
+
+def without_depth_peeling(scene, actor):
+    half(actor)
+
+
+def around_an_opaque_ball(scene, actor):
+    with_depth_peeling(scene, actor)
+    scene.renderer.AddActor(ball(1.0))
+
+
+def around_a_translucent_ball(scene, actor):
+    with_depth_peeling(scene, actor)
+    scene.renderer.AddActor(ball(0.4))
+
+
+def translucent_colors(scene, actor):
+    peel(scene)
+    color_by(actor, "x", -1.4, 1.4)
+    table = vtkLookupTable()
+    table.SetTableRange(-1.4, 1.4)
+    table.SetAlphaRange(0.1, 0.9)
+    table.SetNumberOfTableValues(1024)
+    table.Build()
+    actor.GetMapper().SetLookupTable(table)
+
+
+def translucent_color_map(scene, actor):
+    translucent_colors(scene, actor)
+    actor.GetMapper().InterpolateScalarsBeforeMappingOn()
+
+
+def low_view(scene):
+    """Rays meet the torus up to four times."""
+    scene.camera.SetPosition(0, -4, 0.8)
+    scene.renderer.ResetCameraClippingRange()
+
+
+def picture(data, splats, mode):
+    actor = actor_of(data, splats)
+    scene = Scene(actor)
+    mode(scene, actor)
+    low_view(scene)
+    image = scene.image()
+    scene.save(f"{mode.__name__}_{'splats' if splats else 'mesh'}.png")
+    return image
+
+
+def main():
+    splats, mesh = torus_splats(), torus_mesh()
+    failed = []
+    for mode in (
+        with_depth_peeling,
+        without_depth_peeling,
+        around_an_opaque_ball,
+        around_a_translucent_ball,
+        translucent_colors,
+        translucent_color_map,
+    ):
+        ratio = psnr(picture(mesh, False, mode), picture(splats, True, mode))
+        print(f"{mode.__name__:26} {ratio:6.2f} dB, at least 35", flush=True)
+        if not ratio >= 35:
+            failed.append(mode.__name__)
+    check(not failed, ", ".join(failed))
+
+    # One layer is another picture, so the layers were seen above.
+    def nearest_layer_only(scene, actor):
+        with_depth_peeling(scene, actor)
+        actor.GetMapper().SetMaximumNumberOfLayers(1)
+
+    one = picture(splats, True, nearest_layer_only)
+    check(np.abs(one - picture(splats, True, with_depth_peeling)).max() > 20, "the number of layers")
+
+
+if __name__ == "__main__":
+    main()
