@@ -14,3 +14,5 @@ endfunction ()
 
 forbid(Filters/Isopoint "(vtk|\\.\\./)" "The algorithm knows no VTK.")
 forbid(Filters "vtk[A-Za-z]*(OpenGL|Render|Mapper|Actor|Shader|Camera)" "Filters know no rendering.")
+forbid(Rendering "(vtkScatteredIsopointFilter|Isopoint/|vtkIsopoint(Arrays|Execution|Input|Placement))"
+  "The mapper knows no filter.")

@@ -72,7 +72,7 @@ def main(plugin):
     view.Background = [0.0, 0.0, 1.0]
     isopoints.Isosurfaces = [0.75]
     display = simple.Show(isopoints, view)
-    check(display.Representation == "Isopoint Disks", "the default representation")
+    check(display.Representation == "Isopoint Splats", "the default representation")
     simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 1.0]
     view.CameraParallelProjection = 1

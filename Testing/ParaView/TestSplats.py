@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The representation Isopoint Splats. Runs in pvbatch, under MPI too, and in a client of a server:
+
+TestSplats.py PLUGIN [PVSERVER], with a server that the script starts and ends."""
+
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("failed: " + message)
+
+
+def pixels(view):
+    """The picture as an array; on the first rank only, else None."""
+    path = os.path.join(tempfile.mkdtemp(), "view.png")
+    simple.SaveScreenshot(path, view)
+    if not os.path.exists(path):
+        return None
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+    return scalars.reshape(height, width, -1)[..., :3].astype(int)
+
+
+def covered(image):
+    return image[..., 2] < 250
+
+
+def make_view():
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [400, 400]
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [0.0, 0.0, 1.0]
+    return view
+
+
+def look(view):
+    """From the front."""
+    view.CameraParallelProjection = 1
+    view.CameraPosition = [0.0, 0.0, 300.0]
+    view.CameraFocalPoint = [0.0, 0.0, 0.0]
+    view.CameraParallelScale = 60.0
+    simple.Render(view)
+
+
+def ball():
+    """The distance from the middle of an image; the ball of radius 48 is 320 pixels wide."""
+    image = simple.Wavelet(WholeExtent=[-60, 60] * 3)
+    return simple.Calculator(Input=image, ResultArrayName="r", Function="mag(coords)")
+
+
+def shows_the_ball(view, isopoints):
+    display = simple.Show(isopoints, view)
+    check(display.Representation == "Isopoint Splats", "the representation by default")
+    simple.ColorBy(display, None)
+    display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 0.0]
+    look(view)
+    image = pixels(view)
+    if image is not None:
+        area = np.count_nonzero(covered(image)) / (np.pi * 160**2)
+        check(abs(area - 1) < 0.05, f"the ball's area {area}")
+        check(image[280, 200, 0] > image[120, 200, 0] + 40, "lit from above")
+    return display, image
+
+
+def colors(view, isopoints, display):
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    display.RescaleTransferFunctionToDataRange(False, True)
+    display.SetScalarBarVisibility(view, True)
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        inside = image[120:280, 120:280].reshape(-1, 3)
+        check(inside.std(0).max() > 5, "colors by an array")
+    display.SetScalarBarVisibility(view, False)
+    simple.ColorBy(display, None)
+
+
+def properties(view, isopoints, display, reference):
+    display.SplatRadiusScale = 0.1
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(covered(image).sum() < 0.6 * covered(reference).sum(), "the radius scale")
+    display.SplatRadiusScale = 1.0
+    display.Scale = [0.5, 0.5, 0.5]
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        ratio = covered(image).sum() / covered(reference).sum()
+        check(abs(ratio - 0.25) < 0.02, "the actor's scale")
+    display.Scale = [1.0, 1.0, 1.0]
+
+
+def level_of_detail(view, isopoints, display):
+    """What is drawn while the user interacts: fewer splats, the same ball."""
+    view.LODThreshold = 0.0
+    simple.Render(view)
+    render_window = view.GetRenderWindow()
+    pictures = []
+    for _ in range(2):
+        view.SMProxy.InteractiveRender()
+        grab = vtkWindowToImageFilter()
+        grab.SetInput(render_window)
+        grab.ShouldRerenderOff()
+        grab.Update()
+        width, height, _ = grab.GetOutput().GetDimensions()
+        scalars = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
+        pictures.append(scalars.reshape(height, width, -1)[..., :3].astype(int))
+        display.SplatLODStride = 1
+        display.UpdateVTKObjects()
+    few, everything = pictures
+    check(covered(few).sum() > 0.9 * covered(everything).sum(), "the ball in fewer splats")
+    check(not np.array_equal(few, everything), "fewer splats while interacting")
+    view.LODThreshold = 20.0
+
+
+def selection(view, isopoints, display):
+    simple.Render(view)
+    for select, of_points in (
+        (simple.SelectSurfacePoints, True),
+        (simple.SelectSurfaceCells, False),
+    ):
+        simple.ClearSelection(isopoints)
+        select(View=view, Rectangle=[180, 180, 220, 220])
+        extract = simple.ExtractSelection(Input=isopoints)
+        extract.UpdatePipeline()
+        chosen = servermanager.Fetch(extract)
+        count = sum(
+            chosen.GetBlock(i).GetNumberOfPoints() for i in range(chosen.GetNumberOfBlocks())
+        ) if chosen.IsA("vtkMultiBlockDataSet") else chosen.GetNumberOfPoints()
+        check(count > 3, f"{count} points chosen")
+        leaf = chosen.GetBlock(0) if chosen.IsA("vtkMultiBlockDataSet") else chosen
+        for i in range(leaf.GetNumberOfPoints()):
+            x, y, z = leaf.GetPoint(i)
+            check(abs(x) < 9 and abs(y) < 9 and z > 45, f"a point seen there, {x, y, z}")
+        simple.Delete(extract)
+    simple.ClearSelection(isopoints)
+
+
+def other_data(view):
+    """Every data set with points offers the splats; composite ones show all their blocks."""
+    sphere = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[-24, 0, 0])
+    other = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[24, 0, 0])
+    grouped = simple.GroupDatasets(Input=[sphere, other])
+    for source in (simple.Wavelet(WholeExtent=[-25, 25] * 3), sphere, grouped):
+        display = simple.Show(source, view)
+        display.SetRepresentationType("Isopoint Splats")
+        check(display.Representation == "Isopoint Splats", "offered")
+        display.SplatRadius = 1.5
+        display.ColorArrayName = ["POINTS", ""]
+        display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 0.0]
+        simple.Render(view)
+        image = pixels(view)
+        if image is not None:
+            check(covered(image).any(), "shown")
+            if source is grouped:
+                check(covered(image)[200, 120] and covered(image)[200, 280], "both blocks")
+        simple.Hide(source, view)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def main(plugin, server=None):
+    process = None
+    if server:
+        port = free_port()
+        # The client listens and the server calls, so that neither has to wait for the other.
+        process = subprocess.Popen(
+            [server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
+        )
+        simple.ReverseConnect(str(port))
+        simple.LoadPlugin(plugin, remote=True)
+    try:
+        simple.LoadPlugin(plugin, remote=False)
+        simple._DisableFirstRenderCameraReset()
+        view = make_view()
+        source = ball()
+        isopoints = simple.ScatteredIsopoints(Input=source)
+        isopoints.ContourBy = ["POINTS", "r"]
+        isopoints.Isosurfaces = [48.0]
+        display, image = shows_the_ball(view, isopoints)
+        colors(view, isopoints, display)
+        properties(view, isopoints, display, image)
+        ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+        if ranks == 1:
+            selection(view, isopoints, display)
+        if ranks == 1 and not server:
+            level_of_detail(view, isopoints, display)
+        simple.Hide(isopoints, view)
+        other_data(view)
+    finally:
+        if process:
+            simple.Disconnect()
+            process.kill()
+            process.wait()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
