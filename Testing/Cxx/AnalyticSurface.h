@@ -187,7 +187,7 @@ inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vec
   Vector foot = settle(start);
   constexpr double longestStride = 16.0; // where the surface bends around the position
   double stride = 1.0;
-  for (int step = 0; step < 200 && stride > 1e-6; ++step)
+  for (int step = 0; step < 1000 && stride > 1e-6; ++step)
   {
     const Vector normal = directionOf(surface.gradient(foot));
     const Vector towards = difference(position, foot);
