@@ -164,44 +164,57 @@ double nearestOnGraph(const Height& height, double r, double z, double resolutio
   return 0.5 * (lower + upper);
 }
 
-/// Walks from a start to the surface, then along it as long as that comes closer to the position.
-inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vector& start)
+/// The point of the surface that Newton's method finds from a start, in short steps.
+inline Vector settled(const Surface& surface, Vector p)
 {
-  const auto settle = [&surface](Vector p)
+  constexpr double longest = 0.1;
+  for (int step = 0; step < 50; ++step)
   {
-    for (int step = 0; step < 50; ++step)
-    {
-      const Vector gradient = surface.gradient(p);
-      const double lack = surface.isovalue - surface.value(p);
-      const Vector move = scaled(gradient, lack / std::max(dot(gradient, gradient), 1e-12));
-      const double size = length(move);
-      constexpr double longest = 0.1;
-      p = sum(p, size > longest ? scaled(move, longest / size) : move);
-      if (size < 1e-14)
-      {
-        break;
-      }
-    }
-    return p;
-  };
-  Vector foot = settle(start);
-  constexpr double longestStride = 16.0; // where the surface bends around the position
-  double stride = 1.0;
-  for (int step = 0; step < 1000 && stride > 1e-6; ++step)
-  {
-    const Vector normal = directionOf(surface.gradient(foot));
-    const Vector towards = difference(position, foot);
-    const Vector along = difference(towards, scaled(normal, dot(towards, normal)));
-    if (length(along) < 1e-13)
+    const Vector gradient = surface.gradient(p);
+    const double lack = surface.isovalue - surface.value(p);
+    const Vector move = scaled(gradient, lack / std::max(dot(gradient, gradient), 1e-12));
+    const double size = length(move);
+    p = sum(p, size > longest ? scaled(move, longest / size) : move);
+    if (size < 1e-14)
     {
       break;
     }
-    const Vector next = settle(sum(foot, scaled(along, stride)));
-    const bool isCloser = length(difference(position, next)) < length(towards);
-    foot = isCloser ? next : foot;
-    stride = isCloser ? std::min(longestStride, 2.0 * stride) : 0.5 * stride;
   }
-  return footAt(position, foot, scaled(directionOf(surface.gradient(foot)), -1.0));
+  return p;
+}
+
+/// Walks from a start to the surface, then along it to where it is closest to the position: steps
+/// down the slope of the distance, of the length that Barzilai and Borwein give.
+inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vector& start)
+{
+  const auto alongSurface = [&](const Vector& foot)
+  {
+    const Vector normal = directionOf(surface.gradient(foot));
+    const Vector towards = difference(position, foot);
+    return difference(towards, scaled(normal, dot(towards, normal)));
+  };
+  constexpr double longest = 0.1;
+  Vector foot = settled(surface, start);
+  Vector along = alongSurface(foot);
+  Vector best = foot;
+  double stride = 0.5;
+  for (int step = 0; step < 200 && length(along) > 1e-13; ++step)
+  {
+    const Vector before = foot;
+    const Vector alongBefore = along;
+    const double size = stride * length(along);
+    foot =
+      settled(surface, sum(foot, scaled(along, size > longest ? stride * longest / size : stride)));
+    along = alongSurface(foot);
+    if (length(difference(position, foot)) < length(difference(position, best)))
+    {
+      best = foot;
+    }
+    const Vector moved = difference(foot, before);
+    const double bend = dot(moved, difference(alongBefore, along));
+    stride = bend > 0.0 ? std::clamp(dot(moved, moved) / bend, 1e-3, 16.0) : 1.0;
+  }
+  return footAt(position, best, scaled(directionOf(surface.gradient(best)), -1.0));
 }
 
 /// Gives a smooth surface the nearest foot that walks find: one from the position itself, and

@@ -111,10 +111,9 @@ TEST(AnalyticFields, FeetLieOnTheSurfaceAndTheirNormalsFall)
       }
       if (foot.normals.size() == 1)
       {
-        // The way to the foot runs along the normal. Near the middle axis walks end up to
-        // 1e-4 beside the foot, which is 1e-8 farther at most.
+        // The way to the foot runs along the normal; 1e-5 beside it is 1e-10 farther at most.
         const double along = dot(way, foot.normals[0]);
-        ASSERT_LT(foot.distance * foot.distance - along * along, 1e-8);
+        ASSERT_LT(foot.distance * foot.distance - along * along, 1e-10);
       }
     }
   }
