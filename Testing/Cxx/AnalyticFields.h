@@ -97,6 +97,7 @@ inline Surface marschnerLobb()
   };
   Surface surface;
   surface.name = "Marschner-Lobb";
+  surface.thickness = 0.04;
   surface.isClosed = false;
   surface.isovalue = 0.5;
   surface.value = [=](const Vector& p)

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "AccuracyMeasure.h"
+
+#include "AccuracySplats.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace accuracy
+{
+namespace
+{
+
+using analytic::dot;
+using analytic::Foot;
+using analytic::Surface;
+using analytic::Vector;
+
+constexpr double quantile = 0.999;
+
+/// Runs f(i) for each i below count, in parallel.
+template <class Function>
+void forEach(std::size_t count, const Function& function)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1000,
+    [&function](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        function(static_cast<std::size_t>(i));
+      }
+    });
+}
+
+double meanOf(const std::vector<double>& numbers)
+{
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
+}
+
+double quantileOf(std::vector<double> numbers)
+{
+  const auto place =
+    static_cast<std::ptrdiff_t>(std::ceil(quantile * static_cast<double>(numbers.size())) - 1.0);
+  std::nth_element(numbers.begin(), numbers.begin() + place, numbers.end());
+  return numbers[static_cast<std::size_t>(place)];
+}
+
+/// The angle between a normal and the nearest of the true ones, in degrees.
+double angleOf(const Vector& normal, const Foot& foot)
+{
+  double cosine = -1.0;
+  for (const Vector& truth : foot.normals)
+  {
+    cosine = std::max(cosine, dot(normal, truth));
+  }
+  return std::acos(std::min(cosine, 1.0)) * 180.0 / 3.14159265358979323846;
+}
+
+/// The share of the places that no splat covers.
+double uncoveredShare(
+  const std::vector<Splat>& splats, const std::vector<Vector>& places, double meanSpacing)
+{
+  const Coverage coverage(splats, 0.5 * meanSpacing);
+  std::vector<double> misses(places.size());
+  forEach(
+    places.size(), [&](std::size_t i) { misses[i] = coverage.covers(places[i]) ? 0.0 : 1.0; });
+  return meanOf(misses);
+}
+
+double rimDistance(const std::vector<Splat>& splats, const Surface& surface)
+{
+  std::vector<double> distances(4 * splats.size());
+  forEach(splats.size(),
+    [&](std::size_t i)
+    {
+      std::size_t end = 4 * i;
+      for (const Vector& axis : { splats[i].axis1, splats[i].axis2 })
+      {
+        for (const double side : { -1.0, 1.0 })
+        {
+          distances[end++] =
+            surface.footOf(analytic::sum(splats[i].center, analytic::scaled(axis, side))).distance;
+        }
+      }
+    });
+  return quantileOf(distances);
+}
+
+} // namespace
+
+Measurement measureAccuracy(vtkPolyData* extracted, const Surface& surface,
+  const std::vector<Vector>& truePoints, double meanSpacing)
+{
+  Measurement result;
+  result.points = static_cast<std::size_t>(extracted->GetNumberOfPoints());
+  const std::vector<Splat> splats = splatsOf(extracted);
+  if (!splats.empty())
+  {
+    result.uncovered = uncoveredShare(splats, truePoints, meanSpacing);
+    result.rimDistance = rimDistance(splats, surface) / meanSpacing;
+  }
+  if (result.points == 0)
+  {
+    return result;
+  }
+  vtkDataArray* const normals = extracted->GetPointData()->GetNormals();
+  std::vector<double> distances(result.points);
+  std::vector<double> angles(result.points);
+  forEach(result.points,
+    [&](std::size_t i)
+    {
+      Vector p;
+      extracted->GetPoints()->GetPoint(static_cast<vtkIdType>(i), p.data());
+      const Foot foot = surface.footOf(p);
+      distances[i] = foot.distance / meanSpacing;
+      if (normals)
+      {
+        Vector normal;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          normal[static_cast<std::size_t>(axis)] =
+            normals->GetComponent(static_cast<vtkIdType>(i), axis);
+        }
+        angles[i] = angleOf(analytic::directionOf(normal), foot);
+      }
+    });
+  result.meanDistance = meanOf(distances);
+  result.quantileDistance = quantileOf(distances);
+  result.largestDistance = *std::max_element(distances.begin(), distances.end());
+  if (normals)
+  {
+    result.meanAngle = meanOf(angles);
+    result.largestAngle = *std::max_element(angles.begin(), angles.end());
+  }
+  return result;
+}
+
+} // namespace accuracy
