@@ -198,13 +198,13 @@ inline auto readerOf(const Cloud& cloud)
 }
 
 template <class TCoordinate = double, class TValue = double>
-isopoint::Isosurface extract(
-  const Cloud& cloud, double isovalue, double angle, std::size_t threads = 1)
+isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
+  std::size_t threads = 1, double gapFactor = 0.0)
 {
   const isopoint::Execution execution = executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
-  return extractor.extract(execution, isovalue, angle);
+  return extractor.extract(execution, isovalue, angle, gapFactor);
 }
 
 } // namespace clouds

@@ -434,6 +434,13 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
     expectError("within 0 and 180");
   }
   filter->SetAngle(54.7);
+  for (const double factor :
+    { -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
+  {
+    filter->SetGapFactor(factor);
+    expectError("gap factor");
+  }
+  filter->SetGapFactor(0.0);
   filter->SetNumberOfContours(2);
   filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());
   filter->SetValue(1, 0.7);
@@ -451,6 +458,38 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
   filter->SetInputData(cloud);
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(Filter, GapFactorDropsPointsInVoids)
+{
+  const auto cloud = newCloud(20000);
+  // A half moved away: the gap is five times as wide as the cloud.
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    p[0] += p[0] > 0.0 ? 10.0 : 0.0;
+    cloud->GetPoints()->SetPoint(i, p);
+  }
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  const auto countInGap = [&filter]()
+  {
+    filter->Update();
+    int count = 0;
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      const double x = filter->GetOutput()->GetPoint(i)[0];
+      count += x > 1.1 && x < 9.9 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(countInGap(), 0);
+  const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
+  filter->SetGapFactor(3.0);
+  EXPECT_EQ(countInGap(), 0);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 9 * all / 10);
 }
 
 TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)
