@@ -172,6 +172,13 @@ struct Subject
   vtkSmartPointer<vtkPolyData> samples;
 };
 
+/// The cube that is measured, two mean spacings inside that of the samples. Closed surfaces lie in
+/// it as a whole.
+double innerHalfSide(const Options& options)
+{
+  return 1.0 - 2.0 * meanSpacing(options.samples);
+}
+
 std::string cell(double value, const char* format)
 {
   char text[64];
@@ -208,7 +215,8 @@ public:
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     this->keep(subject, contestant.name, points);
     const auto count = static_cast<std::size_t>(subject.samples->GetNumberOfPoints());
-    const Measurement found = measureAccuracy(points, surface, truePoints, meanSpacing(count));
+    const Measurement found =
+      measureAccuracy(points, surface, truePoints, innerHalfSide(this->Chosen), meanSpacing(count));
     this->Out << "| " << surface.name << " | " << subject.sampling << " | " << subject.noise
               << " | " << contestant.name << " | " << found.points << " | "
               << cell(found.largestDistance, "%.4f") << " | "
@@ -244,10 +252,8 @@ private:
 
 void compareOn(const analytic::Surface& surface, const Options& options, Table& table)
 {
-  const double spacing = meanSpacing(options.samples);
-  // Where there are samples on all sides; closed surfaces lie within that anyway.
   const std::vector<analytic::Vector> truePoints =
-    randomSurfacePoints(surface, options.surfacePoints, 1.0 - 2.0 * spacing, 17);
+    randomSurfacePoints(surface, options.surfacePoints, innerHalfSide(options), 17);
   const double deviation = deviationOf(surface);
   for (const std::string& noise : options.noise)
   {

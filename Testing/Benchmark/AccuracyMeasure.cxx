@@ -73,29 +73,49 @@ double uncoveredShare(
   return meanOf(misses);
 }
 
-double rimDistance(const std::vector<Splat>& splats, const Surface& surface)
+bool isWithin(const Vector& p, double halfSide)
 {
-  std::vector<double> distances(4 * splats.size());
-  forEach(splats.size(),
-    [&](std::size_t i)
+  return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) <= halfSide;
+}
+
+std::vector<vtkIdType> pointsWithin(vtkPolyData* points, double halfSide)
+{
+  std::vector<vtkIdType> inner;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Vector p;
+    points->GetPoint(i, p.data());
+    if (isWithin(p, halfSide))
     {
-      std::size_t end = 4 * i;
-      for (const Vector& axis : { splats[i].axis1, splats[i].axis2 })
+      inner.push_back(i);
+    }
+  }
+  return inner;
+}
+
+double rimDistance(const std::vector<Splat>& splats, const Surface& surface, double halfSide)
+{
+  std::vector<Vector> ends;
+  for (const Splat& splat : splats)
+  {
+    if (isWithin(splat.center, halfSide))
+    {
+      for (const Vector& axis : { splat.axis1, splat.axis2 })
       {
-        for (const double side : { -1.0, 1.0 })
-        {
-          distances[end++] =
-            surface.footOf(analytic::sum(splats[i].center, analytic::scaled(axis, side))).distance;
-        }
+        ends.push_back(analytic::sum(splat.center, axis));
+        ends.push_back(analytic::difference(splat.center, axis));
       }
-    });
-  return quantileOf(distances);
+    }
+  }
+  std::vector<double> distances(ends.size());
+  forEach(ends.size(), [&](std::size_t i) { distances[i] = surface.footOf(ends[i]).distance; });
+  return ends.empty() ? -1.0 : quantileOf(distances);
 }
 
 } // namespace
 
 Measurement measureAccuracy(vtkPolyData* extracted, const Surface& surface,
-  const std::vector<Vector>& truePoints, double meanSpacing)
+  const std::vector<Vector>& truePoints, double halfSide, double meanSpacing)
 {
   Measurement result;
   result.points = static_cast<std::size_t>(extracted->GetNumberOfPoints());
@@ -103,31 +123,26 @@ Measurement measureAccuracy(vtkPolyData* extracted, const Surface& surface,
   if (!splats.empty())
   {
     result.uncovered = uncoveredShare(splats, truePoints, meanSpacing);
-    result.rimDistance = rimDistance(splats, surface) / meanSpacing;
+    result.rimDistance = rimDistance(splats, surface, halfSide) / meanSpacing;
   }
-  if (result.points == 0)
+  const std::vector<vtkIdType> inner = pointsWithin(extracted, halfSide);
+  if (inner.empty())
   {
     return result;
   }
   vtkDataArray* const normals = extracted->GetPointData()->GetNormals();
-  std::vector<double> distances(result.points);
-  std::vector<double> angles(result.points);
-  forEach(result.points,
+  std::vector<double> distances(inner.size());
+  std::vector<double> angles(inner.size());
+  forEach(inner.size(),
     [&](std::size_t i)
     {
       Vector p;
-      extracted->GetPoints()->GetPoint(static_cast<vtkIdType>(i), p.data());
+      extracted->GetPoints()->GetPoint(inner[i], p.data());
       const Foot foot = surface.footOf(p);
       distances[i] = foot.distance / meanSpacing;
       if (normals)
       {
-        Vector normal;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          normal[static_cast<std::size_t>(axis)] =
-            normals->GetComponent(static_cast<vtkIdType>(i), axis);
-        }
-        angles[i] = angleOf(analytic::directionOf(normal), foot);
+        angles[i] = angleOf(analytic::directionOf(tupleOf(normals, inner[i])), foot);
       }
     });
   result.meanDistance = meanOf(distances);

@@ -19,11 +19,6 @@ using analytic::dot;
 using analytic::length;
 using analytic::Vector;
 
-Vector tupleOf(vtkDataArray* array, vtkIdType i)
-{
-  return { array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2) };
-}
-
 Vector cross(const Vector& a, const Vector& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
@@ -48,6 +43,11 @@ std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
 }
 
 } // namespace
+
+Vector tupleOf(vtkDataArray* array, vtkIdType i)
+{
+  return { array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2) };
+}
 
 double Splat::radius() const
 {

@@ -4,11 +4,14 @@
 
 #include "AnalyticSurface.h"
 
+#include "vtkType.h"
+
 #include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
+class vtkDataArray;
 class vtkPolyData;
 
 namespace accuracy
@@ -24,6 +27,9 @@ struct Splat
 
   double radius() const; // half the major axis
 };
+
+/// An array's tuple of three components.
+analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
 /// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
 /// "SplatAxis2"; none where there is neither.
