@@ -105,14 +105,14 @@ public:
   /**
    * Drops points on edges across gaps in the cloud, as at a free surface or between groups of
    * boreholes: those longer than this many local spacings, measured behind both ends. Exactly: the
-   * spacing behind the end x of an edge {x, y} is the distance from x to the 4th nearest position
+   * spacing behind the end x of an edge {x, y} is the distance from x to the 2nd nearest position
    * of a sample within 54.7356 degrees (its cosine is 1 / sqrt 3) of the direction from y to x,
-   * and infinite where there are fewer than four. An edge is dropped if it is longer than
-   * GapFactor times the larger one of the spacings behind its ends. So the edges stay that lead to
-   * a sample far from all others, from fine regions to coarse ones, and across lines or slices
-   * that are farther from each other than their samples are. Sensible is 3: it drops all edges
-   * across voids wider than about ten spacings, and from clouds without voids, uniform or
-   * clustered, none or hardly any. Smaller values drop more. 0: nothing is dropped, at no cost.
+   * infinite where there are fewer than two. An edge is dropped if it is longer than GapFactor
+   * times the larger one of the spacings behind its ends. So edges stay that lead to a sample far
+   * from all others, from fine regions to coarse ones, and across lines or slices that are farther
+   * apart than their samples. Sensible is 4: it drops the edges across voids of ten spacings and
+   * more, and none from uniform, clustered or graded clouds without voids. Smaller values drop
+   * more. 0: nothing is dropped, at no cost.
    * 0 or more, default: 0.
    */
   vtkSetMacro(GapFactor, double);

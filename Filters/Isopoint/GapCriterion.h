@@ -14,7 +14,7 @@ namespace isopoint
 {
 
 /// Tells edges across gaps in the cloud from others. The spacing behind the end x of an edge {x, y}
-/// is the distance from x to the 4th nearest position of a sample within 54.7356 degrees of the
+/// is the distance from x to the 2nd nearest position of a sample within 54.7356 degrees of the
 /// direction from y to x (the angle's cosine is 1 / sqrt 3), infinite where there are fewer. An
 /// edge is dropped if it is longer than `factor` times the larger one of the spacings behind its
 /// ends. All samples count for that, in N(x) or not: cells at the brink of a void are as wide as it
@@ -41,7 +41,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t wantedCount = 4;
+  static constexpr std::size_t wantedCount = 2;
   static constexpr double cosine = 1.0 / 1.7320508075688772; // 1 / sqrt 3
 
   /// The positions found so far behind an end, each once.

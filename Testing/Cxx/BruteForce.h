@@ -195,13 +195,13 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
     });
 }
 
-/// The distance from the end x of an edge {x, y} to the 4th nearest cell's position in the cone of
+/// The distance from the end x of an edge {x, y} to the 2nd nearest cell's position in the cone of
 /// 54.7356 degrees behind it, infinite where there are fewer.
 inline double spacingBehind(const std::vector<Cell>& cells, std::size_t x, std::size_t y)
 {
   const double cosine = 1.0 / std::sqrt(3.0);
   const double length = std::sqrt(product(cells[x], cells[y], cells[y]));
-  std::vector<double> distances(4, std::numeric_limits<double>::infinity());
+  std::vector<double> distances(2, std::numeric_limits<double>::infinity());
   for (const Cell& z : cells)
   {
     const double distance = std::sqrt(product(cells[x], z, z));
@@ -211,7 +211,7 @@ inline double spacingBehind(const std::vector<Cell>& cells, std::size_t x, std::
     }
   }
   std::sort(distances.begin(), distances.end());
-  return distances[3];
+  return distances[1];
 }
 
 inline bool spansGap(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
