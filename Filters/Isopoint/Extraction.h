@@ -80,7 +80,7 @@ public:
       {
         const Node<TSample>& other = this->Tree.nodes[this->Neighbors[crossing.neighbor]];
         const TSample& otherSample = this->Tree.samples[other.begin];
-        if (this->Gaps.drops(this->Tree, sample, otherSample))
+        if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
         {
           continue;
         }

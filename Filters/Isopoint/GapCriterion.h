@@ -30,14 +30,27 @@ public:
   {
   }
 
-  /// Whether the edge between the positions of two samples is dropped. Symmetric in them, and the
-  /// same whatever part of the tree is built.
+  /// Whether the edge between the positions of two samples is dropped, one of them a leaf's.
+  /// Symmetric in them, and the same whatever part of the tree is built.
   /// Complexity: O(depth + samples closer than the edge's length / factor to an end)
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, const TSample& a, const TSample& b) const
+  bool drops(const SampleTree<TSample>& tree, const Path& leaf, const TSample& own,
+    const TSample& other) const
   {
-    return this->Factor > 0.0 && this->isCrowdedBehind(tree, a, b) &&
-           this->isCrowdedBehind(tree, b, a);
+    if (this->Factor <= 0.0)
+    {
+      return false;
+    }
+    const auto aroundLeaf = [&](const Region& box, const auto& visit)
+    { return visitAround(tree, leaf, box, visit); };
+    const auto fromRoot = [&](const Region& box, const auto& visit)
+    {
+      return visitTouchingInSubtree(
+        tree, { SampleTree<TSample>::rootSlot, 0 }, maximumDepth, box,
+        [](const Node<TSample>&) { return true; }, visit);
+    };
+    return this->isCrowdedBehind(tree, own, other, aroundLeaf) &&
+           this->isCrowdedBehind(tree, other, own, fromRoot);
   }
 
 private:
@@ -65,9 +78,10 @@ private:
   };
 
   /// Whether the edge is longer than `factor` times the spacing behind its end.
-  template <class TSample>
-  bool isCrowdedBehind(
-    const SampleTree<TSample>& tree, const TSample& end, const TSample& other) const
+  /// @param search(box, visit) visits the nodes that hold the samples in a box around the end
+  template <class TSample, class Search>
+  bool isCrowdedBehind(const SampleTree<TSample>& tree, const TSample& end, const TSample& other,
+    const Search& search) const
   {
     const std::array<double, 3> center = positionOf(end);
     const Offset edge = offsetBetween(center.data(), positionOf(other).data());
@@ -80,9 +94,7 @@ private:
              -product > cosine * (offset.length * edge.length);
     };
     Found<TSample> found;
-    return visitTouchingInSubtree(
-      tree, { SampleTree<TSample>::rootSlot, 0 }, maximumDepth,
-      this->boxAround(center, edge.length), [](const Node<TSample>&) { return true; },
+    return search(this->boxAround(center, edge.length),
       [&](std::size_t slot)
       {
         const Node<TSample>& node = tree.nodes[slot];
