@@ -14,15 +14,11 @@ namespace accuracy
 namespace
 {
 
+using analytic::cross;
 using analytic::difference;
 using analytic::dot;
 using analytic::length;
 using analytic::Vector;
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
 
 /// Any two axes of a length across a normal.
 std::array<Vector, 2> axesAcross(const Vector& normal, double radius)

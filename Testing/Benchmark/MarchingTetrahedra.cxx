@@ -20,14 +20,10 @@ namespace accuracy
 namespace
 {
 
+using analytic::cross;
 using analytic::difference;
 using analytic::dot;
 using analytic::Vector;
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
 
 /// Collects the vertices of the surface, cell by cell.
 class Marching
