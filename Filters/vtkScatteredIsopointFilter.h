@@ -110,9 +110,10 @@ public:
    * infinite where there are fewer than two. An edge is dropped if it is longer than GapFactor
    * times the larger one of the spacings behind its ends. So edges stay that lead to a sample far
    * from all others, from fine regions to coarse ones, and across lines or slices that are farther
-   * apart than their samples. Sensible is 4: it drops the edges across voids of ten spacings and
-   * more, and none from uniform, clustered or graded clouds without voids. Smaller values drop
-   * more. 0: nothing is dropped, at no cost.
+   * apart than their samples; not so where a line's samples scatter sideways as far as they are
+   * apart along it. Sensible is 4: it drops the edges across voids of ten spacings and more, none
+   * from uniform clouds, lattices or the leaf cells of adaptive grids, and up to a few percent from
+   * slices, boreholes and ship casts. Smaller values drop more. 0: nothing is dropped, at no cost.
    * 0 or more, default: 0.
    */
   vtkSetMacro(GapFactor, double);
