@@ -112,7 +112,7 @@ public:
    * from all others, from fine regions to coarse ones, and across lines or slices that are farther
    * apart than their samples; not so where a line's samples scatter sideways as far as they are
    * apart along it. Sensible is 4: it drops the edges across voids of ten spacings and more, none
-   * from uniform clouds, lattices or the leaf cells of adaptive grids, and up to a few percent from
+   * from uniform clouds, lattices or the leaf cells of adaptive grids, and up to a tenth from
    * slices, boreholes and ship casts. Smaller values drop more. 0: nothing is dropped, at no cost.
    * 0 or more, default: 0.
    */
