@@ -268,6 +268,13 @@ bool vtkScatteredIsopointFilter::IsUsable(vtkDataSet* input)
                   << "; it must be within 0 and 180 degrees. See SetAngle().");
     return false;
   }
+  if (!(this->GapFactor >= 0.0) || std::isinf(this->GapFactor))
+  {
+    vtkErrorMacro(<< "The gap factor is " << this->GapFactor
+                  << "; it must be 0, which drops nothing, or a positive number. See"
+                  << " SetGapFactor().");
+    return false;
+  }
   if (input->GetNumberOfPoints() == 0)
   {
     vtkErrorMacro(<< "The input has no points. Connect a data set with points and a scalar array.");
@@ -352,8 +359,8 @@ void vtkScatteredIsopointFilter::Extract(
     const double share = (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
     surfaces.push_back({ isovalue,
-      this->Kept->Extractor.extract(
-        vtkMakeIsopointStep(execution, this, begin, begin + share), isovalue, this->Angle) });
+      this->Kept->Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
+        isovalue, this->Angle, this->GapFactor) });
     pointCount += surfaces.back().Surface.points.size();
     isopoint::throwIfAborted(execution);
   }
@@ -429,6 +436,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Contour values:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Angle: " << this->Angle << "\n";
+  os << indent << "GapFactor: " << this->GapFactor << "\n";
   os << indent << "ComputeNormals: " << onOff(this->ComputeNormals) << "\n";
   os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";
   os << indent << "ComputeScalars: " << onOff(this->ComputeScalars) << "\n";

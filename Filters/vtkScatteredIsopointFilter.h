@@ -40,7 +40,7 @@
  *
  * @warning
  * Regions fill the bounding box of the samples. Samples on both sides of a void are neighbours, as
- * in a Delaunay tetrahedrisation, and can put points into the void.
+ * in a Delaunay tetrahedrisation, and can put points into the void. See SetGapFactor.
  *
  * @warning
  * Composite data are refused: merge the blocks first.
@@ -99,6 +99,25 @@ public:
    */
   vtkSetMacro(Angle, double);
   vtkGetMacro(Angle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Drops points on edges across gaps in the cloud, as at a free surface or between groups of
+   * boreholes: those longer than this many local spacings, measured behind both ends. Exactly: the
+   * spacing behind the end x of an edge {x, y} is the distance from x to the 2nd nearest position
+   * of a sample within 54.7356 degrees (its cosine is 1 / sqrt 3) of the direction from y to x,
+   * infinite where there are fewer than two. An edge is dropped if it is longer than GapFactor
+   * times the larger one of the spacings behind its ends. So edges stay that lead to a sample far
+   * from all others, from fine regions to coarse ones, and across lines or slices that are farther
+   * apart than their samples; not so where a line's samples scatter sideways as far as they are
+   * apart along it. Sensible is 4: it drops the edges across voids of ten spacings and more, none
+   * from uniform clouds, lattices or the leaf cells of adaptive grids, and up to a tenth from
+   * slices, boreholes and ship casts. Smaller values drop more. 0: nothing is dropped, at no cost.
+   * 0 or more, default: 0.
+   */
+  vtkSetMacro(GapFactor, double);
+  vtkGetMacro(GapFactor, double);
   ///@}
 
   ///@{
@@ -195,6 +214,7 @@ protected:
 
   vtkNew<vtkContourValues> ContourValues;
   double Angle;
+  double GapFactor = 0.0;
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeRadii = 1;
   vtkTypeBool ComputeScalars = 1;

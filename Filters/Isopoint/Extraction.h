@@ -4,6 +4,7 @@
 
 #include "AngleCriterion.h"
 #include "Execution.h"
+#include "GapCriterion.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
 #include "NarrowBand.h"
@@ -40,16 +41,18 @@ public:
 
   /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
-    std::atomic<std::int64_t>& room)
+    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)
+    , Gaps(gapCriterion)
     , Room(room)
   {
   }
 
   /// Adds an isopoint for each neighbour of the leaf's sample that survives the angle criterion
-  /// there and lies on the other side of the isovalue (sections 6 and 7 of the paper).
+  /// there and lies on the other side of the isovalue (sections 6 and 7 of the paper), but not
+  /// across a gap.
   void find(const Path& leaf)
   {
     const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
@@ -76,7 +79,12 @@ public:
       if (this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), crossing.neighbor))
       {
         const Node<TSample>& other = this->Tree.nodes[this->Neighbors[crossing.neighbor]];
-        this->addPoint(sample, value, this->Tree.samples[other.begin], crossing.value);
+        const TSample& otherSample = this->Tree.samples[other.begin];
+        if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
+        {
+          continue;
+        }
+        this->addPoint(sample, value, otherSample, crossing.value);
         this->addMerged(node);
         this->addMerged(other);
       }
@@ -176,6 +184,7 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
+  const GapCriterion& Gaps;
   std::atomic<std::int64_t>& Room;
   SlotList<Id> Neighbors;
   std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
@@ -188,12 +197,13 @@ private:
 
 /// The canonical isopoints of one isovalue (DESIGN section 1), refining the tree as far as needed.
 /// @param angle in degrees, 0 up to 180
+/// @param gapFactor of the gap criterion: 0, which drops nothing, or positive
 /// @param idCount above every id
 /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
 /// again afterwards
 template <class TSample>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, double isovalue,
-  double angle, std::uint64_t idCount)
+  double angle, double gapFactor, std::uint64_t idCount)
 {
   Isosurface result;
   if (tree.isEmpty())
@@ -202,6 +212,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   }
   const std::vector<NodeIndex> crossing = NarrowBand<TSample>(tree, isovalue, execution).refine();
   const AngleCriterion criterion(angle);
+  const GapCriterion gapCriterion(gapFactor);
   std::vector<Isopoint> points;
   std::vector<std::vector<typename TSample::Id>> records;
   std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
@@ -211,7 +222,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   forRanges(execution, crossing.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(tree, isovalue, criterion, room);
+      EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, room);
       for (std::size_t i = begin; i < end; ++i)
       {
         Path path = pathTo(tree, crossing[i]);

@@ -70,9 +70,11 @@ public:
   /// The canonical isosurface: the same for any execution and any order of calls.
   /// @param isovalue any; none is found where no two samples lie on either side of it
   /// @param angle of the angle criterion in degrees, 0 up to 180
+  /// @param gapFactor of the gap criterion: 0, which drops nothing, or positive
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
-  Isosurface extract(const Execution& execution, double isovalue, double angle);
+  Isosurface extract(
+    const Execution& execution, double isovalue, double angle, double gapFactor = 0.0);
 
 private:
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }

@@ -92,6 +92,31 @@ bool visitTouching(
   return visitTouching(tree, path, nodeDepth, enterAll, visit);
 }
 
+/// Visits the nodes, other than the path's own, that are not split and touch a box that touches the
+/// path's region; a few that do not touch it may be among them. The way up is short: only planes
+/// that the box reaches are crossed.
+/// @param visit(slot) returns whether to end the search
+/// @returns whether a visit did
+template <class TSample, class Visitor>
+bool visitAround(
+  const SampleTree<TSample>& tree, const Path& path, const Region& box, const Visitor& visit)
+{
+  const auto enterAll = [](const Node<TSample>&) { return true; };
+  for (int depth = path.depth; depth > 0; --depth)
+  {
+    const double plane = path.planes[depth - 1];
+    const int axis = path.axes[depth - 1];
+    const bool reaches =
+      path.uppers[depth - 1] ? box.lower[axis] <= plane : box.upper[axis] >= plane;
+    if (reaches && visitTouchingInSubtree(tree, { siblingOf(path.slots[depth]), depth },
+                     maximumDepth, box, enterAll, visit))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether a node that touches the path's has samples on the other side of the isovalue than
 /// where the path's node has some: `isBelow` tells that side. Ranges steer the search, so that it
 /// is short where there is none.

@@ -26,6 +26,7 @@ using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Con
 using Sequential = CGAL::Delaunay_triangulation_3<Kernel, Structure<CGAL::Sequential_tag>>;
 using Parallel = CGAL::Delaunay_triangulation_3<Kernel, Structure<CGAL::Parallel_tag>>;
 using Edge = std::pair<vtkIdType, vtkIdType>;
+using Site = std::pair<Kernel::Point_3, vtkIdType>;
 
 template <class Triangulation>
 std::vector<Edge> crossingEdges(
@@ -57,19 +58,25 @@ std::vector<Edge> crossingEdges(
   return edges;
 }
 
-} // namespace
-
-vtkSmartPointer<vtkPolyData> contourDelaunay(vtkPolyData* cloud, double isovalue, bool parallel)
+std::vector<Site> sitesOf(vtkPolyData* cloud)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
-  vtkDataArray* const values = cloud->GetPointData()->GetScalars();
-  std::vector<std::pair<Kernel::Point_3, vtkIdType>> points(static_cast<std::size_t>(count));
+  std::vector<Site> points(static_cast<std::size_t>(count));
   for (vtkIdType i = 0; i < count; ++i)
   {
     double p[3];
     cloud->GetPoint(i, p);
     points[static_cast<std::size_t>(i)] = { Kernel::Point_3(p[0], p[1], p[2]), i };
   }
+  return points;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> contourDelaunay(vtkPolyData* cloud, double isovalue, bool parallel)
+{
+  vtkDataArray* const values = cloud->GetPointData()->GetScalars();
+  const std::vector<Site> points = sitesOf(cloud);
   std::vector<Edge> edges;
   if (parallel)
   {
@@ -101,4 +108,17 @@ vtkSmartPointer<vtkPolyData> contourDelaunay(vtkPolyData* cloud, double isovalue
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(surface);
   return result;
+}
+
+std::vector<Tetrahedron> tetrahedra(vtkPolyData* cloud)
+{
+  const std::vector<Site> points = sitesOf(cloud);
+  const Sequential triangulation(points.begin(), points.end());
+  std::vector<Tetrahedron> cells;
+  for (const auto cell : triangulation.finite_cell_handles())
+  {
+    cells.push_back({ cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
+      cell->vertex(3)->info() });
+  }
+  return cells;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -194,7 +195,35 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
     });
 }
 
-inline std::vector<Point> extract(const clouds::Cloud& cloud, double isovalue, double angle)
+/// The distance from the end x of an edge {x, y} to the 2nd nearest cell's position in the cone of
+/// 54.7356 degrees behind it, infinite where there are fewer.
+inline double spacingBehind(const std::vector<Cell>& cells, std::size_t x, std::size_t y)
+{
+  const double cosine = 1.0 / std::sqrt(3.0);
+  const double length = std::sqrt(product(cells[x], cells[y], cells[y]));
+  std::vector<double> distances(2, std::numeric_limits<double>::infinity());
+  for (const Cell& z : cells)
+  {
+    const double distance = std::sqrt(product(cells[x], z, z));
+    if (-product(cells[x], z, cells[y]) > cosine * (distance * length))
+    {
+      distances.push_back(distance);
+    }
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances[1];
+}
+
+inline bool spansGap(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
+{
+  return gapFactor > 0.0 &&
+         std::sqrt(product(cells[x], cells[y], cells[y])) >
+           gapFactor * std::max(spacingBehind(cells, x, y), spacingBehind(cells, y, x));
+}
+
+/// @param gapFactor 0, or how many times the larger spacing behind its ends an edge may be long
+inline std::vector<Point> extract(
+  const clouds::Cloud& cloud, double isovalue, double angle, double gapFactor = 0.0)
 {
   const Tree tree(cloud);
   const std::vector<Cell>& cells = tree.cells;
@@ -205,7 +234,7 @@ inline std::vector<Point> extract(const clouds::Cloud& cloud, double isovalue, d
     for (const std::size_t y : neighbors[x])
     {
       if ((cells[x].value < isovalue) != (cells[y].value < isovalue) &&
-          survives(cells, neighbors[x], x, y, angle))
+          survives(cells, neighbors[x], x, y, angle) && !spansGap(cells, x, y, gapFactor))
       {
         const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
         const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];

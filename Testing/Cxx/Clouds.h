@@ -2,13 +2,14 @@
 #ifndef Clouds_h
 #define Clouds_h
 
+#include "Random.h"
+
 #include "Isopoint/IsosurfaceExtractor.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <thread>
 #include <vector>
 
@@ -28,21 +29,6 @@ struct Cloud
     this->positions.insert(this->positions.end(), { x, y, z });
     this->values.push_back(value);
   }
-};
-
-/// Uniform numbers in [0, 1), the same on every platform.
-class Random
-{
-public:
-  explicit Random(std::uint64_t seed)
-    : Generator(seed)
-  {
-  }
-
-  double operator()() { return static_cast<double>(this->Generator() >> 11) * 0x1p-53; }
-
-private:
-  std::mt19937_64 Generator;
 };
 
 /// A smooth field with several sheets in the unit cube.
@@ -212,13 +198,13 @@ inline auto readerOf(const Cloud& cloud)
 }
 
 template <class TCoordinate = double, class TValue = double>
-isopoint::Isosurface extract(
-  const Cloud& cloud, double isovalue, double angle, std::size_t threads = 1)
+isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
+  std::size_t threads = 1, double gapFactor = 0.0)
 {
   const isopoint::Execution execution = executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
-  return extractor.extract(execution, isovalue, angle);
+  return extractor.extract(execution, isovalue, angle, gapFactor);
 }
 
 } // namespace clouds

@@ -434,6 +434,13 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
     expectError("within 0 and 180");
   }
   filter->SetAngle(54.7);
+  for (const double factor :
+    { -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
+  {
+    filter->SetGapFactor(factor);
+    expectError("gap factor");
+  }
+  filter->SetGapFactor(0.0);
   filter->SetNumberOfContours(2);
   filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());
   filter->SetValue(1, 0.7);
@@ -451,6 +458,32 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
   filter->SetInputData(cloud);
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(Filter, GapFactorDropsPointsInVoids)
+{
+  const auto cloud = newCloud(20000);
+  // Cut at x = 0 and pulled apart: the gap is five times as wide as the cloud was.
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    p[0] += p[0] > 0.0 ? 10.0 : 0.0;
+    cloud->GetPoints()->SetPoint(i, p);
+  }
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  const auto count = [&filter](const char* array, double isovalue, double gapFactor)
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array);
+    filter->SetValue(0, isovalue);
+    filter->SetGapFactor(gapFactor);
+    filter->Update();
+    return static_cast<double>(filter->GetOutput()->GetNumberOfPoints());
+  };
+  EXPECT_GT(count("x", 0.0, 0.0), 0.0); // all in the gap
+  EXPECT_EQ(count("x", 0.0, 4.0), 0.0);
+  EXPECT_GT(count("distance", 0.7, 4.0), 0.95 * count("distance", 0.7, 0.0));
 }
 
 TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)

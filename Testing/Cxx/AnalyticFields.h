@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef AnalyticFields_h
+#define AnalyticFields_h
+
+#include "AnalyticSurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Fields over the cube [-1, 1]^3 whose isosurfaces are known exactly.
+namespace analytic
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The distance to the centre.
+inline Surface sphere()
+{
+  Surface surface;
+  surface.name = "sphere";
+  surface.isovalue = 0.7;
+  surface.value = [](const Vector& p) { return length(p); };
+  surface.gradient = [](const Vector& p) { return scaled(p, 1.0 / length(p)); };
+  surface.footOf = [](const Vector& p)
+  {
+    const Vector outwards = directionOf(p);
+    return footAt(p, scaled(outwards, 0.7), scaled(outwards, -1.0));
+  };
+  return surface;
+}
+
+/// The distance to a circle around the z axis.
+inline Surface torus()
+{
+  constexpr double circle = 0.6;
+  const auto nearestOnCircle = [](const Vector& p) {
+    return scaled(directionOf({ p[0], p[1], 0.0 }), circle);
+  };
+  Surface surface;
+  surface.name = "torus";
+  surface.isovalue = 0.25;
+  surface.value = [=](const Vector& p) { return length(difference(p, nearestOnCircle(p))); };
+  surface.gradient = [=](const Vector& p)
+  { return directionOf(difference(p, nearestOnCircle(p))); };
+  surface.footOf = [=](const Vector& p)
+  {
+    const Vector center = nearestOnCircle(p);
+    const Vector outwards = directionOf(difference(p, center));
+    return footAt(p, sum(center, scaled(outwards, 0.25)), scaled(outwards, -1.0));
+  };
+  return surface;
+}
+
+/// One period of the gyroid, a saddle everywhere; it leaves the cube.
+inline Surface gyroid()
+{
+  Surface surface;
+  surface.name = "gyroid";
+  surface.isClosed = false;
+  surface.isovalue = 0.0;
+  surface.value = [](const Vector& p)
+  {
+    return std::sin(pi * p[0]) * std::cos(pi * p[1]) + std::sin(pi * p[1]) * std::cos(pi * p[2]) +
+           std::sin(pi * p[2]) * std::cos(pi * p[0]);
+  };
+  surface.gradient = [](const Vector& p)
+  {
+    Vector gradient;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double own = pi * p[axis];
+      gradient[axis] = pi * (std::cos(own) * std::cos(pi * p[(axis + 1) % 3]) -
+                              std::sin(own) * std::sin(pi * p[(axis + 2) % 3]));
+    }
+    return gradient;
+  };
+  findFeetByNewton(surface, 1.5);
+  return surface;
+}
+
+/// The test signal of Marschner and Lobb, "An evaluation of reconstruction filters for volume
+/// rendering" (Visualization 1994): ripples around the z axis, up to 9.4 waves a unit; it leaves
+/// the cube. The isosurface at 0.5 is the graph of a function of the distance to the axis.
+inline Surface marschnerLobb()
+{
+  constexpr double amplitude = 0.25;
+  constexpr double frequency = 6.0;
+  const auto ripple = [](double r)
+  { return std::cos(2.0 * pi * frequency * std::cos(0.5 * pi * r)); };
+  const auto rippleSlope = [](double r)
+  {
+    return std::sin(2.0 * pi * frequency * std::cos(0.5 * pi * r)) * pi * pi * frequency *
+           std::sin(0.5 * pi * r);
+  };
+  Surface surface;
+  surface.name = "Marschner-Lobb";
+  surface.thickness = 0.04;
+  surface.isClosed = false;
+  surface.isovalue = 0.5;
+  surface.value = [=](const Vector& p)
+  {
+    return (1.0 - std::sin(0.5 * pi * p[2]) + amplitude * (1.0 + ripple(std::hypot(p[0], p[1])))) /
+           (2.0 * (1.0 + amplitude));
+  };
+  surface.gradient = [=](const Vector& p)
+  {
+    const double r = std::hypot(p[0], p[1]);
+    const double radial = r > 0.0 ? amplitude * rippleSlope(r) / r : 0.0;
+    return scaled({ radial * p[0], radial * p[1], -0.5 * pi * std::cos(0.5 * pi * p[2]) },
+      0.5 / (1.0 + amplitude));
+  };
+  const auto height = [=](double r) { return 2.0 / pi * std::asin(amplitude * ripple(r)); };
+  surface.footOf = [=](const Vector& p)
+  {
+    const double own = std::hypot(p[0], p[1]);
+    const Vector axis = directionOf({ p[0], p[1], 0.0 });
+    const double r = nearestOnGraph(height, own, p[2], 0.002);
+    Vector foot = scaled(axis, r);
+    foot[2] = height(r);
+    return footAt(p, foot, scaled(directionOf(surface.gradient(foot)), -1.0));
+  };
+  return surface;
+}
+
+/// Overlapping Gaussian bells of several widths.
+inline Surface gaussianMixture()
+{
+  struct Bell
+  {
+    Vector center;
+    double width;
+    double weight;
+  };
+  const std::vector<Bell> bells{ { { 0.0, 0.1, 0.0 }, 0.35, 1.0 }, { { 0.4, 0.3, 0.1 }, 0.2, 0.8 },
+    { { -0.4, 0.2, 0.3 }, 0.22, 0.9 }, { { 0.1, -0.5, -0.2 }, 0.25, 0.7 },
+    { { -0.2, 0.0, -0.45 }, 0.18, 0.9 }, { { 0.35, -0.2, 0.4 }, 0.2, 0.8 } };
+  Surface surface;
+  surface.name = "Gaussian mixture";
+  surface.isovalue = 0.5;
+  surface.value = [=](const Vector& p)
+  {
+    double total = 0.0;
+    for (const Bell& bell : bells)
+    {
+      const Vector d = difference(p, bell.center);
+      total += bell.weight * std::exp(-0.5 * dot(d, d) / (bell.width * bell.width));
+    }
+    return total;
+  };
+  surface.gradient = [=](const Vector& p)
+  {
+    Vector total{ 0.0, 0.0, 0.0 };
+    for (const Bell& bell : bells)
+    {
+      const Vector d = difference(p, bell.center);
+      const double squaredWidth = bell.width * bell.width;
+      total = sum(
+        total, scaled(d, -bell.weight * std::exp(-0.5 * dot(d, d) / squaredWidth) / squaredWidth));
+    }
+    return total;
+  };
+  findFeetByNewton(surface, 1.0);
+  return surface;
+}
+
+/// The greatest of three coordinates along turned axes: a cube askew to axes and grids. The
+/// gradient jumps at its edges.
+inline Surface cube()
+{
+  constexpr double half = 0.5;
+  // A rotation by Cayley's formula from the quaternion (6, 1, 2, 3) / sqrt(50).
+  static constexpr Vector axes[3] = { { 24.0 / 50.0, -32.0 / 50.0, 30.0 / 50.0 },
+    { 40.0 / 50.0, 30.0 / 50.0, 0.0 }, { -18.0 / 50.0, 24.0 / 50.0, 40.0 / 50.0 } };
+  const auto along = [](const Vector& p) {
+    return Vector{ dot(axes[0], p), dot(axes[1], p), dot(axes[2], p) };
+  };
+  const auto greatest = [](const Vector& q)
+  {
+    std::size_t found = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+    {
+      found = std::abs(q[i]) > std::abs(q[found]) ? i : found;
+    }
+    return found;
+  };
+  Surface surface;
+  surface.name = "cube";
+  surface.isSmooth = false;
+  surface.isovalue = half;
+  surface.value = [=](const Vector& p)
+  {
+    const Vector q = along(p);
+    return std::abs(q[greatest(q)]);
+  };
+  surface.gradient = [=](const Vector& p)
+  {
+    const Vector q = along(p);
+    const std::size_t i = greatest(q);
+    return scaled(axes[i], q[i] < 0.0 ? -1.0 : 1.0);
+  };
+  surface.footOf = [=](const Vector& p)
+  {
+    const Vector q = along(p);
+    Vector foot;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      foot[i] = std::clamp(q[i], -half, half);
+    }
+    const std::size_t face = greatest(q);
+    foot[face] = q[face] < 0.0 ? -half : half;
+    Foot result = footAt(p, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
+    result.normals.clear();
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      result.point = sum(result.point, scaled(axes[i], foot[i]));
+      if (std::abs(foot[i]) == half)
+      {
+        result.normals.push_back(scaled(axes[i], foot[i] < 0.0 ? 1.0 : -1.0));
+      }
+    }
+    result.distance = length(difference(p, result.point));
+    return result;
+  };
+  return surface;
+}
+
+/// Two concentric spheres, `separation` apart, with a crease of the field between them: the
+/// distance to a sphere.
+/// @param separation above 0, below 0.6
+inline Surface twoSheets(double separation)
+{
+  constexpr double middle = 0.65;
+  const double half = 0.5 * separation;
+  Surface surface;
+  surface.name = "two sheets";
+  surface.isSmooth = false;
+  surface.isovalue = half;
+  surface.thickness = separation;
+  surface.value = [](const Vector& p) { return std::abs(length(p) - middle); };
+  surface.gradient = [](const Vector& p)
+  { return scaled(directionOf(p), length(p) < middle ? -1.0 : 1.0); };
+  surface.footOf = [=](const Vector& p)
+  {
+    const double side = length(p) < middle ? -1.0 : 1.0;
+    const Vector outwards = directionOf(p);
+    return footAt(p, scaled(outwards, middle + side * half), scaled(outwards, -side));
+  };
+  return surface;
+}
+
+/// All of them.
+/// @param spacing the mean distance of the samples, which the two sheets are twice apart
+inline std::vector<Surface> allSurfaces(double spacing)
+{
+  return { sphere(), torus(), gyroid(), marschnerLobb(), gaussianMixture(), cube(),
+    twoSheets(2.0 * spacing) };
+}
+
+} // namespace analytic
+
+#endif

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef AnalyticSurface_h
+#define AnalyticSurface_h
+
+#include "Random.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace analytic
+{
+
+using Vector = std::array<double, 3>;
+
+inline Vector sum(const Vector& a, const Vector& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
+
+inline Vector scaled(const Vector& a, double factor)
+{
+  return { factor * a[0], factor * a[1], factor * a[2] };
+}
+
+inline Vector difference(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+inline double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Vector cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+inline double length(const Vector& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+/// @returns the vector at length 1, or the x axis for one of length 0
+inline Vector directionOf(const Vector& a)
+{
+  const double size = length(a);
+  return size > 0.0 ? scaled(a, 1.0 / size) : Vector{ 1.0, 0.0, 0.0 };
+}
+
+/// Where a surface is closest to a position.
+struct Foot
+{
+  Vector point;
+  double distance;
+  std::vector<Vector> normals; // of length 1, to falling values; several at an edge or a corner
+};
+
+inline Foot footAt(const Vector& position, const Vector& foot, const Vector& normal)
+{
+  return { foot, length(difference(position, foot)), { normal } };
+}
+
+/// A field over the cube [-1, 1]^3 and its isosurface.
+struct Surface
+{
+  std::string name;
+  double isovalue = 0.0;
+  bool isSmooth = true;   // the field, near the isosurface
+  bool isClosed = true;   // within the cube
+  double thickness = 0.2; // of the thinnest sheet or ripple: what a search must not step over
+  std::function<double(const Vector&)> value;
+  std::function<Vector(const Vector&)> gradient;
+  std::function<Foot(const Vector&)> footOf; // may be called from any thread
+};
+
+/// Random points of an isosurface within a cube around the origin, uniform by area: where random
+/// lines, uniform among those that meet the ball around the cube, cross it (Cauchy and Crofton).
+/// A line that only grazes the surface, closer than an eighth of its thickness, may be missed.
+/// @param halfSide of the cube
+inline std::vector<Vector> randomSurfacePoints(
+  const Surface& surface, std::size_t count, double halfSide, std::uint64_t seed)
+{
+  clouds::Random random(seed);
+  const auto inBall = [&random]()
+  {
+    for (;;)
+    {
+      const double x = 2.0 * random() - 1.0;
+      const double y = 2.0 * random() - 1.0;
+      const double z = 2.0 * random() - 1.0;
+      if (const double squared = x * x + y * y + z * z; squared <= 1.0 && squared > 1e-4)
+      {
+        return Vector{ x, y, z };
+      }
+    }
+  };
+  const double radius = halfSide * std::sqrt(3.0);
+  const double step = surface.thickness / 8.0;
+  const auto inCube = [halfSide](const Vector& p) {
+    return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) <= halfSide;
+  };
+  std::vector<Vector> points;
+  while (points.size() < count)
+  {
+    const Vector direction = directionOf(inBall());
+    // The foot of the line: uniform in the disk across it.
+    Vector side = inBall();
+    side = directionOf(difference(side, scaled(direction, dot(side, direction))));
+    const Vector foot = scaled(side, radius * std::sqrt(random()));
+    const auto at = [&](double t) { return sum(foot, scaled(direction, t)); };
+    const auto isBelow = [&](double t) { return surface.value(at(t)) < surface.isovalue; };
+    const double half = std::sqrt(std::max(0.0, radius * radius - dot(foot, foot)));
+    bool before = isBelow(-half);
+    for (double t = -half; t < half && points.size() < count; t += step)
+    {
+      const bool after = isBelow(t + step);
+      if (before != after)
+      {
+        double lower = t;
+        double upper = t + step;
+        for (int halving = 0; halving < 60; ++halving)
+        {
+          const double middle = 0.5 * (lower + upper);
+          (isBelow(middle) == before ? lower : upper) = middle;
+        }
+        if (inCube(at(lower)))
+        {
+          points.push_back(at(lower));
+        }
+      }
+      before = after;
+    }
+  }
+  return points;
+}
+
+/// Where the graph of a function of the distance to an axis is closest to a position at the
+/// distance `r` from the axis and the height `z`: at which distance from the axis, 0 or more.
+/// @param resolution of the first search, well below the shortest wave
+template <class Height>
+double nearestOnGraph(const Height& height, double r, double z, double resolution)
+{
+  const auto distance = [&](double s) { return std::hypot(s - r, height(s) - z); };
+  // The foot is no farther than the graph at the position's own r.
+  const double reach = distance(r) + resolution;
+  double best = r;
+  for (double s = std::max(0.0, r - reach); s <= r + reach; s += resolution)
+  {
+    best = distance(s) < distance(best) ? s : best;
+  }
+  constexpr double golden = 0.6180339887498949;
+  double lower = std::max(0.0, best - resolution);
+  double upper = best + resolution;
+  while (upper - lower > 1e-9)
+  {
+    const double a = upper - golden * (upper - lower);
+    const double b = lower + golden * (upper - lower);
+    (distance(a) < distance(b) ? upper : lower) = distance(a) < distance(b) ? b : a;
+  }
+  return 0.5 * (lower + upper);
+}
+
+/// The point of the surface that Newton's method finds from a start, in short steps.
+inline Vector settled(const Surface& surface, Vector p)
+{
+  constexpr double longest = 0.1;
+  for (int step = 0; step < 50; ++step)
+  {
+    const Vector gradient = surface.gradient(p);
+    const double lack = surface.isovalue - surface.value(p);
+    const Vector move = scaled(gradient, lack / std::max(dot(gradient, gradient), 1e-12));
+    const double size = length(move);
+    p = sum(p, size > longest ? scaled(move, longest / size) : move);
+    if (size < 1e-14)
+    {
+      break;
+    }
+  }
+  return p;
+}
+
+/// Walks from a start to the surface, then along it to where it is closest to the position: steps
+/// down the slope of the distance, of the length that Barzilai and Borwein give.
+inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vector& start)
+{
+  const auto alongSurface = [&](const Vector& foot)
+  {
+    const Vector normal = directionOf(surface.gradient(foot));
+    const Vector towards = difference(position, foot);
+    return difference(towards, scaled(normal, dot(towards, normal)));
+  };
+  constexpr double longest = 0.1;
+  Vector foot = settled(surface, start);
+  Vector along = alongSurface(foot);
+  Vector best = foot;
+  double stride = 0.5;
+  for (int step = 0; step < 200 && length(along) > 1e-13; ++step)
+  {
+    const Vector before = foot;
+    const Vector alongBefore = along;
+    const double size = stride * length(along);
+    foot =
+      settled(surface, sum(foot, scaled(along, size > longest ? stride * longest / size : stride)));
+    along = alongSurface(foot);
+    if (length(difference(position, foot)) < length(difference(position, best)))
+    {
+      best = foot;
+    }
+    const Vector moved = difference(foot, before);
+    const double bend = dot(moved, difference(alongBefore, along));
+    stride = bend > 0.0 ? std::clamp(dot(moved, moved) / bend, 1e-3, 16.0) : 1.0;
+  }
+  return footAt(position, best, scaled(directionOf(surface.gradient(best)), -1.0));
+}
+
+/// Gives a smooth surface the nearest foot that walks find: one from the position itself, and
+/// where that ends far away, others from the nearest of random points of the surface.
+/// @param halfSide of the cube within which the random points are taken
+inline void findFeetByNewton(Surface& surface, double halfSide)
+{
+  constexpr double near = 0.05;
+  constexpr std::size_t startCount = 6000;
+  constexpr std::size_t walks = 4;
+  const Surface plain = surface;
+  const auto starts = std::make_shared<const std::vector<Vector>>(
+    randomSurfacePoints(plain, startCount, halfSide, 7));
+  surface.footOf = [plain, starts](const Vector& p)
+  {
+    Foot best = walkToFoot(plain, p, p);
+    if (best.distance <= near)
+    {
+      return best;
+    }
+    std::vector<std::pair<double, std::size_t>> byDistance;
+    for (std::size_t i = 0; i < starts->size(); ++i)
+    {
+      byDistance.emplace_back(length(difference(p, (*starts)[i])), i);
+    }
+    std::partial_sort(byDistance.begin(), byDistance.begin() + walks, byDistance.end());
+    for (std::size_t i = 0; i < walks; ++i)
+    {
+      const Foot other = walkToFoot(plain, p, (*starts)[byDistance[i].second]);
+      best = other.distance < best.distance ? other : best;
+    }
+    return best;
+  };
+}
+
+} // namespace analytic
+
+#endif

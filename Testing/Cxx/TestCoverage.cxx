@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The accuracy benchmark's coverage: reading splats, and the search against all splats.
+#include "AccuracySplats.h"
+
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using accuracy::Coverage;
+using accuracy::Splat;
+using analytic::dot;
+using analytic::length;
+using analytic::Vector;
+
+constexpr double tolerance = 0.02;
+
+Vector randomVector(clouds::Random& random)
+{
+  const double x = 2.0 * random() - 1.0;
+  const double y = 2.0 * random() - 1.0;
+  return { x, y, 2.0 * random() - 1.0 };
+}
+
+/// Ellipses whose sizes vary a thousandfold.
+std::vector<Splat> randomSplats(std::size_t count)
+{
+  clouds::Random random(1);
+  std::vector<Splat> splats(count);
+  for (Splat& splat : splats)
+  {
+    splat.center = randomVector(random);
+    splat.normal = analytic::directionOf(randomVector(random));
+    const Vector across =
+      analytic::directionOf(analytic::cross(splat.normal, randomVector(random)));
+    const double radius = std::pow(10.0, -3.0 * random());
+    splat.axis1 = analytic::scaled(across, radius);
+    splat.axis2 =
+      analytic::scaled(analytic::cross(splat.normal, across), radius * (0.2 + 0.8 * random()));
+  }
+  return splats;
+}
+
+bool covers(const Splat& splat, const Vector& place)
+{
+  const Vector way = analytic::difference(place, splat.center);
+  const double u = dot(way, analytic::directionOf(splat.axis1)) / length(splat.axis1);
+  const double v = dot(way, analytic::directionOf(splat.axis2)) / length(splat.axis2);
+  return std::abs(dot(way, splat.normal)) <= std::max(tolerance, 0.5 * splat.radius()) &&
+         std::hypot(u, v) <= 1.0;
+}
+
+} // namespace
+
+TEST(Coverage, IsThatOfAllSplats)
+{
+  const std::vector<Splat> splats = randomSplats(300);
+  const Coverage coverage(splats, tolerance);
+  clouds::Random random(2);
+  int covered = 0;
+  constexpr int count = 20000;
+  for (int i = 0; i < count; ++i)
+  {
+    const Vector place = randomVector(random);
+    const bool expected = std::any_of(
+      splats.begin(), splats.end(), [&](const Splat& splat) { return covers(splat, place); });
+    ASSERT_EQ(coverage.covers(place), expected);
+    covered += expected ? 1 : 0;
+  }
+  EXPECT_GT(covered, count / 20);
+  EXPECT_LT(covered, count * 19 / 20);
+}
+
+TEST(Coverage, SplatsAreReadFromTheArrays)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1.0, 2.0, 3.0);
+  cloud->SetPoints(points);
+  EXPECT_TRUE(accuracy::splatsOf(cloud).empty());
+
+  const auto add = [&cloud](const char* name, std::initializer_list<float> tuple)
+  {
+    vtkNew<vtkFloatArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(static_cast<int>(tuple.size()));
+    array->InsertNextTuple(tuple.begin());
+    cloud->GetPointData()->AddArray(array);
+  };
+  add("Normals", { 0.0f, 0.0f, 1.0f });
+  cloud->GetPointData()->SetActiveNormals("Normals");
+  add("Radius", { 0.5f });
+  const Splat disk = accuracy::splatsOf(cloud).at(0);
+  EXPECT_EQ(disk.center, (Vector{ 1.0, 2.0, 3.0 }));
+  EXPECT_NEAR(length(disk.axis1), 0.5, 1e-12);
+  EXPECT_NEAR(length(disk.axis2), 0.5, 1e-12);
+  EXPECT_NEAR(dot(disk.axis1, disk.axis2), 0.0, 1e-12);
+  EXPECT_NEAR(dot(disk.axis1, disk.normal), 0.0, 1e-12);
+
+  add("SplatAxis1", { 0.0f, 2.0f, 0.0f });
+  add("SplatAxis2", { 0.25f, 0.0f, 0.0f });
+  const Splat ellipse = accuracy::splatsOf(cloud).at(0);
+  EXPECT_EQ(ellipse.axis1, (Vector{ 0.0, 2.0, 0.0 }));
+  EXPECT_EQ(ellipse.axis2, (Vector{ 0.25, 0.0, 0.0 }));
+  EXPECT_EQ(ellipse.radius(), 2.0);
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The gap criterion: against the definition, and against voids and domains of known shape.
+#include "BruteForce.h"
+#include "Clouds.h"
+
+#include "Isopoint/AngleCriterion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace
+{
+
+using isopoint::defaultAngle;
+
+constexpr double isovalue = 0.3;
+constexpr double sensibleFactor = 4.0; // as the filter's documentation says
+
+/// Without those samples of the unit cube that a condition holds for.
+template <class Condition>
+clouds::Cloud without(const clouds::Cloud& cloud, const Condition& condition)
+{
+  clouds::Cloud rest;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    if (!condition(p))
+    {
+      rest.add(p[0], p[1], p[2], cloud.values[i]);
+    }
+  }
+  return rest;
+}
+
+bool isInSlab(const double* p)
+{
+  return p[0] > 0.3 && p[0] < 0.7;
+}
+
+void expectTheDefinition(const clouds::Cloud& cloud, double value, double angle)
+{
+  std::size_t kept = bruteforce::extract(cloud, value, angle).size();
+  EXPECT_EQ(clouds::extract(cloud, value, angle).points.size(), kept);
+  for (const double factor : { 5.0, 2.0, 1.3, 1.0, 0.7, 0.1 })
+  {
+    SCOPED_TRACE(testing::Message() << "factor " << factor << ", angle " << angle);
+    const auto expected = bruteforce::extract(cloud, value, angle, factor);
+    const auto found = clouds::extract(cloud, value, angle, 2, factor).points;
+    ASSERT_EQ(expected.size(), found.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      ASSERT_EQ(expected[i].first, found[i].first);
+      ASSERT_EQ(expected[i].second, found[i].second);
+      ASSERT_EQ(0, std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)));
+    }
+    EXPECT_LE(found.size(), kept);
+    kept = found.size();
+  }
+}
+
+/// How many isopoints lie on edges across the slab, and how many there are.
+struct Count
+{
+  std::size_t across = 0;
+  std::size_t all = 0;
+};
+
+Count countAcross(const clouds::Cloud& cloud, double factor)
+{
+  Count count;
+  for (const isopoint::Isopoint& point :
+    clouds::extract(cloud, isovalue, defaultAngle, 2, factor).points)
+  {
+    const bool ahead = cloud.positions[3 * point.first] > 0.5;
+    count.across += ahead != (cloud.positions[3 * point.second] > 0.5) ? 1 : 0;
+    ++count.all;
+  }
+  return count;
+}
+
+} // namespace
+
+TEST(Gaps, AreThoseOfTheDefinition)
+{
+  for (const double angle : { 0.0, defaultAngle, 90.0 })
+  {
+    expectTheDefinition(clouds::uniform(900, 21), isovalue, angle);
+    expectTheDefinition(without(clouds::uniform(1500, 22), isInSlab), isovalue, angle);
+    expectTheDefinition(clouds::clustered(900, 23), -4.0, angle);
+    expectTheDefinition(clouds::lattice(9, 10, 11), 2.0, angle);
+    expectTheDefinition(clouds::coarse(600, 5, 24), 4.5, angle);
+    expectTheDefinition(clouds::heaped(clouds::uniform(500, 25), 0.6), isovalue, angle);
+    expectTheDefinition(clouds::flattened(clouds::uniform(500, 26), 2), 0.4, angle);
+  }
+  for (std::size_t count = 0; count <= 9; ++count)
+  {
+    expectTheDefinition(clouds::uniform(count, count), 0.5, defaultAngle);
+  }
+}
+
+TEST(Gaps, EdgesAcrossAVoidGoAndFewOthers)
+{
+  for (const std::size_t count : { 20000, 100000 })
+  {
+    const clouds::Cloud cloud = without(clouds::uniform(count, 27), isInSlab);
+    const Count all = countAcross(cloud, 0.0);
+    const Count kept = countAcross(cloud, sensibleFactor);
+    EXPECT_GT(all.across, 20u);
+    EXPECT_EQ(kept.across, 0u);
+    EXPECT_GT(static_cast<double>(kept.all), 0.99 * static_cast<double>(all.all - all.across));
+  }
+}
+
+TEST(Gaps, NothingOrHardlyAnyGoesWhereThereIsNone)
+{
+  const auto keptShare = [](const clouds::Cloud& cloud, double value)
+  {
+    const std::size_t all = clouds::extract(cloud, value, defaultAngle).points.size();
+    EXPECT_GT(all, 100u);
+    return static_cast<double>(
+             clouds::extract(cloud, value, defaultAngle, 1, sensibleFactor).points.size()) /
+           static_cast<double>(all);
+  };
+  EXPECT_EQ(keptShare(clouds::uniform(20000, 28), isovalue), 1.0);
+  EXPECT_EQ(keptShare(clouds::lattice(30, 31, 32), 2.0), 1.0);
+
+  // Lines a hundred times farther from each other than their samples, and slices; jitter along
+  // them.
+  const auto stretched = [](int nx, int ny, int nz)
+  {
+    clouds::Cloud cloud = clouds::lattice(nx, ny, nz);
+    clouds::Random random(29);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      double* const p = cloud.positions.data() + 3 * i;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int count = std::array<int, 3>{ nx, ny, nz }[static_cast<std::size_t>(axis)];
+        p[axis] = (p[axis] + (count > 10 ? 0.8 * random() : 0.0)) / count;
+      }
+      cloud.values[i] = clouds::waves(p[0], p[1], p[2]);
+    }
+    return cloud;
+  };
+  EXPECT_GT(keptShare(stretched(10, 10, 1000), isovalue), 0.999);
+  // A few edges are so oblique that others of their own slice lie behind them.
+  EXPECT_GT(keptShare(stretched(150, 150, 10), isovalue), 0.95);
+}
+
+// The leaf cells of a grid whose one half is four times finer.
+TEST(Gaps, NothingGoesWhereCoarseCellsMeetFineOnes)
+{
+  clouds::Cloud cloud;
+  const auto fill = [&cloud](double lower, double upper, int count)
+  {
+    const double cell = 1.0 / count;
+    for (double x = lower + 0.5 * cell; x < upper; x += cell)
+    {
+      for (double y = 0.5 * cell; y < 1.0; y += cell)
+      {
+        for (double z = 0.5 * cell; z < 1.0; z += cell)
+        {
+          cloud.add(x, y, z, clouds::waves(x, y, z));
+        }
+      }
+    }
+  };
+  fill(0.0, 0.5, 8);
+  fill(0.5, 1.0, 32);
+  EXPECT_EQ(clouds::extract(cloud, isovalue, defaultAngle, 1, sensibleFactor).points.size(),
+    clouds::extract(cloud, isovalue, defaultAngle).points.size());
+}
+
+// Both ends must agree: what is far from everything is a sample of its own right.
+TEST(Gaps, ASampleInTheOpenKeepsItsEdges)
+{
+  clouds::Cloud cloud = clouds::uniform(2000, 30);
+  cloud.add(8.0, 0.5, 0.5, 100.0);
+  const auto edgesOf = [&cloud](double factor)
+  {
+    const auto points = clouds::extract(cloud, 50.0, defaultAngle, 1, factor).points;
+    return std::count_if(points.begin(), points.end(),
+      [&cloud](const isopoint::Isopoint& point) { return point.second == cloud.size() - 1; });
+  };
+  EXPECT_GT(edgesOf(0.0), 0);
+  EXPECT_EQ(edgesOf(sensibleFactor), edgesOf(0.0));
+}
