@@ -101,6 +101,88 @@ public:
   vtkGetMacro(Angle, double);
   ///@}
 
+  enum ProjectionMethod
+  {
+    NO_PROJECTION = 0,
+    LINEAR_FIT = 1,
+    QUADRATIC_FIT = 2
+  };
+
+  ///@{
+  /**
+   * Whether and how isopoints are moved from their edges to where a least-squares polynomial through
+   * the samples around has the isovalue: NO_PROJECTION (they stay where linear interpolation puts
+   * them), LINEAR_FIT (an affine function, which smooths noise but flattens what is curved) or
+   * QUADRATIC_FIT (degree two, with creases where the samples tell of one, or degree one where
+   * noise hides more). No point moves farther than half its edge's length; where no fit describes
+   * the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default: QUADRATIC_FIT.
+   */
+  vtkSetClampMacro(Projection, int, NO_PROJECTION, QUADRATIC_FIT);
+  vtkGetMacro(Projection, int);
+  ///@}
+
+  enum NormalMethods
+  {
+    NORMALS_FROM_FIELD = 0,
+    NORMALS_FROM_PLANES = 1
+  };
+
+  ///@{
+  /**
+   * Where normals come from: NORMALS_FROM_FIELD (the gradient of the fit, which Projection chooses;
+   * degree two with NO_PROJECTION; planes where no fit held) or NORMALS_FROM_PLANES (the plane
+   * through the nearest isopoints, as in the paper; see SetNumberOfNeighbors). Default:
+   * NORMALS_FROM_FIELD.
+   */
+  vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
+  vtkGetMacro(NormalMethod, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the array "Gradients" (three floats): the contoured array's gradient, in its
+   * units over the points', of the fit; where none held, the slope along the point's edge. Default:
+   * off.
+   */
+  vtkSetMacro(ComputeGradients, vtkTypeBool);
+  vtkGetMacro(ComputeGradients, vtkTypeBool);
+  vtkBooleanMacro(ComputeGradients, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the array "ProjectionOrder" (one unsigned char), which tells what moved each
+   * point: 0 nothing, 1 an affine function, 2 a polynomial of degree two, 3 affine functions that
+   * meet at a crease. Default: off.
+   */
+  vtkSetMacro(ComputeProjectionOrders, vtkTypeBool);
+  vtkGetMacro(ComputeProjectionOrders, vtkTypeBool);
+  vtkBooleanMacro(ComputeProjectionOrders, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the arrays "SplatAxis1" and "SplatAxis2" (three floats each, in the units of
+   * the points), the half-axes of elliptical splats: long where the surface is flat, short where it
+   * bends. SplatAxis1 is the longer, of the length Radius; SplatAxis1 x SplatAxis2 is along the
+   * normal. Default: off.
+   */
+  vtkSetMacro(ComputeSplatAxes, vtkTypeBool);
+  vtkGetMacro(ComputeSplatAxes, vtkTypeBool);
+  vtkBooleanMacro(ComputeSplatAxes, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to compute the array "SplatClip" (four floats a, b, c, d): of a splat beside a crease
+   * only the places with a x + b y + c z + d >= 0, in the units of the points, belong to the
+   * surface; (a, b, c) is of length 1. All are 0 where nothing is to be clipped. Default: off.
+   */
+  vtkSetMacro(ComputeSplatClips, vtkTypeBool);
+  vtkGetMacro(ComputeSplatClips, vtkTypeBool);
+  vtkBooleanMacro(ComputeSplatClips, vtkTypeBool);
+  ///@}
+
   ///@{
   /**
    * Whether to compute the array "Normals" (three floats, of length 1, active normals): they point
@@ -113,10 +195,10 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "Radius" (one float, in the units of the points): the radius of
-   * a splat that overlaps its neighbours: the distance of the 12th nearest isopoint, or three
-   * quarters of the edges' length around it where that is more. On clouds that are about as
-   * dense in one direction as in another no hole stays. Default: on.
+   * Whether to compute the array "Radius" (one float, in the units of the points), half the longer
+   * axis of a splat that covers what of the surface is nearer to this point than to others. It
+   * is at most 2.2 times the mean distance of the samples around the point's edge, 1.1 times
+   * where no points bound it (times 4 for the longest of ellipses). Default: on.
    */
   vtkSetMacro(ComputeRadii, vtkTypeBool);
   vtkGetMacro(ComputeRadii, vtkTypeBool);
@@ -181,6 +263,12 @@ public:
   vtkGetMacro(NumberOfSkippedSamples, vtkIdType);
 
   /**
+   * Isopoints that the last update left where linear interpolation puts them: all of them with
+   * NO_PROJECTION, and those around which no fit held.
+   */
+  vtkGetMacro(NumberOfUnprojectedPoints, vtkIdType);
+
+  /**
    * Also counts changes of the contour values.
    */
   vtkMTimeType GetMTime() override;
@@ -195,6 +283,12 @@ protected:
 
   vtkNew<vtkContourValues> ContourValues;
   double Angle;
+  int Projection = QUADRATIC_FIT;
+  int NormalMethod = NORMALS_FROM_FIELD;
+  vtkTypeBool ComputeGradients = 0;
+  vtkTypeBool ComputeProjectionOrders = 0;
+  vtkTypeBool ComputeSplatAxes = 0;
+  vtkTypeBool ComputeSplatClips = 0;
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeRadii = 1;
   vtkTypeBool ComputeScalars = 1;
@@ -203,6 +297,7 @@ protected:
   vtkTypeBool KeepTree = 1;
   vtkTypeBool UseAllCores = 1;
   vtkIdType NumberOfSkippedSamples = 0;
+  vtkIdType NumberOfUnprojectedPoints = 0;
 
 private:
   vtkScatteredIsopointFilter(const vtkScatteredIsopointFilter&) = delete;
