@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace isopoint
@@ -59,7 +60,7 @@ private:
   /// Alternates until no sample changes its piece.
   bool settle()
   {
-    constexpr int mostRounds = 10;
+    constexpr int mostRounds = 6;
     for (int round = 0; round < mostRounds; ++round)
     {
       bool changed = false;
@@ -199,12 +200,12 @@ double CreaseFit::value(const Eigen::Vector3d& p) const
 
 double CreaseFit::relativeResidual() const
 {
-  double steepest = 0.0;
+  double gentlest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector4d& piece : this->pieces)
   {
-    steepest = std::max(steepest, piece.tail<3>().norm());
+    gentlest = std::min(gentlest, piece.tail<3>().norm());
   }
-  return std::sqrt(this->meanSquare) / steepest;
+  return std::sqrt(this->meanSquare) / gentlest;
 }
 
 bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const
@@ -240,10 +241,10 @@ std::vector<CreaseFit> fitCreases(const std::vector<FrameSample>& samples,
     }
   }
   // Halves of the start still have samples of the other side, and of a third piece.
-  constexpr double promising = 8.0;
+  constexpr double promising = 6.0;
   if (two.pieces.empty() ||
       two.relativeResidual() > promising * mostRelativeResidual ||
-      two.meanSquare > 2.0 * rivalMeanSquare)
+      two.meanSquare > rivalMeanSquare)
   {
     return results;
   }
@@ -263,15 +264,11 @@ std::vector<CreaseFit> fitCreases(const std::vector<FrameSample>& samples,
     return results;
   }
   CreaseFit three;
-  for (const Alternation& start : starts)
+  for (Alternation& start : starts)
   {
-    for (const double share : { 0.5, 0.3, 0.7 })
+    if (start.split(0.5) && better(start.result(), three))
     {
-      Alternation parts = start;
-      if (parts.split(share) && better(parts.result(), three))
-      {
-        three = parts.result();
-      }
+      three = start.result();
     }
   }
   results.push_back(three);

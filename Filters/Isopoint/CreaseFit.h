@@ -25,7 +25,7 @@ struct CreaseFit
   }
   double value(const Eigen::Vector3d& p) const;
 
-  /// The root of the mean square of the residuals, over the steepest gradient.
+  /// The root of the mean square of the residuals, over the gentlest gradient.
   double relativeResidual() const;
 
   /// Whether a point on the zero plane of a piece is one of the whole function's, up to a tolerance

@@ -27,9 +27,10 @@ constexpr double mostResidual = 0.6;
 /// tried.
 constexpr double smoothResidual = 0.03;
 
-/// Where it leaves more than this over the wider neighbourhood, samples are taken to be noisy, and
-/// far ones count for more.
-constexpr double noisyResidual = 0.1;
+/// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps, and
+/// linear interpolation errs less (measured on scans; a smooth field that is sampled so thinly
+/// is no better off).
+constexpr double roughResidual = 0.1;
 
 /// The largest residual of a fit with a crease: creases are told apart from smooth fields only
 /// where there is little noise.
@@ -323,16 +324,14 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
     if (wider.isUsable())
     {
       const Candidate best = wider.best(highest);
-      wider.apply(best, fit);
-      if (best.order == FitOrder::Quadratic && best.residual < noisyResidual)
+      if (highest == FitOrder::Linear || best.order == FitOrder::Crease)
       {
-        LocalFit steep = fit;
-        steep.position = edge.position;
-        if (neighborhood.apply(neighborhood.smooth(noisyResidual), steep) ||
-            wider.apply(wider.smooth(noisyResidual), steep))
-        {
-          fit = steep;
-        }
+        wider.apply(best, fit);
+      }
+      else if (best.residual <= roughResidual &&
+               !neighborhood.apply(neighborhood.smooth(roughResidual), fit))
+      {
+        wider.apply(wider.smooth(roughResidual), fit);
       }
     }
   }

@@ -265,11 +265,6 @@ private:
                                      : this->Points.fits[point].spacing;
   }
 
-  bool isAtCrease(std::size_t point) const
-  {
-    return !this->Points.fits.empty() && this->Points.fits[point].order == FitOrder::Crease;
-  }
-
   /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, TangentCell& cell, Splat& splat)
   {
@@ -282,12 +277,21 @@ private:
       bool isComplete = nearest.size() < count;
       for (const NearestSearch::Neighbor& neighbor : nearest)
       {
-        if (neighbor.distance > 2.0 * cell.reach())
+        const std::size_t other = this->Distinct.firstUser[neighbor.index];
+        const Vector offset =
+          difference(this->Points.positions[other], this->Points.positions[point]);
+        if (this->meetAtCrease(point, other, offset))
         {
-          isComplete = true;
-          break;
+          this->cutAtCrease(point, other, offset, cell, splat, nearestCrease);
         }
-        this->cutBy(point, this->Distinct.firstUser[neighbor.index], cell, splat, nearestCrease);
+        else if (neighbor.distance <= 2.0 * cell.reach())
+        {
+          cell.cut(scaled(1.0 / neighbor.distance, offset), 0.5 * neighbor.distance);
+        }
+        else
+        {
+          isComplete = true; // but creases a little farther off may cut the splat's rim
+        }
       }
       if (isComplete || count >= mostNeighbors)
       {
@@ -296,20 +300,33 @@ private:
     }
   }
 
-  /// Cuts off what is nearer to another point, or, across a crease, beyond that one's plane.
-  void cutBy(std::size_t point, std::size_t other, TangentCell& cell, Splat& splat,
-    double& nearestCrease) const
+  /// Whether fits tell that the planes of two points meet between them at a crease: each lies on the
+  /// same side of the other's.
+  bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    const Vector offset =
-      difference(this->Points.positions[other], this->Points.positions[point]);
+    if (this->Points.fits.empty())
+    {
+      return false;
+    }
+    const FitOrder order = this->Points.fits[point].order;
+    const FitOrder otherOrder = this->Points.fits[other].order;
+    const bool isTold = order != FitOrder::None && otherOrder != FitOrder::None &&
+                        (order == FitOrder::Crease || otherOrder == FitOrder::Crease);
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    const double height = dot(normal, offset);
+    const double otherHeight = -dot(otherNormal, offset);
+    const double tolerance = 0.02 * lengthOf(offset);
+    return isTold && std::abs(dot(normal, otherNormal)) < creaseCosine &&
+           (height < tolerance) == (otherHeight < tolerance);
+  }
+
+  /// Cuts off what lies beyond the plane of a point across a crease.
+  void cutAtCrease(std::size_t point, std::size_t other, const Vector& offset, TangentCell& cell,
+    Splat& splat, double& nearestCrease) const
+  {
     const Vector& otherNormal = this->Splats[other].normal;
     const double cosine = dot(splat.normal, otherNormal);
-    if (std::abs(cosine) > creaseCosine || !(this->isAtCrease(point) || this->isAtCrease(other)))
-    {
-      const double distance = lengthOf(offset);
-      cell.cut(scaled(1.0 / distance, offset), 0.5 * distance);
-      return;
-    }
     // At a convex crease each point lies behind the other's plane, at a concave one before it.
     const double height = dot(splat.normal, offset);
     const double otherHeight = -dot(otherNormal, offset);
