@@ -117,7 +117,8 @@ private:
         }
       }
       const Eigen::LDLT<Eigen::Matrix4d> factors(matrix);
-      if (count < leastSamples || !(factors.rcond() > leastCondition))
+      if (count < leastSamples || !(factors.vectorD().minCoeff() > 0.0) ||
+          !(factors.rcond() > leastCondition))
       {
         return false;
       }

@@ -181,6 +181,13 @@ private:
     }
   }
 
+  /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
+  bool risesAlong(const Eigen::Vector3d& gradient) const
+  {
+    constexpr double leastCosine = -0.2;
+    return gradient.dot(this->Rising) > leastCosine * gradient.norm() * this->Rising.norm();
+  }
+
   bool mayMoveTo(const Eigen::Vector3d& position) const
   {
     return position.norm() <= mostMove * this->Rising.norm();
@@ -198,7 +205,7 @@ private:
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3d gradient = polynomial.gradient(position);
     candidate.residual = std::sqrt(meanSquare * freedom) / gradient.norm();
-    if (!(candidate.residual <= mostRelativeResidual) || !(gradient.dot(this->Rising) > 0.0))
+    if (!(candidate.residual <= mostRelativeResidual) || !this->risesAlong(gradient))
     {
       return candidate;
     }
@@ -217,7 +224,7 @@ private:
       gradient = polynomial.gradient(position);
       converged = move.norm() <= accuracy;
     }
-    if (!converged || !(gradient.dot(this->Rising) > 0.0))
+    if (!converged || !this->risesAlong(gradient))
     {
       return candidate;
     }

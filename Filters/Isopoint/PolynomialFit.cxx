@@ -22,7 +22,8 @@ bool solve(const NormalMatrix& matrix, const QuadraticBasis& rightSide, Polynomi
 {
   const Eigen::Matrix<double, N, N> block = matrix.topLeftCorner<N, N>();
   const Eigen::LDLT<Eigen::Matrix<double, N, N>> factors(block);
-  if (factors.info() != Eigen::Success || !factors.isPositive() ||
+  // The estimate of the condition passes over pivots of 0.
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0.0) ||
       !(factors.rcond() > leastCondition))
   {
     return false;
