@@ -35,10 +35,9 @@ isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, 
           isopoint::attributeOf(contoured.Surface, points[i].first, valueAt) < contoured.Isovalue);
         for (int axis = 0; axis < 3; ++axis)
         {
-          placed.positions[i][axis] =
-            placed.fits.empty()
-              ? isopoint::interpolate(first[axis], second[axis], points[i].parameter)
-              : placed.fits[i].position[axis];
+          placed.positions[i][axis] = placed.fits.empty() ? isopoint::interpolate(first[axis],
+                                                              second[axis], points[i].parameter)
+                                                          : placed.fits[i].position[axis];
           const double edge = second[axis] - first[axis];
           placed.fallingEdges[i][axis] = falls ? edge : -edge;
         }

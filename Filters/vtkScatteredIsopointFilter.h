@@ -15,6 +15,17 @@
  * is interpolated linearly. Unlike the paper, a node is split along the longest side of its region,
  * and only the part of the tree that surrounds the surface is ever built.
  *
+ * Going past the paper, each isopoint is then moved to the zero of a polynomial of degree two,
+ * fitted by weighted least squares to the samples of the two cells its edge connects and of those
+ * that touch them (see SetProjection). On smooth fields that is tens to hundreds of times closer to
+ * the true surface than linear interpolation, and the fit's gradient is a better normal than a
+ * plane through nearby isopoints. Beside creases, two or three affine functions are fitted, of
+ * which the largest or the smallest counts, and points go to the nearer sheet. Where samples are
+ * noisy, or step from one value to another as at the borders of scanned materials, linear
+ * interpolation errs less than any fit (measured on scans of which a part was held out), and points
+ * stay: that is why QUADRATIC_FIT is safe as the default, and LINEAR_FIT, which smooths everything,
+ * is not.
+ *
  * What is promised:
  * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
  *    whatever the number of threads, the vtkSMPTools backend, and what was asked for before.
@@ -27,10 +38,11 @@
  *    counted (GetNumberOfSkippedSamples).
  * 4. Samples at exactly one position count as one, with the lowest id among them and the mean of
  *    their values and attributes.
- * 5. All point arrays are interpolated with the same weight; arrays that cannot be (strings, ids)
- *    are copied from the nearer end. Global ids, ghost arrays and arrays that are not as long as
- *    there are points are dropped. Arrays named "Normals" or "Radius" give way to computed ones,
- *    with a warning.
+ * 5. All point arrays are interpolated with the same weight, that of the edge's place nearest to
+ *    the point; arrays that cannot be
+ *    (strings, ids) are copied from the nearer end. Global ids, ghost arrays and arrays that are
+ * not as long as there are points are dropped. Arrays with the name of a computed one ("Normals",
+ * "Radius", ...) give way to it, with a warning.
  * 6. Wrong use gives one error that says what to do, and an empty output.
  *
  * The tree is kept between updates: another isovalue costs only what it adds, another angle or
@@ -110,12 +122,13 @@ public:
 
   ///@{
   /**
-   * Whether and how isopoints are moved from their edges to where a least-squares polynomial through
-   * the samples around has the isovalue: NO_PROJECTION (they stay where linear interpolation puts
-   * them), LINEAR_FIT (an affine function, which smooths noise but flattens what is curved) or
-   * QUADRATIC_FIT (degree two, with creases where the samples tell of one, or degree one where
-   * noise hides more). No point moves farther than half its edge's length; where no fit describes
-   * the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default: QUADRATIC_FIT.
+   * Whether and how isopoints are moved from their edges to where a least-squares polynomial
+   * through the samples around has the isovalue: NO_PROJECTION (they stay where linear
+   * interpolation puts them), LINEAR_FIT (an affine function, which smooths noise but flattens what
+   * is curved) or QUADRATIC_FIT (degree two, with creases where the samples tell of one, or degree
+   * one where noise hides more). No point moves farther than half its edge's length; where no fit
+   * describes the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default:
+   * QUADRATIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, QUADRATIC_FIT);
   vtkGetMacro(Projection, int);
@@ -197,8 +210,8 @@ public:
   /**
    * Whether to compute the array "Radius" (one float, in the units of the points), half the longer
    * axis of a splat that covers what of the surface is nearer to this point than to others. It
-   * is at most 2.2 times the mean distance of the samples around the point's edge, 1.1 times
-   * where no points bound it (times 4 for the longest of ellipses). Default: on.
+   * reaches no farther than the spacing of the samples warrants: where no points bound it, as at
+   * a border or around an isolated point, about that spacing. Default: on.
    */
   vtkSetMacro(ComputeRadii, vtkTypeBool);
   vtkGetMacro(ComputeRadii, vtkTypeBool);
@@ -217,8 +230,9 @@ public:
 
   ///@{
   /**
-   * How many of the nearest isopoints the plane is fitted through that gives a normal. More make
-   * for smoother normals and rounder edges. 3 up to 1000, default 12.
+   * How many of the nearest isopoints the plane is fitted through that gives a normal where the
+   * field does not (see SetNormalMethod). More make for smoother normals and rounder edges. 3 up to
+   * 1000, default 12.
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
   vtkGetMacro(NumberOfNeighbors, int);

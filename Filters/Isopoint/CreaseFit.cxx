@@ -221,8 +221,8 @@ bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double 
   return true;
 }
 
-std::vector<CreaseFit> fitCreases(const std::vector<FrameSample>& samples,
-  double mostRelativeResidual, double rivalMeanSquare)
+std::vector<CreaseFit> fitCreases(
+  const std::vector<FrameSample>& samples, double mostRelativeResidual, double rivalMeanSquare)
 {
   const auto better = [](const CreaseFit& a, const CreaseFit& b)
   { return b.pieces.empty() || (!a.pieces.empty() && a.meanSquare < b.meanSquare); };
@@ -243,8 +243,7 @@ std::vector<CreaseFit> fitCreases(const std::vector<FrameSample>& samples,
   }
   // Halves of the start still have samples of the other side, and of a third piece.
   constexpr double promising = 6.0;
-  if (two.pieces.empty() ||
-      two.relativeResidual() > promising * mostRelativeResidual ||
+  if (two.pieces.empty() || two.relativeResidual() > promising * mostRelativeResidual ||
       two.meanSquare > rivalMeanSquare)
   {
     return results;

@@ -33,9 +33,9 @@ struct CreaseFit
 };
 
 /// Fits two, and three, affine functions by alternating between which sample belongs to which and
-/// least squares (Magnani, Boyd, "Convex piecewise-linear fitting", Optimization and Engineering 10,
-/// 2009). The pieces of the start are halves of a single fit's samples, cut across the direction
-/// in which its residuals bend most.
+/// least squares (Magnani, Boyd, "Convex piecewise-linear fitting", Optimization and Engineering
+/// 10, 2009). The pieces of the start are halves of a single fit's samples, cut across the
+/// direction in which its residuals bend most.
 /// @param mostRelativeResidual of those wanted
 /// @param rivalMeanSquare of the residuals of a smooth fit: where halves are far worse there is no
 /// crease

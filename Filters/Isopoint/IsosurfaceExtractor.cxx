@@ -22,8 +22,8 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& tree) { return tree.skipped; }, this->Tree);
 }
 
-Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isovalue, double angle,
-  std::optional<FitRequest> fitRequest)
+Isosurface IsosurfaceExtractor::extract(
+  const Execution& execution, double isovalue, double angle, std::optional<FitRequest> fitRequest)
 {
   return std::visit([&](auto& tree)
     { return extractIsosurface(execution, tree, isovalue, angle, this->ItemCount, fitRequest); },

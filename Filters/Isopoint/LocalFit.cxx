@@ -27,8 +27,8 @@ constexpr double mostResidual = 0.6;
 /// tried.
 constexpr double smoothResidual = 0.03;
 
-/// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps, and
-/// linear interpolation errs less (measured on scans; a smooth field that is sampled so thinly
+/// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps,
+/// and linear interpolation errs less (measured on scans; a smooth field that is sampled so thinly
 /// is no better off).
 constexpr double roughResidual = 0.1;
 
@@ -107,9 +107,9 @@ public:
     this->weigh([](double squaredDistance) { return 1.0 / std::pow(0.1 + squaredDistance, 3); });
     const PolynomialFits fits = fitPolynomials(this->Samples, true);
     this->weigh(mildWeight); // residuals of far samples tell of creases
-    return fits.quadraticHolds ? this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10,
-                                   mostRelativeResidual)
-                               : Candidate();
+    return fits.quadraticHolds
+             ? this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostRelativeResidual)
+             : Candidate();
   }
 
   /// The fit that the criterion tells to be best.
@@ -139,8 +139,7 @@ public:
       const Polynomial& rival = fits.quadraticHolds ? fits.quadratic : fits.linear;
       const double rivalMeanSquare = meanSquaredResidual(
         this->Samples, [&rival](const Eigen::Vector3d& p) { return rival.value(p); });
-      for (const CreaseFit& crease :
-        fitCreases(this->Samples, mostCreaseResidual, rivalMeanSquare))
+      for (const CreaseFit& crease : fitCreases(this->Samples, mostCreaseResidual, rivalMeanSquare))
       {
         consider(this->tryCrease(crease));
       }
@@ -214,8 +213,7 @@ private:
     bool converged = false;
     for (int step = 0; step < mostSteps && !converged; ++step)
     {
-      const Eigen::Vector3d move =
-        -polynomial.value(position) / gradient.squaredNorm() * gradient;
+      const Eigen::Vector3d move = -polynomial.value(position) / gradient.squaredNorm() * gradient;
       position += move;
       if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
       {
@@ -246,15 +244,15 @@ private:
       for (std::size_t other = 0; other < piece; ++other)
       {
         const Eigen::Vector3d otherGradient = fit.pieces[other].tail<3>();
-        if (gradient.dot(otherGradient) >
-            mostCreaseCosine * gradient.norm() * otherGradient.norm())
+        if (gradient.dot(otherGradient) > mostCreaseCosine * gradient.norm() * otherGradient.norm())
         {
           return candidate;
         }
       }
     }
     this->moveToNearestSheet(fit, candidate);
-    candidate.criterion = akaikeCriterion(this->Samples.size(), 4 * fit.pieces.size(), fit.meanSquare);
+    candidate.criterion =
+      akaikeCriterion(this->Samples.size(), 4 * fit.pieces.size(), fit.meanSquare);
     return candidate;
   }
 
@@ -311,23 +309,25 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   fit.position = edge.position;
   const double length = lengthOf(edge.rising);
   fit.gradient = scaled(edge.rise / length, directionOf(edge.rising));
+  double spacing = 0.0;
   for (const FitSample& sample : samples)
   {
-    fit.spacing += lengthOf(difference(sample.position, edge.position)) /
-                   static_cast<double>(samples.size());
+    spacing +=
+      lengthOf(difference(sample.position, edge.position)) / static_cast<double>(samples.size());
   }
   if (highest == FitOrder::None)
   {
     return fit;
   }
-  Neighborhood neighborhood(edge, isovalue, samples, fit.spacing);
+  Neighborhood neighborhood(edge, isovalue, samples, spacing);
   if (neighborhood.isUsable())
   {
-    if (highest == FitOrder::Quadratic && neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
+    if (highest == FitOrder::Quadratic &&
+        neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
     {
       return fit;
     }
-    Neighborhood wider(edge, isovalue, widerSamples(), fit.spacing);
+    Neighborhood wider(edge, isovalue, widerSamples(), spacing);
     if (wider.isUsable())
     {
       const Candidate best = wider.best(highest);

@@ -50,22 +50,25 @@ struct LocalFit
   Vector gradient; // of the field there; where none held, the slope along the edge alone
   /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic.
   std::array<double, 6> hessian;
-  double spacing; // mean distance of the samples from the isopoint
+  double spacing; // of the samples there: see NeighborhoodFitter
   FitOrder order; // that held
 };
 
 /// Fits polynomials to the values of the samples around an edge, by least squares weighted with
-/// 1 / (1 + (d / s)^2), d being a sample's distance from the isopoint and s the mean of those, and
-/// moves the isopoint to the zero of the best one, along gradients (Newton's method).
+/// 1 / (1 + (d / s)^2), or 1 / (0.1 + (d / s)^2)^3 where they describe the samples well, d being a
+/// sample's distance from the isopoint and s the mean of those, and moves the isopoint to the zero
+/// of the best one, along gradients (Newton's method).
 ///
 /// Which one is the best is told by the corrected Akaike criterion (Hurvich, Tsai, "Regression and
 /// time series model selection in small samples", Biometrika 76, 1989): a fit of more coefficients
-/// has to leave residuals that are smaller by more than noise would let it. A fit does not hold,
-/// and the next lower order is tried, if the samples do not determine it, if its residuals are
-/// large beside its rise over the neighbourhood, if it falls where the edge rises, or if the
-/// isopoint would move farther than half its edge's length. Where no fit holds the isopoint stays.
+/// has to leave residuals that are smaller by more than noise would let it. A fit does not hold if
+/// the samples do not determine it, if its residuals are large beside its rise over the
+/// neighbourhood, if it falls where the edge rises, or if the isopoint would move farther than half
+/// its edge's length. Where no fit holds the isopoint stays: so it does in noise, on steps, and
+/// where only an affine function is determined, all places where linear interpolation errs less.
 ///
-/// @param highest order to try: None, Linear or Quadratic; Quadratic tries creases too
+/// @param highest order to try: None, Linear (also in noise) or Quadratic, which tries creases too
+/// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it
 /// Complexity: O(samples.size())

@@ -60,7 +60,9 @@ bool descendToLeaf(const SampleTree<TSample>& tree, Path& path, std::size_t leaf
   return false;
 }
 
-/// Gathers the samples around edges and fits to them, one edge at a time. Scratch is kept.
+/// Gathers the samples around edges and fits to them, one edge at a time. Scratch is kept. The
+/// spacing of the samples at an edge is the mean over both ends of the distance that two fifths of
+/// the neighbours do not exceed.
 template <class TSample>
 class NeighborhoodFitter
 {
@@ -87,7 +89,8 @@ public:
     edge.rising = rises ? difference(second.position, first.position)
                         : difference(first.position, second.position);
     edge.rise = rises ? second.value - first.value : first.value - second.value;
-    return fitAround(
+    const double spacing = this->Spacing;
+    LocalFit fit = fitAround(
       edge, this->Isovalue, this->Samples,
       [&]() -> const std::vector<FitSample>&
       {
@@ -99,6 +102,8 @@ public:
         return this->WiderSamples;
       },
       this->Highest);
+    fit.spacing = spacing;
+    return fit;
   }
 
   /// Sets a moved isopoint's parameter to that of the edge's nearest place, or moves it back.
@@ -135,8 +140,29 @@ private:
   {
     this->Slots.clear();
     this->addNeighborhood(point.firstSlot);
+    this->Spacing = 0.5 * this->spacingAt(point.firstSlot, 0);
+    const std::size_t middle = this->Slots.size();
     this->addNeighborhood(point.secondSlot);
+    this->Spacing += 0.5 * this->spacingAt(point.secondSlot, middle);
     this->list(this->Samples);
+  }
+
+  /// The spacing of the samples around an end: the distance that two fifths of its
+  /// neighbourhood, which are those listed from `begin` on, do not exceed. The farthest may stand
+  /// across a void, the nearest all in one line with it.
+  double spacingAt(Id end, std::size_t begin)
+  {
+    const Vector center = this->sampleAt(end).position;
+    this->Distances.clear();
+    for (std::size_t i = begin; i < this->Slots.size(); ++i)
+    {
+      this->Distances.push_back(
+        lengthOf(difference(this->sampleAt(this->Slots[i].second).position, center)));
+    }
+    const auto found =
+      this->Distances.begin() + static_cast<std::ptrdiff_t>(2 * this->Distances.size() / 5);
+    std::nth_element(this->Distances.begin(), found, this->Distances.end());
+    return *found;
   }
 
   /// Adds the samples of the neighbourhoods of those that lie on the other side of the isovalue
@@ -227,6 +253,8 @@ private:
   std::vector<Id> Across;
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
+  std::vector<double> Distances;
+  double Spacing = 0.0; // mean of those at the ends
 };
 
 /// Fits to the samples around each isopoint: to those of the two cells that its edge connects and

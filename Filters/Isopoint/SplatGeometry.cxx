@@ -49,9 +49,9 @@ constexpr std::size_t mostNeighbors = 160;
 /// A splat's size beside its cell's, since the surface bends where the cell is flat.
 constexpr double overlap = 1.1;
 
-/// How far a cell may reach, in mean distances of the samples, where other points bound it on all
+/// How far a cell may reach, in spacings of the samples, where other points bound it on all
 /// sides and where they do not.
-constexpr double closedReach = 2.0;
+constexpr double closedReach = 2.5;
 constexpr double openReach = 1.0;
 
 /// Planes that meet at a crease lie under an angle of more than 25 degrees and less than 155.
@@ -300,8 +300,8 @@ private:
     }
   }
 
-  /// Whether fits tell that the planes of two points meet between them at a crease: each lies on the
-  /// same side of the other's.
+  /// Whether fits tell that the planes of two points meet between them at a crease: each lies on
+  /// the same side of the other's.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
     if (this->Points.fits.empty())
@@ -338,8 +338,7 @@ private:
     if (distance < nearestCrease)
     {
       nearestCrease = distance;
-      const double constant =
-        side * dot(otherNormal, this->Points.positions[point]) + inside;
+      const double constant = side * dot(otherNormal, this->Points.positions[point]) + inside;
       splat.clip = { -side * otherNormal[0], -side * otherNormal[1], -side * otherNormal[2],
         constant };
     }
@@ -353,8 +352,8 @@ private:
 
 /// Calls task(begin, end) on parts of [0, count) in batches, telling progress from one share of the
 /// work to another in between.
-void forBatches(const Execution& execution, std::size_t count, double from, double to,
-  const RangeTask& task)
+void forBatches(
+  const Execution& execution, std::size_t count, double from, double to, const RangeTask& task)
 {
   constexpr std::size_t grain = 512;
   const std::size_t batch = 8192 * execution.threads;

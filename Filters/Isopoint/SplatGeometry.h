@@ -39,8 +39,9 @@ struct SurfacePoints
 /// How normals are found.
 struct SplatOptions
 {
-  int neighborCount = defaultNeighborCount; // nearest positions a plane is fitted through, 3 or more
-  bool fieldNormals = true;                 // the fits' gradients, where fits held
+  int neighborCount =
+    defaultNeighborCount;   // nearest positions a plane is fitted through, 3 or more
+  bool fieldNormals = true; // the fits' gradients, where fits held
 };
 
 /// Normals and shapes of splats for the points of one surface.
@@ -52,8 +53,8 @@ struct SplatOptions
 ///
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
 /// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
-/// bend. A cell reaches no farther than twice the mean distance of the samples around the edge (its
-/// length where no fits are given), and once where no points bound it, as at a border: an isolated
+/// bend. A cell reaches no farther than two and a half spacings of the samples around the edge (its
+/// length where no fits are given), and one where no points bound it, as at a border: an isolated
 /// point does not become a plate. Across a crease that a fit found cells do not end halfway
 /// but at the other side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told

@@ -73,13 +73,13 @@ Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    for (const double aspect : { 1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0 })
+    for (const double aspect : { 1.0, 1.25, 1.6, 2.0 })
     {
       double minor = 0.0;
       for (const TangentCell::Corner& corner : cell.corners())
       {
-        minor = std::max(minor, std::hypot((c * corner.x + s * corner.y) / aspect,
-                                  c * corner.y - s * corner.x));
+        minor = std::max(
+          minor, std::hypot((c * corner.x + s * corner.y) / aspect, c * corner.y - s * corner.x));
       }
       const double major = aspect * minor;
       const double departure = 0.5 * std::max(std::abs(curvature.at(angle)) * major * major,

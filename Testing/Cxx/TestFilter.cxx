@@ -172,9 +172,8 @@ TEST(Filter, ProjectionMovesPointsAndTheirAttributes)
   filter->ComputeGradientsOn();
   std::vector<std::vector<double>> placed;
   std::vector<double> deviations;
-  for (const int projection :
-    { vtkScatteredIsopointFilter::NO_PROJECTION, vtkScatteredIsopointFilter::LINEAR_FIT,
-      vtkScatteredIsopointFilter::QUADRATIC_FIT })
+  for (const int projection : { vtkScatteredIsopointFilter::NO_PROJECTION,
+         vtkScatteredIsopointFilter::LINEAR_FIT, vtkScatteredIsopointFilter::QUADRATIC_FIT })
   {
     filter->SetProjection(projection);
     filter->Update();
