@@ -17,14 +17,14 @@
  *
  * Going past the paper, each isopoint is then moved to the zero of a polynomial of degree two,
  * fitted by weighted least squares to the samples of the two cells its edge connects and of those
- * that touch them (see SetProjection). On smooth fields that is tens to hundreds of times closer to
- * the true surface than linear interpolation, and the fit's gradient is a better normal than a
- * plane through nearby isopoints. Beside creases, two or three affine functions are fitted, of
- * which the largest or the smallest counts, and points go to the nearer sheet. Where samples are
- * noisy, or step from one value to another as at the borders of scanned materials, linear
- * interpolation errs less than any fit (measured on scans of which a part was held out), and points
- * stay: that is why QUADRATIC_FIT is safe as the default, and LINEAR_FIT, which smooths everything,
- * is not.
+ * that touch them (see SetProjection). On smooth fields that is a few times (25 samples to a wave)
+ * to a hundred times (a sphere of 70 spacings' radius) closer to the true surface than linear
+ * interpolation, and the fit's gradient is a better normal than a plane through nearby isopoints.
+ * Beside creases, two or three affine functions are fitted, of which the largest or the smallest
+ * counts, and points go to the nearer sheet. Where samples are noisy, or step from one value to
+ * another as at the borders of scanned materials, linear interpolation errs less than any fit
+ * (measured on scans of which a part was held out), and points stay: that is why QUADRATIC_FIT is
+ * safe as the default, and LINEAR_FIT, which smooths everything, is not.
  *
  * What is promised:
  * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
