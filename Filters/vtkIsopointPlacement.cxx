@@ -8,14 +8,17 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 
-vtkPlacedIsopoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDataSet* input,
-  vtkDataArray* scalars, const vtkContouredIsosurface& contoured)
+#include <utility>
+
+isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDataSet* input,
+  vtkDataArray* scalars, vtkContouredIsosurface& contoured)
 {
   const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
   const vtkIsopointPositions samplePositions(input);
   const auto valueAt = [scalars](std::uint64_t id)
   { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
-  vtkPlacedIsopoints placed;
+  isopoint::SurfacePoints placed;
+  placed.fits = std::move(contoured.Surface.fits);
   placed.positions.resize(points.size());
   placed.fallingEdges.resize(points.size());
   constexpr std::size_t grain = 4096;
@@ -32,8 +35,9 @@ vtkPlacedIsopoints vtkPlaceIsopoints(const isopoint::Execution& execution, vtkDa
           isopoint::attributeOf(contoured.Surface, points[i].first, valueAt) < contoured.Isovalue);
         for (int axis = 0; axis < 3; ++axis)
         {
-          placed.positions[i][axis] =
-            isopoint::interpolate(first[axis], second[axis], points[i].parameter);
+          placed.positions[i][axis] = placed.fits.empty() ? isopoint::interpolate(first[axis],
+                                                              second[axis], points[i].parameter)
+                                                          : placed.fits[i].position[axis];
           const double edge = second[axis] - first[axis];
           placed.fallingEdges[i][axis] = falls ? edge : -edge;
         }

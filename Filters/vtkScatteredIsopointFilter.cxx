@@ -6,6 +6,7 @@
 #include "Isopoint/SplatGeometry.h"
 #include "vtkIsopointArrays.h"
 #include "vtkIsopointExecution.h"
+#include "vtkIsopointGeometry.h"
 #include "vtkIsopointInput.h"
 #include "vtkIsopointPlacement.h"
 
@@ -13,7 +14,6 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
 #include "vtkDataSet.h"
-#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -28,10 +28,10 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace
@@ -99,15 +99,6 @@ vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
   return vertices;
 }
 
-vtkSmartPointer<vtkFloatArray> newFloats(const char* name, int components, vtkIdType tuples)
-{
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
 /// The names of a data set's point arrays, for an error message.
 std::string arrayNames(vtkPointData* pointData)
 {
@@ -125,6 +116,44 @@ std::string arrayNames(vtkPointData* pointData)
 class vtkScatteredIsopointFilter::Internals
 {
 public:
+  /// What is wanted of fits around isopoints, if anything: splats need the samples' spacing.
+  static std::optional<isopoint::FitRequest> FitRequestOf(const vtkScatteredIsopointFilter& filter)
+  {
+    using isopoint::FitOrder;
+    const bool needsSplats = filter.ComputeNormals || filter.ComputeRadii ||
+                             filter.ComputeSplatAxes || filter.ComputeSplatClips;
+    const bool needsGradients =
+      filter.ComputeGradients || (needsSplats && filter.NormalMethod == NORMALS_FROM_FIELD);
+    switch (filter.Projection)
+    {
+      case LINEAR_FIT:
+        return isopoint::FitRequest{ FitOrder::Linear, true };
+      case QUADRATIC_FIT:
+        return isopoint::FitRequest{ FitOrder::Quadratic, true };
+      default:
+        if (needsGradients)
+        {
+          return isopoint::FitRequest{ FitOrder::Quadratic, false };
+        }
+        return needsSplats || filter.ComputeProjectionOrders
+                 ? std::optional<isopoint::FitRequest>({ FitOrder::None, false })
+                 : std::nullopt;
+    }
+  }
+
+  static vtkIsopointGeometry::Arrays WantedGeometry(const vtkScatteredIsopointFilter& filter)
+  {
+    vtkIsopointGeometry::Arrays wanted;
+    wanted.Normals = filter.ComputeNormals != 0;
+    wanted.Radius = filter.ComputeRadii != 0;
+    wanted.SplatAxes = filter.ComputeSplatAxes != 0;
+    wanted.SplatClip = filter.ComputeSplatClips != 0;
+    wanted.Gradients = filter.ComputeGradients != 0;
+    wanted.ProjectionOrder = filter.ComputeProjectionOrders != 0;
+    wanted.IsProjected = filter.Projection != NO_PROJECTION;
+    return wanted;
+  }
+
   isopoint::IsosurfaceExtractor Extractor;
   InputState LoadedFrom;
 
@@ -206,6 +235,7 @@ int vtkScatteredIsopointFilter::RequestData(
 {
   vtkPolyData* const output = vtkPolyData::GetData(outputVector);
   this->NumberOfSkippedSamples = 0;
+  this->NumberOfUnprojectedPoints = 0;
   if (vtkCompositeDataSet::GetData(inputVector[0]))
   {
     vtkErrorMacro(<< "The input is made of blocks. Merge them first (vtkAppendFilter, or ParaView's"
@@ -360,7 +390,7 @@ void vtkScatteredIsopointFilter::Extract(
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
     surfaces.push_back({ isovalue,
       this->Kept->Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
-        isovalue, this->Angle, this->GapFactor) });
+        isovalue, this->Angle, this->GapFactor, Internals::FitRequestOf(*this)) });
     pointCount += surfaces.back().Surface.points.size();
     isopoint::throwIfAborted(execution);
   }
@@ -368,10 +398,9 @@ void vtkScatteredIsopointFilter::Extract(
   const auto count = static_cast<vtkIdType>(pointCount);
   const vtkSmartPointer<vtkPoints> points =
     newOutputPoints(input, this->OutputPointsPrecision, count);
-  const vtkSmartPointer<vtkFloatArray> normals = newFloats("Normals", 3, count);
-  const vtkSmartPointer<vtkFloatArray> radii = newFloats("Radius", 1, count);
+  vtkIsopointGeometry geometry(Internals::WantedGeometry(*this), count);
   vtkIdType point = 0;
-  for (const vtkContouredIsosurface& surface : surfaces)
+  for (vtkContouredIsosurface& surface : surfaces)
   {
     const auto shareUpTo = [=](std::size_t points)
     {
@@ -381,24 +410,19 @@ void vtkScatteredIsopointFilter::Extract(
     const auto before = static_cast<std::size_t>(point);
     const Execution step = vtkMakeIsopointStep(
       execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
-    const vtkPlacedIsopoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
+    const isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
     std::vector<isopoint::Splat> splats;
-    if (this->ComputeNormals || this->ComputeRadii)
+    if (geometry.NeedsSplats())
     {
       splats = isopoint::computeSplats(
-        step, placed.positions, placed.fallingEdges, this->NumberOfNeighbors);
+        step, placed, { this->NumberOfNeighbors, this->NormalMethod == NORMALS_FROM_FIELD });
     }
-    for (std::size_t i = 0; i < placed.positions.size(); ++i, ++point)
-    {
-      points->SetPoint(point, placed.positions[i].data());
-      if (!splats.empty())
-      {
-        normals->SetTuple(point, splats[i].normal.data());
-        radii->SetValue(point, static_cast<float>(splats[i].radius));
-      }
-    }
+    geometry.Append(placed, splats, points);
+    point += static_cast<vtkIdType>(placed.positions.size());
     isopoint::throwIfAborted(execution);
   }
+  this->NumberOfUnprojectedPoints =
+    this->Projection == NO_PROJECTION ? count : geometry.GetNumberWithoutFit();
 
   output->SetPoints(points);
   output->SetVerts(newVertices(count));
@@ -408,23 +432,11 @@ void vtkScatteredIsopointFilter::Extract(
   {
     vtkAddContouredArray(scalars, surfaces, pointData);
   }
-  for (const auto& [computed, array] :
-    { std::make_pair(this->ComputeNormals, normals), std::make_pair(this->ComputeRadii, radii) })
+  for (const std::string& name : geometry.AddTo(pointData))
   {
-    if (computed && pointData->HasArray(array->GetName()))
-    {
-      vtkWarningMacro(<< "The input's array \"" << array->GetName()
-                      << "\" gives way to the computed one of that name. Switch off Compute"
-                      << (array == radii ? "Radii" : "Normals") << " or rename it to keep it.");
-    }
-  }
-  if (this->ComputeNormals)
-  {
-    pointData->SetNormals(normals);
-  }
-  if (this->ComputeRadii)
-  {
-    pointData->AddArray(radii);
+    vtkWarningMacro(<< "The input's array \"" << name
+                    << "\" gives way to the computed one of that name. Switch that one off or"
+                    << " rename the input's to keep it.");
   }
   this->UpdateProgress(1.0);
 }
@@ -441,6 +453,13 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";
   os << indent << "ComputeScalars: " << onOff(this->ComputeScalars) << "\n";
   os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
+  os << indent << "Projection: " << this->Projection << "\n";
+  os << indent << "NormalMethod: " << this->NormalMethod << "\n";
+  os << indent << "ComputeGradients: " << onOff(this->ComputeGradients) << "\n";
+  os << indent << "ComputeSplatAxes: " << onOff(this->ComputeSplatAxes) << "\n";
+  os << indent << "ComputeSplatClips: " << onOff(this->ComputeSplatClips) << "\n";
+  os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
+  os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "KeepTree: " << onOff(this->KeepTree) << "\n";
   os << indent << "UseAllCores: " << onOff(this->UseAllCores) << "\n";

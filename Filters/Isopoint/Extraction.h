@@ -8,6 +8,7 @@
 #include "Interpolation.h"
 #include "Isopoint.h"
 #include "NarrowBand.h"
+#include "NeighborhoodFits.h"
 #include "SortUnique.h"
 
 #include <algorithm>
@@ -16,20 +17,11 @@
 #include <cstdint>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The value of a leaf's samples, which count as one.
-template <class TSample>
-double leafValue(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
-{
-  const TSample* const samples = tree.samples.data() + leaf.begin;
-  return leaf.count() == 1 ? static_cast<double>(samples[0].value)
-                           : meanOf(leaf.count(), [samples](std::size_t i)
-                               { return static_cast<double>(samples[i].value); });
-}
 
 /// Finds the crossing edges of leaves, one leaf at a time, and interpolates on them. Scratch is
 /// kept from one leaf to the next.
@@ -78,20 +70,22 @@ public:
     {
       if (this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), crossing.neighbor))
       {
-        const Node<TSample>& other = this->Tree.nodes[this->Neighbors[crossing.neighbor]];
+        const std::size_t otherSlot = this->Neighbors[crossing.neighbor];
+        const Node<TSample>& other = this->Tree.nodes[otherSlot];
         const TSample& otherSample = this->Tree.samples[other.begin];
         if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
         {
           continue;
         }
-        this->addPoint(sample, value, otherSample, crossing.value);
+        this->addPoint({ sample.id, static_cast<Id>(leaf.slot()), value },
+          { otherSample.id, static_cast<Id>(otherSlot), crossing.value });
         this->addMerged(node);
         this->addMerged(other);
       }
     }
   }
 
-  std::vector<Isopoint>& points() { return this->Points; }
+  std::vector<LocatedIsopoint<TSample>>& points() { return this->Points; }
   std::vector<MergedSamples>& merged() { return this->Merged; }
 
   /// The neighbourhoods searched for, as NeighborhoodCache::add() takes them.
@@ -156,16 +150,20 @@ private:
     }
   }
 
-  void addPoint(const TSample& a, double aValue, const TSample& b, double bValue)
+  struct End
   {
-    if (a.id < b.id)
-    {
-      this->Points.push_back({ a.id, b.id, edgeParameter(aValue, bValue, this->Isovalue) });
-    }
-    else
-    {
-      this->Points.push_back({ b.id, a.id, edgeParameter(bValue, aValue, this->Isovalue) });
-    }
+    Id id;
+    Id slot;
+    double value;
+  };
+
+  void addPoint(const End& a, const End& b)
+  {
+    const End& first = a.id < b.id ? a : b;
+    const End& second = a.id < b.id ? b : a;
+    this->Points.push_back(
+      { { first.id, second.id, edgeParameter(first.value, second.value, this->Isovalue) },
+        first.slot, second.slot });
   }
 
   void addMerged(const Node<TSample>& leaf)
@@ -191,7 +189,7 @@ private:
   std::size_t KeptRecords = 0;
   std::vector<Offset> Offsets;
   std::vector<Crossing> Crossings;
-  std::vector<Isopoint> Points;
+  std::vector<LocatedIsopoint<TSample>> Points;
   std::vector<MergedSamples> Merged;
 };
 
@@ -199,11 +197,12 @@ private:
 /// @param angle in degrees, 0 up to 180
 /// @param gapFactor of the gap criterion: 0, which drops nothing, or positive
 /// @param idCount above every id
+/// @param fitRequest what is fitted around each isopoint, if anything
 /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
 /// again afterwards
 template <class TSample>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, double isovalue,
-  double angle, double gapFactor, std::uint64_t idCount)
+  double angle, double gapFactor, std::uint64_t idCount, std::optional<FitRequest> fitRequest)
 {
   Isosurface result;
   if (tree.isEmpty())
@@ -213,7 +212,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   const std::vector<NodeIndex> crossing = NarrowBand<TSample>(tree, isovalue, execution).refine();
   const AngleCriterion criterion(angle);
   const GapCriterion gapCriterion(gapFactor);
-  std::vector<Isopoint> points;
+  std::vector<LocatedIsopoint<TSample>> points;
   std::vector<std::vector<typename TSample::Id>> records;
   std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
     tree.neighborhoods.room(tree.samples.size())) };
@@ -249,8 +248,13 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     // What is not remembered is searched for again.
   }
 
-  result.points =
+  points =
     sortedUnique(execution, points, idCount, [](const Isopoint& point) { return point.first; });
+  if (fitRequest)
+  {
+    result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, points);
+  }
+  result.points.assign(points.begin(), points.end());
   const auto idsOf = [](const MergedSamples& group) { return group.ids.front(); };
   std::sort(result.merged.begin(), result.merged.end(),
     [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) < idsOf(b); });

@@ -2,6 +2,8 @@
 #ifndef isopoint_Isopoint_h
 #define isopoint_Isopoint_h
 
+#include "LocalFit.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -35,12 +37,14 @@ struct MergedSamples
   std::vector<std::uint64_t> ids; // ascending, at least two
 };
 
-/// The isopoints of one isovalue, each edge once, ordered by (first, second), and the merged
-/// samples among their ends, ordered by lowest id.
+/// The isopoints of one isovalue, each edge once, ordered by (first, second), the merged samples
+/// among their ends, ordered by lowest id, and, where asked for, what was fitted around each
+/// isopoint. The parameter of one that was moved is that of the nearest place on its edge.
 struct Isosurface
 {
   std::vector<Isopoint> points;
   std::vector<MergedSamples> merged;
+  std::vector<LocalFit> fits; // one for each point, or none
 
   /// The samples that count as the one of this id, or null if it is a sample of its own.
   /// O(log merged.size())

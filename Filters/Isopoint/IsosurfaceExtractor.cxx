@@ -22,11 +22,15 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& tree) { return tree.skipped; }, this->Tree);
 }
 
-Isosurface IsosurfaceExtractor::extract(
-  const Execution& execution, double isovalue, double angle, double gapFactor)
+Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isovalue, double angle,
+  double gapFactor, std::optional<FitRequest> fitRequest)
 {
-  return std::visit([&](auto& tree)
-    { return extractIsosurface(execution, tree, isovalue, angle, gapFactor, this->ItemCount); },
+  return std::visit(
+    [&](auto& tree)
+    {
+      return extractIsosurface(
+        execution, tree, isovalue, angle, gapFactor, this->ItemCount, fitRequest);
+    },
     this->Tree);
 }
 

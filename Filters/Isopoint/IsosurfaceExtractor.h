@@ -8,6 +8,7 @@
 #include "SampleTree.h"
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -71,10 +72,12 @@ public:
   /// @param isovalue any; none is found where no two samples lie on either side of it
   /// @param angle of the angle criterion in degrees, 0 up to 180
   /// @param gapFactor of the gap criterion: 0, which drops nothing, or positive
+  /// @param fitRequest what is fitted to the samples around each isopoint (see fitAround); without
+  /// it nothing is
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
-  Isosurface extract(
-    const Execution& execution, double isovalue, double angle, double gapFactor = 0.0);
+  Isosurface extract(const Execution& execution, double isovalue, double angle,
+    double gapFactor = 0.0, std::optional<FitRequest> fitRequest = std::nullopt);
 
 private:
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }

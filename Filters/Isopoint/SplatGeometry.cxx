@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SplatGeometry.h"
 
+#include "SplatShape.h"
+#include "TangentCell.h"
+
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
@@ -38,33 +41,21 @@ using Traits =
 using Search = CGAL::Orthogonal_k_neighbor_search<Traits>;
 using Tree = Search::Tree;
 
-/// The neighbour whose distance is the radius. On a sphere in a uniform cloud the 6th would leave
-/// 0.2 % of the surface uncovered and the 10th a few of four million places; of the 12th, which is
-/// 1.5 sample spacings away on average, none was found.
-constexpr std::size_t radiusNeighbor = 12;
+/// How many of the nearest positions are looked at first when a cell is cut, and at most. Cells of
+/// a uniform cloud have about six sides.
+constexpr std::size_t firstNeighbors = 20;
+constexpr std::size_t mostNeighbors = 160;
 
-/// The share of the edges around a point that its splat reaches at least: where samples stand
-/// closer in one direction than in another, the nearest isopoints may all lie in one row, and the
-/// next row is about an edge away.
-constexpr double edgeShare = 0.75;
+/// A splat's size beside its cell's, since the surface bends where the cell is flat.
+constexpr double overlap = 1.1;
 
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+/// How far a cell may reach, in spacings of the samples, where other points bound it on all
+/// sides and where they do not.
+constexpr double closedReach = 2.5;
+constexpr double openReach = 1.0;
 
-double lengthOf(const Vector& a)
-{
-  return std::hypot(a[0], a[1], a[2]);
-}
-
-/// @returns the vector at length 1, or the x axis for one without direction
-Vector directionOf(const Vector& a)
-{
-  const double length = lengthOf(a);
-  return length > 0.0 ? Vector{ a[0] / length, a[1] / length, a[2] / length }
-                      : Vector{ 1.0, 0.0, 0.0 };
-}
+/// Planes that meet at a crease lie under an angle of more than 25 degrees and less than 155.
+constexpr double creaseCosine = 0.906;
 
 /// The distinct ones among positions, and for each position which one it is.
 struct DistinctPositions
@@ -113,67 +104,81 @@ Vector planeNormal(const std::vector<Point>& points)
   return directionOf(result);
 }
 
-/// Fits splats one at a time; scratch is kept from one to the next.
-class SplatFitter
+/// Finds the nearest distinct positions.
+class NearestSearch
 {
 public:
-  SplatFitter(const Tree& tree, const DistinctPositions& distinct,
-    const std::vector<Vector>& fallingEdges, int neighborCount)
-    : Positions(tree)
-    , Distinct(distinct)
-    , FallingEdges(fallingEdges)
-    , PlaneNeighbors(static_cast<std::size_t>(neighborCount))
-  {
-  }
-
-  Splat fit(std::size_t point)
-  {
-    const std::size_t self = this->Distinct.ofPosition[point];
-    this->findNearest(self);
-    const Vector own = directionOf(this->FallingEdges[point]);
-    if (this->Nearest.empty())
-    {
-      return { own, 0.5 * lengthOf(this->FallingEdges[point]) };
-    }
-    const std::size_t last = std::min(radiusNeighbor, this->Nearest.size()) - 1;
-    const double radius =
-      std::max(this->Nearest[last].distance, edgeShare * this->middleEdgeLength());
-    Vector normal = this->fitPlane(self);
-    if (lengthOf(normal) == 0.0)
-    {
-      return { own, radius };
-    }
-    if (dot(normal, this->fallingSide(own)) < 0.0)
-    {
-      normal = { -normal[0], -normal[1], -normal[2] };
-    }
-    return { normal, radius };
-  }
-
-private:
   struct Neighbor
   {
     std::size_t index; // among the distinct positions
     double distance;
   };
 
-  /// Lists the nearest other positions, by distance.
-  void findNearest(std::size_t self)
+  NearestSearch(const Tree& tree, const DistinctPositions& distinct)
+    : Positions(tree)
+    , Distinct(distinct)
   {
-    const std::size_t count = std::max(this->PlaneNeighbors, radiusNeighbor) + 1;
+  }
+
+  /// Lists that many other positions, by distance, or all there are.
+  const std::vector<Neighbor>& find(std::size_t self, std::size_t count)
+  {
     const PointOfIndex map{ this->Distinct.points.data() };
-    Search search(this->Positions, this->Distinct.points[self], static_cast<unsigned>(count), 0.0,
-      true, Search::Distance(map));
-    this->Nearest.clear();
+    Search search(this->Positions, this->Distinct.points[self], static_cast<unsigned>(count + 1),
+      0.0, true, Search::Distance(map));
+    this->Found.clear();
     for (const auto& found : search)
     {
       if (found.first != self)
       {
-        this->Nearest.push_back({ found.first, std::sqrt(found.second) });
+        this->Found.push_back({ found.first, std::sqrt(found.second) });
       }
     }
+    return this->Found;
   }
 
+private:
+  const Tree& Positions;
+  const DistinctPositions& Distinct;
+  std::vector<Neighbor> Found;
+};
+
+/// Fits normals one at a time; scratch is kept from one to the next.
+class NormalFitter
+{
+public:
+  NormalFitter(const Tree& tree, const DistinctPositions& distinct, const SurfacePoints& points,
+    const SplatOptions& options)
+    : Finder(tree, distinct)
+    , Distinct(distinct)
+    , FallingEdges(points.fallingEdges)
+    , Fits(options.fieldNormals ? &points.fits : nullptr)
+    , PlaneNeighbors(static_cast<std::size_t>(options.neighborCount))
+  {
+  }
+
+  Vector fit(std::size_t point)
+  {
+    if (this->Fits && !this->Fits->empty() && (*this->Fits)[point].order != FitOrder::None)
+    {
+      const Vector normal = scaled(-1.0, directionOf((*this->Fits)[point].gradient));
+      if (std::isfinite(lengthOf(normal)))
+      {
+        return normal;
+      }
+    }
+    const std::size_t self = this->Distinct.ofPosition[point];
+    this->Nearest = this->Finder.find(self, this->PlaneNeighbors);
+    const Vector own = directionOf(this->FallingEdges[point]);
+    const Vector normal = this->fitPlane(self);
+    if (lengthOf(normal) == 0.0)
+    {
+      return own;
+    }
+    return dot(normal, this->fallingSide(own)) < 0.0 ? scaled(-1.0, normal) : normal;
+  }
+
+private:
   Vector fitPlane(std::size_t self)
   {
     const std::size_t count = std::min(this->PlaneNeighbors, this->Nearest.size());
@@ -195,28 +200,13 @@ private:
     return planeNormal(this->PlanePoints);
   }
 
-  /// The median length of the edges of the nearest positions.
-  double middleEdgeLength()
-  {
-    this->EdgeLengths.clear();
-    for (const Neighbor& neighbor : this->Nearest)
-    {
-      this->EdgeLengths.push_back(
-        lengthOf(this->FallingEdges[this->Distinct.firstUser[neighbor.index]]));
-    }
-    const auto middle =
-      this->EdgeLengths.begin() + static_cast<std::ptrdiff_t>(this->EdgeLengths.size() / 2);
-    std::nth_element(this->EdgeLengths.begin(), middle, this->EdgeLengths.end());
-    return *middle;
-  }
-
   /// The mean direction of the edges around that fall to the same side as the point's own: a
   /// single edge may run nearly along the surface, and edges of a sheet close by fall the other
   /// way.
   Vector fallingSide(const Vector& own) const
   {
     Vector sum = own;
-    for (const Neighbor& neighbor : this->Nearest)
+    for (const NearestSearch::Neighbor& neighbor : this->Nearest)
     {
       const Vector other =
         directionOf(this->FallingEdges[this->Distinct.firstUser[neighbor.index]]);
@@ -228,26 +218,166 @@ private:
     return sum;
   }
 
-  const Tree& Positions;
+  NearestSearch Finder;
   const DistinctPositions& Distinct;
   const std::vector<Vector>& FallingEdges;
+  const std::vector<LocalFit>* Fits;
   const std::size_t PlaneNeighbors;
-  std::vector<Neighbor> Nearest;
+  std::vector<NearestSearch::Neighbor> Nearest;
   std::vector<Point> PlanePoints;
-  std::vector<double> EdgeLengths;
 };
+
+/// Shapes splats whose normals are known, one at a time.
+class SplatShaper
+{
+public:
+  SplatShaper(const Tree& tree, const DistinctPositions& distinct, const SurfacePoints& points,
+    const std::vector<Splat>& splats)
+    : Finder(tree, distinct)
+    , Distinct(distinct)
+    , Points(points)
+    , Splats(splats)
+  {
+  }
+
+  void shape(std::size_t point, Splat& splat)
+  {
+    const double spacing = this->spacingAt(point);
+    TangentCell cell(splat.normal);
+    splat.clip = { 0.0, 0.0, 0.0, 0.0 };
+    this->cutOut(point, closedReach * spacing, cell, splat);
+    if (cell.isOpen())
+    {
+      this->cutOut(point, openReach * spacing, cell, splat);
+    }
+    const LocalFit none{};
+    const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
+    const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
+    splat.axis1 = scaled(overlap, ellipse.axis1);
+    splat.axis2 = scaled(overlap, ellipse.axis2);
+    splat.radius = lengthOf(splat.axis1);
+  }
+
+private:
+  double spacingAt(std::size_t point) const
+  {
+    return this->Points.fits.empty() ? lengthOf(this->Points.fallingEdges[point])
+                                     : this->Points.fits[point].spacing;
+  }
+
+  /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
+  void cutOut(std::size_t point, double limit, TangentCell& cell, Splat& splat)
+  {
+    const std::size_t self = this->Distinct.ofPosition[point];
+    for (std::size_t count = firstNeighbors;; count *= 2)
+    {
+      cell.reset(limit);
+      double nearestCrease = limit;
+      const auto& nearest = this->Finder.find(self, count);
+      bool isComplete = nearest.size() < count;
+      for (const NearestSearch::Neighbor& neighbor : nearest)
+      {
+        const std::size_t other = this->Distinct.firstUser[neighbor.index];
+        const Vector offset =
+          difference(this->Points.positions[other], this->Points.positions[point]);
+        if (this->meetAtCrease(point, other, offset))
+        {
+          this->cutAtCrease(point, other, offset, cell, splat, nearestCrease);
+        }
+        else if (neighbor.distance <= 2.0 * cell.reach())
+        {
+          cell.cut(scaled(1.0 / neighbor.distance, offset), 0.5 * neighbor.distance);
+        }
+        else
+        {
+          isComplete = true; // but creases a little farther off may cut the splat's rim
+        }
+      }
+      if (isComplete || count >= mostNeighbors)
+      {
+        return;
+      }
+    }
+  }
+
+  /// Whether fits tell that the planes of two points meet between them at a crease: each lies on
+  /// the same side of the other's.
+  bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
+  {
+    if (this->Points.fits.empty())
+    {
+      return false;
+    }
+    const FitOrder order = this->Points.fits[point].order;
+    const FitOrder otherOrder = this->Points.fits[other].order;
+    const bool isTold = order != FitOrder::None && otherOrder != FitOrder::None &&
+                        (order == FitOrder::Crease || otherOrder == FitOrder::Crease);
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    const double height = dot(normal, offset);
+    const double otherHeight = -dot(otherNormal, offset);
+    const double tolerance = 0.02 * lengthOf(offset);
+    return isTold && std::abs(dot(normal, otherNormal)) < creaseCosine &&
+           (height < tolerance) == (otherHeight < tolerance);
+  }
+
+  /// Cuts off what lies beyond the plane of a point across a crease.
+  void cutAtCrease(std::size_t point, std::size_t other, const Vector& offset, TangentCell& cell,
+    Splat& splat, double& nearestCrease) const
+  {
+    const Vector& otherNormal = this->Splats[other].normal;
+    const double cosine = dot(splat.normal, otherNormal);
+    // At a convex crease each point lies behind the other's plane, at a concave one before it.
+    const double height = dot(splat.normal, offset);
+    const double otherHeight = -dot(otherNormal, offset);
+    const double side =
+      (std::abs(height) > std::abs(otherHeight) ? height : otherHeight) < 0.0 ? 1.0 : -1.0;
+    const double inside = std::max(0.0, -side * otherHeight);
+    cell.cut(scaled(side, otherNormal), inside);
+    const double distance = inside / std::sqrt(1.0 - cosine * cosine);
+    if (distance < nearestCrease)
+    {
+      nearestCrease = distance;
+      const double constant = side * dot(otherNormal, this->Points.positions[point]) + inside;
+      splat.clip = { -side * otherNormal[0], -side * otherNormal[1], -side * otherNormal[2],
+        constant };
+    }
+  }
+
+  NearestSearch Finder;
+  const DistinctPositions& Distinct;
+  const SurfacePoints& Points;
+  const std::vector<Splat>& Splats; // normals at least
+};
+
+/// Calls task(begin, end) on parts of [0, count) in batches, telling progress from one share of the
+/// work to another in between.
+void forBatches(
+  const Execution& execution, std::size_t count, double from, double to, const RangeTask& task)
+{
+  constexpr std::size_t grain = 512;
+  const std::size_t batch = 8192 * execution.threads;
+  for (std::size_t done = 0; done < count; done += batch)
+  {
+    forRanges(execution, std::min(batch, count - done), grain,
+      [&](std::size_t begin, std::size_t end) { task(done + begin, done + end); });
+    throwIfAborted(execution);
+    const double share = static_cast<double>(done + batch) / static_cast<double>(count);
+    execution.progress(from + (to - from) * std::min(1.0, share));
+  }
+}
 
 } // namespace
 
-std::vector<Splat> computeSplats(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<Vector>& fallingEdges, int neighborCount)
+std::vector<Splat> computeSplats(
+  const Execution& execution, const SurfacePoints& points, const SplatOptions& options)
 {
-  std::vector<Splat> splats(positions.size());
-  if (positions.empty())
+  std::vector<Splat> splats(points.positions.size());
+  if (points.positions.empty())
   {
     return splats; // CGAL's tree takes no empty set
   }
-  const DistinctPositions distinct(positions);
+  const DistinctPositions distinct(points.positions);
   std::vector<std::size_t> indices(distinct.points.size());
   std::iota(indices.begin(), indices.end(), std::size_t{ 0 });
   Tree tree(indices.begin(), indices.end(), Tree::Splitter(),
@@ -255,23 +385,25 @@ std::vector<Splat> computeSplats(const Execution& execution, const std::vector<V
   tree.build();
   throwIfAborted(execution);
 
-  constexpr std::size_t grain = 512;
-  const std::size_t batch = 8192 * execution.threads;
-  for (std::size_t done = 0; done < positions.size(); done += batch)
-  {
-    forRanges(execution, std::min(batch, positions.size() - done), grain,
-      [&](std::size_t begin, std::size_t end)
+  constexpr double normalsShare = 0.4;
+  forBatches(execution, splats.size(), 0.0, normalsShare,
+    [&](std::size_t begin, std::size_t end)
+    {
+      NormalFitter fitter(tree, distinct, points, options);
+      for (std::size_t i = begin; i < end; ++i)
       {
-        SplatFitter fitter(tree, distinct, fallingEdges, neighborCount);
-        for (std::size_t i = done + begin; i < done + end; ++i)
-        {
-          splats[i] = fitter.fit(i);
-        }
-      });
-    throwIfAborted(execution);
-    execution.progress(
-      std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(positions.size())));
-  }
+        splats[i].normal = fitter.fit(i);
+      }
+    });
+  forBatches(execution, splats.size(), normalsShare, 1.0,
+    [&](std::size_t begin, std::size_t end)
+    {
+      SplatShaper shaper(tree, distinct, points, splats);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        shaper.shape(i, splats[i]);
+      }
+    });
   return splats;
 }
 

@@ -3,39 +3,64 @@
 #define isopoint_SplatGeometry_h
 
 #include "Execution.h"
+#include "LocalFit.h"
+#include "Vector.h"
 
 #include <array>
-#include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
 
-using Vector = std::array<double, 3>;
-
 constexpr int defaultNeighborCount = 12;
 
-/// A disk's normal and radius, in the units of the positions.
+/// How a point of the surface is drawn, in the units of the positions.
 struct Splat
 {
   Vector normal; // of length 1
-  double radius; // positive
+  double radius; // half the longer axis, positive
+  Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
+  Vector axis2;
+  /// a, b, c, d: of the splat only a x + b y + c z + d >= 0 is to be drawn, (a, b, c) of length 1;
+  /// all 0 where nothing is to be cut
+  std::array<double, 4> clip;
 };
 
-/// Normals and radii for the points of one surface (section 8 of the paper): the normal of the
-/// least-squares plane through a point and its nearest ones, turned to the falling side, and the
-/// distance of the 12th nearest, or three quarters of the edges' length around it where that is
-/// more, so that neighbouring splats overlap. Points at one position
-/// count as one among the nearest. Where fewer than three positions, or only collinear ones, are
-/// there, the point's own edge is taken for the normal; where there is only one position, half
-/// its length for the radius.
-/// @param fallingEdges for each point a vector along its edge from the end that is not below the
-/// isovalue to the one that is, of the edge's length
-/// @param neighborCount of nearest positions the plane is fitted through, at least 3
+/// The points of one surface, one entry each.
+struct SurfacePoints
+{
+  std::vector<Vector> positions;
+  /// Along its edge, from the end that is not below the isovalue to the one that is, of the edge's
+  /// length.
+  std::vector<Vector> fallingEdges;
+  std::vector<LocalFit> fits; // or none
+};
+
+/// How normals are found.
+struct SplatOptions
+{
+  int neighborCount =
+    defaultNeighborCount;   // nearest positions a plane is fitted through, 3 or more
+  bool fieldNormals = true; // the fits' gradients, where fits held
+};
+
+/// Normals and shapes of splats for the points of one surface.
+///
+/// The normal is against the gradient of the point's fit, or, where none held or planes are asked
+/// for, that of the least-squares plane through the point and its nearest ones, turned to the
+/// falling side (section 8 of the paper); the direction of its own edge where those are fewer than
+/// three or collinear. Points at one position count as one among the nearest.
+///
+/// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
+/// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
+/// bend. A cell reaches no farther than two and a half spacings of the samples around the edge (its
+/// length where no fits are given), and one where no points bound it, as at a border: an isolated
+/// point does not become a plate. Across a crease that a fit found cells do not end halfway
+/// but at the other side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
-std::vector<Splat> computeSplats(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<Vector>& fallingEdges, int neighborCount);
+std::vector<Splat> computeSplats(
+  const Execution& execution, const SurfacePoints& points, const SplatOptions& options);
 
 } // namespace isopoint
 

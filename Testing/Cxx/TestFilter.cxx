@@ -154,12 +154,99 @@ TEST(Filter, OutputIsWhatTheConventionsSay)
     double falling = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      ASSERT_NEAR(position->GetComponent(i, axis), p[axis], 1e-6);
       falling -= data->GetNormals()->GetComponent(i, axis) * p[axis] / r;
     }
     ASSERT_GT(falling, 0.95);
-    ASSERT_NEAR(data->GetArray("x")->GetComponent(i, 0), p[0], 1e-6);
+    ASSERT_EQ(data->GetArray("x")->GetComponent(i, 0), position->GetComponent(i, 0));
     ASSERT_GT(data->GetArray("Radius")->GetComponent(i, 0), 0.0);
+  }
+}
+
+// A moved point has the attributes of the nearest place on its edge.
+TEST(Filter, ProjectionMovesPointsAndTheirAttributes)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(20000));
+  filter->SetValue(0, 0.7);
+  filter->ComputeProjectionOrdersOn();
+  filter->ComputeGradientsOn();
+  std::vector<std::vector<double>> placed;
+  std::vector<double> deviations;
+  for (const int projection : { vtkScatteredIsopointFilter::NO_PROJECTION,
+         vtkScatteredIsopointFilter::LINEAR_FIT, vtkScatteredIsopointFilter::QUADRATIC_FIT })
+  {
+    filter->SetProjection(projection);
+    filter->Update();
+    vtkPolyData* const output = filter->GetOutput();
+    placed.push_back(pointsOf(output));
+    vtkDataArray* const orders = output->GetPointData()->GetArray("ProjectionOrder");
+    vtkDataArray* const position = output->GetPointData()->GetArray("position");
+    vtkDataArray* const gradients = output->GetPointData()->GetArray("Gradients");
+    ASSERT_TRUE(orders && gradients);
+    double deviation = 0.0;
+    vtkIdType unprojected = 0;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      double onEdge[3];
+      double gradient[3];
+      output->GetPoint(i, p);
+      position->GetTuple(i, onEdge);
+      gradients->GetTuple(i, gradient);
+      const double* const still = placed[0].data() + 3 * i;
+      const auto distance = [](const double* a, const double* b)
+      { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); };
+      ASSERT_LE(distance(p, onEdge), distance(p, still) + 1e-6);
+      deviation = std::max(deviation, std::abs(std::hypot(p[0], p[1], p[2]) - 0.7));
+      unprojected += orders->GetComponent(i, 0) == 0.0 ? 1 : 0;
+      ASSERT_LE(orders->GetComponent(i, 0), projection == 2 ? 3.0 : projection);
+      if (orders->GetComponent(i, 0) > 0.0)
+      {
+        ASSERT_NEAR(std::hypot(gradient[0], gradient[1], gradient[2]), 1.0, 0.1);
+      }
+      ASSERT_EQ(output->GetPointData()->GetScalars()->GetComponent(i, 0), 0.7);
+    }
+    EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), unprojected);
+    deviations.push_back(deviation);
+  }
+  ASSERT_EQ(placed[0].size(), placed[2].size());
+  EXPECT_NE(placed[0], placed[1]);
+  EXPECT_LT(deviations[2], 0.1 * deviations[0]);
+}
+
+TEST(Filter, SplatArraysAreThereWhenAskedFor)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(5000));
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  for (const char* const name : { "SplatAxis1", "SplatAxis2", "SplatClip", "Gradients" })
+  {
+    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
+  }
+  filter->ComputeSplatAxesOn();
+  filter->ComputeSplatClipsOn();
+  for (const int method : { vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
+         vtkScatteredIsopointFilter::NORMALS_FROM_PLANES })
+  {
+    filter->SetNormalMethod(method);
+    filter->Update();
+    vtkPointData* const data = filter->GetOutput()->GetPointData();
+    ASSERT_TRUE(data->HasArray("SplatClip"));
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      double a[3];
+      double b[3];
+      double p[3];
+      data->GetArray("SplatAxis1")->GetTuple(i, a);
+      data->GetArray("SplatAxis2")->GetTuple(i, b);
+      filter->GetOutput()->GetPoint(i, p);
+      ASSERT_NEAR(std::hypot(a[0], a[1], a[2]), data->GetArray("Radius")->GetComponent(i, 0), 1e-6);
+      const double outwards = (a[1] * b[2] - a[2] * b[1]) * p[0] +
+                              (a[2] * b[0] - a[0] * b[2]) * p[1] +
+                              (a[0] * b[1] - a[1] * b[0]) * p[2];
+      ASSERT_LT(outwards, 0.0); // distances fall inwards
+    }
   }
 }
 

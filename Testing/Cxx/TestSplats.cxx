@@ -8,18 +8,19 @@
 namespace
 {
 
+using isopoint::cross;
+using isopoint::difference;
+using isopoint::dot;
+using isopoint::lengthOf;
 using isopoint::Splat;
 using isopoint::Vector;
 
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 std::vector<Splat> splatsOf(const std::vector<Vector>& positions, const std::vector<Vector>& edges)
 {
-  return isopoint::computeSplats(
-    clouds::executionOn(2), positions, edges, isopoint::defaultNeighborCount);
+  isopoint::SurfacePoints points;
+  points.positions = positions;
+  points.fallingEdges = edges;
+  return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
 }
 
 /// Random points of the unit sphere, moved and scaled, with edges that fall outwards, askew.
@@ -66,22 +67,118 @@ TEST(Splats, NormalsOfASphereFallOutwards)
   }
 }
 
-TEST(Splats, RadiusIsTheDistanceOfTheTwelfthNearest)
+// Every place of the surface lies within the ellipse of an isopoint, seen along its normal.
+TEST(Splats, EllipsesCoverTheSurface)
 {
   const Sphere sphere(800, 1.0, 0.0);
-  const std::vector<Splat> splats = splatsOf(sphere.positions, sphere.edges);
+  const std::vector<Vector> longEdges(sphere.edges.size(), Vector{ 0.5, 0.0, 0.0 });
+  const std::vector<Splat> splats = splatsOf(sphere.positions, longEdges);
+  const Sphere places(20000, 1.0, 0.0);
+  for (std::size_t i = 1000; i < places.positions.size(); ++i)
+  {
+    bool covered = false;
+    for (std::size_t k = 0; k < splats.size() && !covered; ++k)
+    {
+      const Vector offset = difference(places.positions[i], sphere.positions[k]);
+      const double u = dot(offset, splats[k].axis1) / dot(splats[k].axis1, splats[k].axis1);
+      const double v = dot(offset, splats[k].axis2) / dot(splats[k].axis2, splats[k].axis2);
+      covered = dot(places.positions[i], sphere.positions[k]) > 0.0 && u * u + v * v <= 1.0;
+    }
+    ASSERT_TRUE(covered) << i;
+  }
+}
+
+TEST(Splats, AxesSpanTheTangentPlane)
+{
+  const Sphere sphere(800, 1.0, 0.0);
+  for (const Splat& splat : splatsOf(sphere.positions, sphere.edges))
+  {
+    ASSERT_NEAR(lengthOf(splat.axis1), splat.radius, 1e-12);
+    ASSERT_LE(lengthOf(splat.axis2), splat.radius + 1e-12);
+    ASSERT_NEAR(dot(splat.axis1, splat.axis2), 0.0, 1e-12);
+    ASSERT_NEAR(dot(cross(splat.axis1, splat.axis2), splat.normal),
+      lengthOf(splat.axis1) * lengthOf(splat.axis2), 1e-12);
+    ASSERT_EQ(splat.clip, (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }));
+  }
+}
+
+// Rows ten times as far from each other as the points of one: the nearest all lie in one row.
+TEST(Splats, RowsAreJoined)
+{
+  std::vector<Vector> positions;
+  for (int row = 0; row < 20; ++row)
+  {
+    for (int i = 0; i < 200; ++i)
+    {
+      positions.push_back({ 0.1 * i, static_cast<double>(row), 0.0 });
+    }
+  }
+  isopoint::SurfacePoints points;
+  points.positions = positions;
+  points.fallingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
+  isopoint::LocalFit fit{};
+  fit.order = isopoint::FitOrder::Linear;
+  fit.gradient = { 0.0, 0.0, -1.0 };
+  fit.spacing = 1.0;
+  points.fits.assign(positions.size(), fit);
+  const std::vector<Splat> splats =
+    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  const auto& inside = splats[10 * 200 + 100];
+  EXPECT_EQ(inside.normal, (Vector{ 0.0, 0.0, 1.0 }));
+  EXPECT_GT(inside.radius, 0.5);
+  EXPECT_LT(inside.radius, 0.7);
+}
+
+TEST(Splats, AnIsolatedPointDoesNotBecomeAPlate)
+{
+  Sphere sphere(800, 1.0, 0.0);
+  sphere.positions.push_back({ 50.0, 0.0, 0.0 });
+  sphere.edges.push_back({ 0.1, 0.0, 0.0 });
+  EXPECT_LT(splatsOf(sphere.positions, sphere.edges).back().radius, 0.12);
+}
+
+// Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's.
+TEST(Splats, AreClippedAtACrease)
+{
+  isopoint::SurfacePoints points;
+  clouds::Random random(4);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const bool top = i % 2 == 0;
+    const double along = 10.0 * random();
+    const double off = -3.0 * random();
+    points.positions.push_back(top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off });
+    points.fallingEdges.push_back({ 1.0, 0.0, 1.0 });
+    isopoint::LocalFit fit{};
+    fit.order = isopoint::FitOrder::Crease;
+    fit.gradient = top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 };
+    fit.spacing = 1.0;
+    points.fits.push_back(fit);
+  }
+  const std::vector<Splat> splats =
+    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  int clipped = 0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    std::vector<double> distances;
-    for (const Vector& other : sphere.positions)
+    const bool top = i % 2 == 0;
+    const double toCrease = -(top ? points.positions[i][0] : points.positions[i][2]);
+    const std::array<double, 4> expected = top ? std::array<double, 4>{ -1.0, 0.0, 0.0, 0.0 }
+                                               : std::array<double, 4>{ 0.0, 0.0, -1.0, 0.0 };
+    if (splats[i].clip != (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }))
     {
-      const Vector d{ other[0] - sphere.positions[i][0], other[1] - sphere.positions[i][1],
-        other[2] - sphere.positions[i][2] };
-      distances.push_back(std::sqrt(dot(d, d)));
+      ++clipped;
+      for (int k = 0; k < 4; ++k)
+      {
+        ASSERT_NEAR(splats[i].clip[k], expected[k], 1e-12);
+      }
     }
-    std::sort(distances.begin(), distances.end());
-    ASSERT_NEAR(splats[i].radius, distances[12], 1e-12); // edges are shorter
+    else
+    {
+      const std::size_t across = top ? 0 : 2;
+      ASSERT_GT(toCrease, std::hypot(splats[i].axis1[across], splats[i].axis2[across])) << i;
+    }
   }
+  EXPECT_GT(clipped, 50);
 }
 
 // Samples that have the isovalue exactly put many isopoints at their own position.

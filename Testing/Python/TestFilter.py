@@ -66,6 +66,23 @@ class FilterTest(unittest.TestCase):
         isopoints.GenerateValues(3, 0.0, 1.0)
         self.assertEqual([isopoints.GetValue(i) for i in range(3)], [0.0, 0.5, 1.0])
 
+    def test_projection(self):
+        deviation = {}
+        for projection in (0, 1, 2):
+            isopoints = vtkScatteredIsopointFilter()
+            isopoints.SetInputData(cloud(30000))
+            isopoints.SetValue(0, 0.7)
+            isopoints.SetProjection(projection)
+            isopoints.ComputeProjectionOrdersOn()
+            isopoints.Update()
+            data = isopoints.GetOutput()
+            positions = vtk_to_numpy(data.GetPoints().GetData())
+            deviation[projection] = np.abs(np.linalg.norm(positions, axis=1) - 0.7).mean()
+            orders = vtk_to_numpy(data.GetPointData().GetArray("ProjectionOrder"))
+            self.assertEqual((orders == 0).sum(), isopoints.GetNumberOfUnprojectedPoints())
+        self.assertLess(deviation[2], 0.1 * deviation[0])
+        self.assertEqual(vtkScatteredIsopointFilter().GetProjection(), 2)
+
     def test_no_isovalue_gives_nothing(self):
         isopoints = vtkScatteredIsopointFilter()
         isopoints.SetNumberOfContours(0)

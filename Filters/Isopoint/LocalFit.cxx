@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "LocalFit.h"
+
+#include "CreaseFit.h"
+#include "PolynomialFit.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace isopoint
+{
+namespace
+{
+
+/// How far an isopoint may move, in lengths of its edge.
+constexpr double mostMove = 0.5;
+
+/// The largest residual a fit may leave, as the root of their mean square, in units of how much it
+/// rises over the samples' mean distance.
+constexpr double mostResidual = 0.6;
+
+/// Where the polynomial of degree two leaves less than this, in the same unit, nothing else is
+/// tried.
+constexpr double smoothResidual = 0.03;
+
+/// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps,
+/// and linear interpolation errs less (measured on scans; a smooth field that is sampled so thinly
+/// is no better off).
+constexpr double roughResidual = 0.1;
+
+/// The largest residual of a fit with a crease: creases are told apart from smooth fields only
+/// where there is little noise.
+constexpr double mostCreaseResidual = 0.03;
+
+/// The largest cosine between the gradients on either side of a crease, that of 25 degrees.
+constexpr double mostCreaseCosine = 0.906;
+
+/// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
+struct Candidate
+{
+  FitOrder order = FitOrder::None;
+  double criterion = std::numeric_limits<double>::infinity(); // lower is better
+  double residual = std::numeric_limits<double>::infinity();  // relative
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  std::array<double, 6> hessian{};
+
+  bool holds() const { return this->order != FitOrder::None; }
+};
+
+/// The corrected Akaike criterion of a least-squares fit.
+double akaikeCriterion(std::size_t sampleCount, std::size_t coefficientCount, double meanSquare)
+{
+  const auto n = static_cast<double>(sampleCount);
+  const double k = static_cast<double>(coefficientCount) + 1.0; // and the residuals' variance
+  if (n <= k + 1.0)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  // Residuals of rounding alone are as good as none.
+  constexpr double rounding = 1e-28;
+  return n * std::log(std::max(meanSquare, rounding)) + 2.0 * k +
+         2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
+
+Eigen::Vector3d toEigen(const Vector& v)
+{
+  return { v[0], v[1], v[2] };
+}
+
+/// The samples around an isopoint in a frame of its own.
+class Neighborhood
+{
+public:
+  /// @param spacing the unit of length
+  Neighborhood(
+    const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples, double spacing)
+    : Scale(spacing)
+    , Rising(toEigen(edge.rising) / spacing)
+  {
+    for (const FitSample& sample : samples)
+    {
+      this->ValueScale = std::max(this->ValueScale, std::abs(sample.value - isovalue));
+    }
+    for (const FitSample& sample : samples)
+    {
+      const Eigen::Vector3d offset =
+        toEigen(difference(sample.position, edge.position)) / this->Scale;
+      this->Samples.push_back({ offset, (sample.value - isovalue) / this->ValueScale, 1.0 });
+    }
+  }
+
+  bool isUsable() const
+  {
+    return std::isfinite(this->ValueScale) && this->ValueScale > 0.0 && this->Rising.allFinite() &&
+           std::isfinite(1.0 / this->Scale);
+  }
+
+  /// The polynomial of degree two where it leaves residuals of no more than that, weighted so
+  /// steeply that it all but interpolates the nearest samples.
+  Candidate smooth(double mostRelativeResidual)
+  {
+    this->weigh([](double squaredDistance) { return 1.0 / std::pow(0.1 + squaredDistance, 3); });
+    const PolynomialFits fits = fitPolynomials(this->Samples, true);
+    this->weigh(mildWeight); // residuals of far samples tell of creases
+    return fits.quadraticHolds
+             ? this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostRelativeResidual)
+             : Candidate();
+  }
+
+  /// The fit that the criterion tells to be best.
+  Candidate best(FitOrder highest)
+  {
+    this->weigh(mildWeight);
+    const bool quadraticWanted = highest == FitOrder::Quadratic;
+    const PolynomialFits fits = fitPolynomials(this->Samples, quadraticWanted);
+    Candidate chosen;
+    const auto consider = [&chosen](const Candidate& candidate)
+    {
+      if (candidate.holds() && candidate.criterion < chosen.criterion)
+      {
+        chosen = candidate;
+      }
+    };
+    if (fits.linearHolds)
+    {
+      consider(this->tryPolynomial(fits.linear, FitOrder::Linear, 4, mostResidual));
+    }
+    if (fits.quadraticHolds)
+    {
+      consider(this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostResidual));
+    }
+    if (quadraticWanted && fits.linearHolds)
+    {
+      const Polynomial& rival = fits.quadraticHolds ? fits.quadratic : fits.linear;
+      const double rivalMeanSquare = meanSquaredResidual(
+        this->Samples, [&rival](const Eigen::Vector3d& p) { return rival.value(p); });
+      for (const CreaseFit& crease : fitCreases(this->Samples, mostCreaseResidual, rivalMeanSquare))
+      {
+        consider(this->tryCrease(crease));
+      }
+    }
+    return chosen;
+  }
+
+  /// Takes a fit over where it holds. @returns whether it does
+  bool apply(const Candidate& candidate, LocalFit& fit) const
+  {
+    if (!candidate.holds())
+    {
+      return false;
+    }
+    const double slopeScale = this->ValueScale / this->Scale;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fit.position[axis] += this->Scale * candidate.position[axis];
+      fit.gradient[axis] = slopeScale * candidate.gradient[axis];
+    }
+    for (std::size_t i = 0; i < fit.hessian.size(); ++i)
+    {
+      fit.hessian[i] = slopeScale / this->Scale * candidate.hessian[i];
+    }
+    fit.order = candidate.order;
+    return true;
+  }
+
+private:
+  static double mildWeight(double squaredDistance) { return 1.0 / (1.0 + squaredDistance); }
+
+  template <class Weight>
+  void weigh(const Weight& weightOf)
+  {
+    for (FrameSample& sample : this->Samples)
+    {
+      sample.weight = weightOf(sample.position.squaredNorm());
+    }
+  }
+
+  /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
+  bool risesAlong(const Eigen::Vector3d& gradient) const
+  {
+    constexpr double leastCosine = -0.2;
+    return gradient.dot(this->Rising) > leastCosine * gradient.norm() * this->Rising.norm();
+  }
+
+  bool mayMoveTo(const Eigen::Vector3d& position) const
+  {
+    return position.norm() <= mostMove * this->Rising.norm();
+  }
+
+  Candidate tryPolynomial(const Polynomial& polynomial, FitOrder order,
+    std::size_t coefficientCount, double mostRelativeResidual) const
+  {
+    Candidate candidate;
+    // A fit of as many coefficients as samples would leave none.
+    const double freedom = static_cast<double>(this->Samples.size()) /
+                           static_cast<double>(this->Samples.size() - coefficientCount);
+    const double meanSquare = meanSquaredResidual(
+      this->Samples, [&](const Eigen::Vector3d& p) { return polynomial.value(p); });
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector3d gradient = polynomial.gradient(position);
+    candidate.residual = std::sqrt(meanSquare * freedom) / gradient.norm();
+    if (!(candidate.residual <= mostRelativeResidual) || !this->risesAlong(gradient))
+    {
+      return candidate;
+    }
+    constexpr int mostSteps = 8;
+    constexpr double accuracy = 1e-12;
+    bool converged = false;
+    for (int step = 0; step < mostSteps && !converged; ++step)
+    {
+      const Eigen::Vector3d move = -polynomial.value(position) / gradient.squaredNorm() * gradient;
+      position += move;
+      if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
+      {
+        return candidate;
+      }
+      gradient = polynomial.gradient(position);
+      converged = move.norm() <= accuracy;
+    }
+    if (!converged || !this->risesAlong(gradient))
+    {
+      return candidate;
+    }
+    candidate.order = order;
+    candidate.criterion = akaikeCriterion(this->Samples.size(), coefficientCount, meanSquare);
+    candidate.position = position;
+    candidate.gradient = gradient;
+    const QuadraticBasis& c = polynomial.coefficients;
+    candidate.hessian = { 2.0 * c[4], 2.0 * c[5], 2.0 * c[6], c[7], c[8], c[9] };
+    return candidate;
+  }
+
+  Candidate tryCrease(const CreaseFit& fit) const
+  {
+    Candidate candidate;
+    for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
+    {
+      const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
+      for (std::size_t other = 0; other < piece; ++other)
+      {
+        const Eigen::Vector3d otherGradient = fit.pieces[other].tail<3>();
+        if (gradient.dot(otherGradient) > mostCreaseCosine * gradient.norm() * otherGradient.norm())
+        {
+          return candidate;
+        }
+      }
+    }
+    this->moveToNearestSheet(fit, candidate);
+    candidate.criterion =
+      akaikeCriterion(this->Samples.size(), 4 * fit.pieces.size(), fit.meanSquare);
+    return candidate;
+  }
+
+  /// Moves to the nearest point of the zero plane of one piece that belongs to the surface, or else
+  /// to the crease between two.
+  void moveToNearestSheet(const CreaseFit& fit, Candidate& candidate) const
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto consider = [&](std::size_t piece, const Eigen::Vector3d& position)
+    {
+      constexpr double tolerance = 1e-9;
+      if (position.norm() < nearest && this->mayMoveTo(position) &&
+          fit.isOnSurface(piece, position, tolerance))
+      {
+        nearest = position.norm();
+        candidate.order = FitOrder::Crease;
+        candidate.position = position;
+        candidate.gradient = fit.pieces[piece].tail<3>();
+      }
+    };
+    for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
+    {
+      const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
+      consider(piece, -fit.pieces[piece][0] / gradient.squaredNorm() * gradient);
+    }
+    for (std::size_t piece = 0; piece < fit.pieces.size() && !candidate.holds(); ++piece)
+    {
+      for (std::size_t other = 0; other < piece; ++other)
+      {
+        // The point of the line that is nearest to the origin is a sum of the gradients.
+        Eigen::Matrix<double, 2, 3> gradients;
+        gradients << fit.pieces[piece].tail<3>().transpose(),
+          fit.pieces[other].tail<3>().transpose();
+        const Eigen::Matrix2d products = gradients * gradients.transpose();
+        const Eigen::Vector2d values(-fit.pieces[piece][0], -fit.pieces[other][0]);
+        const Eigen::Vector3d onCrease = gradients.transpose() * (products.inverse() * values);
+        consider(piece, onCrease);
+      }
+    }
+  }
+
+  const double Scale;
+  double ValueScale = 0.0;
+  std::vector<FrameSample> Samples;
+  Eigen::Vector3d Rising;
+};
+
+} // namespace
+
+LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
+  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest)
+{
+  LocalFit fit{};
+  fit.position = edge.position;
+  const double length = lengthOf(edge.rising);
+  fit.gradient = scaled(edge.rise / length, directionOf(edge.rising));
+  double spacing = 0.0;
+  for (const FitSample& sample : samples)
+  {
+    spacing +=
+      lengthOf(difference(sample.position, edge.position)) / static_cast<double>(samples.size());
+  }
+  if (highest == FitOrder::None)
+  {
+    return fit;
+  }
+  Neighborhood neighborhood(edge, isovalue, samples, spacing);
+  if (neighborhood.isUsable())
+  {
+    if (highest == FitOrder::Quadratic &&
+        neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
+    {
+      return fit;
+    }
+    Neighborhood wider(edge, isovalue, widerSamples(), spacing);
+    if (wider.isUsable())
+    {
+      const Candidate best = wider.best(highest);
+      if (highest == FitOrder::Linear || best.order == FitOrder::Crease)
+      {
+        wider.apply(best, fit);
+      }
+      else if (best.residual <= roughResidual &&
+               !neighborhood.apply(neighborhood.smooth(roughResidual), fit))
+      {
+        wider.apply(wider.smooth(roughResidual), fit);
+      }
+    }
+  }
+  return fit;
+}
+
+} // namespace isopoint

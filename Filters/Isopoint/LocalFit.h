@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_LocalFit_h
+#define isopoint_LocalFit_h
+
+#include "Vector.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// What is fitted to the samples around an isopoint's edge; the highest that is tried, or the one
+/// that held.
+enum class FitOrder : std::uint8_t
+{
+  None = 0,      // linear interpolation along the edge alone
+  Linear = 1,    // an affine function
+  Quadratic = 2, // a polynomial of degree two
+  Crease = 3     // the largest, or the smallest, of two or three affine functions
+};
+
+/// What is wanted of fits around isopoints.
+struct FitRequest
+{
+  FitOrder highest; // None, Linear or Quadratic
+  bool move;        // isopoints to the zero of the fit, or leave them on their edges
+};
+
+/// A sample of a neighbourhood. Those at one position are one, with the mean of their values.
+struct FitSample
+{
+  Vector position;
+  double value;
+};
+
+/// An isopoint on its edge, before anything is fitted.
+struct FitEdge
+{
+  Vector position; // by linear interpolation
+  Vector rising;   // from the end that is below the isovalue to the one that is not
+  double rise;     // by how much the value rises along it, positive
+};
+
+/// What the samples around an isopoint tell of the field and the surface there.
+struct LocalFit
+{
+  Vector position; // of the isopoint, moved where a fit held
+  Vector gradient; // of the field there; where none held, the slope along the edge alone
+  /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic.
+  std::array<double, 6> hessian;
+  double spacing; // of the samples there: see NeighborhoodFitter
+  FitOrder order; // that held
+};
+
+/// Fits polynomials to the values of the samples around an edge, by least squares weighted with
+/// 1 / (1 + (d / s)^2), or 1 / (0.1 + (d / s)^2)^3 where they describe the samples well, d being a
+/// sample's distance from the isopoint and s the mean of those, and moves the isopoint to the zero
+/// of the best one, along gradients (Newton's method).
+///
+/// Which one is the best is told by the corrected Akaike criterion (Hurvich, Tsai, "Regression and
+/// time series model selection in small samples", Biometrika 76, 1989): a fit of more coefficients
+/// has to leave residuals that are smaller by more than noise would let it. A fit does not hold if
+/// the samples do not determine it, if its residuals are large beside its rise over the
+/// neighbourhood, if it falls where the edge rises, or if the isopoint would move farther than half
+/// its edge's length. Where no fit holds the isopoint stays: so it does in noise, on steps, and
+/// where only an affine function is determined, all places where linear interpolation errs less.
+///
+/// @param highest order to try: None, Linear (also in noise) or Quadratic, which tries creases too
+/// @param widerSamples gives more of them, if there are; asked only where those do not suffice
+/// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
+/// does not depend on how they were found: sums are taken in it
+/// Complexity: O(samples.size())
+LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
+  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest);
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NeighborhoodFits_h
+#define isopoint_NeighborhoodFits_h
+
+#include "Execution.h"
+#include "Interpolation.h"
+#include "Isopoint.h"
+#include "LocalFit.h"
+#include "NeighborSearch.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The value of a leaf's samples, which count as one.
+template <class TSample>
+double leafValue(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
+{
+  const TSample* const samples = tree.samples.data() + leaf.begin;
+  return leaf.count() == 1 ? static_cast<double>(samples[0].value)
+                           : meanOf(leaf.count(), [samples](std::size_t i)
+                               { return static_cast<double>(samples[i].value); });
+}
+
+/// An isopoint and the leaves that its edge connects.
+template <class TSample>
+struct LocatedIsopoint : Isopoint
+{
+  typename TSample::Id firstSlot;
+  typename TSample::Id secondSlot;
+};
+
+/// Extends a path to an ancestor down to a leaf. Where a coordinate lies on a plane either child
+/// may hold it. @returns whether the leaf is there
+template <class TSample>
+bool descendToLeaf(const SampleTree<TSample>& tree, Path& path, std::size_t leafSlot)
+{
+  const Node<TSample>& node = tree.nodes[path.slot()];
+  if (!node.isSplit())
+  {
+    return path.slot() == leafSlot;
+  }
+  const double coordinate = tree.samples[tree.nodes[leafSlot].begin].position[node.axis];
+  for (const bool upper : { false, true })
+  {
+    if (upper ? coordinate >= node.plane : coordinate <= node.plane)
+    {
+      const double former = descend(tree, path, upper);
+      if (descendToLeaf(tree, path, leafSlot))
+      {
+        return true;
+      }
+      ascend(path, former);
+    }
+  }
+  return false;
+}
+
+/// Gathers the samples around edges and fits to them, one edge at a time. Scratch is kept. The
+/// spacing of the samples at an edge is the mean over both ends of the distance that two fifths of
+/// the neighbours do not exceed.
+template <class TSample>
+class NeighborhoodFitter
+{
+public:
+  NeighborhoodFitter(const SampleTree<TSample>& tree, double isovalue, FitOrder highest)
+    : Tree(tree)
+    , Isovalue(isovalue)
+    , Highest(highest)
+  {
+  }
+
+  LocalFit fit(const LocatedIsopoint<TSample>& point)
+  {
+    this->gather(point);
+    const FitSample first = this->sampleAt(point.firstSlot);
+    const FitSample second = this->sampleAt(point.secondSlot);
+    FitEdge edge;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      edge.position[axis] =
+        interpolate(first.position[axis], second.position[axis], point.parameter);
+    }
+    const bool rises = first.value < this->Isovalue;
+    edge.rising = rises ? difference(second.position, first.position)
+                        : difference(first.position, second.position);
+    edge.rise = rises ? second.value - first.value : first.value - second.value;
+    const double spacing = this->Spacing;
+    LocalFit fit = fitAround(
+      edge, this->Isovalue, this->Samples,
+      [&]() -> const std::vector<FitSample>&
+      {
+        if (this->Samples.size() > enoughSamples)
+        {
+          return this->Samples;
+        }
+        this->gatherWider(point);
+        return this->WiderSamples;
+      },
+      this->Highest);
+    fit.spacing = spacing;
+    return fit;
+  }
+
+  /// Sets a moved isopoint's parameter to that of the edge's nearest place, or moves it back.
+  void settle(LocatedIsopoint<TSample>& point, LocalFit& fit, bool move) const
+  {
+    if (fit.order == FitOrder::None)
+    {
+      return;
+    }
+    const Vector first = this->sampleAt(point.firstSlot).position;
+    const Vector second = this->sampleAt(point.secondSlot).position;
+    if (move)
+    {
+      const Vector edge = difference(second, first);
+      const double parameter =
+        dot(difference(fit.position, first), directionOf(edge)) / lengthOf(edge);
+      point.parameter = std::min(std::max(parameter, 0.0), 1.0);
+      return;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fit.position[axis] = interpolate(first[axis], second[axis], point.parameter);
+    }
+  }
+
+private:
+  using Id = typename TSample::Id;
+
+  /// Neighbourhoods of more samples are wide enough, as where samples stand in lines.
+  static constexpr std::size_t enoughSamples = 64;
+
+  /// Lists the samples of both ends' neighbourhoods.
+  void gather(const LocatedIsopoint<TSample>& point)
+  {
+    this->Slots.clear();
+    this->addNeighborhood(point.firstSlot);
+    this->Spacing = 0.5 * this->spacingAt(point.firstSlot, 0);
+    const std::size_t middle = this->Slots.size();
+    this->addNeighborhood(point.secondSlot);
+    this->Spacing += 0.5 * this->spacingAt(point.secondSlot, middle);
+    this->list(this->Samples);
+  }
+
+  /// The spacing of the samples around an end: the distance that two fifths of its
+  /// neighbourhood, which are those listed from `begin` on, do not exceed. The farthest may stand
+  /// across a void, the nearest all in one line with it.
+  double spacingAt(Id end, std::size_t begin)
+  {
+    const Vector center = this->sampleAt(end).position;
+    this->Distances.clear();
+    for (std::size_t i = begin; i < this->Slots.size(); ++i)
+    {
+      this->Distances.push_back(
+        lengthOf(difference(this->sampleAt(this->Slots[i].second).position, center)));
+    }
+    const auto found =
+      this->Distances.begin() + static_cast<std::ptrdiff_t>(2 * this->Distances.size() / 5);
+    std::nth_element(this->Distances.begin(), found, this->Distances.end());
+    return *found;
+  }
+
+  /// Adds the samples of the neighbourhoods of those that lie on the other side of the isovalue
+  /// than the end whose neighbours they are: the tree is refined around these.
+  void gatherWider(const LocatedIsopoint<TSample>& point)
+  {
+    this->Across.clear();
+    for (const Id end : { point.firstSlot, point.secondSlot })
+    {
+      this->Slots.clear();
+      this->addNeighborhood(end);
+      const bool isBelow = this->isBelow(end);
+      for (const auto& [id, slot] : this->Slots)
+      {
+        if (this->isBelow(slot) != isBelow)
+        {
+          this->Across.push_back(slot);
+        }
+      }
+    }
+    this->Slots.clear();
+    this->addNeighborhood(point.firstSlot);
+    this->addNeighborhood(point.secondSlot);
+    for (const Id slot : this->Across)
+    {
+      this->addNeighborhood(slot);
+    }
+    this->list(this->WiderSamples);
+  }
+
+  bool isBelow(Id slot) const { return this->sampleAt(slot).value < this->Isovalue; }
+
+  /// Lists samples by id, each once.
+  void list(std::vector<FitSample>& samples)
+  {
+    std::sort(this->Slots.begin(), this->Slots.end());
+    this->Slots.erase(std::unique(this->Slots.begin(), this->Slots.end()), this->Slots.end());
+    samples.clear();
+    for (const auto& [id, slot] : this->Slots)
+    {
+      samples.push_back(this->sampleAt(slot));
+    }
+  }
+
+  void addNeighborhood(Id leafSlot)
+  {
+    this->addSlot(leafSlot);
+    const SlotList<Id> known = this->Tree.neighborhoods.at(static_cast<std::size_t>(leafSlot));
+    for (const Id slot : known)
+    {
+      this->addSlot(slot);
+    }
+    if (known.isEmpty())
+    {
+      Path path = pathToRoot(this->Tree);
+      descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
+      visitTouching(this->Tree, path, maximumDepth,
+        [this](std::size_t slot)
+        {
+          this->addSlot(static_cast<Id>(slot));
+          return false;
+        });
+    }
+  }
+
+  void addSlot(Id slot)
+  {
+    this->Slots.emplace_back(this->Tree.samples[this->leafAt(slot).begin].id, slot);
+  }
+
+  const Node<TSample>& leafAt(Id slot) const
+  {
+    return this->Tree.nodes[static_cast<std::size_t>(slot)];
+  }
+
+  FitSample sampleAt(Id slot) const
+  {
+    const Node<TSample>& leaf = this->leafAt(slot);
+    const TSample& sample = this->Tree.samples[leaf.begin];
+    return { { sample.position[0], sample.position[1], sample.position[2] },
+      leafValue(this->Tree, leaf) };
+  }
+
+  const SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const FitOrder Highest;
+  std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
+  std::vector<Id> Across;
+  std::vector<FitSample> Samples;
+  std::vector<FitSample> WiderSamples;
+  std::vector<double> Distances;
+  double Spacing = 0.0; // mean of those at the ends
+};
+
+/// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
+/// of the cells that touch one of them. The tree is to be refined for the isovalue.
+/// @param points whose parameters are set to where moved isopoints stand
+template <class TSample>
+std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
+  double isovalue, FitRequest request, std::vector<LocatedIsopoint<TSample>>& points)
+{
+  std::vector<LocalFit> fits(points.size());
+  constexpr std::size_t grain = 256;
+  const std::size_t batch = 8192 * execution.threads;
+  for (std::size_t done = 0; done < points.size(); done += batch)
+  {
+    forRanges(execution, std::min(batch, points.size() - done), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest);
+        for (std::size_t i = done + begin; i < done + end; ++i)
+        {
+          fits[i] = fitter.fit(points[i]);
+          fitter.settle(points[i], fits[i], request.move);
+        }
+      });
+    throwIfAborted(execution);
+  }
+  return fits;
+}
+
+} // namespace isopoint
+
+#endif

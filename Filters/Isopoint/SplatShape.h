@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SplatShape_h
+#define isopoint_SplatShape_h
+
+#include "TangentCell.h"
+#include "Vector.h"
+
+#include <array>
+
+namespace isopoint
+{
+
+/// The half-axes of an ellipse in a tangent plane, axis1 the longer.
+struct Ellipse
+{
+  Vector axis1;
+  Vector axis2;
+};
+
+/// An ellipse around a cell, and of those the one whose rim departs least from the surface that
+/// curves as a fit tells: long where the surface is flat, short where it bends. Where the surface
+/// does not bend, it is the one of the least area.
+/// @param normal of length 1
+/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 for a plane
+Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
+  const std::array<double, 6>& hessian, double gradientLength);
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_TangentCell_h
+#define isopoint_TangentCell_h
+
+#include "Vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The part of a point's tangent plane that is nearer to it than to other points: a convex polygon
+/// around the origin of the plane, cut out of a disk.
+class TangentCell
+{
+public:
+  struct Corner
+  {
+    double x;
+    double y;
+    bool isLimit; // whether the side that begins here is one of the disk's
+  };
+
+  /// Any frame in the plane would do; this one depends on nothing but the normal.
+  explicit TangentCell(const Vector& normal)
+  {
+    std::size_t flattest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      flattest = std::abs(normal[axis]) < std::abs(normal[flattest]) ? axis : flattest;
+    }
+    Vector unit{ 0.0, 0.0, 0.0 };
+    unit[flattest] = 1.0;
+    this->First = directionOf(cross(normal, unit));
+    this->Second = cross(normal, this->First);
+  }
+
+  /// Starts again with a disk.
+  void reset(double limit)
+  {
+    constexpr int cornerCount = 12;
+    constexpr double step = 2.0 * 3.14159265358979323846 / cornerCount;
+    this->Corners.clear();
+    for (int i = 0; i < cornerCount; ++i)
+    {
+      this->Corners.push_back({ limit * std::cos(i * step), limit * std::sin(i * step), true });
+    }
+  }
+
+  /// Keeps the places whose offset o from the point has outward . o <= distance.
+  void cut(const Vector& outward, double distance)
+  {
+    const double a = dot(outward, this->First);
+    const double b = dot(outward, this->Second);
+    const auto excess = [=](const Corner& corner)
+    { return a * corner.x + b * corner.y - distance; };
+    this->Cut.clear();
+    for (std::size_t i = 0; i < this->Corners.size(); ++i)
+    {
+      const Corner& corner = this->Corners[i];
+      const Corner& next = this->Corners[(i + 1) % this->Corners.size()];
+      const double here = excess(corner);
+      const double there = excess(next);
+      if (here <= 0.0)
+      {
+        this->Cut.push_back(corner);
+      }
+      if ((here <= 0.0) != (there <= 0.0))
+      {
+        const double t = here / (here - there);
+        this->Cut.push_back({ corner.x + t * (next.x - corner.x),
+          corner.y + t * (next.y - corner.y), here > 0.0 && corner.isLimit });
+      }
+    }
+    this->Corners.swap(this->Cut);
+  }
+
+  /// The distance of the farthest corner.
+  double reach() const
+  {
+    double reach = 0.0;
+    for (const Corner& corner : this->Corners)
+    {
+      reach = std::max(reach, std::hypot(corner.x, corner.y));
+    }
+    return reach;
+  }
+
+  /// Whether a part of the disk's rim is left.
+  bool isOpen() const
+  {
+    return std::any_of(this->Corners.begin(), this->Corners.end(),
+      [](const Corner& corner) { return corner.isLimit; });
+  }
+
+  const std::vector<Corner>& corners() const { return this->Corners; }
+  const Vector& first() const { return this->First; }
+  const Vector& second() const { return this->Second; }
+
+private:
+  Vector First;
+  Vector Second;
+  std::vector<Corner> Corners;
+  std::vector<Corner> Cut;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fits around isopoints, against dense least squares and fields whose surfaces are known.
+#include "Clouds.h"
+
+#include "Isopoint/LocalFit.h"
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace
+{
+
+using isopoint::cross;
+using isopoint::difference;
+using isopoint::dot;
+using isopoint::FitEdge;
+using isopoint::FitOrder;
+using isopoint::FitRequest;
+using isopoint::FitSample;
+using isopoint::lengthOf;
+using isopoint::LocalFit;
+using isopoint::scaled;
+using isopoint::Vector;
+
+using Field = std::function<double(const Vector&)>;
+
+std::vector<FitSample> samplesOf(const Field& field, std::size_t count, double noise = 0.0)
+{
+  clouds::Random random(11);
+  std::vector<FitSample> samples;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Vector p{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 4.0 * random() - 2.0 };
+    samples.push_back({ p, field(p) + noise * (random() - 0.5) });
+  }
+  return samples;
+}
+
+LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
+  double isovalue = 0.0)
+{
+  return isopoint::fitAround(
+    edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest);
+}
+
+/// A vertical edge of length 2 on which linear interpolation is at the origin.
+FitEdge upwards(double rise = 2.0)
+{
+  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise };
+}
+
+double degreesBetween(const Vector& a, const Vector& b)
+{
+  return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
+}
+
+/// Extracts with fits of degree two.
+isopoint::Isosurface extractFitted(
+  const clouds::Cloud& cloud, double isovalue, bool move, std::size_t threads = 2)
+{
+  const isopoint::Execution execution = clouds::executionOn(threads);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
+  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ FitOrder::Quadratic, move });
+}
+
+clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
+{
+  clouds::Random random(2);
+  clouds::Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Vector p{ side * (random() - 0.5), side * (random() - 0.5), side * (random() - 0.5) };
+    cloud.add(p[0], p[1], p[2], field(p));
+  }
+  return cloud;
+}
+
+} // namespace
+
+TEST(LocalFit, ReproducesPolynomialsOfDegreeTwo)
+{
+  const Field field = [](const Vector& p)
+  { return 0.1 + 0.2 * p[0] + p[2] + 0.1 * p[0] * p[0] - 0.05 * p[1] * p[2] + 0.04 * p[1] * p[1]; };
+  const LocalFit found = fit(samplesOf(field, 30), upwards(), FitOrder::Quadratic);
+  ASSERT_EQ(found.order, FitOrder::Quadratic);
+  EXPECT_NEAR(field(found.position), 0.0, 1e-10);
+  const Vector& p = found.position;
+  EXPECT_NEAR(found.gradient[0], 0.2 + 0.2 * p[0], 1e-9);
+  EXPECT_NEAR(found.gradient[1], -0.05 * p[2] + 0.08 * p[1], 1e-9);
+  EXPECT_NEAR(found.gradient[2], 1.0 - 0.05 * p[1], 1e-9);
+  const std::array<double, 6> hessian{ 0.2, 0.08, 0.0, 0.0, 0.0, -0.05 };
+  for (std::size_t i = 0; i < hessian.size(); ++i)
+  {
+    EXPECT_NEAR(found.hessian[i], hessian[i], 1e-9);
+  }
+}
+
+// The weighted least-squares solution by column-pivoted QR of the whole design matrix.
+TEST(LocalFit, AffineFitsAgreeWithDenseLeastSquares)
+{
+  const Field field = [](const Vector& p) { return 0.05 + 0.3 * p[1] + p[2]; };
+  const std::vector<FitSample> samples = samplesOf(field, 40, 0.2);
+  const LocalFit found = fit(samples, upwards(), FitOrder::Linear);
+  ASSERT_EQ(found.order, FitOrder::Linear);
+  Eigen::MatrixXd design(samples.size(), 4);
+  Eigen::VectorXd values(samples.size());
+  double spacing = 0.0;
+  for (const FitSample& sample : samples)
+  {
+    spacing += lengthOf(sample.position) / static_cast<double>(samples.size());
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    const double distance = lengthOf(samples[i].position) / spacing;
+    const double root = 1.0 / std::sqrt(1.0 + distance * distance);
+    const auto row = static_cast<Eigen::Index>(i);
+    design.row(row) << root, root * samples[i].position[0], root * samples[i].position[1],
+      root * samples[i].position[2];
+    values[row] = root * samples[i].value;
+  }
+  const Eigen::Vector4d expected = design.colPivHouseholderQr().solve(values);
+  const Vector gradient{ expected[1], expected[2], expected[3] };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(found.gradient[axis], gradient[axis], 1e-9);
+    EXPECT_NEAR(
+      found.position[axis], -expected[0] * gradient[axis] / dot(gradient, gradient), 1e-9);
+  }
+}
+
+TEST(LocalFit, DoesNotDependOnUnits)
+{
+  const Field field = [](const Vector& p) { return lengthOf({ p[0], p[1], p[2] + 8.0 }) - 8.1; };
+  const std::vector<FitSample> samples = samplesOf(field, 30);
+  const LocalFit expected = fit(samples, upwards(), FitOrder::Quadratic);
+  ASSERT_EQ(expected.order, FitOrder::Quadratic);
+  for (const double scale : { 1e-20, 1e-9, 1e30 })
+  {
+    for (const double slope : { 1e-12, 1e25 })
+    {
+      std::vector<FitSample> others = samples;
+      for (FitSample& sample : others)
+      {
+        sample.position = scaled(scale, sample.position);
+        sample.value *= slope;
+      }
+      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope };
+      const LocalFit found = fit(others, edge, FitOrder::Quadratic);
+      EXPECT_EQ(found.order, FitOrder::Quadratic);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_NEAR(found.position[axis] / scale, expected.position[axis], 1e-9);
+        EXPECT_NEAR(found.gradient[axis] / slope * scale, expected.gradient[axis], 1e-9);
+      }
+    }
+  }
+}
+
+TEST(LocalFit, StaysWhereSamplesDoNotTell)
+{
+  const Field plane = [](const Vector& p) { return p[2] + 0.1; };
+  const Field step = [](const Vector& p) { return p[2] < 0.1 ? -1.0 : 1.0; };
+  std::vector<FitSample> flat = samplesOf(plane, 30);
+  for (FitSample& sample : flat)
+  {
+    sample.position[0] = 0.0;
+  }
+  for (const std::vector<FitSample>& samples :
+    { samplesOf(plane, 2), samplesOf(plane, 4), flat, samplesOf(step, 30),
+      samplesOf(plane, 30, 4.0), samplesOf([](const Vector&) { return 0.0; }, 30),
+      samplesOf([](const Vector& p) { return -p[2]; }, 30),      // falls where the edge rises
+      samplesOf([](const Vector& p) { return p[2] + 1.5; }, 30), // too far away
+      samplesOf([](const Vector& p) { return 1e308 * p[2]; }, 30) })
+  {
+    const LocalFit found = fit(samples, upwards(), FitOrder::Quadratic);
+    EXPECT_EQ(found.order, FitOrder::None);
+    EXPECT_EQ(found.position, (Vector{ 0.0, 0.0, 0.0 }));
+    EXPECT_EQ(found.gradient, (Vector{ 0.0, 0.0, 1.0 }));
+  }
+}
+
+TEST(LocalFit, FindsTheNearerSheetOfACrease)
+{
+  const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
+  const LocalFit found = fit(samplesOf(field, 50), upwards(), FitOrder::Quadratic);
+  ASSERT_EQ(found.order, FitOrder::Crease);
+  EXPECT_NEAR(field(found.position), 0.0, 1e-9);
+  EXPECT_NEAR(std::max(std::abs(found.gradient[0]), std::abs(found.gradient[2])), 1.0, 1e-9);
+}
+
+TEST(LocalFit, MovesASpheresPointsOntoIt)
+{
+  const Field field = [](const Vector& p) { return lengthOf(p); };
+  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 100000, 46.4), 16.0, true);
+  ASSERT_GT(surface.points.size(), 3000u);
+  for (std::size_t i = 0; i < surface.fits.size(); ++i)
+  {
+    const LocalFit& at = surface.fits[i];
+    ASSERT_NEAR(lengthOf(at.position), 16.0, 0.005);
+    ASSERT_LT(degreesBetween(at.gradient, at.position), 0.6);
+  }
+}
+
+TEST(LocalFit, ACubesPointsLieOnItsFaces)
+{
+  const Field field = [](const Vector& p)
+  {
+    const double x = 0.8 * p[0] - 0.6 * p[1];
+    const double y = 0.6 * p[0] + 0.8 * p[1];
+    return std::max(
+      { std::abs(x), std::abs(0.8 * y - 0.6 * p[2]), std::abs(0.6 * y + 0.8 * p[2]) });
+  };
+  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 100000, 46.4), 12.0, true);
+  std::size_t far = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    far += std::abs(field(at.position) - 12.0) > 0.1 ? 1 : 0;
+  }
+  EXPECT_LT(far, surface.fits.size() / 100);
+}
+
+TEST(LocalFit, LeavesTheExtractionAsItIs)
+{
+  const clouds::Cloud cloud = clouds::uniform(20000, 3);
+  const isopoint::Isosurface plain = clouds::extract(cloud, 0.5, 54.7);
+  const isopoint::Isosurface fitted = extractFitted(cloud, 0.5, false);
+  const isopoint::Isosurface moved = extractFitted(cloud, 0.5, true);
+  ASSERT_EQ(fitted.points, plain.points);
+  ASSERT_EQ(moved.points, plain.points);
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < plain.points.size(); ++i)
+  {
+    ASSERT_EQ(fitted.points[i].parameter, plain.points[i].parameter);
+    held += moved.fits[i].order != FitOrder::None ? 1 : 0;
+    const double edge = lengthOf(difference(moved.fits[i].position, fitted.fits[i].position));
+    ASSERT_TRUE(moved.fits[i].order != FitOrder::None || edge == 0.0);
+    ASSERT_GE(moved.points[i].parameter, 0.0);
+    ASSERT_LE(moved.points[i].parameter, 1.0);
+  }
+  EXPECT_GT(held, plain.points.size() * 9 / 10);
+}
+
+// Neither threads nor what was extracted before: neighbourhoods are complete in any case.
+TEST(LocalFit, IsTheSameForAnyThreadsAndAnyTree)
+{
+  const clouds::Cloud cloud = clouds::coarse(20000, 18, 5);
+  const isopoint::Isosurface expected = extractFitted(cloud, 5.0, true, 1);
+  isopoint::IsosurfaceExtractor extractor;
+  const isopoint::Execution execution = clouds::executionOn(3);
+  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
+  extractor.extract(execution, 2.0, 54.7);
+  const isopoint::Isosurface later =
+    extractor.extract(execution, 5.0, 54.7, 0.0, FitRequest{ FitOrder::Quadratic, true });
+  ASSERT_EQ(later.fits.size(), expected.fits.size());
+  for (std::size_t i = 0; i < later.fits.size(); ++i)
+  {
+    ASSERT_EQ(later.fits[i].position, expected.fits[i].position);
+    ASSERT_EQ(later.fits[i].gradient, expected.fits[i].gradient);
+    ASSERT_EQ(later.fits[i].hessian, expected.fits[i].hessian);
+    ASSERT_EQ(later.fits[i].order, expected.fits[i].order);
+  }
+}
