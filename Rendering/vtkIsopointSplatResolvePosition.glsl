@@ -14,17 +14,29 @@
   vec3 splatNormal = dot(splatSurfaceSum.xyz, splatSurfaceSum.xyz) > 0.0
     ? normalize(splatSurfaceSum.xyz)
     : splatTowardsCamera;
-  // Blended normals lean over the horizon a little: that is not yet the back.
-  bool splatFrontFacing = dot(splatNormal, splatTowardsCamera) > -0.1;
-  // Disks stick out over the horizon. Where the surface turns away and only rims cover, the pixels
-  // along the outline are left out; those within it never are.
-  if (splatCovers &&
-    splatWeight < 0.2 * (1.0 - abs(dot(splatNormal, splatTowardsCamera)) / 0.3))
+  // Disks stick out over the horizon, where blended normals lean over it, too. Which side is seen
+  // there is what the surface around tells, and along the outline pixels that only rims cover are
+  // left out; those within the outline never are.
+  float splatSlant = dot(splatNormal, splatTowardsCamera);
+  if (splatCovers && abs(splatSlant) < 0.3)
   {
+    bool splatAtOutline = false;
+    float splatSide = splatSlant;
+    ivec2 splatLastPixel = textureSize(splatColorSums, 0) - 1;
     for (int i = 0; i < 9; ++i)
     {
-      ivec2 splatNeighbor = clamp(
-        splatPixel + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), textureSize(splatColorSums, 0) - 1);
-      splatCovers = splatCovers && texelFetch(splatColorSums, splatNeighbor, 0).a > 0.0;
+      ivec2 splatDirection = ivec2(i % 3 - 1, i / 3 - 1);
+      ivec2 splatNext = clamp(splatPixel + splatDirection, ivec2(0), splatLastPixel);
+      splatAtOutline = splatAtOutline || texelFetch(splatColorSums, splatNext, 0).a <= 0.0;
+      ivec2 splatNear = clamp(splatPixel + 3 * splatDirection, ivec2(0), splatLastPixel);
+      vec3 splatNearSum = texelFetch(splatSurfaceSums, splatNear, 0).xyz;
+      vec3 splatNearNormal = splatNearSum / max(length(splatNearSum), 1e-30);
+      if (dot(splatNearNormal, splatNormal) > 0.7)
+      {
+        splatSide += dot(splatNearNormal, splatTowardsCamera);
+      }
     }
+    splatSlant = splatSide < 0.0 ? -abs(splatSlant) : abs(splatSlant);
+    splatCovers = !(splatAtOutline && splatWeight < 0.2 * (1.0 - abs(splatSlant) / 0.3));
   }
+  bool splatFrontFacing = splatSlant >= 0.0;

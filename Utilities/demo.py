@@ -8,13 +8,15 @@ ISOPOINTS_ISOVALUE in the environment it takes anything that ParaView reads.
 
 import os
 import sys
+import tempfile
 import time
 
 import numpy as np
 from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 SIDE = 200.0
 RADIUS = 70.0
@@ -73,40 +75,6 @@ def file_samples(path, array, isovalue):
     return source
 
 
-def disks(isopoints, corners=8):
-    """The isopoints' splats as polygons, each with the normal of its isopoint."""
-    data = isopoints.GetPointData()
-    centers = vtk_to_numpy(isopoints.GetPoints().GetData()).astype(np.float32)
-    normals = vtk_to_numpy(data.GetNormals())
-    radii = vtk_to_numpy(data.GetArray("Radius"))
-    # Any axis that is not nearly the normal gives a first direction across it.
-    axes = np.eye(3, dtype=np.float32)[np.argmin(np.abs(normals), axis=1)]
-    first = np.cross(normals, axes)
-    first *= (radii / np.linalg.norm(first, axis=1))[:, None]
-    second = np.cross(normals, first)
-    angles = 2.0 * np.pi * np.arange(corners, dtype=np.float32) / corners
-    positions = (
-        centers[:, None]
-        + np.cos(angles)[None, :, None] * first[:, None]
-        + np.sin(angles)[None, :, None] * second[:, None]
-    ).reshape(-1, 3)
-
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=True))
-    polygons = vtkCellArray()
-    polygons.SetData(
-        numpy_to_vtkIdTypeArray(np.arange(0, len(positions) + 1, corners), deep=True),
-        numpy_to_vtkIdTypeArray(np.arange(len(positions)), deep=True),
-    )
-    result = vtkPolyData()
-    result.SetPoints(points)
-    result.SetPolys(polygons)
-    result.GetPointData().SetNormals(
-        numpy_to_vtk(np.repeat(normals, corners, axis=0), deep=True)
-    )
-    return result
-
-
 def producer_of(data):
     source = simple.TrivialProducer()
     source.GetClientSideObject().SetOutput(data)
@@ -114,23 +82,77 @@ def producer_of(data):
     return source
 
 
-def show(isopoints, path):
-    """Renders the isopoints' splats as lit disks, seen from an angle."""
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [1000, 800]
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
-    display = simple.Show(producer_of(disks(isopoints)), view)
-    display.Representation = "Surface"
+def on_a_grid(source, array, isovalue):
+    """What there is without isopoints: the samples resampled to a grid, 100 nodes a side as
+    ParaView has it by default, and contoured there."""
+    grid = simple.PointVolumeInterpolator(Input=source, Source="Bounded Volume")
+    grid.Kernel = "LinearKernel"
+    grid.Kernel.KernelFootprint = "N Closest"
+    grid.Source.Resolution = [100, 100, 100]
+    contour = simple.Contour(Input=grid)
+    contour.ContourBy = ["POINTS", array]
+    contour.Isosurfaces = [isovalue]
+    return contour
+
+
+def show(source, view, representation):
+    display = simple.Show(source, view)
+    display.SetRepresentationType(representation)
+    if representation == "Point Gaussian":
+        display.ShaderPreset = "Plain circle"
+        display.ScaleByArray = 1
+        display.SetScaleArray = ["POINTS", "Radius"]
+        display.UseScaleFunction = 0
+        display.GaussianRadius = 1.0
+        display.Emissive = 0
+    simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [0.85, 0.72, 0.5]
+
+
+def look(view):
+    """From an angle, from the right distance."""
     simple.ResetCamera(view)
     camera = view.GetActiveCamera()
     camera.Elevation(25)
     camera.Azimuth(35)
     camera.OrthogonalizeViewUp()
     simple.ResetCamera(view)
-    simple.SaveScreenshot(path, view)
+
+
+def picture(source, representation, path, size):
+    view = simple.CreateView("RenderView")
+    view.ViewSize = size
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    show(source, view, representation)
+    look(view)
+    simple.SaveScreenshot(path, view, ImageResolution=size)
+    simple.Delete(view)
+
+
+def compare(pictures, path):
+    """Pictures side by side: (source, representation) each."""
+    parts = []
+    with tempfile.TemporaryDirectory() as folder:
+        for i, (source, representation) in enumerate(pictures):
+            part = os.path.join(folder, "%d.png" % i)
+            picture(source, representation, part, [500, 500])
+            reader = vtkPNGReader()
+            reader.SetFileName(part)
+            reader.Update()
+            image = reader.GetOutput()
+            width, height, _ = image.GetDimensions()
+            scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+            parts.append(scalars.reshape(height, width, -1))
+    row = np.concatenate(parts, axis=1)
+    image = vtkImageData()
+    image.SetDimensions(row.shape[1], row.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(row.reshape(-1, row.shape[2]), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetInputData(image)
+    writer.SetFileName(path)
+    writer.Write()
 
 
 def main(plugin):
@@ -166,8 +188,18 @@ def main(plugin):
         print("mean deviation    %.5f" % deviation.mean())
 
     simple.SaveData("isopoints.vtp", proxy=isopoints, DataMode="Binary")
-    show(output, "isosurface.png")
+    picture(isopoints, "Isopoint Splats", "isosurface.png", [1000, 800])
     print("wrote isopoints.vtp and isosurface.png")
+    if not path:
+        compare(
+            (
+                (isopoints, "Isopoint Splats"),
+                (isopoints, "Point Gaussian"),
+                (on_a_grid(source, array, isovalue), "Surface"),
+            ),
+            "comparison.png",
+        )
+        print("wrote comparison.png: splats, Point Gaussian, and Contour on a grid of 100^3 nodes")
 
 
 if __name__ == "__main__":

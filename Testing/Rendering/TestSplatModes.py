@@ -194,6 +194,15 @@ def shadowed(scene, actor):
     scene.renderer.SetPass(camera)
 
 
+def inside_out(scene, actor):
+    """Normals may point to either side: the surface looks the same."""
+    light_kit(scene, actor)
+    mapper = actor.GetMapper()
+    if mapper.IsA("vtkIsopointSplatMapper"):
+        points, normals, radii = parts(mapper.GetInputDataObject(0, 0))
+        mapper.SetInputDataObject(polydata(points, -normals, Radius=radii))
+
+
 def far_from_the_origin(scene, actor):
     """Floats are 8 apart there, the torus is as large as a third of that."""
     mapper = actor.GetMapper()
@@ -240,6 +249,7 @@ MODES = {
     very_close: 35,
     from_inside: 35,
     shadowed: 35,
+    inside_out: 40,
     far_from_the_origin: 35,
 }
 
