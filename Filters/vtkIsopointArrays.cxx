@@ -159,7 +159,7 @@ bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 
 } // namespace
 
-void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
   vtkPointData* output)
 {
