@@ -25,10 +25,10 @@ CASES = [
     ("scattered/cosmo_nbody_adaptive.vtp", "POINTS", "log10_overdensity_knn32", 1.0, 1000, 60000),
     ("unstructured/disk_out_ref.vtu", "POINTS", "Temp", 400.0, 500, 20000),
     ("unstructured/can.vtu", "POINTS", None, 3600.0, 100, 20000),
-    ("unstructured/fea_bracket_kiefer.vtu", "CELLS", "von_Mises", 5.0, 500, 50000),
+    ("unstructured/fea_bracket_kiefer.vtu", "CELLS", "von_Mises_psi", 5.0, 500, 50000),
     ("multiblock/bluntfin.vts", "POINTS", "Density", 1.0, 500, 50000),
     ("multiblock/multicomb.vtm", "POINTS", "Density", 0.28, 500, 50000),
-    ("amr/HierarchicalBoxDataset.v1.1.vthb", "CELLS", "Fractal Volume Fraction", 0.5, 500, 200000),
+    ("amr/HierarchicalBoxDataset.v1.1.vthb", "CELLS", "Fractal Volume Fraction", 0.5, 200, 2000),
 ]
 
 
