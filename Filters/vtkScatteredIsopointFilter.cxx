@@ -32,6 +32,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <map>
 #include <new>
 #include <set>
@@ -79,6 +80,14 @@ vtkSmartPointer<vtkFloatArray> newFloats(const char* name, int components, vtkId
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   return array;
+}
+
+/// A radius within float's range, whatever the coordinates' scale.
+float asFloatRadius(double radius)
+{
+  using Limits = std::numeric_limits<float>;
+  return static_cast<float>(
+    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
 }
 
 /// An empty output for a composite input that is contoured block by block.
@@ -402,7 +411,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
       if (!splats.empty())
       {
         normals->SetTuple(point, splats[i].normal.data());
-        radii->SetValue(point, static_cast<float>(splats[i].radius));
+        radii->SetValue(point, asFloatRadius(splats[i].radius));
       }
     }
     isopoint::throwIfAborted(execution);
