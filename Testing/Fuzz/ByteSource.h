@@ -9,7 +9,8 @@
 #include <cstring>
 #include <limits>
 
-/// Reads decisions and numbers off a fuzzer's bytes, zeros once these are used up.
+/// Reads decisions and numbers off a fuzzer's bytes; once these are used up, off random ones that
+/// they are the seed of, so that a few bytes make a whole cloud.
 class ByteSource
 {
 public:
@@ -19,15 +20,15 @@ public:
   {
   }
 
-  bool isEmpty() const { return this->Remaining == 0; }
-
   std::uint8_t byte()
   {
     if (this->Remaining == 0)
     {
-      return 0;
+      this->State = this->State * 6364136223846793005u + 1442695040888963407u;
+      return static_cast<std::uint8_t>(this->State >> 56);
     }
     --this->Remaining;
+    this->State = 31 * this->State + *this->Data;
     return *this->Data++;
   }
 
@@ -71,6 +72,7 @@ public:
 private:
   const std::uint8_t* Data;
   std::size_t Remaining;
+  std::uint64_t State = 1;
 };
 
 #endif
