@@ -3,6 +3,7 @@
 
 #include "Isopoint/Execution.h"
 #include "Isopoint/Interpolation.h"
+#include "vtkIsopointAllocation.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
@@ -139,7 +140,7 @@ vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdTyp
   output->SetName(input->GetName());
   output->SetNumberOfComponents(input->GetNumberOfComponents());
   output->CopyComponentNames(input);
-  output->SetNumberOfTuples(tuples);
+  vtkAllocateTuples(output, tuples);
   return output;
 }
 
@@ -204,7 +205,7 @@ void vtkAddContouredArray(vtkDataArray* contoured,
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
   result->SetName(contoured->GetName());
-  result->SetNumberOfTuples(pointCount(surfaces));
+  vtkAllocateTuples(result, pointCount(surfaces));
   vtkIdType tuple = 0;
   for (const vtkContouredIsosurface& surface : surfaces)
   {

@@ -2,6 +2,7 @@
 #include "vtkIsopointCellCenters.h"
 
 #include "Isopoint/Execution.h"
+#include "vtkIsopointAllocation.h"
 #include "vtkIsopointBlock.h"
 #include "vtkIsopointGhosts.h"
 
@@ -150,7 +151,7 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const vtkIdType count = input->GetNumberOfCells();
   auto centers = vtkSmartPointer<vtkPoints>::New();
   centers->SetDataType(isFloat ? VTK_FLOAT : VTK_DOUBLE);
-  centers->SetNumberOfPoints(count);
+  vtkAllocateTuples(centers->GetData(), count);
   if (count == 0)
   {
     return centers;
@@ -193,9 +194,9 @@ void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlo
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
+  vtkAllocateTuples(points->GetData(), count);
   block.Ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  block.Ghosts->SetNumberOfValues(count);
+  vtkAllocateTuples(block.Ghosts, count);
   std::fill_n(block.Ghosts->GetPointer(0), count,
     static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT));
 

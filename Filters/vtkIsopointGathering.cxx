@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointGathering.h"
 
+#include "vtkIsopointAllocation.h"
 #include "vtkIsopointInput.h"
 
 #include "vtkDataArray.h"
@@ -125,10 +126,10 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   }
   gathered->CopyAllOn();
   const auto count = static_cast<vtkIdType>(ids.size());
-  common.CopyAllocate(gathered, vtkDataSetAttributes::PASSDATA, count, 0);
+  common.CopyAllocate(gathered, vtkDataSetAttributes::PASSDATA, 1, 0);
   for (int i = 0; i < gathered->GetNumberOfArrays(); ++i)
   {
-    gathered->GetAbstractArray(i)->SetNumberOfTuples(count);
+    vtkAllocateTuples(gathered->GetAbstractArray(i), count);
   }
   for (const Stretch& stretch : stretches)
   {
@@ -159,11 +160,11 @@ vtkIsopointGathering::vtkIsopointGathering(
   const auto count = static_cast<vtkIdType>(ids.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(allHaveFloatPositions(blocks) ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(count);
+  vtkAllocateTuples(points->GetData(), count);
   const auto scalars = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE));
   scalars->SetName(this->Block.Scalars->GetName());
-  scalars->SetNumberOfTuples(count);
+  vtkAllocateTuples(scalars, count);
   for (const Stretch& stretch : stretches)
   {
     const vtkIsopointBlock& block = blocks[stretch.block];

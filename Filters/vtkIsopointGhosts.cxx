@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointGhosts.h"
 
+#include "vtkIsopointAllocation.h"
+
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -27,7 +29,7 @@ bool hasAny(vtkUnsignedCharArray* ghosts, int bits)
 vtkSmartPointer<vtkUnsignedCharArray> newGhosts(vtkIdType count)
 {
   auto ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  ghosts->SetNumberOfValues(count);
+  vtkAllocateTuples(ghosts, count);
   std::fill_n(ghosts->GetPointer(0), count, static_cast<unsigned char>(0));
   return ghosts;
 }

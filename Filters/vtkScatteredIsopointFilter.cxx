@@ -4,6 +4,7 @@
 #include "Isopoint/AngleCriterion.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Isopoint/SplatGeometry.h"
+#include "vtkIsopointAllocation.h"
 #include "vtkIsopointArrays.h"
 #include "vtkIsopointBlocks.h"
 #include "vtkIsopointExecution.h"
@@ -52,7 +53,7 @@ vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtk
                       (precision == vtkAlgorithm::DEFAULT_PRECISION && vtkHasFloatPositions(input));
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(count);
+  vtkAllocateTuples(points->GetData(), count);
   return points;
 }
 
@@ -60,8 +61,8 @@ vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
 {
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(count);
+  vtkAllocateTuples(offsets, count + 1);
+  vtkAllocateTuples(connectivity, count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     offsets->SetValue(i, i);
@@ -78,7 +79,7 @@ vtkSmartPointer<vtkFloatArray> newFloats(const char* name, int components, vtkId
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  vtkAllocateTuples(array, tuples);
   return array;
 }
 
