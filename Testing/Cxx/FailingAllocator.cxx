@@ -50,7 +50,7 @@ long stop()
 /// memory later on; nothing outside it can reach them.
 extern "C" const char* __lsan_default_suppressions()
 {
-  return "leak:CGAL::Kd_tree";
+  return "leak:CGAL/Kd_tree.h";
 }
 
 extern "C" void* __real_realloc(void* memory, std::size_t size);
