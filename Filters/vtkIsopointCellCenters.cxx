@@ -162,31 +162,25 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const auto largestCell = static_cast<std::size_t>(std::max(8, input->GetMaxCellSize()));
 
   constexpr std::size_t grain = 4096;
-  const std::size_t batch = 16 * grain * execution.threads;
-  for (std::size_t done = 0; done < static_cast<std::size_t>(count); done += batch)
-  {
-    isopoint::throwIfAborted(execution);
-    isopoint::forRanges(execution, std::min(batch, static_cast<std::size_t>(count) - done), grain,
-      [&](std::size_t begin, std::size_t end)
+  isopoint::forBatches(execution, static_cast<std::size_t>(count), 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      vtkNew<vtkGenericCell> cell;
+      std::vector<double> weights(largestCell);
+      for (auto id = static_cast<vtkIdType>(begin); id < static_cast<vtkIdType>(end); ++id)
       {
-        vtkNew<vtkGenericCell> cell;
-        std::vector<double> weights(largestCell);
-        for (auto id = static_cast<vtkIdType>(done + begin);
-             id < static_cast<vtkIdType>(done + end); ++id)
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        double center[3] = { nan, nan, nan };
+        input->GetCell(id, cell);
+        if (cell->GetCellType() != VTK_EMPTY_CELL && cell->GetNumberOfPoints() > 0)
         {
-          constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-          double center[3] = { nan, nan, nan };
-          input->GetCell(id, cell);
-          if (cell->GetCellType() != VTK_EMPTY_CELL && cell->GetNumberOfPoints() > 0)
-          {
-            double parametric[3];
-            int subId = cell->GetParametricCenter(parametric);
-            cell->EvaluateLocation(subId, parametric, center, weights.data());
-          }
-          centers->SetPoint(id, center);
+          double parametric[3];
+          int subId = cell->GetParametricCenter(parametric);
+          cell->EvaluateLocation(subId, parametric, center, weights.data());
         }
-      });
-  }
+        centers->SetPoint(id, center);
+      }
+    });
   return centers;
 }
 

@@ -270,7 +270,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     tree.neighborhoods.room(tree.samples.size())) };
   std::mutex mutex;
   constexpr std::size_t grain = 256;
-  forRanges(execution, crossing.size(), grain,
+  forBatches(execution, crossing.size(), 64 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       EdgeFinder<TSample> finder(tree, isovalue, criterion, room);
@@ -284,7 +284,6 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
       records.push_back(std::move(finder.records()));
       merged.insert(merged.end(), finder.merged().begin(), finder.merged().end());
     });
-  throwIfAborted(execution);
   try
   {
     for (const std::vector<typename TSample::Id>& found : records)

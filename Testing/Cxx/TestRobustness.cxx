@@ -190,15 +190,18 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
   const std::vector<double> expected = pointsOf(alone->GetOutput());
   // Each has a data set of its own, as VTK demands; arrays are shared.
   const auto cloud = newCloud(30000);
+  std::vector<vtkSmartPointer<vtkPolyData>> inputs;
   std::vector<std::vector<double>> found(3);
-  std::vector<std::thread> threads;
-  for (std::vector<double>& points : found)
+  for (std::size_t i = 0; i < found.size(); ++i)
   {
-    vtkNew<vtkPolyData> own;
-    own->ShallowCopy(cloud);
-    const vtkSmartPointer<vtkPolyData> input = own.Get();
+    inputs.push_back(vtkSmartPointer<vtkPolyData>::New());
+    inputs.back()->ShallowCopy(cloud);
+  }
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
     threads.emplace_back(
-      [input, &points]()
+      [input = inputs[i].Get(), &points = found[i]]()
       {
         for (int update = 0; update < 3; ++update)
         {
