@@ -37,7 +37,8 @@
  *    ghost arrays, arrays that are not as long as there are points and, as by vtkAppendFilter,
  *    arrays that not all blocks have with the same type are dropped. Arrays named "Normals" or
  *    "Radius" give way to computed ones, with a warning.
- * 6. Wrong use gives one error that says what to do, and an empty output.
+ * 6. Wrong use and a lack of memory give one error that says what to do, and an empty output; an
+ *    abort gives an empty output. The filter works again afterwards.
  *
  * What becomes of degenerate clouds follows from this: no sample is an error; one sample, samples
  * at one position, a constant field, an infinite isovalue and one out of range have no points; two
