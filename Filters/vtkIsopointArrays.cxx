@@ -3,6 +3,7 @@
 
 #include "Isopoint/Execution.h"
 #include "Isopoint/Interpolation.h"
+#include "vtkIsopointAllocation.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
@@ -45,22 +46,27 @@ T toArrayType(double value)
   }
 }
 
-/// Calls write(tuple, component, value) for the isopoints [begin, end) of a surface.
+/// Calls write(point, component, value) for all isopoints of a surface.
 template <class ComponentOf, class Write>
-void interpolatePoints(const Isosurface& surface, std::size_t begin, std::size_t end,
+void interpolateComponents(const isopoint::Execution& execution, const Isosurface& surface,
   int componentCount, const ComponentOf& componentOf, const Write& write)
 {
-  for (std::size_t i = begin; i < end; ++i)
+  constexpr std::size_t grain = 4096;
+  for (int component = 0; component < componentCount; ++component)
   {
-    const Isopoint& point = surface.points[i];
-    for (int component = 0; component < componentCount; ++component)
-    {
-      const auto at = [&](std::uint64_t sample)
-      { return componentOf(static_cast<vtkIdType>(sample), component); };
-      const double first = isopoint::attributeOf(surface, point.first, at);
-      const double second = isopoint::attributeOf(surface, point.second, at);
-      write(i, component, isopoint::interpolate(first, second, point.parameter));
-    }
+    const isopoint::MergedAttribute attribute(
+      surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
+    isopoint::forRanges(execution, surface.points.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Isopoint& point = surface.points[i];
+          write(i, component,
+            isopoint::interpolate(
+              attribute(point.first), attribute(point.second), point.parameter));
+        }
+      });
   }
 }
 
@@ -76,19 +82,17 @@ struct TypedInterpolation
   {
     using T = typename TArray::ValueType;
     auto* const output = TArray::FastDownCast(outputArray);
-    constexpr std::size_t grain = 4096;
-    isopoint::forRanges(this->Run, this->Surface.points.size(), grain,
-      [&](std::size_t begin, std::size_t end)
+    interpolateComponents(
+      this->Run, this->Surface, input->GetNumberOfComponents(),
+      [&](std::uint64_t sample, int component)
       {
-        interpolatePoints(
-          this->Surface, begin, end, input->GetNumberOfComponents(),
-          [&](vtkIdType tuple, int component)
-          { return static_cast<double>(input->GetTypedComponent(tuple, component)); },
-          [&](std::size_t i, int component, double value)
-          {
-            output->SetTypedComponent(
-              this->FirstTuple + static_cast<vtkIdType>(i), component, toArrayType<T>(value));
-          });
+        return static_cast<double>(
+          input->GetTypedComponent(static_cast<vtkIdType>(sample), component));
+      },
+      [&](std::size_t i, int component, double value)
+      {
+        output->SetTypedComponent(
+          this->FirstTuple + static_cast<vtkIdType>(i), component, toArrayType<T>(value));
       });
   }
 };
@@ -101,9 +105,10 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
   {
     return;
   }
-  interpolatePoints(
-    surface, 0, surface.points.size(), input->GetNumberOfComponents(),
-    [&](vtkIdType tuple, int component) { return input->GetComponent(tuple, component); },
+  interpolateComponents(
+    isopoint::Execution(), surface, input->GetNumberOfComponents(),
+    [&](std::uint64_t sample, int component)
+    { return input->GetComponent(static_cast<vtkIdType>(sample), component); },
     [&](std::size_t i, int component, double value)
     { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
 }
@@ -135,7 +140,7 @@ vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdTyp
   output->SetName(input->GetName());
   output->SetNumberOfComponents(input->GetNumberOfComponents());
   output->CopyComponentNames(input);
-  output->SetNumberOfTuples(tuples);
+  vtkAllocateTuples(output, tuples);
   return output;
 }
 
@@ -159,7 +164,7 @@ bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 
 } // namespace
 
-void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
   vtkPointData* output)
 {
@@ -200,7 +205,7 @@ void vtkAddContouredArray(vtkDataArray* contoured,
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
   result->SetName(contoured->GetName());
-  result->SetNumberOfTuples(pointCount(surfaces));
+  vtkAllocateTuples(result, pointCount(surfaces));
   vtkIdType tuple = 0;
   for (const vtkContouredIsosurface& surface : surfaces)
   {

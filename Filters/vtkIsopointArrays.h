@@ -11,6 +11,7 @@ namespace isopoint
 struct Execution;
 }
 class vtkDataArray;
+class vtkDataSetAttributes;
 class vtkPointData;
 
 /**
@@ -28,7 +29,7 @@ struct vtkContouredIsosurface
  * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays, arrays
  * that are not as long as the contoured one and the contoured array itself are left out.
  */
-void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkPointData* input,
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
   vtkPointData* output);
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointGeometry.h"
 
+#include "vtkIsopointAllocation.h"
+
 #include "vtkFloatArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace
 {
@@ -21,8 +26,16 @@ vtkSmartPointer<vtkDataArray> newArray(
   auto array = vtkSmartPointer<TArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  vtkAllocateTuples(array, tuples);
   return array;
+}
+
+/// A radius within float's range, whatever the coordinates' scale.
+float asFloatRadius(double radius)
+{
+  using Limits = std::numeric_limits<float>;
+  return static_cast<float>(
+    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
 }
 
 void set(vtkDataArray* array, vtkIdType tuple, const double* values)
@@ -64,7 +77,8 @@ void vtkIsopointGeometry::Append(const isopoint::SurfacePoints& surface,
     {
       const isopoint::Splat& splat = splats[i];
       set(this->Normals, this->Next, splat.normal.data());
-      set(this->Radius, this->Next, &splat.radius);
+      const double radius = asFloatRadius(splat.radius);
+      set(this->Radius, this->Next, &radius);
       set(this->SplatAxis1, this->Next, splat.axis1.data());
       set(this->SplatAxis2, this->Next, splat.axis2.data());
       set(this->SplatClip, this->Next, splat.clip.data());

@@ -2,14 +2,17 @@
 #include "vtkIsopointInput.h"
 
 #include "Isopoint/IsosurfaceExtractor.h"
+#include "vtkIsopointBlock.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <type_traits>
 
 namespace
 {
@@ -96,10 +99,15 @@ void withPositions(vtkDataSet* input, const Action& action)
   }
 }
 
+/// Whether an array's values, of any type, lose nothing as float.
+bool fitsFloat(vtkDataArray* scalars)
+{
+  return scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
+}
+
 template <class Action>
 void withValues(vtkDataArray* scalars, const Action& action)
 {
-  const bool fitsFloat = scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
   if (const float* const floats = packedArray<float>(scalars))
   {
     action(PackedValues<float>{ floats });
@@ -108,7 +116,7 @@ void withValues(vtkDataArray* scalars, const Action& action)
   {
     action(PackedValues<double>{ doubles });
   }
-  else if (fitsFloat)
+  else if (fitsFloat(scalars))
   {
     action(ConvertedValues<float>{ scalars });
   }
@@ -118,29 +126,33 @@ void withValues(vtkDataArray* scalars, const Action& action)
   }
 }
 
-/// For each point whether it is one that another rank, block or level owns, or that is blanked.
-const unsigned char* ghostsOf(vtkDataSet* input)
+constexpr unsigned char leftOut =
+  vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+
+const unsigned char* ghostsOf(const vtkIsopointBlock& block)
 {
-  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
-    input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  return ghosts && ghosts->GetNumberOfValues() == input->GetNumberOfPoints() ? ghosts->GetPointer(0)
-                                                                             : nullptr;
+  return block.Ghosts ? block.Ghosts->GetPointer(0) : nullptr;
 }
 
-} // namespace
-
-void vtkLoadIsopointInput(const isopoint::Execution& execution, vtkDataSet* input,
-  vtkDataArray* scalars, isopoint::IsosurfaceExtractor& extractor)
+template <class Coordinate, class Value, class Reader>
+void loadOrReplace(const isopoint::Execution& execution, std::size_t count, const Reader& read,
+  isopoint::IsosurfaceExtractor& extractor)
 {
-  const auto count = static_cast<std::size_t>(input->GetNumberOfPoints());
-  const unsigned char* const ghosts = ghostsOf(input);
-  const unsigned char leftOut =
-    vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
-  withPositions(input,
+  if (!extractor.replaceValues<Coordinate, Value>(execution, count, read))
+  {
+    extractor.load<Coordinate, Value>(execution, count, read);
+  }
+}
+
+void loadOne(const isopoint::Execution& execution, const vtkIsopointBlock& block,
+  isopoint::IsosurfaceExtractor& extractor)
+{
+  const unsigned char* const ghosts = ghostsOf(block);
+  withPositions(block.Positions,
     [&](const auto& positions)
     {
       using Coordinate = typename std::decay_t<decltype(positions)>::Coordinate;
-      withValues(scalars,
+      withValues(block.Scalars,
         [&](const auto& values)
         {
           using Value = typename std::decay_t<decltype(values)>::Value;
@@ -154,12 +166,113 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution, vtkDataSet* inpu
             value = values(point);
             return true;
           };
-          if (!extractor.replaceValues<Coordinate, Value>(execution, count, read))
-          {
-            extractor.load<Coordinate, Value>(execution, count, read);
-          }
+          loadOrReplace<Coordinate, Value>(
+            execution, static_cast<std::size_t>(block.GetNumberOfSamples()), read, extractor);
         });
     });
+}
+
+/// Values of any type.
+class AnyValues
+{
+public:
+  explicit AnyValues(vtkDataArray* scalars)
+    : Array(scalars)
+    , Floats(packedArray<float>(scalars))
+    , Doubles(packedArray<double>(scalars))
+  {
+  }
+
+  double operator()(std::size_t point) const
+  {
+    return this->Floats    ? static_cast<double>(this->Floats[point])
+           : this->Doubles ? this->Doubles[point]
+                           : this->Array->GetComponent(static_cast<vtkIdType>(point), 0);
+  }
+
+private:
+  vtkDataArray* Array;
+  const float* Floats;
+  const double* Doubles;
+};
+
+/// Reads the samples of several blocks.
+class BlockReader
+{
+public:
+  explicit BlockReader(const std::vector<vtkIsopointBlock>& blocks)
+  {
+    for (const vtkIsopointBlock& block : blocks)
+    {
+      this->Firsts.push_back(this->Count);
+      this->Count += static_cast<std::size_t>(block.GetNumberOfSamples());
+      this->Parts.push_back(
+        { vtkIsopointPositions(block.Positions), AnyValues(block.Scalars), ghostsOf(block) });
+    }
+  }
+
+  std::size_t count() const { return this->Count; }
+
+  template <class TCoordinate, class TValue>
+  bool operator()(std::size_t id, TCoordinate* position, TValue& value) const
+  {
+    const auto next = std::upper_bound(this->Firsts.begin(), this->Firsts.end(), id);
+    const auto index = static_cast<std::size_t>(next - this->Firsts.begin()) - 1;
+    const Part& part = this->Parts[index];
+    const std::size_t point = id - this->Firsts[index];
+    if (part.Ghosts && (part.Ghosts[point] & leftOut) != 0)
+    {
+      return false;
+    }
+    double wide[3];
+    part.Positions.Get(static_cast<vtkIdType>(point), wide);
+    std::transform(wide, wide + 3, position,
+      [](double coordinate) { return static_cast<TCoordinate>(coordinate); });
+    value = static_cast<TValue>(part.Values(point));
+    return true;
+  }
+
+private:
+  struct Part
+  {
+    vtkIsopointPositions Positions;
+    AnyValues Values;
+    const unsigned char* Ghosts;
+  };
+
+  std::vector<std::size_t> Firsts; // ids, ascending
+  std::vector<Part> Parts;
+  std::size_t Count = 0;
+};
+
+} // namespace
+
+void vtkLoadIsopointInput(const isopoint::Execution& execution,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor)
+{
+  if (blocks.size() == 1)
+  {
+    loadOne(execution, blocks.front(), extractor);
+    return;
+  }
+  const BlockReader read(blocks);
+  const auto all = [&blocks](const auto& holds)
+  { return std::all_of(blocks.begin(), blocks.end(), holds); };
+  const bool floatPositions =
+    all([](const vtkIsopointBlock& block) { return vtkHasFloatPositions(block.Positions); });
+  const bool floatValues =
+    all([](const vtkIsopointBlock& block) { return fitsFloat(block.Scalars); });
+  const auto load = [&](auto coordinate, auto value) {
+    loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
+  };
+  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
+                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+}
+
+bool vtkHasFloatPositions(vtkDataSet* input)
+{
+  vtkDataArray* const points = pointsOf(input);
+  return points && points->GetDataType() == VTK_FLOAT;
 }
 
 vtkIsopointPositions::vtkIsopointPositions(vtkDataSet* input)

@@ -4,21 +4,28 @@
 
 #include "vtkType.h"
 
+#include <vector>
+
 namespace isopoint
 {
 struct Execution;
 class IsosurfaceExtractor;
 } // namespace isopoint
-class vtkDataArray;
 class vtkDataSet;
+struct vtkIsopointBlock;
 
 /**
- * Hands the points of a data set and their scalars to an extractor, without converting arrays.
- * Where the extractor holds the same positions already it gets new values only. Throws what
- * IsosurfaceExtractor::load() throws.
+ * Hands the samples of blocks to an extractor, without converting or copying arrays: ids count
+ * through one block after the other. Where the extractor holds the same positions already it gets
+ * new values only. Throws what IsosurfaceExtractor::load() throws.
  */
-void vtkLoadIsopointInput(const isopoint::Execution& execution, vtkDataSet* input,
-  vtkDataArray* scalars, isopoint::IsosurfaceExtractor& extractor);
+void vtkLoadIsopointInput(const isopoint::Execution& execution,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
+
+/**
+ * Whether the points of a data set are stored as float.
+ */
+bool vtkHasFloatPositions(vtkDataSet* input);
 
 /**
  * Writes the position of a point of the data set; thread-safe.

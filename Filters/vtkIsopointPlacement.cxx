@@ -15,8 +15,8 @@ isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, 
 {
   const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
   const vtkIsopointPositions samplePositions(input);
-  const auto valueAt = [scalars](std::uint64_t id)
-  { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); };
+  const isopoint::MergedAttribute valueAt(contoured.Surface,
+    [scalars](std::uint64_t id) { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); });
   isopoint::SurfacePoints placed;
   placed.fits = std::move(contoured.Surface.fits);
   placed.positions.resize(points.size());
@@ -31,8 +31,7 @@ isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, 
         double second[3];
         samplePositions.Get(static_cast<vtkIdType>(points[i].first), first);
         samplePositions.Get(static_cast<vtkIdType>(points[i].second), second);
-        const bool falls = !(
-          isopoint::attributeOf(contoured.Surface, points[i].first, valueAt) < contoured.Isovalue);
+        const bool falls = !(valueAt(points[i].first) < contoured.Isovalue);
         for (int axis = 0; axis < 3; ++axis)
         {
           placed.positions[i][axis] = placed.fits.empty() ? isopoint::interpolate(first[axis],

@@ -4,29 +4,37 @@
 #include "Isopoint/AngleCriterion.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Isopoint/SplatGeometry.h"
+#include "vtkIsopointAllocation.h"
 #include "vtkIsopointArrays.h"
+#include "vtkIsopointBlocks.h"
 #include "vtkIsopointExecution.h"
+#include "vtkIsopointGathering.h"
 #include "vtkIsopointGeometry.h"
 #include "vtkIsopointInput.h"
 #include "vtkIsopointPlacement.h"
 
 #include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
 #include "vtkDataSet.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
+#include "vtkUniformGridAMR.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <exception>
+#include <limits>
+#include <map>
 #include <new>
 #include <optional>
 #include <set>
@@ -39,46 +47,13 @@ namespace
 
 using isopoint::Execution;
 
-/// What the tree was built from: the modification times of the objects that positions, scalars and
-/// ghosts belong to. Each is unique among all objects, so equal ones mean the same objects,
-/// unchanged; a maximum over several would not.
-struct InputState
-{
-  std::vector<vtkMTimeType> Times;
-
-  InputState() = default;
-
-  InputState(vtkDataSet* input, vtkDataArray* scalars)
-    : Times{ input->vtkObject::GetMTime(), scalars->GetMTime() }
-  {
-    if (auto* const pointSet = vtkPointSet::SafeDownCast(input))
-    {
-      this->Add(pointSet->GetPoints());
-    }
-    if (auto* const grid = vtkRectilinearGrid::SafeDownCast(input))
-    {
-      this->Add(grid->GetXCoordinates());
-      this->Add(grid->GetYCoordinates());
-      this->Add(grid->GetZCoordinates());
-    }
-    this->Add(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  }
-
-  void Add(vtkObject* object) { this->Times.push_back(object ? object->GetMTime() : 0); }
-
-  bool operator==(const InputState& other) const { return this->Times == other.Times; }
-};
-
 vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtkIdType count)
 {
-  auto* const pointSet = vtkPointSet::SafeDownCast(input);
-  const bool inputIsFloat =
-    pointSet && pointSet->GetPoints() && pointSet->GetPoints()->GetDataType() == VTK_FLOAT;
   const bool single = precision == vtkAlgorithm::SINGLE_PRECISION ||
-                      (precision == vtkAlgorithm::DEFAULT_PRECISION && inputIsFloat);
+                      (precision == vtkAlgorithm::DEFAULT_PRECISION && vtkHasFloatPositions(input));
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(count);
+  vtkAllocateTuples(points->GetData(), count);
   return points;
 }
 
@@ -86,8 +61,8 @@ vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
 {
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(count);
+  vtkAllocateTuples(offsets, count + 1);
+  vtkAllocateTuples(connectivity, count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     offsets->SetValue(i, i);
@@ -99,20 +74,61 @@ vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
   return vertices;
 }
 
-/// The names of a data set's point arrays, for an error message.
-std::string arrayNames(vtkPointData* pointData)
+/// An empty output for a composite input that is contoured block by block.
+vtkSmartPointer<vtkDataObject> newCompositeFor(vtkDataObject* input)
 {
-  std::ostringstream names;
-  for (int i = 0; i < pointData->GetNumberOfArrays(); ++i)
+  return vtkUniformGridAMR::SafeDownCast(input)
+           ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
+           : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+}
+
+/// Gives an output the structure of an input, and in place of its leaves surfaces (null for none),
+/// in the order of their traversal.
+void setLeaves(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
+  vtkCompositeDataSet* output)
+{
+  std::size_t leaf = 0;
+  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(input))
   {
-    const char* const name = pointData->GetArrayName(i);
-    names << (i > 0 ? ", " : "") << (name ? name : "(unnamed)");
+    for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
+    {
+      vtkNew<vtkMultiBlockDataSet> boxes;
+      boxes->SetNumberOfBlocks(levels->GetNumberOfDataSets(level));
+      vtkMultiBlockDataSet::SafeDownCast(output)->SetBlock(level, boxes);
+      for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
+      {
+        if (levels->GetDataSet(level, box))
+        {
+          boxes->SetBlock(box, surfaces[leaf++]);
+        }
+      }
+    }
+    return;
   }
-  return pointData->GetNumberOfArrays() > 0 ? names.str() : std::string("none");
+  auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
+  output->CopyStructure(composite);
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    if (surfaces[leaf])
+    {
+      output->SetDataSet(iterator, surfaces[leaf]);
+    }
+    ++leaf;
+  }
 }
 
 } // namespace
 
+/// The tree of one cloud.
+class vtkScatteredIsopointFilter::KeptTree
+{
+public:
+  isopoint::IsosurfaceExtractor Extractor;
+  vtkIsopointState LoadedFrom;
+};
+
+/// What an update leaves for the next one.
 class vtkScatteredIsopointFilter::Internals
 {
 public:
@@ -154,13 +170,13 @@ public:
     return wanted;
   }
 
-  isopoint::IsosurfaceExtractor Extractor;
-  InputState LoadedFrom;
+  vtkIsopointBlocks Input;
+  std::map<std::size_t, KeptTree> Trees; // by leaf, where blocks are contoured by themselves
 
   void Clear()
   {
-    this->Extractor.clear();
-    this->LoadedFrom = InputState();
+    this->Trees.clear();
+    this->Input = vtkIsopointBlocks();
   }
 };
 
@@ -225,31 +241,47 @@ vtkMTimeType vtkScatteredIsopointFilter::GetMTime()
 int vtkScatteredIsopointFilter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  // Taken, only to be refused with one clear error instead of being contoured block by block.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkHyperTreeGrid");
+  return 1;
+}
+
+int vtkScatteredIsopointFilter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  // Poly data, or a composite of poly data.
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+vtkTypeBool vtkScatteredIsopointFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+  }
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* const output = vtkDataObject::GetData(outputVector);
+  const vtkSmartPointer<vtkDataObject> wanted =
+    this->ContourBlocks && vtkCompositeDataSet::SafeDownCast(input)
+      ? newCompositeFor(input)
+      : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPolyData>::New());
+  if (!output || std::strcmp(output->GetClassName(), wanted->GetClassName()) != 0)
+  {
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), wanted);
+  }
   return 1;
 }
 
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* const output = vtkPolyData::GetData(outputVector);
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
-  if (vtkCompositeDataSet::GetData(inputVector[0]))
-  {
-    vtkErrorMacro(<< "The input is made of blocks. Merge them first (vtkAppendFilter, or ParaView's"
-                  << " Merge Blocks), so that the surface runs across their borders.");
-  }
-  else if (vtkDataSet* const input = vtkDataSet::GetData(inputVector[0]))
-  {
-    vtkDataArray* const scalars =
-      this->IsUsable(input) ? this->GetContouredArray(inputVector, input) : nullptr;
-    if (scalars)
-    {
-      this->ExtractSafely(input, scalars, output);
-    }
-  }
+  vtkDataObject* const output = vtkDataObject::GetData(outputVector);
+  this->ExtractSafely(vtkDataObject::GetData(inputVector[0]), output);
+  this->SetProgressShiftScale(0.0, 1.0);
+  this->Kept->Input.ReleaseInput();
   if (!this->KeepTree)
   {
     this->Kept->Clear();
@@ -257,127 +289,109 @@ int vtkScatteredIsopointFilter::RequestData(
   return 1;
 }
 
-void vtkScatteredIsopointFilter::ExtractSafely(
-  vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output)
+void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObject* output)
 {
+  std::string problem;
   try
   {
-    this->Extract(input, scalars, output);
+    this->CheckParameters();
+    vtkIsopointBlocks& blocks = this->Kept->Input;
+    blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
+      vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
+    this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+    const std::size_t count = blocks.GetBlocks().size();
+    if (auto* const surface = vtkPolyData::SafeDownCast(output))
+    {
+      this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
+      this->ExtractBlocks(0, count, this->Kept->Trees[0], surface);
+      return;
+    }
+    this->Kept->Trees.erase(
+      this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
+    std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double share = 1.0 / static_cast<double>(count);
+      this->SetProgressShiftScale(share * static_cast<double>(i), share);
+      const std::size_t leaf = blocks.GetBlocks()[i].Leaf;
+      surfaces.resize(leaf);
+      surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
+      this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
+    }
+    surfaces.resize(blocks.GetNumberOfLeaves());
+    setLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+    return;
   }
   catch (const isopoint::Aborted&)
   {
-    output->Initialize();
+  }
+  catch (const vtkUnusableIsopointInput& error)
+  {
+    problem = error.what();
   }
   catch (const std::bad_alloc&)
   {
     this->Kept->Clear();
-    output->Initialize();
-    vtkErrorMacro(<< "Out of memory while contouring " << input->GetNumberOfPoints()
-                  << " points. Close other data, set KeepTree off, or pass fewer points.");
+    problem = "Out of memory. Close other data, set KeepTree off, or pass fewer points.";
   }
   catch (const std::exception& error)
   {
     this->Kept->Clear();
-    output->Initialize();
-    vtkErrorMacro(<< "Cannot contour these points: " << error.what() << ".");
+    problem = std::string("Cannot contour these points: ") + error.what() + ".";
+  }
+  output->Initialize();
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem);
   }
 }
 
-bool vtkScatteredIsopointFilter::IsUsable(vtkDataSet* input)
+void vtkScatteredIsopointFilter::CheckParameters()
 {
   const double* const values = this->ContourValues->GetValues();
   const vtkIdType valueCount = this->ContourValues->GetNumberOfContours();
   if (std::any_of(values, values + valueCount, [](double value) { return std::isnan(value); }))
   {
-    vtkErrorMacro(<< "An isovalue is not a number. See SetValue().");
-    return false;
+    throw vtkUnusableIsopointInput("An isovalue is not a number. See SetValue().");
   }
   if (!(this->Angle >= 0.0 && this->Angle <= 180.0))
   {
-    vtkErrorMacro(<< "The angle is " << this->Angle
-                  << "; it must be within 0 and 180 degrees. See SetAngle().");
-    return false;
+    std::ostringstream message;
+    message << "The angle is " << this->Angle
+            << "; it must be within 0 and 180 degrees. See SetAngle().";
+    throw vtkUnusableIsopointInput(message.str());
   }
   if (!(this->GapFactor >= 0.0) || std::isinf(this->GapFactor))
   {
-    vtkErrorMacro(<< "The gap factor is " << this->GapFactor
-                  << "; it must be 0, which drops nothing, or a positive number. See"
-                  << " SetGapFactor().");
-    return false;
+    std::ostringstream message;
+    message << "The gap factor is " << this->GapFactor
+            << "; it must be 0, which drops nothing, or a positive number. See SetGapFactor().";
+    throw vtkUnusableIsopointInput(message.str());
   }
-  if (input->GetNumberOfPoints() == 0)
-  {
-    vtkErrorMacro(<< "The input has no points. Connect a data set with points and a scalar array.");
-    return false;
-  }
-  return true;
 }
 
-vtkDataArray* vtkScatteredIsopointFilter::GetContouredArray(
-  vtkInformationVector** inputVector, vtkDataSet* input)
-{
-  vtkInformation* const wanted = this->GetInputArrayInformation(0);
-  const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
-  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  // ParaView passes an empty name where nothing was chosen.
-  const bool isChosen = name && *name;
-  vtkAbstractArray* const array =
-    isChosen || !name ? this->GetInputAbstractArrayToProcess(0, inputVector, association)
-                      : input->GetPointData()->GetScalars();
-  const std::string remedy = " Choose one with SetInputArrayToProcess(); the point arrays are: " +
-                             arrayNames(input->GetPointData()) + ".";
-  if (!array)
-  {
-    if (isChosen)
-    {
-      vtkErrorMacro(<< "The input has no point array named \"" << name << "\"." << remedy);
-    }
-    else
-    {
-      vtkErrorMacro(<< "The input has no active point scalars." << remedy);
-    }
-    return nullptr;
-  }
-  const std::string described =
-    std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS ||
-      array->GetNumberOfTuples() != input->GetNumberOfPoints())
-  {
-    vtkErrorMacro(<< described << "does not belong to the points. For cell data, take the cell"
-                  << " centers first (vtkCellCenters, or ParaView's Cell Centers).");
-    return nullptr;
-  }
-  auto* const scalars = vtkDataArray::SafeDownCast(array);
-  if (!scalars)
-  {
-    vtkErrorMacro(<< described << "holds no numbers." << remedy);
-    return nullptr;
-  }
-  if (scalars->GetNumberOfComponents() != 1)
-  {
-    vtkErrorMacro(<< described << "has " << scalars->GetNumberOfComponents()
-                  << " components where a scalar is needed. Take one component or the magnitude"
-                  << " first (vtkArrayCalculator, or ParaView's Calculator).");
-    return nullptr;
-  }
-  return scalars;
-}
-
-void vtkScatteredIsopointFilter::Extract(
-  vtkDataSet* input, vtkDataArray* scalars, vtkPolyData* output)
+void vtkScatteredIsopointFilter::ExtractBlocks(
+  std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output)
 {
   constexpr double loadingShare = 0.1;
   constexpr double extractionShare = 0.7;
   const Execution execution = vtkMakeIsopointExecution(this, this->UseAllCores != 0);
+  const std::vector<vtkIsopointBlock>& all = this->Kept->Input.GetBlocks();
+  const std::vector<vtkIsopointBlock> blocks(all.begin() + static_cast<std::ptrdiff_t>(begin),
+    all.begin() + static_cast<std::ptrdiff_t>(end));
 
-  const InputState state(input, scalars);
-  if (!(state == this->Kept->LoadedFrom))
+  const vtkIsopointState state = this->Kept->Input.GetState(begin, end);
+  if (state != kept.LoadedFrom)
   {
-    this->Kept->LoadedFrom = InputState();
-    vtkLoadIsopointInput(execution, input, scalars, this->Kept->Extractor);
-    this->Kept->LoadedFrom = state;
+    kept.LoadedFrom.clear();
+    vtkLoadIsopointInput(execution, blocks, kept.Extractor);
+    kept.LoadedFrom = state;
   }
-  this->NumberOfSkippedSamples = static_cast<vtkIdType>(this->Kept->Extractor.skippedCount());
+  this->NumberOfSkippedSamples += static_cast<vtkIdType>(kept.Extractor.skippedCount());
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    this->NumberOfSkippedSamples -= block.Fillers;
+  }
   this->UpdateProgress(loadingShare);
 
   const double* const values = this->ContourValues->GetValues();
@@ -388,13 +402,16 @@ void vtkScatteredIsopointFilter::Extract(
   {
     const double share = (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
-    surfaces.push_back({ isovalue,
-      this->Kept->Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
-        isovalue, this->Angle, this->GapFactor, Internals::FitRequestOf(*this)) });
+    surfaces.push_back(
+      { isovalue, kept.Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
+                    isovalue, this->Angle, this->GapFactor, Internals::FitRequestOf(*this)) });
     pointCount += surfaces.back().Surface.points.size();
     isopoint::throwIfAborted(execution);
   }
 
+  const vtkIsopointGathering gathering(blocks, surfaces);
+  vtkDataSet* const input = gathering.GetBlock().Positions;
+  vtkDataArray* const scalars = gathering.GetBlock().Scalars;
   const auto count = static_cast<vtkIdType>(pointCount);
   const vtkSmartPointer<vtkPoints> points =
     newOutputPoints(input, this->OutputPointsPrecision, count);
@@ -421,13 +438,14 @@ void vtkScatteredIsopointFilter::Extract(
     point += static_cast<vtkIdType>(placed.positions.size());
     isopoint::throwIfAborted(execution);
   }
-  this->NumberOfUnprojectedPoints =
+  this->NumberOfUnprojectedPoints +=
     this->Projection == NO_PROJECTION ? count : geometry.GetNumberWithoutFit();
 
   output->SetPoints(points);
   output->SetVerts(newVertices(count));
   vtkPointData* const pointData = output->GetPointData();
-  vtkInterpolateIsopointArrays(execution, input->GetPointData(), scalars, surfaces, pointData);
+  vtkInterpolateIsopointArrays(
+    execution, gathering.GetBlock().Attributes, scalars, surfaces, pointData);
   if (this->ComputeScalars)
   {
     vtkAddContouredArray(scalars, surfaces, pointData);
@@ -461,6 +479,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
   os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "ContourBlocks: " << onOff(this->ContourBlocks) << "\n";
   os << indent << "KeepTree: " << onOff(this->KeepTree) << "\n";
   os << indent << "UseAllCores: " << onOff(this->UseAllCores) << "\n";
   os << indent << "NumberOfSkippedSamples: " << this->NumberOfSkippedSamples << "\n";

@@ -2,8 +2,10 @@
 #ifndef isopoint_AngleCriterion_h
 #define isopoint_AngleCriterion_h
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace isopoint
 {
@@ -33,6 +35,13 @@ inline Offset offsetBetween(const double from[3], const double to[3])
   return offset;
 }
 
+/// The order in which AngleCriterion::survivesAmongSorted() takes a neighbourhood.
+inline void nearestFirst(std::vector<Offset>& offsets)
+{
+  std::sort(offsets.begin(), offsets.end(),
+    [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
+}
+
 /// The angle criterion (section 6 of the paper): a neighbour is dropped if any strictly closer one,
 /// dropped itself or not, lies under a smaller angle than the given one.
 class AngleCriterion
@@ -56,21 +65,37 @@ public:
     const Offset& y = offsets[candidate];
     for (std::size_t i = 0; i < count; ++i)
     {
-      const Offset& z = offsets[i];
-      if (z.squaredLength < y.squaredLength)
+      if (offsets[i].squaredLength < y.squaredLength && this->drops(offsets[i], y))
       {
-        const double product =
-          y.vector[0] * z.vector[0] + y.vector[1] * z.vector[1] + y.vector[2] * z.vector[2];
-        if (product > this->Cosine * (y.length * z.length))
-        {
-          return false;
-        }
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The same of a neighbourhood sorted by nearestFirst(), for which the nearest ones, seen in many
+  /// directions, decide most often: far less than O(count) for all but the few that survive.
+  bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
+  {
+    for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)
+    {
+      if (this->drops(*offsets, y))
+      {
+        return false;
       }
     }
     return true;
   }
 
 private:
+  /// Whether z lies under a smaller angle from y than the given one.
+  bool drops(const Offset& z, const Offset& y) const
+  {
+    const double product =
+      y.vector[0] * z.vector[0] + y.vector[1] * z.vector[1] + y.vector[2] * z.vector[2];
+    return product > this->Cosine * (y.length * z.length);
+  }
+
   bool DropsNothing;
   double Cosine;
 };

@@ -2,6 +2,7 @@
 #ifndef isopoint_Execution_h
 #define isopoint_Execution_h
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -89,6 +90,20 @@ inline void forRanges(
   if (failure)
   {
     std::rethrow_exception(failure);
+  }
+}
+
+/// forRanges() in batches of so many items for each thread, between which the execution may be
+/// stopped. @throws Aborted, and what the task throws
+inline void forBatches(const Execution& execution, std::size_t count, std::size_t batchPerThread,
+  std::size_t grain, const RangeTask& task)
+{
+  const std::size_t batch = batchPerThread * execution.threads;
+  for (std::size_t done = 0; done < count; done += batch)
+  {
+    forRanges(execution, std::min(batch, count - done), grain,
+      [&](std::size_t begin, std::size_t end) { task(done + begin, done + end); });
+    throwIfAborted(execution);
   }
 }
 

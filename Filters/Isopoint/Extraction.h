@@ -18,6 +18,8 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -48,7 +50,7 @@ public:
   void find(const Path& leaf)
   {
     const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
-    const double value = leafValue(this->Tree, node);
+    const double value = this->valueOf(leaf.slot());
     const bool isBelow = value < this->Isovalue;
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
@@ -68,25 +70,26 @@ public:
     this->measureNeighbors(sample);
     for (const Crossing& crossing : this->Crossings)
     {
-      if (this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), crossing.neighbor))
+      if (this->survives(crossing.neighbor))
       {
         const std::size_t otherSlot = this->Neighbors[crossing.neighbor];
-        const Node<TSample>& other = this->Tree.nodes[otherSlot];
-        const TSample& otherSample = this->Tree.samples[other.begin];
+        const TSample& otherSample = this->Tree.samples[this->Tree.nodes[otherSlot].begin];
         if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
         {
           continue;
         }
         this->addPoint({ sample.id, static_cast<Id>(leaf.slot()), value },
           { otherSample.id, static_cast<Id>(otherSlot), crossing.value });
-        this->addMerged(node);
-        this->addMerged(other);
+        this->addMerged(leaf.slot());
+        this->addMerged(otherSlot);
       }
     }
   }
 
   std::vector<LocatedIsopoint<TSample>>& points() { return this->Points; }
-  std::vector<MergedSamples>& merged() { return this->Merged; }
+
+  /// Slots of leaves with several samples among the points' ends, with repetitions.
+  const std::vector<std::size_t>& merged() const { return this->Merged; }
 
   /// The neighbourhoods searched for, as NeighborhoodCache::add() takes them.
   std::vector<Id>& records()
@@ -130,7 +133,7 @@ private:
     this->Crossings.clear();
     for (std::size_t i = 0; i < this->Neighbors.count; ++i)
     {
-      const double value = leafValue(this->Tree, this->Tree.nodes[this->Neighbors[i]]);
+      const double value = this->valueOf(this->Neighbors[i]);
       if ((value < this->Isovalue) != isBelow)
       {
         this->Crossings.push_back({ i, value });
@@ -138,6 +141,7 @@ private:
     }
   }
 
+  /// Lists where the neighbours are.
   void measureNeighbors(const TSample& sample)
   {
     const double center[3] = { sample.position[0], sample.position[1], sample.position[2] };
@@ -148,6 +152,24 @@ private:
       const double position[3] = { other.position[0], other.position[1], other.position[2] };
       this->Offsets.push_back(offsetBetween(center, position));
     }
+    this->Sorted.clear();
+  }
+
+  /// Of many neighbours (a large cell among small ones) the nearest decide first: to compare each
+  /// with each would cost the square of their number.
+  bool survives(std::size_t neighbor)
+  {
+    constexpr std::size_t few = 64;
+    if (this->Offsets.size() <= few)
+    {
+      return this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), neighbor);
+    }
+    if (this->Sorted.empty())
+    {
+      this->Sorted = this->Offsets;
+      nearestFirst(this->Sorted);
+    }
+    return this->Criterion.survivesAmongSorted(this->Sorted.data(), this->Offsets[neighbor]);
   }
 
   struct End
@@ -166,17 +188,30 @@ private:
         first.slot, second.slot });
   }
 
-  void addMerged(const Node<TSample>& leaf)
+  void addMerged(std::size_t slot)
   {
-    if (leaf.count() > 1)
+    if (this->Tree.nodes[slot].count() > 1 && (this->Merged.empty() || this->Merged.back() != slot))
     {
-      MergedSamples group;
-      for (std::size_t i = leaf.begin; i < leaf.end; ++i)
-      {
-        group.ids.push_back(this->Tree.samples[i].id);
-      }
-      this->Merged.push_back(std::move(group));
+      this->Merged.push_back(slot);
     }
+  }
+
+  /// The value of a leaf's samples; of large heaps it is remembered, since many cells may touch
+  /// one.
+  double valueOf(std::size_t slot)
+  {
+    constexpr std::size_t fewSamples = 16;
+    const Node<TSample>& leaf = this->Tree.nodes[slot];
+    if (leaf.count() <= fewSamples)
+    {
+      return leafValue(this->Tree, leaf);
+    }
+    const auto [found, isNew] = this->HeapValues.try_emplace(slot, 0.0);
+    if (isNew)
+    {
+      found->second = leafValue(this->Tree, leaf);
+    }
+    return found->second;
   }
 
   const SampleTree<TSample>& Tree;
@@ -187,11 +222,36 @@ private:
   SlotList<Id> Neighbors;
   std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
   std::size_t KeptRecords = 0;
-  std::vector<Offset> Offsets;
+  std::vector<Offset> Offsets; // of the neighbours
+  std::vector<Offset> Sorted;  // the same, nearest first, where there are many
   std::vector<Crossing> Crossings;
   std::vector<LocatedIsopoint<TSample>> Points;
-  std::vector<MergedSamples> Merged;
+  std::vector<std::size_t> Merged;
+  std::unordered_map<std::size_t, double> HeapValues; // by slot
 };
+
+/// The samples of leaves, ordered by lowest id. @param slots of the leaves, with repetitions
+template <class TSample>
+std::vector<MergedSamples> mergedSamplesOf(
+  const SampleTree<TSample>& tree, std::vector<std::size_t>& slots)
+{
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  std::vector<MergedSamples> merged;
+  for (const std::size_t slot : slots)
+  {
+    const Node<TSample>& leaf = tree.nodes[slot];
+    MergedSamples group;
+    for (std::size_t i = leaf.begin; i < leaf.end; ++i)
+    {
+      group.ids.push_back(tree.samples[i].id);
+    }
+    merged.push_back(std::move(group));
+  }
+  std::sort(merged.begin(), merged.end(),
+    [](const MergedSamples& a, const MergedSamples& b) { return a.ids.front() < b.ids.front(); });
+  return merged;
+}
 
 /// The canonical isopoints of one isovalue (DESIGN section 1), refining the tree as far as needed.
 /// @param angle in degrees, 0 up to 180
@@ -213,12 +273,13 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   const AngleCriterion criterion(angle);
   const GapCriterion gapCriterion(gapFactor);
   std::vector<LocatedIsopoint<TSample>> points;
+  std::vector<std::size_t> merged;
   std::vector<std::vector<typename TSample::Id>> records;
   std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
     tree.neighborhoods.room(tree.samples.size())) };
   std::mutex mutex;
   constexpr std::size_t grain = 256;
-  forRanges(execution, crossing.size(), grain,
+  forBatches(execution, crossing.size(), 64 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, room);
@@ -230,12 +291,8 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
       const std::lock_guard<std::mutex> lock(mutex);
       points.insert(points.end(), finder.points().begin(), finder.points().end());
       records.push_back(std::move(finder.records()));
-      for (MergedSamples& group : finder.merged())
-      {
-        result.merged.push_back(std::move(group));
-      }
+      merged.insert(merged.end(), finder.merged().begin(), finder.merged().end());
     });
-  throwIfAborted(execution);
   try
   {
     for (const std::vector<typename TSample::Id>& found : records)
@@ -255,13 +312,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, points);
   }
   result.points.assign(points.begin(), points.end());
-  const auto idsOf = [](const MergedSamples& group) { return group.ids.front(); };
-  std::sort(result.merged.begin(), result.merged.end(),
-    [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) < idsOf(b); });
-  result.merged.erase(
-    std::unique(result.merged.begin(), result.merged.end(),
-      [&](const MergedSamples& a, const MergedSamples& b) { return idsOf(a) == idsOf(b); }),
-    result.merged.end());
+  result.merged = mergedSamplesOf(tree, merged);
   return result;
 }
 

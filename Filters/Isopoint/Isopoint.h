@@ -75,17 +75,38 @@ double meanOf(std::size_t count, const ValueAt& valueAt)
   return std::min(std::max(sum / static_cast<double>(count), minimum), maximum);
 }
 
-/// What a sample has of an attribute: its own, or the mean over those that count as it.
-/// @param attributeAt(id) the attribute of a sample by itself, as a double
+/// What samples have of an attribute: their own, or the mean over those that count as one, computed
+/// once for each surface however many points end there.
 template <class AttributeAt>
-double attributeOf(const Isosurface& surface, std::uint64_t id, const AttributeAt& attributeAt)
+class MergedAttribute
 {
-  if (const MergedSamples* const group = surface.mergedAt(id))
+public:
+  /// @param attributeAt(id) the attribute of a sample by itself, as a double
+  MergedAttribute(const Isosurface& surface, const AttributeAt& attributeAt)
+    : Surface(surface)
+    , Own(attributeAt)
   {
-    return meanOf(group->ids.size(), [&](std::size_t i) { return attributeAt(group->ids[i]); });
+    this->Means.reserve(surface.merged.size());
+    for (const MergedSamples& group : surface.merged)
+    {
+      this->Means.push_back(meanOf(group.ids.size(),
+        [&](std::size_t i) { return static_cast<double>(this->Own(group.ids[i])); }));
+    }
   }
-  return attributeAt(id);
-}
+
+  /// O(log merged samples)
+  double operator()(std::uint64_t id) const
+  {
+    const MergedSamples* const group = this->Surface.mergedAt(id);
+    return group ? this->Means[static_cast<std::size_t>(group - this->Surface.merged.data())]
+                 : this->Own(id);
+  }
+
+private:
+  const Isosurface& Surface;
+  AttributeAt Own;
+  std::vector<double> Means; // of the surface's groups
+};
 
 } // namespace isopoint
 

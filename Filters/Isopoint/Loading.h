@@ -110,7 +110,7 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
   const std::size_t sliceLength = std::max<std::size_t>(count / (16 * execution.threads), 1 << 16);
   const std::size_t sliceCount = (count + sliceLength - 1) / sliceLength;
   std::vector<SliceSummary<TSample>> slices(sliceCount);
-  forRanges(execution, sliceCount, 1,
+  forBatches(execution, sliceCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t slice = begin; slice < end; ++slice)
@@ -119,7 +119,6 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
           std::min((slice + 1) * sliceLength, count), read);
       }
     });
-  throwIfAborted(execution);
 
   std::size_t size = 0;
   for (std::size_t slice = 0; slice < sliceCount; ++slice)

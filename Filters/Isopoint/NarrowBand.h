@@ -111,7 +111,7 @@ private:
     // Nodes are split together while there are too few of them to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const bool together = front.size() < 4 * this->Run.threads;
-    const std::size_t batchSamples = (std::size_t{ 1 } << 21) * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 19) * this->Run.threads;
 
     std::size_t begin = 0;
     while (begin < front.size())

@@ -35,6 +35,19 @@ struct Cell
   double value;
 };
 
+inline double halfway(double a, double b)
+{
+  return std::isfinite(a + b) ? 0.5 * (a + b) : 0.5 * a + 0.5 * b;
+}
+
+/// Where on the edge the isovalue lies; halves where the values' difference overflows.
+inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
+{
+  return std::isfinite(j.value - i.value)
+           ? (isovalue - i.value) / (j.value - i.value)
+           : (0.5 * isovalue - 0.5 * i.value) / (0.5 * j.value - 0.5 * i.value);
+}
+
 class Tree
 {
 public:
@@ -128,7 +141,7 @@ private:
       }
     }
     const double plane =
-      0.5 * (this->positionOf(ids[middle - 1])[axis] + this->positionOf(ids[middle])[axis]);
+      halfway(this->positionOf(ids[middle - 1])[axis], this->positionOf(ids[middle])[axis]);
     Cell lower = region;
     lower.upper[axis] = plane;
     Cell upper = region;
@@ -238,7 +251,7 @@ inline std::vector<Point> extract(
       {
         const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
         const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];
-        points[{ i.id, j.id }] = (isovalue - i.value) / (j.value - i.value);
+        points[{ i.id, j.id }] = parameterOf(i, j, isovalue);
       }
     }
   }

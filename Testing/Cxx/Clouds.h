@@ -148,6 +148,24 @@ inline Cloud nestedHeaps(std::size_t count)
   return cloud;
 }
 
+/// A layer of samples, one in front of its middle, and as many far behind: the cell of the lone
+/// one, whose id is 0, touches the cell of each in the layer.
+inline Cloud layerBeforeOne(std::size_t count, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  const double depth = 1.0 / std::sqrt(static_cast<double>(count));
+  cloud.add(depth, 0.5, 0.5, 1.0);
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const double x = i % 2 ? -depth * (1.0 + random()) : 4.0 + random();
+    const double y = random();
+    const double z = random();
+    cloud.add(x, y, z, i % 3 ? 0.0 : 1.0);
+  }
+  return cloud;
+}
+
 /// As many threads as asked for, whatever the machine has.
 inline isopoint::Execution executionOn(std::size_t threads)
 {

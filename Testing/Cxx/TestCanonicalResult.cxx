@@ -114,6 +114,47 @@ TEST(BruteForce, HeapsNestedInHeaps)
   EXPECT_GT(compare(clouds::nestedHeaps(4096), { 2.0, 3.5 }), 0u);
 }
 
+TEST(BruteForce, OneCellThatTouchesManyOthers)
+{
+  const clouds::Cloud cloud = clouds::layerBeforeOne(800, 17);
+  const bruteforce::Tree tree(cloud);
+  std::size_t largest = 0;
+  for (const std::vector<std::size_t>& neighbors : bruteforce::neighborhoods(tree.cells))
+  {
+    largest = std::max(largest, neighbors.size());
+  }
+  EXPECT_GT(largest, cloud.size() / 3);
+  EXPECT_GT(compare(cloud, { 0.5 }), 0u);
+  EXPECT_GT(compare(clouds::heaped(cloud, 0.2), { 0.5 }), 0u);
+}
+
+TEST(BruteForce, NearTheEndsOfDouble)
+{
+  for (const double scale : { 1e-310, 1e-160, 1e150, 1e307 })
+  {
+    clouds::Cloud cloud = clouds::uniform(300, 18);
+    for (double& coordinate : cloud.positions)
+    {
+      coordinate = scale * (coordinate - 0.5);
+    }
+    EXPECT_GT(compare(cloud, { 0.3 }), 0u) << scale;
+  }
+}
+
+TEST(BruteForce, BothZerosAreOnePosition)
+{
+  clouds::Cloud cloud = clouds::coarse(300, 3, 19);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      double& coordinate = cloud.positions[3 * i + axis];
+      coordinate = i % 2 && coordinate == 0.0 ? -0.0 : coordinate;
+    }
+  }
+  EXPECT_GT(compare(cloud, { 5.0 }), 0u);
+}
+
 TEST(BruteForce, Tiny)
 {
   for (std::size_t count = 0; count <= 9; ++count)

@@ -1,21 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real files of several kinds, where a folder with them is at hand."""
+"""Real files of every kind, where a folder with them is at hand: TestRealFiles.py PLUGIN FOLDER
+Prints a table; each file must give as many isopoints as its surface lets expect."""
 
 import os
 import sys
+import time
 
 from paraview import simple
 
 SKIPPED = 77
 
-# file, array, isovalue, least and largest number of isopoints
+# file, association, array, isovalue, least and largest number of isopoints
 CASES = [
-    ("volumes/engine_256x256x128_uint8.vti", "scalar", 80.0, 297523, 297523),
-    ("scattered/sph_water_jet.vtp", "speed", 33.0, 1000, 10000),
-    ("scattered/ctd_southern_ocean_TS.vtp", "temperature_degC", 2.0, 1000, 200000),
-    ("unstructured/disk_out_ref.vtu", "Temp", 400.0, 500, 20000),
-    ("multiblock/bluntfin.vts", "Density", 1.0, 500, 50000),
+    ("volumes/engine_256x256x128_uint8.vti", "POINTS", "scalar", 80.0, 297523, 297523),
+    ("volumes/headsq_64x64x93_uint16.vti", "POINTS", None, 500.0, 20000, 60000),
+    ("volumes/hydrogenAtom_128x128x128_uint8.vti", "POINTS", None, 20.0, 20000, 100000),
+    ("volumes/fuel_64x64x64_uint8.vti", "POINTS", None, 15.0, 1000, 20000),
+    ("volumes/tooth.vti", "POINTS", None, 120.0, 20000, 200000),
+    ("volumes/imide_potential_23x43x48.vti", "POINTS", None, 0.05, 1000, 20000),
+    ("scattered/sph_water_jet.vtp", "POINTS", "speed", 33.0, 1000, 10000),
+    ("scattered/ctd_southern_ocean_TS.vtp", "POINTS", "temperature_degC", 2.0, 1000, 200000),
+    ("scattered/drillholes_babbitt_CuNi.vtp", "POINTS", "CU_pct", 0.5, 1000, 100000),
+    ("scattered/amr_spcth_leafcells.vtp", "POINTS", "volume_fraction_total", 0.5, 1000, 60000),
+    ("scattered/cosmo_nbody_adaptive.vtp", "POINTS", "log10_overdensity_knn32", 1.0, 1000, 60000),
+    ("unstructured/disk_out_ref.vtu", "POINTS", "Temp", 400.0, 500, 20000),
+    ("unstructured/can.vtu", "POINTS", None, 3600.0, 100, 20000),
+    ("unstructured/fea_bracket_kiefer.vtu", "CELLS", "von_Mises_psi", 5.0, 500, 50000),
+    ("multiblock/bluntfin.vts", "POINTS", "Density", 1.0, 500, 50000),
+    ("multiblock/multicomb.vtm", "POINTS", "Density", 0.28, 500, 50000),
+    ("amr/HierarchicalBoxDataset.v1.1.vthb", "CELLS", "Fractal Volume Fraction", 0.5, 200, 2000),
 ]
+
+
+def scalar_of(reader, association):
+    """The only scalar array, or else the magnitude of the last vector."""
+    data = reader.PointData if association == "POINTS" else reader.CellData
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    scalars = [a.GetName() for a in arrays if a.GetNumberOfComponents() == 1]
+    if "VEL" in [a.GetName() for a in arrays]:
+        calculator = simple.Calculator(Input=reader)
+        calculator.Function = "mag(VEL)"
+        return calculator, "Result"
+    return reader, scalars[0]
 
 
 def main(plugin, folder):
@@ -24,18 +50,34 @@ def main(plugin, folder):
         sys.exit(SKIPPED)
     simple.LoadPlugin(plugin)
     wrong = 0
-    for name, array, isovalue, least, largest in CASES:
+    print("| file | array | isovalue | samples | skipped | isopoints | seconds |")
+    print("|---|---|---|---|---|---|---|")
+    for name, association, array, isovalue, least, largest in CASES:
         reader = simple.OpenDataFile(os.path.join(folder, name))
+        if name.endswith(".vthb"):
+            reader.DefaultNumberOfLevels = 10
         reader.UpdatePipeline()
-        isopoints = simple.ScatteredIsopoints(Input=reader)
-        isopoints.ContourBy = ["POINTS", array]
+        source = reader
+        if array is None:
+            source, array = scalar_of(reader, association)
+            source.UpdatePipeline()
+        isopoints = simple.ScatteredIsopoints(Input=source)
+        isopoints.ContourBy = [association, array]
         isopoints.Isosurfaces = [isovalue]
+        start = time.perf_counter()
         isopoints.UpdatePipeline()
+        seconds = time.perf_counter() - start
+        isopoints.SMProxy.UpdatePropertyInformation()
+        skipped = isopoints.SMProxy.GetProperty("NumberOfSkippedSamples").GetElement(0)
+        information = source.GetDataInformation()
+        samples = (information.GetNumberOfPoints() if association == "POINTS"
+                   else information.GetNumberOfCells())
         count = isopoints.GetDataInformation().GetNumberOfPoints()
-        print(name, array, isovalue, count)
+        print("| %s | %s | %g | %d | %d | %d | %.3f |"
+              % (name, array, isovalue, samples, skipped, count, seconds))
         wrong += 0 if least <= count <= largest else 1
         simple.Delete(isopoints)
-        simple.Delete(reader)
+        simple.Delete(source)
     sys.exit("failed: %d files" % wrong if wrong else 0)
 
 

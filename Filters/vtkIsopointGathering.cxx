@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointGathering.h"
+
+#include "vtkIsopointAllocation.h"
+#include "vtkIsopointInput.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributesFieldList.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace
+{
+
+using isopoint::Isopoint;
+using isopoint::MergedSamples;
+
+std::vector<std::uint64_t> idsOf(const std::vector<vtkContouredIsosurface>& surfaces)
+{
+  std::vector<std::uint64_t> ids;
+  for (const vtkContouredIsosurface& contoured : surfaces)
+  {
+    for (const Isopoint& point : contoured.Surface.points)
+    {
+      ids.insert(ids.end(), { point.first, point.second });
+    }
+    for (const MergedSamples& group : contoured.Surface.merged)
+    {
+      ids.insert(ids.end(), group.ids.begin(), group.ids.end());
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+void renumber(std::vector<vtkContouredIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
+{
+  const auto renumberOne = [&ids](std::uint64_t& id)
+  { id = static_cast<std::uint64_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()); };
+  for (vtkContouredIsosurface& contoured : surfaces)
+  {
+    for (Isopoint& point : contoured.Surface.points)
+    {
+      renumberOne(point.first);
+      renumberOne(point.second);
+    }
+    for (MergedSamples& group : contoured.Surface.merged)
+    {
+      std::for_each(group.ids.begin(), group.ids.end(), renumberOne);
+    }
+  }
+}
+
+/// Consecutive ids that belong to one block.
+struct Stretch
+{
+  std::size_t block;
+  std::size_t begin; // among the gathered ids
+  std::size_t end;
+  std::uint64_t firstId; // of the block's samples
+};
+
+std::vector<Stretch> stretchesOf(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  std::vector<Stretch> stretches;
+  std::uint64_t firstId = 0;
+  std::size_t begin = 0;
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+  {
+    const auto endId = firstId + static_cast<std::uint64_t>(blocks[block].GetNumberOfSamples());
+    const auto end =
+      static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), endId) - ids.begin());
+    stretches.push_back({ block, begin, end, firstId });
+    firstId = endId;
+    begin = end;
+  }
+  return stretches;
+}
+
+bool allHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)
+{
+  return std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return vtkHasFloatPositions(block.Positions); });
+}
+
+bool allHaveFloatScalars(const std::vector<vtkIsopointBlock>& blocks)
+{
+  return std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
+}
+
+/// A block's attributes but for the arrays that are not as long as there are samples.
+vtkSmartPointer<vtkDataSetAttributes> completeAttributes(const vtkIsopointBlock& block)
+{
+  auto complete = vtkSmartPointer<vtkPointData>::New();
+  complete->ShallowCopy(block.Attributes);
+  for (int i = complete->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != block.GetNumberOfSamples())
+    {
+      complete->RemoveArray(i);
+    }
+  }
+  return complete;
+}
+
+/// Allocates arrays for the attributes that all blocks have and copies the tuples of the ids.
+void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<Stretch>& stretches, const std::vector<std::uint64_t>& ids,
+  vtkDataSetAttributes* gathered)
+{
+  std::vector<vtkSmartPointer<vtkDataSetAttributes>> inputs;
+  vtkDataSetAttributesFieldList common;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    inputs.push_back(completeAttributes(block));
+    common.IntersectFieldList(inputs.back());
+  }
+  gathered->CopyAllOn();
+  const auto count = static_cast<vtkIdType>(ids.size());
+  common.CopyAllocate(gathered, vtkDataSetAttributes::PASSDATA, 1, 0);
+  for (int i = 0; i < gathered->GetNumberOfArrays(); ++i)
+  {
+    vtkAllocateTuples(gathered->GetAbstractArray(i), count);
+  }
+  for (const Stretch& stretch : stretches)
+  {
+    common.TransformData(static_cast<int>(stretch.block), inputs[stretch.block], gathered,
+      [&](vtkAbstractArray* input, vtkAbstractArray* output)
+      {
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+        {
+          output->SetTuple(
+            static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i] - stretch.firstId), input);
+        }
+      });
+  }
+}
+
+} // namespace
+
+vtkIsopointGathering::vtkIsopointGathering(
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<vtkContouredIsosurface>& surfaces)
+  : Block(blocks.front())
+{
+  if (blocks.size() == 1)
+  {
+    return;
+  }
+  const std::vector<std::uint64_t> ids = idsOf(surfaces);
+  const std::vector<Stretch> stretches = stretchesOf(blocks, ids);
+  const auto count = static_cast<vtkIdType>(ids.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(allHaveFloatPositions(blocks) ? VTK_FLOAT : VTK_DOUBLE);
+  vtkAllocateTuples(points->GetData(), count);
+  const auto scalars = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE));
+  scalars->SetName(this->Block.Scalars->GetName());
+  vtkAllocateTuples(scalars, count);
+  for (const Stretch& stretch : stretches)
+  {
+    const vtkIsopointBlock& block = blocks[stretch.block];
+    const vtkIsopointPositions positions(block.Positions);
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+    {
+      const auto from = static_cast<vtkIdType>(ids[i] - stretch.firstId);
+      const auto to = static_cast<vtkIdType>(i);
+      double position[3];
+      positions.Get(from, position);
+      points->SetPoint(to, position);
+      scalars->SetComponent(to, 0, block.Scalars->GetComponent(from, 0));
+    }
+  }
+  renumber(surfaces, ids);
+
+  vtkNew<vtkPolyData> gathered;
+  gathered->SetPoints(points);
+  vtkPointData* const attributes = gathered->GetPointData();
+  gatherAttributes(blocks, stretches, ids, attributes);
+  if (scalars->GetName())
+  {
+    attributes->RemoveArray(scalars->GetName());
+  }
+  attributes->AddArray(scalars);
+  this->Block = vtkIsopointBlock();
+  this->Block.Positions = gathered;
+  this->Block.Attributes = attributes;
+  this->Block.Scalars = scalars;
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointGhosts.h"
+
+#include "vtkIsopointAllocation.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace
+{
+
+constexpr int invisible = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
+
+bool hasAny(vtkUnsignedCharArray* ghosts, int bits)
+{
+  return ghosts &&
+         std::any_of(ghosts->GetPointer(0), ghosts->GetPointer(0) + ghosts->GetNumberOfValues(),
+           [bits](unsigned char value) { return (value & bits) != 0; });
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> newGhosts(vtkIdType count)
+{
+  auto ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  vtkAllocateTuples(ghosts, count);
+  std::fill_n(ghosts->GetPointer(0), count, static_cast<unsigned char>(0));
+  return ghosts;
+}
+
+template <class Visitor>
+void forEachCellPoint(vtkDataSet* input, const Visitor& visit)
+{
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    input->GetCellPoints(cell, points);
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      visit(cell, points->GetId(i));
+    }
+  }
+}
+
+} // namespace
+
+vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  return ghosts && ghosts->GetNumberOfComponents() == 1 && ghosts->GetNumberOfValues() >= count
+           ? ghosts
+           : nullptr;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input)
+{
+  const vtkIdType count = input->GetNumberOfPoints();
+  vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
+  vtkUnsignedCharArray* const cells =
+    vtkGetIsopointGhosts(input->GetCellData(), input->GetNumberOfCells());
+  if (!hasAny(cells, invisible))
+  {
+    return own;
+  }
+  constexpr unsigned char inInvisible = 1;
+  constexpr unsigned char inVisible = 2;
+  std::vector<unsigned char> memberships(static_cast<std::size_t>(count), 0);
+  forEachCellPoint(input,
+    [&](vtkIdType cell, vtkIdType point)
+    {
+      memberships[static_cast<std::size_t>(point)] |=
+        (cells->GetValue(cell) & invisible) != 0 ? inInvisible : inVisible;
+    });
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    const bool isCovered = memberships[static_cast<std::size_t>(point)] == inInvisible;
+    const int value =
+      (own ? own->GetValue(point) : 0) | (isCovered ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    ghosts->SetValue(point, static_cast<unsigned char>(value));
+  }
+  return ghosts;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input)
+{
+  const vtkIdType count = input->GetNumberOfCells();
+  vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetCellData(), count);
+  vtkUnsignedCharArray* const points =
+    vtkGetIsopointGhosts(input->GetPointData(), input->GetNumberOfPoints());
+  const bool hasHiddenPoints = hasAny(points, vtkDataSetAttributes::HIDDENPOINT);
+  if (!own && !hasHiddenPoints)
+  {
+    return nullptr;
+  }
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
+  for (vtkIdType cell = 0; own && cell < count; ++cell)
+  {
+    if ((own->GetValue(cell) & (invisible | vtkDataSetAttributes::DUPLICATECELL)) != 0)
+    {
+      ghosts->SetValue(cell, vtkDataSetAttributes::HIDDENPOINT);
+    }
+  }
+  if (hasHiddenPoints)
+  {
+    forEachCellPoint(input,
+      [&](vtkIdType cell, vtkIdType point)
+      {
+        if ((points->GetValue(point) & vtkDataSetAttributes::HIDDENPOINT) != 0)
+        {
+          ghosts->SetValue(cell, vtkDataSetAttributes::HIDDENPOINT);
+        }
+      });
+  }
+  return ghosts;
+}

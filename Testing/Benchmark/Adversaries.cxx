@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clouds that are hard on a kd-tree, each against a uniform one of the same size in the same run:
+// IsopointAdversaries [SAMPLES] prints a table of ratios.
+#include "vtkScatteredIsopointFilter.h"
+
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using Position = std::array<float, 3>;
+
+struct Cloud
+{
+  std::vector<Position> positions;
+  std::vector<float> values;
+};
+
+/// Uniform numbers in [0, 1), the same on every platform.
+class Random
+{
+public:
+  float operator()() { return static_cast<float>(this->Generator() >> 40) * 0x1p-24f; }
+
+private:
+  std::mt19937_64 Generator{ 1 };
+};
+
+float distanceToMiddle(const Position& p)
+{
+  return std::hypot(p[0] - 0.5f, p[1] - 0.5f, p[2] - 0.5f);
+}
+
+/// Positions by number, with the distance to the middle as values.
+Cloud cloudOf(std::size_t count, const std::function<Position(std::size_t)>& positionAt)
+{
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    cloud.positions.push_back(positionAt(i));
+    cloud.values.push_back(distanceToMiddle(cloud.positions.back()));
+  }
+  return cloud;
+}
+
+Cloud uniform(std::size_t count)
+{
+  Random random;
+  return cloudOf(count, [&](std::size_t) { return Position{ random(), random(), random() }; });
+}
+
+Cloud ordered(Cloud cloud, const std::function<bool(const Position&, const Position&)>& before)
+{
+  std::sort(cloud.positions.begin(), cloud.positions.end(), before);
+  return cloudOf(cloud.positions.size(), [&](std::size_t i) { return cloud.positions[i]; });
+}
+
+/// Ascending coordinates and then descending ones.
+Cloud organPipe(std::size_t count)
+{
+  const Cloud sorted = ordered(uniform(count), std::less<Position>());
+  return cloudOf(count,
+    [&](std::size_t i) { return sorted.positions[i < count / 2 ? 2 * i : 2 * (count - i) - 1]; });
+}
+
+Cloud lattice(std::size_t count)
+{
+  const auto n = static_cast<std::size_t>(std::round(std::cbrt(static_cast<double>(count))));
+  const auto coordinate = [n](std::size_t i)
+  { return static_cast<float>(i) / static_cast<float>(n - 1); };
+  return cloudOf(n * n * n,
+    [&](std::size_t i) {
+      return Position{ coordinate(i % n), coordinate(i / n % n), coordinate(i / n / n) };
+    });
+}
+
+Cloud flattened(std::size_t count, int dimensions)
+{
+  Cloud cloud = uniform(count);
+  for (Position& position : cloud.positions)
+  {
+    std::fill(position.begin() + dimensions, position.end(), 0.5f);
+  }
+  return cloudOf(count, [&](std::size_t i) { return cloud.positions[i]; });
+}
+
+/// A share of the samples at one position, their values spread over the field's range.
+Cloud heaped(std::size_t count, double share)
+{
+  Cloud cloud = uniform(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (static_cast<double>(i % 100) < 100.0 * share)
+    {
+      cloud.positions[i] = { 0.9f, 0.5f, 0.5f };
+    }
+  }
+  return cloud;
+}
+
+Cloud doubled(std::size_t count)
+{
+  Random random;
+  Position last{};
+  return cloudOf(count,
+    [&](std::size_t i) {
+      return last = i % 2 ? last : Position{ random(), random(), random() };
+    });
+}
+
+/// A layer of samples, one in front of its middle, and as many far behind: the cell of the lone one
+/// touches the cell of each in the layer.
+Cloud layerBeforeOne(std::size_t count)
+{
+  Random random;
+  const float depth = 1.0f / std::sqrt(static_cast<float>(count));
+  Cloud cloud = cloudOf(count,
+    [&](std::size_t i)
+    {
+      if (i == 0)
+      {
+        return Position{ depth, 0.5f, 0.5f };
+      }
+      return Position{ i % 2 ? -depth * (1.0f + random()) : 4.0f + random(), random(), random() };
+    });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    cloud.values[i] = cloud.positions[i][0] < 0.0f ? 0.0f : 0.8f;
+  }
+  return cloud;
+}
+
+/// The same with a quarter of all in place of the lone one.
+Cloud layerBeforeHeap(std::size_t count)
+{
+  Cloud cloud = layerBeforeOne(count);
+  for (std::size_t i = 0; i < count; i += 4)
+  {
+    cloud.positions[i] = cloud.positions[0];
+  }
+  return cloud;
+}
+
+/// Two lines that pass each other at right angles, of which a Delaunay tetrahedrisation has
+/// quadratic size.
+Cloud skewLines(std::size_t count)
+{
+  Random random;
+  return cloudOf(count,
+    [&](std::size_t i) {
+      return i % 2 ? Position{ 0.25f, random(), 0.5f } : Position{ 0.75f, 0.5f, random() };
+    });
+}
+
+Cloud clustered(std::size_t count)
+{
+  Random random;
+  return cloudOf(count,
+    [&](std::size_t)
+    {
+      const float scale = std::pow(10.0f, -6.0f * random());
+      return Position{ 0.9f + scale * (random() - 0.5f), 0.5f + scale * (random() - 0.5f),
+        0.5f + scale * (random() - 0.5f) };
+    });
+}
+
+Cloud onSphere(std::size_t count)
+{
+  Cloud cloud = uniform(count);
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    Position& p = cloud.positions[i];
+    const float length = distanceToMiddle(p);
+    for (float& coordinate : p)
+    {
+      coordinate = 0.5f + (coordinate - 0.5f) / length;
+    }
+    cloud.values[i] = 1.0f;
+  }
+  cloud.positions[0] = { 0.5f, 0.5f, 0.5f };
+  cloud.values[0] = 0.0f;
+  return cloud;
+}
+
+Cloud scaled(Cloud cloud, float scale)
+{
+  for (Position& position : cloud.positions)
+  {
+    for (float& coordinate : position)
+    {
+      coordinate *= scale;
+    }
+  }
+  return cloud;
+}
+
+Cloud withValues(Cloud cloud, const std::function<float(float)>& valueOf)
+{
+  std::transform(cloud.values.begin(), cloud.values.end(), cloud.values.begin(), valueOf);
+  return cloud;
+}
+
+struct Measured
+{
+  double seconds;
+  vtkIdType isopoints;
+};
+
+/// The faster of two updates from nothing.
+Measured measure(const Cloud& cloud, double isovalue)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> values;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(cloud.positions.size()));
+  values->SetNumberOfValues(static_cast<vtkIdType>(cloud.positions.size()));
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), cloud.positions[i].data());
+    values->SetValue(static_cast<vtkIdType>(i), cloud.values[i]);
+  }
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(points);
+  input->GetPointData()->SetScalars(values);
+  Measured measured{};
+  for (int run = 0; run < 2; ++run)
+  {
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(input);
+    filter->SetValue(0, isovalue);
+    const auto start = std::chrono::steady_clock::now();
+    filter->Update();
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    measured.seconds = run == 0 ? seconds : std::min(seconds, measured.seconds);
+    measured.isopoints = filter->GetOutput()->GetNumberOfPoints();
+  }
+  return measured;
+}
+
+} // namespace
+
+int main(int argumentCount, char** arguments)
+{
+  const auto count =
+    argumentCount > 1 ? static_cast<std::size_t>(std::atof(arguments[1])) : std::size_t{ 1000000 };
+  constexpr double isovalue = 0.4;
+  const auto backwards = [](const Position& a, const Position& b) {
+    return Position{ a[2], a[1], a[0] } > Position{ b[2], b[1], b[0] };
+  };
+  const std::vector<std::pair<std::string, std::function<Cloud()>>> clouds{
+    { "sorted", [&]() { return ordered(uniform(count), std::less<Position>()); } },
+    { "sorted backwards along z", [&]() { return ordered(uniform(count), backwards); } },
+    { "organ pipe", [&]() { return organPipe(count); } },
+    { "lattice", [&]() { return lattice(count); } },
+    { "coplanar", [&]() { return flattened(count, 2); } },
+    { "collinear", [&]() { return flattened(count, 1); } },
+    { "all at one position", [&]() { return heaped(count, 1.0); } },
+    { "90 % at one position", [&]() { return heaped(count, 0.9); } },
+    { "each position twice", [&]() { return doubled(count); } },
+    { "a cell that touches half of all", [&]() { return layerBeforeOne(count); } },
+    { "a heap that touches half of all", [&]() { return layerBeforeHeap(count); } },
+    { "strongly clustered", [&]() { return clustered(count); } },
+    { "on a sphere, one inside", [&]() { return onSphere(count); } },
+    { "denormal", [&]() { return scaled(uniform(count), 1e-40f); } },
+    { "scaled by 1e30", [&]() { return scaled(uniform(count), 1e30f); } },
+    { "constant field", [&]() { return withValues(uniform(count), [](float) { return 0.4f; }); } },
+    { "a step at the isovalue", [&]()
+      { return withValues(uniform(count), [](float v) { return v < 0.4f ? 0.0f : 0.4f; }); } },
+  };
+  // Measured again beside each cloud: other programs may come and go.
+  const Cloud uniformCloud = uniform(count);
+  const Measured base = measure(uniformCloud, isovalue);
+  std::printf("| %zu samples | times the uniform cloud | isopoints |\n|---|---|---|\n", count);
+  std::printf(
+    "| uniform | 1 (%.3f s) | %lld |\n", base.seconds, static_cast<long long>(base.isopoints));
+  bool isWithinBar = true;
+  for (const auto& [name, make] : clouds)
+  {
+    const Measured measured = measure(make(), isovalue);
+    const double ratio = measured.seconds / measure(uniformCloud, isovalue).seconds;
+    std::printf(
+      "| %s | %.2f | %lld |\n", name.c_str(), ratio, static_cast<long long>(measured.isopoints));
+    std::fflush(stdout);
+    isWithinBar = isWithinBar && ratio <= 5.0;
+  }
+  // Here neighbourhoods add up to more than a constant for each sample: told, not judged.
+  const std::size_t fewer = count / 20;
+  std::printf("| two skew lines, %zu samples | %.2f | |\n", fewer,
+    measure(skewLines(fewer), isovalue).seconds / measure(uniform(fewer), isovalue).seconds);
+  return isWithinBar ? 0 : 1;
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What may happen around an update: aborts, inputs that go or change, filters side by side.
+#include "FilterTesting.h"
+
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <limits>
+#include <thread>
+
+using namespace filtertesting;
+
+namespace
+{
+
+/// Notes a filter's progress and aborts it at the n-th event.
+class ProgressWatcher : public vtkCommand
+{
+public:
+  static ProgressWatcher* New() { return new ProgressWatcher; }
+
+  void Execute(vtkObject* caller, unsigned long, void* progress) override
+  {
+    this->Seen.push_back(*static_cast<double*>(progress));
+    if (this->Seen.size() == this->AbortAt)
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  }
+
+  std::vector<double> Seen;
+  std::size_t AbortAt = std::numeric_limits<std::size_t>::max();
+};
+
+vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
+{
+  const auto cloud = newCloud(count);
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(cloud->GetPoints());
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    grid->InsertNextCell(VTK_VERTEX, 1, &i);
+  }
+  grid->GetCellData()->ShallowCopy(cloud->GetPointData());
+  return grid;
+}
+
+/// Filters with inputs of every sort.
+std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> everySort()
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, newVertexCells(12000));
+  blocks->SetBlock(1, newVertexCells(8000));
+  std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filters;
+  const std::vector<vtkSmartPointer<vtkDataObject>> inputs{ newCloud(20000), newVertexCells(20000),
+    blocks, blocks };
+  for (vtkDataObject* const input : inputs)
+  {
+    filters.push_back(vtkSmartPointer<vtkScatteredIsopointFilter>::New());
+    filters.back()->SetInputData(input);
+    filters.back()->SetInputArrayToProcess(0, 0, 0,
+      input->IsA("vtkPolyData") ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+                                : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+      "distance");
+    filters.back()->GenerateValues(3, 0.5, 0.8);
+  }
+  filters.back()->ContourBlocksOn();
+  return filters;
+}
+
+} // namespace
+
+TEST(Robustness, ProgressRisesFromZeroToOne)
+{
+  for (vtkScatteredIsopointFilter* const filter : everySort())
+  {
+    const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
+    filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+    for (int update = 0; update < 3; ++update)
+    {
+      watcher->Seen.clear();
+      filter->SetValue(0, 0.4 + 0.02 * update);
+      filter->Update();
+      ASSERT_GE(watcher->Seen.size(), 4u);
+      EXPECT_TRUE(std::is_sorted(watcher->Seen.begin(), watcher->Seen.end()));
+      EXPECT_GE(watcher->Seen.front(), 0.0);
+      EXPECT_EQ(watcher->Seen.back(), 1.0);
+    }
+  }
+}
+
+TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
+{
+  for (vtkScatteredIsopointFilter* const filter : everySort())
+  {
+    const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
+    const auto errors = watchErrors(filter);
+    filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+    filter->KeepTreeOff(); // so that each update starts from nothing
+    filter->Update();
+    const vtkIdType expected = filter->GetOutputDataObject(0)->GetNumberOfElements(0);
+    EXPECT_GT(expected, 500);
+    // The last two events tell that all is done.
+    const std::size_t events = watcher->Seen.size() - 2;
+    for (std::size_t event = 1; event <= events; event += 1 + events / 12)
+    {
+      filter->Modified();
+      watcher->Seen.clear();
+      watcher->AbortAt = event;
+      filter->Update();
+      EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(0), 0) << event;
+      watcher->AbortAt = std::numeric_limits<std::size_t>::max();
+      filter->SetAbortExecute(0);
+      filter->Modified();
+      filter->Update();
+      EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(0), expected);
+    }
+    EXPECT_EQ(errors->Count, 0);
+  }
+}
+
+TEST(Robustness, AnInputMayBeFreedBetweenUpdates)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetValue(0, 0.7);
+  std::vector<double> expected;
+  for (int update = 0; update < 4; ++update)
+  {
+    auto cloud = newCloud(10000);
+    filter->SetInputData(cloud);
+    cloud = nullptr;
+    filter->Update();
+    const std::vector<double> found = pointsOf(filter->GetOutput());
+    EXPECT_FALSE(found.empty());
+    expected = expected.empty() ? found : expected;
+    EXPECT_EQ(found, expected);
+    filter->SetInputData(nullptr);
+  }
+}
+
+// A kept tree holds no array of an input that went.
+TEST(Robustness, AnInputIsNotHeldAfterAnUpdate)
+{
+  for (const bool ofCells : { false, true })
+  {
+    const auto input = newVertexCells(1000);
+    input->GetPointData()->ShallowCopy(input->GetCellData());
+    vtkDataArray* const array = input->GetPointData()->GetArray("distance");
+    vtkDataArray* const points = input->GetPoints()->GetData();
+    const int arrayReferences = array->GetReferenceCount();
+    const int pointReferences = points->GetReferenceCount();
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(input);
+    filter->SetInputArrayToProcess(0, 0, 0,
+      ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+      "distance");
+    filter->SetValue(0, 0.7);
+    filter->Update();
+    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(array->GetReferenceCount(), arrayReferences);
+    EXPECT_EQ(points->GetReferenceCount(), pointReferences);
+  }
+}
+
+TEST(Robustness, AnInputThatShrinksIsReadAnew)
+{
+  const auto cloud = newCloud(10000);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  cloud->ShallowCopy(newCloud(100));
+  filter->Update();
+  vtkNew<vtkScatteredIsopointFilter> fresh;
+  fresh->SetInputData(newCloud(100));
+  fresh->SetValue(0, 0.7);
+  fresh->Update();
+  EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
+}
+
+TEST(Robustness, FiltersRunSideBySideInThreads)
+{
+  vtkNew<vtkScatteredIsopointFilter> alone;
+  alone->SetInputData(newCloud(30000));
+  alone->SetValue(0, 0.7);
+  alone->Update();
+  const std::vector<double> expected = pointsOf(alone->GetOutput());
+  // Each has a data set of its own, as VTK demands; arrays are shared.
+  const auto cloud = newCloud(30000);
+  std::vector<vtkSmartPointer<vtkPolyData>> inputs;
+  std::vector<std::vector<double>> found(3);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    inputs.push_back(vtkSmartPointer<vtkPolyData>::New());
+    inputs.back()->ShallowCopy(cloud);
+  }
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    threads.emplace_back(
+      [input = inputs[i].Get(), &points = found[i]]()
+      {
+        for (int update = 0; update < 3; ++update)
+        {
+          vtkNew<vtkScatteredIsopointFilter> filter;
+          filter->SetInputData(input);
+          filter->SetValue(0, 0.7);
+          filter->Update();
+          points = pointsOf(filter->GetOutput());
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  for (const std::vector<double>& points : found)
+  {
+    EXPECT_EQ(points, expected);
+  }
+}
+
+TEST(Robustness, AFilterMayGoWhileAnotherSharesItsInput)
+{
+  const auto cloud = newCloud(10000);
+  vtkNew<vtkScatteredIsopointFilter> stays;
+  stays->SetInputData(cloud);
+  stays->SetValue(0, 0.7);
+  {
+    vtkNew<vtkScatteredIsopointFilter> goes;
+    goes->SetInputData(cloud);
+    goes->SetValue(0, 0.7);
+    goes->Update();
+    stays->Update();
+  }
+  const std::vector<double> before = pointsOf(stays->GetOutput());
+  stays->SetAngle(50.0);
+  stays->Update();
+  stays->SetAngle(54.7);
+  stays->Update();
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(pointsOf(stays->GetOutput()), before);
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef ByteSource_h
+#define ByteSource_h
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+/// Reads decisions and numbers off a fuzzer's bytes; once these are used up, off random ones that
+/// they are the seed of, so that a few bytes make a whole cloud.
+class ByteSource
+{
+public:
+  ByteSource(const std::uint8_t* data, std::size_t size)
+    : Data(data)
+    , Remaining(size)
+  {
+  }
+
+  std::uint8_t byte()
+  {
+    if (this->Remaining == 0)
+    {
+      this->State = this->State * 6364136223846793005u + 1442695040888963407u;
+      return static_cast<std::uint8_t>(this->State >> 56);
+    }
+    --this->Remaining;
+    this->State = 31 * this->State + *this->Data;
+    return *this->Data++;
+  }
+
+  /// A whole number below the limit, at most 256.
+  int below(int limit) { return this->byte() % limit; }
+
+  bool flag() { return this->below(2) == 1; }
+
+  /// Any bits.
+  template <class T>
+  T raw()
+  {
+    std::uint8_t bytes[sizeof(T)];
+    std::generate_n(bytes, sizeof(T), [this]() { return this->byte(); });
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+  }
+
+  /// A number of the kind that a whole cloud is made of: small and whole (so that many are equal),
+  /// of 16 bits, special, or any bits.
+  double number(int kind)
+  {
+    static const std::array<double, 16> special{ 0.0, -0.0, 1.0, -1.0, 0.5, 1e-3, 1e9, 1e9 + 1e-3,
+      std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::min(),
+      std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), 1e30, 1e-30,
+      std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() };
+    switch (kind)
+    {
+      case 0:
+        return this->below(4);
+      case 1:
+        return this->raw<std::int16_t>() / 1024.0;
+      case 2:
+        return special[static_cast<std::size_t>(this->below(16))];
+      default:
+        return this->raw<double>();
+    }
+  }
+
+private:
+  const std::uint8_t* Data;
+  std::size_t Remaining;
+  std::uint64_t State = 1;
+};
+
+#endif

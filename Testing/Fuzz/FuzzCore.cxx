@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clouds made of a fuzzer's bytes: the core must give, to the last bit, what brute force gives.
+#include "ByteSource.h"
+
+#include "../Cxx/BruteForce.h"
+#include "../Cxx/Clouds.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace
+{
+
+using clouds::Cloud;
+
+[[noreturn]] void fail(const char* what)
+{
+  std::fprintf(stderr, "differs from brute force: %s\n", what);
+  std::abort();
+}
+
+template <class T>
+double asHeld(double number)
+{
+  // Beyond a narrower type's range lies infinity, as where a file is read.
+  return std::abs(number) > static_cast<double>(std::numeric_limits<T>::max())
+           ? std::copysign(std::numeric_limits<double>::infinity(), number)
+           : static_cast<double>(static_cast<T>(number));
+}
+
+template <class TCoordinate, class TValue>
+Cloud readCloud(ByteSource& bytes, std::size_t count)
+{
+  const int coordinateKind = bytes.below(4);
+  const int valueKind = bytes.below(4);
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double p[3];
+    for (double& coordinate : p)
+    {
+      coordinate = asHeld<TCoordinate>(bytes.number(coordinateKind));
+    }
+    cloud.add(p[0], p[1], p[2], asHeld<TValue>(bytes.number(valueKind)));
+  }
+  return cloud;
+}
+
+/// The finite samples alone, and which ids they have among all.
+std::vector<std::uint64_t> dropOthers(const Cloud& all, Cloud& finite)
+{
+  std::vector<std::uint64_t> ids;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const double* const p = all.positions.data() + 3 * i;
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
+        std::isfinite(all.values[i]))
+    {
+      finite.add(p[0], p[1], p[2], all.values[i]);
+      ids.push_back(i);
+    }
+  }
+  return ids;
+}
+
+void compare(
+  const Cloud& all, double isovalue, double angle, const std::vector<isopoint::Isopoint>& found)
+{
+  Cloud finite;
+  const std::vector<std::uint64_t> ids = dropOthers(all, finite);
+  const std::vector<bruteforce::Point> expected = bruteforce::extract(finite, isovalue, angle);
+  if (expected.size() != found.size())
+  {
+    fail("number of points");
+  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (ids[expected[i].first] != found[i].first || ids[expected[i].second] != found[i].second)
+    {
+      fail("edges");
+    }
+    if (std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)) != 0)
+    {
+      fail("parameters");
+    }
+  }
+}
+
+template <class TCoordinate, class TValue>
+void run(ByteSource& bytes)
+{
+  const std::size_t count = static_cast<std::size_t>(bytes.below(100));
+  const isopoint::Execution execution = clouds::executionOn(bytes.below(8) == 0 ? 2 : 1);
+  Cloud cloud = readCloud<TCoordinate, TValue>(bytes, count);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<TCoordinate, TValue>(execution, count, clouds::readerOf(cloud));
+  for (int round = 0; round < 3; ++round)
+  {
+    const double angles[6] = { 54.7, 0.0, 30.0, 90.0, 120.0, 180.0 };
+    const double angle = angles[bytes.below(6)];
+    double isovalue = bytes.number(bytes.below(4));
+    if (count > 0 && bytes.flag())
+    {
+      isovalue = cloud.values[static_cast<std::size_t>(bytes.below(100)) % count];
+    }
+    compare(cloud, isovalue, angle, extractor.extract(execution, isovalue, angle).points);
+    if (bytes.flag())
+    {
+      // New values at the same positions, some of them perhaps not finite.
+      const int kind = bytes.below(4);
+      for (double& value : cloud.values)
+      {
+        value = asHeld<TValue>(bytes.number(kind));
+      }
+      const auto read = clouds::readerOf(cloud);
+      if (!extractor.replaceValues<TCoordinate, TValue>(execution, count, read))
+      {
+        extractor.load<TCoordinate, TValue>(execution, count, read);
+      }
+    }
+  }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  ByteSource bytes(data, size);
+  switch (bytes.below(4))
+  {
+    case 0:
+      run<float, float>(bytes);
+      break;
+    case 1:
+      run<float, double>(bytes);
+      break;
+    case 2:
+      run<double, float>(bytes);
+      break;
+    default:
+      run<double, double>(bytes);
+  }
+  return 0;
+}
