@@ -12,7 +12,6 @@ in vec2 placeGS;
 in float depthGS;
 flat in vec3 normalGS;
 flat in vec4 colorGS;
-flat in float baseWeightGS;
 #endif
 #ifdef SPLAT_IDS
 flat in uint pointIdGS;
@@ -40,7 +39,7 @@ void main()
   }
 #endif
 #ifdef SPLAT_BLEND
-  float weight = (1.0 - squaredRadius) * (1.0 - squaredRadius) + baseWeightGS;
+  float weight = (1.0 - squaredRadius) * (1.0 - squaredRadius) + 1e-4;
   gl_FragData[0] = weight * vec4(normalGS, depthGS);
   gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
 #ifdef SPLAT_TRANSLUCENT_COLORS

@@ -16,7 +16,6 @@ in vec3 normalVS[];
 in vec4 colorVS[];
 in float radiusVS[];
 flat in uint pointIdVS[];
-flat in float baseWeightVS[];
 
 uniform mat4 VCDCMatrix;
 uniform int cameraParallel;
@@ -29,7 +28,6 @@ out vec2 placeGS; // within the unit circle where the splat is
 out float depthGS; // z in view coordinates
 flat out vec3 normalGS;
 flat out vec4 colorGS;
-flat out float baseWeightGS;
 #endif
 #ifdef SPLAT_IDS
 flat out uint pointIdGS;
@@ -58,7 +56,6 @@ void emitCorner(vec2 place)
   depthGS = corner.z;
   normalGS = normalVS[0];
   colorGS = colorVS[0];
-  baseWeightGS = baseWeightVS[0];
 #endif
 #ifdef SPLAT_IDS
   pointIdGS = pointIdVS[0];

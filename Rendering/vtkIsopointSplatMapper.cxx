@@ -200,6 +200,7 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
       }
     };
     const vtkIsopointSplatPasses::Layer& layer = passes.GetLayer(i);
+    setTexture("splatVisibleDepth", layer.Depth);
     setTexture("splatSurfaceSums", layer.Surface);
     setTexture("splatColorSums", layer.Color);
     setTexture("splatOpacitySums", layer.HasOpacity ? layer.Opacity : layer.Color);

@@ -23,6 +23,10 @@ namespace
 /// In pixels. Above half of a pixel's diagonal, so that every splat covers the middle of one.
 constexpr float minimumHalfAxis = 0.75f;
 
+/// Splats blend over a wider circle than they cover: the surface is smoother and its outline as it
+/// was.
+constexpr double blendingReach = 1.4;
+
 constexpr unsigned int maximumClippingPlanes = 6;
 
 void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
@@ -341,7 +345,7 @@ void vtkIsopointSplatPasses::DrawBlocks(
     {
       continue;
     }
-    this->SetUniforms(program, settings, block);
+    this->SetUniforms(program, pass, settings, block);
     if (depth)
     {
       program->SetUniformi(
@@ -387,7 +391,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
 
 //------------------------------------------------------------------------------
 void vtkIsopointSplatPasses::SetUniforms(
-  vtkShaderProgram* program, const Settings& settings, const Block& block)
+  vtkShaderProgram* program, Pass pass, const Settings& settings, const Block& block)
 {
   vtkNew<vtkMatrix4x4> centerToView;
   placeCenter(block.Buffers->GetCenter(), settings.ModelToView, centerToView);
@@ -411,7 +415,9 @@ void vtkIsopointSplatPasses::SetUniforms(
   const float size[2] = { static_cast<float>(settings.Size[0]),
     static_cast<float>(settings.Size[1]) };
   program->SetUniform2f("viewportSize", size);
-  const double scale = settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
+  const double reach = pass == Pass::Blend ? blendingReach : 1.0;
+  const double scale =
+    reach * settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
   program->SetUniformf("radiusScale", static_cast<float>(scale));
   program->SetUniformf("viewScale", static_cast<float>(viewScale));
   program->SetUniformf("blendDepth", static_cast<float>(settings.BlendDepth));

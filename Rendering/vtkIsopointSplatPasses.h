@@ -61,7 +61,7 @@ public:
   /// The sums at each pixel of one layer.
   struct Layer
   {
-    vtkNew<vtkTextureObject> Depth; // as far as blending reaches
+    vtkNew<vtkTextureObject> Depth; // as far as blending reaches; 1 where nothing is
     vtkNew<vtkTextureObject> Surface;
     vtkNew<vtkTextureObject> Color;
     vtkNew<vtkTextureObject> Opacity;
@@ -101,7 +101,8 @@ private:
   void DrawBlocks(Pass pass, int layer, const Settings& settings, const std::vector<Block>& blocks);
   vtkShaderProgram* ReadyProgram(
     Pass pass, bool isDeeper, const Settings& settings, const vtkIsopointSplatBuffers& buffers);
-  void SetUniforms(vtkShaderProgram* program, const Settings& settings, const Block& block);
+  void SetUniforms(
+    vtkShaderProgram* program, Pass pass, const Settings& settings, const Block& block);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   std::vector<std::unique_ptr<Layer>> Layers;

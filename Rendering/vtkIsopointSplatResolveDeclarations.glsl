@@ -1,3 +1,4 @@
+uniform sampler2D splatVisibleDepth; // below 1 where splats are
 uniform sampler2D splatSurfaceSums; // weight x (normal, z) in view coordinates
 uniform sampler2D splatColorSums; // weight x color; alpha: the weight
 uniform sampler2D splatOpacitySums; // weight x opacity

@@ -37,7 +37,6 @@ out vec3 normalVS;
 out vec4 colorVS;
 out float radiusVS; // in view coordinates
 flat out uint pointIdVS;
-flat out float baseWeightVS; // added to the blending weight all over the splat
 
 // Two unit vectors orthogonal to a unit vector and to each other, and continuous but for z = 0
 // (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
@@ -101,7 +100,6 @@ void main()
 #endif
 
   vec4 centerDC = VCDCMatrix * vec4(center, 1.0);
-  baseWeightVS = 1e-4;
   if (centerDC.w > 0.0)
   {
     vec2 p1 = toPixels(axis1, centerDC);
@@ -117,16 +115,13 @@ void main()
     vec3 shorter = cosine * axis2 - sine * axis1;
     vec2 longerPixels = cosine * p1 + sine * p2;
     vec2 shorterPixels = cosine * p2 - sine * p1;
-    // Where splats are that small, single ones have to do as the surface.
-    bool isSmall = length(longerPixels) < 2.0;
-    baseWeightVS = isSmall ? 0.5 : baseWeightVS;
     if (length(longerPixels) < minimumHalfAxis)
     {
       longerPixels = vec2(minimumHalfAxis, 0.0);
       longer = fromPixels(longerPixels, centerDC);
       shorter = fromPixels(vec2(0.0, minimumHalfAxis), centerDC);
     }
-    else if (isSmall && length(shorterPixels) < minimumHalfAxis)
+    else if (length(longerPixels) < 2.0 && length(shorterPixels) < minimumHalfAxis)
     {
       vec2 direction = normalize(vec2(-longerPixels.y, longerPixels.x));
       shorter = fromPixels(direction * minimumHalfAxis, centerDC);

@@ -146,11 +146,11 @@ TEST(OutOfMemory, BlocksAndCells)
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (unsigned int block = 0; block < 2; ++block)
   {
-    const auto cloud = newCloud(2000);
+    const auto cloud = newCloud(600);
     vtkNew<vtkUnstructuredGrid> grid;
     vtkNew<vtkPoints> points;
     points->DeepCopy(cloud->GetPoints());
-    for (vtkIdType i = 0; i < 2000; ++i)
+    for (vtkIdType i = 0; i < 600; ++i)
     {
       grid->InsertNextCell(VTK_VERTEX, 1, &i);
     }

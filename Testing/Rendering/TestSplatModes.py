@@ -183,6 +183,7 @@ def shadowed(scene, actor):
     light.SetConeAngle(40)
     scene.renderer.AddLight(light)
     shadows, baker = vtkShadowMapPass(), vtkShadowMapBakerPass()
+    baker.SetResolution(2048)
     shadows.SetShadowMapBakerPass(baker)
     passes = vtkRenderPassCollection()
     passes.AddItem(baker)
@@ -249,7 +250,7 @@ MODES = {
     very_close: 35,
     from_inside: 35,
     shadowed: 35,
-    inside_out: 40,
+    inside_out: 35,
     far_from_the_origin: 35,
 }
 

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How long a frame of splats takes beside one of stock Point Gaussian's plain disks: the same
+points and radii, the same window, one run.
+
+    PYTHONPATH=... Utilities/offscreen.sh /usr/bin/python3 Testing/Benchmark/splats.py [COUNT...]
+
+Prints a Markdown table: splats of a torus that fills most of a window of 600 x 600 pixels,
+milliseconds a frame (the median of nine, the camera moving), and splats a second.
+"""
+
+import sys
+import time
+
+import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
+from scatteredisopoints import vtkIsopointSplatMapper
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPointGaussianMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+)
+
+RING, TUBE = 1.0, 0.4
+DISK = """//VTK::Color::Impl
+if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0)
+{
+  discard;
+}
+"""
+
+
+def torus(count):
+    """Random splats, evenly spread, each as large as its 12 nearest ones are far away."""
+    random = np.random.default_rng(1)
+    u, v = random.uniform(0, 2 * np.pi, (2, 3 * count))
+    kept = random.uniform(0, RING + TUBE, 3 * count) < RING + TUBE * np.cos(v)
+    u, v = u[kept][:count], v[kept][:count]
+    normals = np.column_stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)])
+    positions = RING * np.column_stack([np.cos(u), np.sin(u), 0 * u]) + TUBE * normals
+    radius = np.sqrt(12 * 4 * np.pi * RING * TUBE / count)
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions.astype(np.float32), deep=True))
+    data.SetPoints(points)
+    data.GetPointData().SetNormals(numpy_to_vtk(normals.astype(np.float32), deep=True))
+    radii = numpy_to_vtk(np.full(count, radius, np.float32), deep=True)
+    radii.SetName("Radius")
+    data.GetPointData().AddArray(radii)
+    return data
+
+
+def splats():
+    return vtkIsopointSplatMapper()
+
+
+def point_gaussian():
+    mapper = vtkPointGaussianMapper()
+    mapper.SetScaleArray("Radius")
+    mapper.SetScaleFactor(1.0)
+    mapper.EmissiveOff()
+    mapper.SetSplatShaderCode(DISK)
+    mapper.SetTriangleScale(1.0)
+    return mapper
+
+
+def seconds_a_frame(mapper, data):
+    mapper.SetInputDataObject(data)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(600, 600)
+    renderer = vtkRenderer()
+    window.AddRenderer(renderer)
+    renderer.AddActor(actor)
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(0, -3, 3)
+    camera.SetFocalPoint(0, 0, 0)
+    renderer.ResetCamera()
+    camera.Zoom(1.3)
+    times = []
+    for _ in range(11):
+        camera.Azimuth(0.1)
+        start = time.perf_counter()
+        window.Render()
+        window.WaitForCompletion()
+        times.append(time.perf_counter() - start)
+    return np.median(times[2:]), window.ReportCapabilities()
+
+
+def main(counts):
+    report = None
+    print("| splats | Point Gaussian, ms | splats, ms | times | million splats a second |")
+    print("|---|---|---|---|---|")
+    for count in counts:
+        data = torus(count)
+        stock, report = seconds_a_frame(point_gaussian(), data)
+        ours, report = seconds_a_frame(splats(), data)
+        print(
+            f"| {count:,} | {1e3 * stock:.0f} | {1e3 * ours:.0f} | {ours / stock:.2f}"
+            f" | {count / ours / 1e6:.1f} |"
+        )
+    print(next(line for line in report.splitlines() if "renderer string" in line))
+
+
+if __name__ == "__main__":
+    main([int(count) for count in sys.argv[1:]] or [20_000, 100_000, 500_000])
