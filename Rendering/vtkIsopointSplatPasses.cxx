@@ -415,10 +415,9 @@ void vtkIsopointSplatPasses::SetUniforms(
   const float size[2] = { static_cast<float>(settings.Size[0]),
     static_cast<float>(settings.Size[1]) };
   program->SetUniform2f("viewportSize", size);
-  const double reach = pass == Pass::Blend ? blendingReach : 1.0;
-  const double scale =
-    reach * settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
+  const double scale = settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
   program->SetUniformf("radiusScale", static_cast<float>(scale));
+  program->SetUniformf("reach", static_cast<float>(pass == Pass::Blend ? blendingReach : 1.0));
   program->SetUniformf("viewScale", static_cast<float>(viewScale));
   program->SetUniformf("blendDepth", static_cast<float>(settings.BlendDepth));
   program->SetUniformf("minimumHalfAxis", minimumHalfAxis);

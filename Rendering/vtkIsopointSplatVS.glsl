@@ -24,6 +24,7 @@ uniform mat3 normalMatrix;
 uniform mat4 VCDCMatrix;
 uniform vec2 viewportSize; // in pixels
 uniform float radiusScale;
+uniform float reach; // how much larger splats are drawn, having become large enough to be seen
 uniform float viewScale; // length in view coordinates of a length of 1 in the model's
 uniform float minimumHalfAxis; // in pixels
 uniform vec4 plainColor; // of splats without a color of their own
@@ -69,7 +70,7 @@ void main()
   vec3 center = centerVC.xyz;
   vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
   float r = radius * radiusScale;
-  float reach = r * viewScale;
+  float radiusVC = r * viewScale;
   vec3 axis1;
   vec3 axis2;
 #ifdef SPLAT_NORMALS
@@ -82,14 +83,14 @@ void main()
   {
     normal = towardsCamera;
     tangents(normal, axis1, axis2);
-    axis1 *= reach;
-    axis2 *= reach;
+    axis1 *= radiusVC;
+    axis2 *= radiusVC;
   }
 #else
   vec3 normal = towardsCamera;
   tangents(normal, axis1, axis2);
-  axis1 *= reach;
-  axis2 *= reach;
+  axis1 *= radiusVC;
+  axis2 *= radiusVC;
 #endif
 #ifdef SPLAT_ELLIPSES
   if (dot(axis1MC, axis1MC) > 0.0 && dot(axis2MC, axis2MC) > 0.0)
@@ -134,10 +135,10 @@ void main()
   bool culled = facesCamera ? culledFacing == 1 : culledFacing == -1;
 
   centerVS = center;
-  axis1VS = axis1;
-  axis2VS = axis2;
+  axis1VS = reach * axis1;
+  axis2VS = reach * axis2;
   normalVS = normal;
-  radiusVS = culled ? 0.0 : reach;
+  radiusVS = culled ? 0.0 : radiusVC;
 #ifdef SPLAT_COLORS
   colorVS = color;
 #else
