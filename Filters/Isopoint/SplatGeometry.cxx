@@ -50,8 +50,9 @@ constexpr std::size_t mostNeighbors = 160;
 constexpr double overlap = 1.1;
 
 /// How far a cell may reach, in spacings of the samples, where other points bound it on all
-/// sides and where they do not.
+/// sides, the same where no fit tells of the tangent plane, and where they do not.
 constexpr double closedReach = 2.5;
+constexpr double unfittedReach = 1.8;
 constexpr double openReach = 1.0;
 
 /// Planes that meet at a crease lie under an angle of more than 25 degrees and less than 155.
@@ -250,6 +251,10 @@ public:
     {
       this->cutOut(point, openReach * spacing, cell, splat);
     }
+    else if (!this->isTangentKnown(point) && cell.reach() > unfittedReach * spacing)
+    {
+      this->cutOut(point, unfittedReach * spacing, cell, splat);
+    }
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
@@ -259,10 +264,35 @@ public:
   }
 
 private:
+  bool isTangentKnown(std::size_t point) const
+  {
+    return this->Points.fits.empty() || this->Points.fits[point].order != FitOrder::None;
+  }
+
   double spacingAt(std::size_t point) const
   {
     return this->Points.fits.empty() ? lengthOf(this->Points.fallingEdges[point])
                                      : this->Points.fits[point].spacing;
+  }
+
+  /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
+  void cutWhereSurfaceTurns(std::size_t point, TangentCell& cell) const
+  {
+    if (this->Points.fits.empty())
+    {
+      return;
+    }
+    const LocalFit& fit = this->Points.fits[point];
+    for (const Curvature& curvature :
+      principalCurvatures(cell, fit.hessian, lengthOf(fit.gradient)))
+    {
+      const double radius = 1.0 / curvature.value;
+      if (radius < cell.reach())
+      {
+        cell.cut(curvature.direction, radius);
+        cell.cut(scaled(-1.0, curvature.direction), radius);
+      }
+    }
   }
 
   /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
@@ -272,6 +302,7 @@ private:
     for (std::size_t count = firstNeighbors;; count *= 2)
     {
       cell.reset(limit);
+      this->cutWhereSurfaceTurns(point, cell);
       double nearestCrease = limit;
       const auto& nearest = this->Finder.find(self, count);
       bool isComplete = nearest.size() < count;
@@ -286,7 +317,11 @@ private:
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
-          cell.cut(scaled(1.0 / neighbor.distance, offset), 0.5 * neighbor.distance);
+          const Vector outward = scaled(1.0 / neighbor.distance, offset);
+          cell.cut(this->bendsTowards(point, other, outward)
+              ? directionOf(sum(outward, -dot(outward, splat.normal), splat.normal))
+              : outward,
+            0.5 * neighbor.distance);
         }
         else
         {
@@ -298,6 +333,29 @@ private:
         return;
       }
     }
+  }
+
+  /// Whether the surface bends from a point to another in a direction, as a sphere would, so that
+  /// half the distance in the tangent plane is the farthest that is nearer to the point: the plane
+  /// between the two meets the tangent plane farther off, and a splat up to there sticks out. Other
+  /// sheets close by are not what it bends to, nor what lies across an edge.
+  bool bendsTowards(std::size_t point, std::size_t other, const Vector& outward) const
+  {
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    const double height = dot(outward, normal);
+    const double squaredCosine = 1.0 - height * height;
+    if (!this->Points.fits.empty() &&
+        (this->Points.fits[point].order != FitOrder::Quadratic ||
+          this->Points.fits[other].order != FitOrder::Quadratic))
+    {
+      return false;
+    }
+    constexpr double leastSquaredCosine = 0.25; // a turn of 120 degrees
+    constexpr double tolerance = 0.5;
+    const double turn = 2.0 * squaredCosine - 1.0; // the cosine between normals of a sphere
+    return squaredCosine > leastSquaredCosine && height * dot(outward, otherNormal) <= 0.0 &&
+           std::abs(dot(normal, otherNormal) - turn) < tolerance;
   }
 
   /// Whether fits tell that the planes of two points meet between them at a crease: each lies on

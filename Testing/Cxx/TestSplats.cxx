@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace
 {
 
@@ -135,6 +137,62 @@ TEST(Splats, AnIsolatedPointDoesNotBecomeAPlate)
   sphere.positions.push_back({ 50.0, 0.0, 0.0 });
   sphere.edges.push_back({ 0.1, 0.0, 0.0 });
   EXPECT_LT(splatsOf(sphere.positions, sphere.edges).back().radius, 0.12);
+}
+
+// A blob no wider than the samples' spacing: its splats are hardly larger than it is.
+TEST(Splats, OfASmallBlobDoNotStickOut)
+{
+  for (const std::size_t count : { 8, 14, 40 })
+  {
+    const Sphere sphere(count, 1.0, 0.0);
+    isopoint::SurfacePoints points;
+    points.positions = sphere.positions;
+    points.fallingEdges = sphere.edges;
+    for (const Vector& p : sphere.positions)
+    {
+      isopoint::LocalFit fit{};
+      fit.order = isopoint::FitOrder::Quadratic;
+      fit.gradient = isopoint::scaled(-1.0, p);
+      fit.hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
+      fit.spacing = 2.0;
+      points.fits.push_back(fit);
+    }
+    for (const Splat& splat :
+      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()))
+    {
+      EXPECT_LT(splat.radius, 1.8);
+    }
+  }
+}
+
+// A flat surface with a hole, in the middle of which stands a single point.
+TEST(Splats, WhereNoFitHeldReachLessFar)
+{
+  isopoint::SurfacePoints points;
+  points.positions.push_back({ 0.0, 0.0, 0.0 });
+  clouds::Random random(6);
+  while (points.positions.size() < 2000)
+  {
+    const Vector p{ 20.0 * (random() - 0.5), 20.0 * (random() - 0.5), 0.0 };
+    if (lengthOf(p) > 4.0)
+    {
+      points.positions.push_back(p);
+    }
+  }
+  points.fallingEdges.assign(points.positions.size(), { 0.0, 0.0, 1.0 });
+  isopoint::LocalFit fit{};
+  fit.gradient = { 0.0, 0.0, -1.0 };
+  fit.spacing = 1.0;
+  for (const auto& [order, least, most] : { std::tuple(isopoint::FitOrder::Quadratic, 2.1, 2.8),
+         std::tuple(isopoint::FitOrder::None, 1.8, 2.0) })
+  {
+    fit.order = order;
+    points.fits.assign(points.positions.size(), fit);
+    const std::vector<Splat> splats =
+      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+    EXPECT_GT(splats.front().radius, least);
+    EXPECT_LT(splats.front().radius, most);
+  }
 }
 
 // Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's.
