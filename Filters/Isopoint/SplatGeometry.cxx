@@ -50,9 +50,8 @@ constexpr std::size_t mostNeighbors = 160;
 constexpr double overlap = 1.1;
 
 /// How far a cell may reach, in spacings of the samples, where other points bound it on all
-/// sides, the same where no fit tells of the tangent plane, and where they do not.
+/// sides and where they do not.
 constexpr double closedReach = 2.5;
-constexpr double unfittedReach = 1.8;
 constexpr double openReach = 1.0;
 
 /// Planes that meet at a crease lie under an angle of more than 25 degrees and less than 155.
@@ -251,10 +250,6 @@ public:
     {
       this->cutOut(point, openReach * spacing, cell, splat);
     }
-    else if (!this->isTangentKnown(point) && cell.reach() > unfittedReach * spacing)
-    {
-      this->cutOut(point, unfittedReach * spacing, cell, splat);
-    }
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
@@ -264,11 +259,6 @@ public:
   }
 
 private:
-  bool isTangentKnown(std::size_t point) const
-  {
-    return this->Points.fits.empty() || this->Points.fits[point].order != FitOrder::None;
-  }
-
   double spacingAt(std::size_t point) const
   {
     return this->Points.fits.empty() ? lengthOf(this->Points.fallingEdges[point])
@@ -319,8 +309,8 @@ private:
         {
           const Vector outward = scaled(1.0 / neighbor.distance, offset);
           cell.cut(this->bendsTowards(point, other, outward)
-              ? directionOf(sum(outward, -dot(outward, splat.normal), splat.normal))
-              : outward,
+                     ? directionOf(sum(outward, -dot(outward, splat.normal), splat.normal))
+                     : outward,
             0.5 * neighbor.distance);
         }
         else
@@ -345,9 +335,8 @@ private:
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(outward, normal);
     const double squaredCosine = 1.0 - height * height;
-    if (!this->Points.fits.empty() &&
-        (this->Points.fits[point].order != FitOrder::Quadratic ||
-          this->Points.fits[other].order != FitOrder::Quadratic))
+    if (!this->Points.fits.empty() && (this->Points.fits[point].order != FitOrder::Quadratic ||
+                                        this->Points.fits[other].order != FitOrder::Quadratic))
     {
       return false;
     }

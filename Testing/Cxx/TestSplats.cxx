@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tuple>
-
 namespace
 {
 
@@ -162,36 +160,6 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
     {
       EXPECT_LT(splat.radius, 1.8);
     }
-  }
-}
-
-// A flat surface with a hole, in the middle of which stands a single point.
-TEST(Splats, WhereNoFitHeldReachLessFar)
-{
-  isopoint::SurfacePoints points;
-  points.positions.push_back({ 0.0, 0.0, 0.0 });
-  clouds::Random random(6);
-  while (points.positions.size() < 2000)
-  {
-    const Vector p{ 20.0 * (random() - 0.5), 20.0 * (random() - 0.5), 0.0 };
-    if (lengthOf(p) > 4.0)
-    {
-      points.positions.push_back(p);
-    }
-  }
-  points.fallingEdges.assign(points.positions.size(), { 0.0, 0.0, 1.0 });
-  isopoint::LocalFit fit{};
-  fit.gradient = { 0.0, 0.0, -1.0 };
-  fit.spacing = 1.0;
-  for (const auto& [order, least, most] : { std::tuple(isopoint::FitOrder::Quadratic, 2.1, 2.8),
-         std::tuple(isopoint::FitOrder::None, 1.8, 2.0) })
-  {
-    fit.order = order;
-    points.fits.assign(points.positions.size(), fit);
-    const std::vector<Splat> splats =
-      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
-    EXPECT_GT(splats.front().radius, least);
-    EXPECT_LT(splats.front().radius, most);
   }
 }
 
