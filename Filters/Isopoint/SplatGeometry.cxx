@@ -250,6 +250,7 @@ public:
     {
       this->cutOut(point, openReach * spacing, cell, splat);
     }
+    this->cutWhereSurfaceTurns(point, cell);
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
@@ -292,7 +293,6 @@ private:
     for (std::size_t count = firstNeighbors;; count *= 2)
     {
       cell.reset(limit);
-      this->cutWhereSurfaceTurns(point, cell);
       double nearestCrease = limit;
       const auto& nearest = this->Finder.find(self, count);
       bool isComplete = nearest.size() < count;
