@@ -32,6 +32,10 @@ constexpr double smoothResidual = 0.03;
 /// is no better off).
 constexpr double roughResidual = 0.1;
 
+/// Where the polynomial of degree two leaves more than this share of the values' variance, samples
+/// tell of noise alone: a crease leaves less than a fifth, since it bends one way.
+constexpr double noiseShare = 0.3;
+
 /// The largest residual of a fit with a crease: creases are told apart from smooth fields only
 /// where there is little noise.
 constexpr double mostCreaseResidual = 0.03;
@@ -112,6 +116,29 @@ public:
              : Candidate();
   }
 
+  /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
+  bool tellsOfNoise() const
+  {
+    const PolynomialFits fits = fitPolynomials(this->Samples, true);
+    if (!fits.quadraticHolds)
+    {
+      return false;
+    }
+    double mean = 0.0;
+    double weights = 0.0;
+    for (const FrameSample& sample : this->Samples)
+    {
+      mean += sample.weight * sample.value;
+      weights += sample.weight;
+    }
+    mean /= weights;
+    const double variance =
+      meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
+    const double residual = meanSquaredResidual(
+      this->Samples, [&fits](const Eigen::Vector3d& p) { return fits.quadratic.value(p); });
+    return this->freedom(10) * residual > noiseShare * variance;
+  }
+
   /// The fit that the criterion tells to be best.
   Candidate best(FitOrder highest)
   {
@@ -180,6 +207,13 @@ private:
     }
   }
 
+  /// What residuals are to be multiplied by: a fit of as many coefficients as samples leaves none.
+  double freedom(std::size_t coefficientCount) const
+  {
+    return static_cast<double>(this->Samples.size()) /
+           static_cast<double>(this->Samples.size() - coefficientCount);
+  }
+
   /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
   bool risesAlong(const Eigen::Vector3d& gradient) const
   {
@@ -196,14 +230,11 @@ private:
     std::size_t coefficientCount, double mostRelativeResidual) const
   {
     Candidate candidate;
-    // A fit of as many coefficients as samples would leave none.
-    const double freedom = static_cast<double>(this->Samples.size()) /
-                           static_cast<double>(this->Samples.size() - coefficientCount);
     const double meanSquare = meanSquaredResidual(
       this->Samples, [&](const Eigen::Vector3d& p) { return polynomial.value(p); });
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3d gradient = polynomial.gradient(position);
-    candidate.residual = std::sqrt(meanSquare * freedom) / gradient.norm();
+    candidate.residual = std::sqrt(meanSquare * this->freedom(coefficientCount)) / gradient.norm();
     if (!(candidate.residual <= mostRelativeResidual) || !this->risesAlong(gradient))
     {
       return candidate;
@@ -324,6 +355,10 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   {
     if (highest == FitOrder::Quadratic &&
         neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
+    {
+      return fit;
+    }
+    if (highest == FitOrder::Quadratic && neighborhood.tellsOfNoise())
     {
       return fit;
     }

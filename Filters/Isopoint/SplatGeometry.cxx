@@ -250,6 +250,7 @@ public:
     {
       this->cutOut(point, openReach * spacing, cell, splat);
     }
+    this->cutWhereSurfaceTurns(point, cell);
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
@@ -263,6 +264,26 @@ private:
   {
     return this->Points.fits.empty() ? lengthOf(this->Points.fallingEdges[point])
                                      : this->Points.fits[point].spacing;
+  }
+
+  /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
+  void cutWhereSurfaceTurns(std::size_t point, TangentCell& cell) const
+  {
+    if (this->Points.fits.empty())
+    {
+      return;
+    }
+    const LocalFit& fit = this->Points.fits[point];
+    for (const Curvature& curvature :
+      principalCurvatures(cell, fit.hessian, lengthOf(fit.gradient)))
+    {
+      const double radius = 1.0 / curvature.value;
+      if (radius < cell.reach())
+      {
+        cell.cut(curvature.direction, radius);
+        cell.cut(scaled(-1.0, curvature.direction), radius);
+      }
+    }
   }
 
   /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
@@ -286,7 +307,11 @@ private:
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
-          cell.cut(scaled(1.0 / neighbor.distance, offset), 0.5 * neighbor.distance);
+          const Vector outward = scaled(1.0 / neighbor.distance, offset);
+          cell.cut(this->bendsTowards(point, other, outward)
+                     ? directionOf(sum(outward, -dot(outward, splat.normal), splat.normal))
+                     : outward,
+            0.5 * neighbor.distance);
         }
         else
         {
@@ -298,6 +323,28 @@ private:
         return;
       }
     }
+  }
+
+  /// Whether the surface bends from a point to another in a direction, as a sphere would, so that
+  /// half the distance in the tangent plane is the farthest that is nearer to the point: the plane
+  /// between the two meets the tangent plane farther off, and a splat up to there sticks out. Other
+  /// sheets close by are not what it bends to, nor what lies across an edge.
+  bool bendsTowards(std::size_t point, std::size_t other, const Vector& outward) const
+  {
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    const double height = dot(outward, normal);
+    const double squaredCosine = 1.0 - height * height;
+    if (!this->Points.fits.empty() && (this->Points.fits[point].order != FitOrder::Quadratic ||
+                                        this->Points.fits[other].order != FitOrder::Quadratic))
+    {
+      return false;
+    }
+    constexpr double leastSquaredCosine = 0.25; // a turn of 120 degrees
+    constexpr double tolerance = 0.5;
+    const double turn = 2.0 * squaredCosine - 1.0; // the cosine between normals of a sphere
+    return squaredCosine > leastSquaredCosine && height * dot(outward, otherNormal) <= 0.0 &&
+           std::abs(dot(normal, otherNormal) - turn) < tolerance;
   }
 
   /// Whether fits tell that the planes of two points meet between them at a crease: each lies on

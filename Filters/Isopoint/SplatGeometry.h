@@ -54,9 +54,11 @@ struct SplatOptions
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
 /// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
 /// bend. A cell reaches no farther than two and a half spacings of the samples around the edge (its
-/// length where no fits are given), and one where no points bound it, as at a border: an isolated
-/// point does not become a plate. Across a crease that a fit found cells do not end halfway
-/// but at the other side's plane, and so are their splats to be clipped.
+/// length where no fits are given), and one where no points bound it, as at a
+/// border: an isolated point does not become a plate. Nor does it reach farther than the radius of
+/// the surface's curvature, so that splats of a small blob do not stick out of it. Across a crease
+/// that a fit found cells do not end halfway but at the other side's plane, and so are their splats
+/// to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
 std::vector<Splat> computeSplats(

@@ -42,6 +42,16 @@ double second(const std::array<double, 6>& hessian, const Vector& a, const Vecto
          hessian[5] * (a[1] * b[2] + a[2] * b[1]);
 }
 
+Form curvatureOf(
+  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength)
+{
+  const bool isBent = gradientLength > 0.0 && std::isfinite(gradientLength);
+  const auto along = [&](const Vector& a, const Vector& b)
+  { return isBent ? second(hessian, a, b) / gradientLength : 0.0; };
+  return { along(cell.first(), cell.first()), along(cell.first(), cell.second()),
+    along(cell.second(), cell.second()) };
+}
+
 /// The second moments of a cell's corners, turned so that the flattest direction is the longest.
 Form shapeOf(const TangentCell& cell)
 {
@@ -57,15 +67,25 @@ Form shapeOf(const TangentCell& cell)
 
 } // namespace
 
+std::array<Curvature, 2> principalCurvatures(
+  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength)
+{
+  const Form form = curvatureOf(cell, hessian, gradientLength);
+  const double flattest = form.flattestAngle();
+  std::array<Curvature, 2> result;
+  for (std::size_t i = 0; i < result.size(); ++i)
+  {
+    const double angle = flattest + 0.5 * pi * static_cast<double>(i);
+    result[i] = { sum(scaled(std::cos(angle), cell.first()), std::sin(angle), cell.second()),
+      std::abs(form.at(angle)) };
+  }
+  return result;
+}
+
 Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   const std::array<double, 6>& hessian, double gradientLength)
 {
-  const bool isBent = gradientLength > 0.0 && std::isfinite(gradientLength);
-  const auto curvatureOf = [&](const Vector& a, const Vector& b)
-  { return isBent ? second(hessian, a, b) / gradientLength : 0.0; };
-  const Form curvature{ curvatureOf(cell.first(), cell.first()),
-    curvatureOf(cell.first(), cell.second()), curvatureOf(cell.second(), cell.second()) };
-
+  const Form curvature = curvatureOf(cell, hessian, gradientLength);
   Ellipse best{};
   double leastCost = std::numeric_limits<double>::infinity();
   const double reach = cell.reach();

@@ -17,6 +17,18 @@ struct Ellipse
   Vector axis2;
 };
 
+/// How much a surface bends in a direction: one over its radius.
+struct Curvature
+{
+  Vector direction; // of length 1
+  double value;     // not negative
+};
+
+/// In the two directions of a cell's plane in which the surface bends most and least.
+/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 for a plane
+std::array<Curvature, 2> principalCurvatures(
+  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength);
+
 /// An ellipse around a cell, and of those the one whose rim departs least from the surface that
 /// curves as a fit tells: long where the surface is flat, short where it bends. Where the surface
 /// does not bend, it is the one of the least area.

@@ -89,7 +89,13 @@ std::vector<Contestant> scatteredContestants()
 {
   using Filter = vtkScatteredIsopointFilter;
   return {
-    ours("isopoints", [](Filter*) {}),
+    ours("isopoints, linear interpolation",
+      [](Filter* filter)
+      {
+        filter->SetProjection(Filter::NO_PROJECTION);
+        filter->SetNormalMethod(Filter::NORMALS_FROM_PLANES);
+      }),
+    ours("isopoints", [](Filter* filter) { filter->ComputeSplatAxesOn(); }),
     { "CGAL Delaunay + marching tetrahedra", marchingTetrahedra },
     { "VTK resampling (8 closest) + Flying Edges", resample },
   };

@@ -157,25 +157,32 @@ void repeatPaper(const Options& options)
     throw std::runtime_error("cannot write paper.md");
   }
   std::fprintf(out, "Ours on %d threads, a single run each.\n\n", options.threads);
-  std::fprintf(out, "| samples, million | angle | paper: points | ours | paper: seconds | ours |"
-                    " paper: largest deviation | ours |\n|---|---|---|---|---|---|---|---|\n");
+  std::fprintf(out, "| samples, million | angle | paper: points | ours | paper: seconds | linear |"
+                    " quadratic | paper: largest deviation | linear | quadratic |\n"
+                    "|---|---|---|---|---|---|---|---|---|---|\n");
   for (const PaperRow& paper : table)
   {
-    vtkNew<vtkScatteredIsopointFilter> filter;
-    filter->SetInputData(clouds::uniform(static_cast<std::size_t>(paper.millions * 1e6)));
-    filter->SetAngle(paper.angle);
-    filter->SetValue(0, 70.0);
-    filter->ComputeNormalsOff();
-    filter->ComputeRadiiOff();
-    Row row;
-    row.cloud = "paper";
-    row.what = "angle " + std::to_string(paper.angle);
-    row.samples = static_cast<std::size_t>(paper.millions * 1e6);
-    row = measure(row, [&]() { filter->Update(); });
-    measureSphere(row, filter->GetOutput(), 70.0);
-    std::fprintf(out, "| %g | %g | %.0f | %zu | %g | %.2f | %g | %.4f |\n", paper.millions,
-      paper.angle, paper.points, row.surfacePoints, paper.seconds, row.seconds, paper.deviation,
-      row.largestDeviation);
+    const auto samples = clouds::uniform(static_cast<std::size_t>(paper.millions * 1e6));
+    const auto measured = [&](int projection)
+    {
+      vtkNew<vtkScatteredIsopointFilter> filter;
+      filter->SetInputData(samples);
+      filter->SetAngle(paper.angle);
+      filter->SetValue(0, 70.0);
+      filter->SetProjection(projection);
+      filter->ComputeNormalsOff();
+      filter->ComputeRadiiOff();
+      Row row;
+      row = measure(row, [&]() { filter->Update(); });
+      measureSphere(row, filter->GetOutput(), 70.0);
+      return row;
+    };
+    const Row linear = measured(vtkScatteredIsopointFilter::NO_PROJECTION);
+    const Row quadratic = measured(vtkScatteredIsopointFilter::QUADRATIC_FIT);
+    std::fprintf(out, "| %g | %g | %.0f | %zu | %g | %.2f | %.2f | %g | %.4f | %.5f |\n",
+      paper.millions, paper.angle, paper.points, linear.surfacePoints, paper.seconds,
+      linear.seconds, quadratic.seconds, paper.deviation, linear.largestDeviation,
+      quadratic.largestDeviation);
   }
   std::fclose(out);
 }

@@ -23,7 +23,8 @@ struct Task
 /// The floor: seconds for one copy of positions and values in one thread, memory touched before.
 double copySeconds(vtkPolyData* samples);
 
-/// Ours: isopoints, the same with normals and radii, further isovalues, new values, one thread.
+/// Ours: isopoints by linear interpolation, projected, the same with normals and radii, further
+/// isovalues, new values, one thread.
 std::vector<Row> measureOurs(const Task& task, double copy);
 
 /// CGAL, VTK's resampling route, and vtkDelaunay3D where it is expected to end within a minute.

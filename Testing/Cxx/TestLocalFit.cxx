@@ -182,6 +182,30 @@ TEST(LocalFit, StaysWhereSamplesDoNotTell)
   }
 }
 
+// Gathering a wider neighbourhood costs ten times as much as a fit.
+TEST(LocalFit, InNoiseNoWiderNeighborhoodIsAskedFor)
+{
+  const auto asksForMore = [](const Field& field, double noise)
+  {
+    bool asked = false;
+    const std::vector<FitSample> samples = samplesOf(field, 30, noise);
+    isopoint::fitAround(
+      upwards(), 0.0, samples,
+      [&]() -> const std::vector<FitSample>&
+      {
+        asked = true;
+        return samples;
+      },
+      FitOrder::Quadratic);
+    return asked;
+  };
+  const Field plane = [](const Vector& p) { return p[2]; };
+  EXPECT_FALSE(asksForMore(plane, 0.0));
+  EXPECT_FALSE(asksForMore(plane, 10.0));
+  EXPECT_TRUE(asksForMore([](const Vector& p) { return std::max(p[2], p[0]) - 0.1; }, 0.0));
+  EXPECT_TRUE(asksForMore([](const Vector& p) { return std::abs(p[2] + 0.5) - 0.5; }, 0.0));
+}
+
 TEST(LocalFit, FindsTheNearerSheetOfACrease)
 {
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };

@@ -137,6 +137,32 @@ TEST(Splats, AnIsolatedPointDoesNotBecomeAPlate)
   EXPECT_LT(splatsOf(sphere.positions, sphere.edges).back().radius, 0.12);
 }
 
+// A blob no wider than the samples' spacing: its splats are hardly larger than it is.
+TEST(Splats, OfASmallBlobDoNotStickOut)
+{
+  for (const std::size_t count : { 8, 14, 40 })
+  {
+    const Sphere sphere(count, 1.0, 0.0);
+    isopoint::SurfacePoints points;
+    points.positions = sphere.positions;
+    points.fallingEdges = sphere.edges;
+    for (const Vector& p : sphere.positions)
+    {
+      isopoint::LocalFit fit{};
+      fit.order = isopoint::FitOrder::Quadratic;
+      fit.gradient = isopoint::scaled(-1.0, p);
+      fit.hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
+      fit.spacing = 2.0;
+      points.fits.push_back(fit);
+    }
+    for (const Splat& splat :
+      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()))
+    {
+      EXPECT_LT(splat.radius, 1.8);
+    }
+  }
+}
+
 // Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's.
 TEST(Splats, AreClippedAtACrease)
 {
