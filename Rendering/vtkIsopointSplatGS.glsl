@@ -32,7 +32,9 @@ flat out vec4 colorGS;
 #ifdef SPLAT_IDS
 flat out uint pointIdGS;
 #endif
-#ifdef SPLAT_CLIPPED
+#if defined(SPLAT_VISIBILITY)
+out float gl_ClipDistance[7]; // the last: the near plane, before the splat is moved
+#elif defined(SPLAT_CLIPPED)
 out float gl_ClipDistance[6];
 #endif
 #ifdef SPLAT_DEEPER_LAYER
@@ -64,6 +66,7 @@ void emitCorner(vec2 place)
   nearerDepthGS = 0.5 + 0.5 * movedDepth(corner, -blendDepth * radiusVS[0]);
 #endif
 #ifdef SPLAT_VISIBILITY
+  gl_ClipDistance[6] = gl_Position.z + gl_Position.w;
   if (gl_Position.w > 0.0)
   {
     gl_Position.z = movedDepth(corner, blendDepth * radiusVS[0]) * gl_Position.w;

@@ -265,7 +265,10 @@ bool vtkIsopointSplatPasses::RenderLayer(
   }
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   state->vtkglDepthFunc(GL_LESS);
+  // What is in front of the near plane must not hide anything, though it is drawn further back.
+  glEnable(GL_CLIP_DISTANCE0 + maximumClippingPlanes);
   this->DrawBlocks(Pass::Visibility, index, settings, blocks);
+  glDisable(GL_CLIP_DISTANCE0 + maximumClippingPlanes);
   if (index > 0)
   {
     GLuint samples = 0;
