@@ -70,7 +70,7 @@ vtkIdType vtkIsopointSplatBlocks::CellOfPoint(Block& block, vtkIdType point)
 {
   if (block.CellOfPoint.empty())
   {
-    block.CellOfPoint.assign(static_cast<std::size_t>(block.Data->GetNumberOfPoints()), 0);
+    block.CellOfPoint.assign(static_cast<std::size_t>(block.Data->GetNumberOfPoints()), -1);
     vtkCellArray* const vertices = block.Data->GetVerts();
     for (vtkIdType cell = vertices->GetNumberOfCells() - 1; cell >= 0; --cell)
     {
@@ -83,7 +83,7 @@ vtkIdType vtkIsopointSplatBlocks::CellOfPoint(Block& block, vtkIdType point)
       }
     }
   }
-  return point < static_cast<vtkIdType>(block.CellOfPoint.size()) ? block.CellOfPoint[point] : 0;
+  return point < static_cast<vtkIdType>(block.CellOfPoint.size()) ? block.CellOfPoint[point] : -1;
 }
 
 //------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ public:
   /// The block of a flat index, or the only one of input that is not composite; else null.
   Block* Find(unsigned int flatIndex) const;
 
-  /// The vertex cell of a point; 0 for a point that has none. O(cells) the first time.
+  /// The vertex cell of a point; -1 for a point that has none. O(cells) the first time.
   static vtkIdType CellOfPoint(Block& block, vtkIdType point);
 
   void ReleaseGraphicsResources();

@@ -60,6 +60,19 @@ void copyVector(vtkDataArray* array, vtkIdType index, float* vector)
   }
 }
 
+/// Three components as floats, scaled to a length of 1; zeros where they have none.
+void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
+{
+  double values[3];
+  array->GetTuple(index, values);
+  const double length = std::hypot(values[0], values[1], values[2]);
+  const bool isUsable = std::isfinite(length) && length > 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vector[axis] = isUsable ? static_cast<float>(values[axis] / length) : 0.0f;
+  }
+}
+
 template <class TElement>
 void upload(vtkOpenGLBufferObject* buffer, const std::vector<TElement>& elements)
 {
@@ -81,7 +94,11 @@ vtkIsopointSplatBuffers::~vtkIsopointSplatBuffers() = default;
 void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shape)
 {
   vtkPoints* const points = polyData->GetPoints();
-  vtkUnsignedCharArray* const ghosts = polyData->GetPointData()->GetGhostArray();
+  vtkUnsignedCharArray* ghosts = polyData->GetPointData()->GetGhostArray();
+  if (ghosts && ghosts->GetNumberOfTuples() < points->GetNumberOfPoints())
+  {
+    ghosts = nullptr;
+  }
   constexpr int skipped = vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
   this->NumberOfSplats = points->GetNumberOfPoints();
   this->Center = centerOf(points);
@@ -114,7 +131,7 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
         disk.Radius = isDrawn ? static_cast<float>(radius) : 0.0f;
         if (shape.Normals)
         {
-          copyVector(shape.Normals, i, disk.Normal);
+          copyUnitVector(shape.Normals, i, disk.Normal);
         }
         if (this->Ellipses)
         {

@@ -48,6 +48,10 @@ vtkIsopointSplatMapper::vtkIsopointSplatMapper()
 //------------------------------------------------------------------------------
 vtkIsopointSplatMapper::~vtkIsopointSplatMapper()
 {
+  if (vtkWindow* const window = this->Internal->Passes.GetWindow())
+  {
+    window->RemoveObserver(this->Internal->WindowObserver);
+  }
   this->ReleaseSplats();
   this->SetRadiusArrayName(nullptr);
   this->SetSplatAxis1ArrayName(nullptr);
@@ -116,10 +120,7 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   }
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
-  if (this->Internal->Passes.GetWindow() != renderer->GetRenderWindow())
-  {
-    this->ReleaseSplats();
-  }
+  this->UseWindow(renderer->GetRenderWindow());
   this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0));
   if (this->Internal->Blocks.IsEmpty())
   {
@@ -297,8 +298,8 @@ void vtkIsopointSplatMapper::ProcessSelectorPixelBuffers(
     vtkIdType id = point;
     if (isCell)
     {
-      id = throughArray(block->Data->GetCellData(), this->CellIdArrayName,
-        vtkIsopointSplatBlocks::CellOfPoint(*block, point));
+      const vtkIdType cell = vtkIsopointSplatBlocks::CellOfPoint(*block, point);
+      id = cell < 0 ? 0 : throughArray(block->Data->GetCellData(), this->CellIdArrayName, cell);
     }
     else if (isPoint)
     {
@@ -322,6 +323,24 @@ void vtkIsopointSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->ReleaseSplats();
   this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
+{
+  vtkWindow* const former = this->Internal->Passes.GetWindow();
+  if (former == window)
+  {
+    return;
+  }
+  this->ReleaseSplats();
+  if (former)
+  {
+    former->RemoveObserver(this->Internal->WindowObserver);
+  }
+  // Its context goes with it, and handles would be another one's then.
+  this->Internal->WindowObserver =
+    window->AddObserver(vtkCommand::DeleteEvent, this, &vtkIsopointSplatMapper::ReleaseSplats);
 }
 
 //------------------------------------------------------------------------------

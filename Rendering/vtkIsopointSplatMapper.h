@@ -198,6 +198,7 @@ private:
   vtkIsopointSplatMapper(const vtkIsopointSplatMapper&) = delete;
   void operator=(const vtkIsopointSplatMapper&) = delete;
 
+  void UseWindow(vtkWindow* window);
   void ReleaseSplats();
 
   class Internals;

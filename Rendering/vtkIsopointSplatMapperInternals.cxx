@@ -28,10 +28,9 @@
 namespace
 {
 
-vtkDataArray* arrayOf(vtkPolyData* data, const char* name, int components)
+vtkDataArray* arrayOf(vtkPolyData* data, const char* name)
 {
-  vtkDataArray* const array = name ? data->GetPointData()->GetArray(name) : nullptr;
-  return array && array->GetNumberOfComponents() == components ? array : nullptr;
+  return name ? data->GetPointData()->GetArray(name) : nullptr;
 }
 
 const char* orNothing(const char* name)
@@ -63,7 +62,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
     const vtkIdType source =
       cellFlag == 2 && tuple >= 0 ? tuple : vtkIsopointSplatBlocks::CellOfPoint(block, i);
     unsigned char color[4] = { 255, 255, 255, 255 };
-    if (source < colors->GetNumberOfTuples())
+    if (source >= 0 && source < colors->GetNumberOfTuples())
     {
       colors->GetTypedTuple(source, color);
     }
@@ -87,17 +86,42 @@ bool hasTranslucent(vtkUnsignedCharArray* colors)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
-  vtkIsopointSplatMapper* mapper, vtkPolyData* data) const
+vtkDataArray* vtkIsopointSplatMapper::Internals::Usable(
+  vtkIsopointSplatMapper* mapper, vtkPolyData* data, vtkDataArray* array, int components)
 {
+  if (!array || array->GetNumberOfComponents() != components)
+  {
+    return nullptr;
+  }
+  if (array->GetNumberOfTuples() >= data->GetNumberOfPoints())
+  {
+    return array;
+  }
+  if (!this->WarnedOfShortArrays)
+  {
+    vtkWarningWithObjectMacro(
+      mapper, "The array \"" << orNothing(array->GetName()) << "\" is left out: it has "
+                             << array->GetNumberOfTuples() << " tuples for "
+                             << data->GetNumberOfPoints() << " points. Give it one for each.");
+    this->WarnedOfShortArrays = true;
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
+  vtkIsopointSplatMapper* mapper, vtkPolyData* data)
+{
+  const auto usable = [&](vtkDataArray* array, int components)
+  { return this->Usable(mapper, data, array, components); };
   vtkIsopointSplatBuffers::Shape shape;
-  shape.Normals = data->GetPointData()->GetNormals();
-  shape.Radii = arrayOf(data, mapper->RadiusArrayName, 1);
+  shape.Normals = usable(data->GetPointData()->GetNormals(), 3);
+  shape.Radii = usable(arrayOf(data, mapper->RadiusArrayName), 1);
   shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
   if (mapper->Shape == vtkIsopointSplatMapper::ELLIPSE)
   {
-    shape.Axis1 = arrayOf(data, mapper->SplatAxis1ArrayName, 3);
-    shape.Axis2 = arrayOf(data, mapper->SplatAxis2ArrayName, 3);
+    shape.Axis1 = usable(arrayOf(data, mapper->SplatAxis1ArrayName), 3);
+    shape.Axis2 = usable(arrayOf(data, mapper->SplatAxis2ArrayName), 3);
   }
   return shape;
 }
@@ -214,7 +238,7 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
   forget(mapper->ColorCoordinates);
   int cellFlag = 0;
   mapper->MapScalars(block.Data, 1.0, cellFlag);
-  if (mapper->ColorTextureMap && mapper->ColorCoordinates)
+  if (mapper->ColorTextureMap && this->Usable(mapper, block.Data, mapper->ColorCoordinates, 2))
   {
     if (!mapper->InternalColorTexture)
     {
@@ -225,7 +249,18 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
     block.Buffers.SetColorCoordinates(mapper->ColorCoordinates);
     this->ColoredBy = Coloring::ColorMap;
   }
-  else if (mapper->Colors)
+  else if (mapper->Colors && cellFlag == 1 && block.Data->GetNumberOfVerts() == 0)
+  {
+    if (!this->WarnedOfCells)
+    {
+      vtkWarningWithObjectMacro(mapper,
+        "Splats have the material's color: cell data colors vertex cells, and there are none. Apply "
+        "vtkCellDataToPointData, or choose a point array.");
+      this->WarnedOfCells = true;
+    }
+    block.Buffers.SetColors(nullptr);
+  }
+  else if (mapper->Colors && (cellFlag != 0 || this->Usable(mapper, block.Data, mapper->Colors, 4)))
   {
     const auto colors = colorsOfPoints(block, mapper->Colors, cellFlag, mapper->FieldDataTupleId);
     block.Buffers.SetColors(colors);

@@ -28,11 +28,16 @@ public:
   Coloring ColoredBy = Coloring::Material;
   bool HasTranslucentColors = false;
   bool WarnedOfNormals = false;
+  bool WarnedOfShortArrays = false;
+  bool WarnedOfCells = false;
+  unsigned long WindowObserver = 0;
   bool ShaderOfComposite = false; // whether the shader at hand was built for composite input
   int ViewportOrigin[2] = { 0, 0 };
 
 private:
-  vtkIsopointSplatBuffers::Shape ShapeOf(vtkIsopointSplatMapper* mapper, vtkPolyData* data) const;
+  vtkDataArray* Usable(
+    vtkIsopointSplatMapper* mapper, vtkPolyData* data, vtkDataArray* array, int components);
+  vtkIsopointSplatBuffers::Shape ShapeOf(vtkIsopointSplatMapper* mapper, vtkPolyData* data);
   bool CanUseColorMap(vtkIsopointSplatMapper* mapper) const;
   void UpdateColors(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
 

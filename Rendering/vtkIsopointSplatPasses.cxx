@@ -190,6 +190,11 @@ void vtkIsopointSplatPasses::RenderLayers(
   const Settings& settings, const std::vector<Block>& blocks)
 {
   this->NumberOfLayers = 0;
+  while (this->Layers.size() > static_cast<std::size_t>(settings.NumberOfLayers))
+  {
+    this->ReleaseLayer(*this->Layers.back());
+    this->Layers.pop_back();
+  }
   while (this->NumberOfLayers < settings.NumberOfLayers &&
          this->RenderLayer(this->NumberOfLayers, settings, blocks))
   {
@@ -450,12 +455,7 @@ void vtkIsopointSplatPasses::ReleaseGraphicsResources()
 {
   for (const std::unique_ptr<Layer>& layer : this->Layers)
   {
-    layer->Framebuffer->ReleaseGraphicsResources(this->Window);
-    for (vtkTextureObject* texture :
-      { layer->Depth.Get(), layer->Surface.Get(), layer->Color.Get(), layer->Opacity.Get() })
-    {
-      texture->ReleaseGraphicsResources(this->Window);
-    }
+    this->ReleaseLayer(*layer);
   }
   this->Layers.clear();
   this->NumberOfLayers = 0;
@@ -464,4 +464,15 @@ void vtkIsopointSplatPasses::ReleaseGraphicsResources()
   this->IdDepth->ReleaseGraphicsResources(this->Window);
   this->State.clear();
   this->HasIds = false;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::ReleaseLayer(Layer& layer)
+{
+  layer.Framebuffer->ReleaseGraphicsResources(this->Window);
+  for (vtkTextureObject* texture :
+    { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(), layer.Opacity.Get() })
+  {
+    texture->ReleaseGraphicsResources(this->Window);
+  }
 }

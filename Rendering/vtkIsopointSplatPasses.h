@@ -95,6 +95,7 @@ private:
   void RenderLayers(const Settings& settings, const std::vector<Block>& blocks);
   bool IsUpToDate(const Settings& settings, const std::vector<Block>& blocks);
   void PrepareLayer(Layer& layer, const Settings& settings);
+  void ReleaseLayer(Layer& layer);
   void PrepareIds(const Settings& settings);
   bool RenderLayer(int index, const Settings& settings, const std::vector<Block>& blocks);
   void RenderIds(const Settings& settings, const std::vector<Block>& blocks);

@@ -79,7 +79,8 @@ void main()
   tangents(unitNormalMC, axis1, axis2);
   axis1 = mat3(MCVCMatrix) * (axis1 * r);
   axis2 = mat3(MCVCMatrix) * (axis2 * r);
-  if (dot(normalMC, normalMC) == 0.0)
+  // Also where the transform is singular.
+  if (!(dot(normalMC, normalMC) > 0.0 && dot(normal, normal) > 0.0))
   {
     normal = towardsCamera;
     tangents(normal, axis1, axis2);
