@@ -144,6 +144,8 @@ public:
     {
       case LINEAR_FIT:
         return isopoint::FitRequest{ FitOrder::Linear, true };
+      case CREASE_FIT:
+        return isopoint::FitRequest{ FitOrder::Crease, true };
       case QUADRATIC_FIT:
         return isopoint::FitRequest{ FitOrder::Quadratic, true };
       default:

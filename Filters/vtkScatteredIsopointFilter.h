@@ -138,7 +138,8 @@ public:
   {
     NO_PROJECTION = 0,
     LINEAR_FIT = 1,
-    QUADRATIC_FIT = 2
+    QUADRATIC_FIT = 2,
+    CREASE_FIT = 3
   };
 
   ///@{
@@ -146,12 +147,14 @@ public:
    * Whether and how isopoints are moved from their edges to where a least-squares polynomial
    * through the samples around has the isovalue: NO_PROJECTION (they stay where linear
    * interpolation puts them), LINEAR_FIT (an affine function, which smooths noise but flattens what
-   * is curved) or QUADRATIC_FIT (degree two, with creases where the samples tell of one, or degree
-   * one where noise hides more). No point moves farther than half its edge's length; where no fit
+   * is curved), QUADRATIC_FIT (degree two, or one where noise hides more) or CREASE_FIT (the same,
+   * and where the samples tell of a crease two or three affine functions that meet there; for
+   * bodies with sharp edges: where there are none it takes longer, much longer in noise, and may
+   * see some that are not). No point moves farther than half its edge's length; where no fit
    * describes the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default:
    * QUADRATIC_FIT.
    */
-  vtkSetClampMacro(Projection, int, NO_PROJECTION, QUADRATIC_FIT);
+  vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);
   ///@}
 

@@ -116,6 +116,10 @@ public:
              : Candidate();
   }
 
+  /// Whether the samples are as many, and placed so, that they determine a polynomial of degree
+  /// two.
+  bool determinesQuadratic() const { return fitPolynomials(this->Samples, true).quadraticHolds; }
+
   /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
   bool tellsOfNoise() const
   {
@@ -143,7 +147,7 @@ public:
   Candidate best(FitOrder highest)
   {
     this->weigh(mildWeight);
-    const bool quadraticWanted = highest == FitOrder::Quadratic;
+    const bool quadraticWanted = highest != FitOrder::Linear;
     const PolynomialFits fits = fitPolynomials(this->Samples, quadraticWanted);
     Candidate chosen;
     const auto consider = [&chosen](const Candidate& candidate)
@@ -161,7 +165,7 @@ public:
     {
       consider(this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostResidual));
     }
-    if (quadraticWanted && fits.linearHolds)
+    if (highest == FitOrder::Crease && fits.linearHolds)
     {
       const Polynomial& rival = fits.quadraticHolds ? fits.quadratic : fits.linear;
       const double rivalMeanSquare = meanSquaredResidual(
@@ -353,12 +357,13 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   Neighborhood neighborhood(edge, isovalue, samples, spacing);
   if (neighborhood.isUsable())
   {
-    if (highest == FitOrder::Quadratic &&
-        neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
+    if (highest != FitOrder::Linear &&
+        (neighborhood.apply(neighborhood.smooth(smoothResidual), fit) ||
+          neighborhood.tellsOfNoise()))
     {
       return fit;
     }
-    if (highest == FitOrder::Quadratic && neighborhood.tellsOfNoise())
+    if (highest == FitOrder::Quadratic && neighborhood.determinesQuadratic())
     {
       return fit;
     }

@@ -67,7 +67,8 @@ struct LocalFit
 /// its edge's length. Where no fit holds the isopoint stays: so it does in noise, on steps, and
 /// where only an affine function is determined, all places where linear interpolation errs less.
 ///
-/// @param highest order to try: None, Linear (also in noise) or Quadratic, which tries creases too
+/// @param highest order to try: None, Linear (also in noise), Quadratic, or Crease, which tries
+/// quadratics first
 /// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it

@@ -56,14 +56,13 @@ double degreesBetween(const Vector& a, const Vector& b)
   return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
 }
 
-/// Extracts with fits of degree two.
-isopoint::Isosurface extractFitted(
-  const clouds::Cloud& cloud, double isovalue, bool move, std::size_t threads = 2)
+isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
+  std::size_t threads = 2, FitOrder highest = FitOrder::Quadratic)
 {
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ FitOrder::Quadratic, move });
+  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
 }
 
 clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
@@ -196,7 +195,7 @@ TEST(LocalFit, InNoiseNoWiderNeighborhoodIsAskedFor)
         asked = true;
         return samples;
       },
-      FitOrder::Quadratic);
+      FitOrder::Crease);
     return asked;
   };
   const Field plane = [](const Vector& p) { return p[2]; };
@@ -209,7 +208,7 @@ TEST(LocalFit, InNoiseNoWiderNeighborhoodIsAskedFor)
 TEST(LocalFit, FindsTheNearerSheetOfACrease)
 {
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const LocalFit found = fit(samplesOf(field, 50), upwards(), FitOrder::Quadratic);
+  const LocalFit found = fit(samplesOf(field, 50), upwards(), FitOrder::Crease);
   ASSERT_EQ(found.order, FitOrder::Crease);
   EXPECT_NEAR(field(found.position), 0.0, 1e-9);
   EXPECT_NEAR(std::max(std::abs(found.gradient[0]), std::abs(found.gradient[2])), 1.0, 1e-9);
@@ -237,7 +236,8 @@ TEST(LocalFit, ACubesPointsLieOnItsFaces)
     return std::max(
       { std::abs(x), std::abs(0.8 * y - 0.6 * p[2]), std::abs(0.6 * y + 0.8 * p[2]) });
   };
-  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 100000, 46.4), 12.0, true);
+  const isopoint::Isosurface surface =
+    extractFitted(cloudOf(field, 100000, 46.4), 12.0, true, 2, FitOrder::Crease);
   std::size_t far = 0;
   for (const LocalFit& at : surface.fits)
   {
