@@ -262,8 +262,9 @@ public:
 private:
   double spacingAt(std::size_t point) const
   {
-    return this->Points.fits.empty() ? lengthOf(this->Points.fallingEdges[point])
-                                     : this->Points.fits[point].spacing;
+    // Of a sample alone with another one there is no other measure than their edge.
+    const double fitted = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    return fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.fallingEdges[point]);
   }
 
   /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
