@@ -278,6 +278,99 @@ def one_mapper_in_two_windows():
     check(np.array_equal(first.image(), reference), "the first window")
 
 
+def a_mapper_that_outlives_its_window():
+    """Its buffers go with the window: handles are another window's afterwards."""
+    source = vtkSphereSource()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    ball = vtkActor()
+    ball.SetMapper(mapper)
+    other = Scene(ball)
+    reference = other.image()
+    for draws_again in (False, True):
+        actor = actor_of(torus_splats(50_000))
+        splats = actor.GetMapper()
+        scene = Scene(actor)
+        scene.image()
+        actor.SetMapper(vtkPolyDataMapper())
+        del scene, actor
+        gc.collect()
+        if draws_again:
+            again = vtkActor()
+            again.SetMapper(splats)
+            other.renderer.AddActor(again)
+            check(not np.array_equal(other.image(), reference), "drawn in the other window")
+            other.renderer.RemoveActor(again)
+            del again
+        del splats
+        gc.collect()
+        ball.Modified()
+        check(np.array_equal(other.image(), reference), "the other window's sphere")
+
+
+def arrays_that_are_too_short():
+    points = [(-0.6, 0, 0), (0.6, 0, 0)]
+    whole = polydata(points, [UP] * 2)
+    reference_actor = actor_of(whole)
+    reference_actor.GetMapper().SetRadius(0.4)
+    reference = Scene(reference_actor).image()
+    for name in ("Radius", "value"):
+        data = polydata(points, [UP] * 2, **{name: np.array([0.1])})
+        actor = actor_of(data)
+        actor.GetMapper().SetRadius(0.4)
+        color_by(actor, "value", 0, 1)
+        events = events_of(actor.GetMapper())
+        scene = Scene(actor)
+        check(np.array_equal(scene.image(), reference), "as without " + name)
+        scene.image()
+        check(events == ["warning"], f"one warning of {name}, not {events}")
+    normals = polydata(points, None)
+    add_array(normals, "Normals", np.array([[1.0, 0.0, 0.0]]), normals=True)
+    check(area(Scene(actor_of(normals)).image()) > 0, "normals that are too few")
+
+
+def colors_of_cells_that_are_no_vertices():
+    source = vtkSphereSource()
+    source.Update()
+    data = source.GetOutput()
+    values = numpy_to_vtk(np.arange(data.GetNumberOfCells(), dtype=float), deep=True)
+    values.SetName("of cells")
+    data.GetCellData().AddArray(values)
+    plain = Scene(actor_of(data)).image()
+    actor = actor_of(data)
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectColorArray("of cells")
+    events = events_of(mapper)
+    check(np.array_equal(Scene(actor).image(), plain), "the material's color")
+    check(events == ["warning"], f"one warning, not {events}")
+
+
+def normals_of_any_length():
+    reference = Scene(actor_of(disk())).image()
+    for length in (1e-30, 1e-3, 1e3, 1e30):
+        data = disk()
+        add_array(data, "Normals", length * np.array([UP]), normals=True)
+        check(np.array_equal(Scene(actor_of(data)).image(), reference), f"length {length}")
+
+
+def the_near_plane_cuts():
+    """Splats before the near plane hide nothing behind it."""
+    random = np.random.default_rng(2)
+    points = random.normal(size=(20_000, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    data = polydata(points, points, Radius=np.full(20_000, 0.05))
+    scene = Scene(actor_of(data))
+    scene.camera.SetPosition(0, 0, 3)
+    scene.camera.SetViewUp(0, 1, 0)
+    scene.camera.SetClippingRange(0.1, 10)
+    whole = area(scene.image())
+    scene.camera.SetClippingRange(2.05, 10)  # 5 hundredths of the sphere are before it
+    cut = area(scene.image())
+    check(cut > 0.999 * whole, f"its other side is seen through the hole: {cut} of {whole}")
+
+
 def fewer_splats_look_alike():
     data = torus_splats(300_000)
     actor = actor_of(data)
@@ -359,6 +452,11 @@ if __name__ == "__main__":
         blocks_with_and_without_the_array,
         follows_changes,
         one_mapper_in_two_windows,
+        a_mapper_that_outlives_its_window,
+        arrays_that_are_too_short,
+        colors_of_cells_that_are_no_vertices,
+        normals_of_any_length,
+        the_near_plane_cuts,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
     ):
