@@ -338,8 +338,11 @@ vtkSmartPointer<vtkDataObject> newInput(
                    : vtkSmartPointer<vtkDataObject>(collection);
 }
 
-void checkPoints(vtkPolyData* output, const Cloud& samples, double isovalue, double angle)
+void checkPoints(
+  vtkScatteredIsopointFilter* filter, vtkPolyData* output, const Cloud& samples, double isovalue)
 {
+  const double angle = filter->GetAngle();
+  const bool isProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
   const std::vector<bruteforce::Point> expected = bruteforce::extract(samples, isovalue, angle);
   if (output->GetNumberOfPoints() != static_cast<vtkIdType>(expected.size()) ||
       output->GetNumberOfCells() != output->GetNumberOfPoints())
@@ -357,7 +360,7 @@ void checkPoints(vtkPolyData* output, const Cloud& samples, double isovalue, dou
       const double t = expected[i].parameter;
       const double wanted = std::isfinite(second - first) ? first + t * (second - first)
                                                           : (1.0 - t) * first + t * second;
-      if (found[axis] != wanted)
+      if (isProjected ? !std::isfinite(found[axis]) : found[axis] != wanted)
       {
         fail("a position");
       }
@@ -386,6 +389,12 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetUseAllCores(bytes.below(8) == 0);
   filter->SetContourBlocks(bytes.below(4) == 0);
   filter->SetNumberOfNeighbors(3 + bytes.below(20));
+  filter->SetProjection(bytes.below(4));
+  filter->SetNormalMethod(bytes.below(2));
+  filter->SetComputeGradients(bytes.below(2) != 0);
+  filter->SetComputeProjectionOrders(bytes.below(2) != 0);
+  filter->SetComputeSplatAxes(bytes.below(2) != 0);
+  filter->SetComputeSplatClips(bytes.below(2) != 0);
   errors->Count = 0;
   filter->Update();
 
@@ -401,7 +410,7 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   }
   if (auto* const output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)))
   {
-    checkPoints(output, isUsable ? expected.samples : Cloud(), isovalue, angle);
+    checkPoints(filter, output, isUsable ? expected.samples : Cloud(), isovalue);
     if (isUsable && filter->GetNumberOfSkippedSamples() != expected.skipped)
     {
       fail("skipped samples");
@@ -430,7 +439,7 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
     }
     if (output)
     {
-      checkPoints(output, alone.samples, isovalue, angle);
+      checkPoints(filter, output, alone.samples, isovalue);
     }
   }
 }
