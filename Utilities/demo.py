@@ -105,7 +105,7 @@ def show(source, view, representation):
         display.UseScaleFunction = 0
         display.GaussianRadius = 1.0
         display.Emissive = 0
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = display.AmbientColor = [0.85, 0.72, 0.5]
 
 
