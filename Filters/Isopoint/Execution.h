@@ -94,9 +94,11 @@ inline void forRanges(
 }
 
 /// forRanges() in batches of so many items for each thread, between which the execution may be
-/// stopped. @throws Aborted, and what the task throws
-inline void forBatches(const Execution& execution, std::size_t count, std::size_t batchPerThread,
-  std::size_t grain, const RangeTask& task)
+/// stopped. @param batchDone called after each with the share of the items that are done
+/// @throws Aborted, and what the task throws
+inline void forBatches(
+  const Execution& execution, std::size_t count, std::size_t batchPerThread, std::size_t grain,
+  const RangeTask& task, const std::function<void(double share)>& batchDone = [](double) {})
 {
   const std::size_t batch = batchPerThread * execution.threads;
   for (std::size_t done = 0; done < count; done += batch)
@@ -104,6 +106,7 @@ inline void forBatches(const Execution& execution, std::size_t count, std::size_
     forRanges(execution, std::min(batch, count - done), grain,
       [&](std::size_t begin, std::size_t end) { task(done + begin, done + end); });
     throwIfAborted(execution);
+    batchDone(std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(count)));
   }
 }
 

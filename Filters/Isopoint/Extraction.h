@@ -7,6 +7,7 @@
 #include "GapCriterion.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
+#include "LeafValues.h"
 #include "NarrowBand.h"
 #include "NeighborhoodFits.h"
 #include "SortUnique.h"
@@ -18,7 +19,6 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,6 +41,7 @@ public:
     , Criterion(criterion)
     , Gaps(gapCriterion)
     , Room(room)
+    , Values(tree)
   {
   }
 
@@ -50,7 +51,7 @@ public:
   void find(const Path& leaf)
   {
     const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
-    const double value = this->valueOf(leaf.slot());
+    const double value = this->Values.at(leaf.slot());
     const bool isBelow = value < this->Isovalue;
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
@@ -133,7 +134,7 @@ private:
     this->Crossings.clear();
     for (std::size_t i = 0; i < this->Neighbors.count; ++i)
     {
-      const double value = this->valueOf(this->Neighbors[i]);
+      const double value = this->Values.at(this->Neighbors[i]);
       if ((value < this->Isovalue) != isBelow)
       {
         this->Crossings.push_back({ i, value });
@@ -196,24 +197,6 @@ private:
     }
   }
 
-  /// The value of a leaf's samples; of large heaps it is remembered, since many cells may touch
-  /// one.
-  double valueOf(std::size_t slot)
-  {
-    constexpr std::size_t fewSamples = 16;
-    const Node<TSample>& leaf = this->Tree.nodes[slot];
-    if (leaf.count() <= fewSamples)
-    {
-      return leafValue(this->Tree, leaf);
-    }
-    const auto [found, isNew] = this->HeapValues.try_emplace(slot, 0.0);
-    if (isNew)
-    {
-      found->second = leafValue(this->Tree, leaf);
-    }
-    return found->second;
-  }
-
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
@@ -227,7 +210,7 @@ private:
   std::vector<Crossing> Crossings;
   std::vector<LocatedIsopoint<TSample>> Points;
   std::vector<std::size_t> Merged;
-  std::unordered_map<std::size_t, double> HeapValues; // by slot
+  LeafValues<TSample> Values;
 };
 
 /// The samples of leaves, ordered by lowest id. @param slots of the leaves, with repetitions

@@ -40,9 +40,6 @@ constexpr double noiseShare = 0.3;
 /// where there is little noise.
 constexpr double mostCreaseResidual = 0.03;
 
-/// The largest cosine between the gradients on either side of a crease, that of 25 degrees.
-constexpr double mostCreaseCosine = 0.906;
-
 /// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
 struct Candidate
 {
@@ -357,13 +354,14 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   Neighborhood neighborhood(edge, isovalue, samples, spacing);
   if (neighborhood.isUsable())
   {
-    if (highest != FitOrder::Linear &&
-        (neighborhood.apply(neighborhood.smooth(smoothResidual), fit) ||
-          neighborhood.tellsOfNoise()))
+    if (highest != FitOrder::Linear && neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
     {
       return fit;
     }
-    if (highest == FitOrder::Quadratic && neighborhood.determinesQuadratic())
+    // A quadratic that the samples determine is judged by them alone; creases are looked for
+    // further afield, except in noise.
+    if ((highest == FitOrder::Quadratic && neighborhood.determinesQuadratic()) ||
+        (highest == FitOrder::Crease && neighborhood.tellsOfNoise()))
     {
       return fit;
     }

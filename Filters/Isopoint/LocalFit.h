@@ -21,6 +21,9 @@ enum class FitOrder : std::uint8_t
   Crease = 3     // the largest, or the smallest, of two or three affine functions
 };
 
+/// The largest cosine between the normals on either side of a crease, that of 25 degrees.
+constexpr double mostCreaseCosine = 0.906;
+
 /// What is wanted of fits around isopoints.
 struct FitRequest
 {

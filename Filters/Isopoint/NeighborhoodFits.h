@@ -5,6 +5,7 @@
 #include "Execution.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
+#include "LeafValues.h"
 #include "LocalFit.h"
 #include "NeighborSearch.h"
 
@@ -15,16 +16,6 @@
 
 namespace isopoint
 {
-
-/// The value of a leaf's samples, which count as one.
-template <class TSample>
-double leafValue(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
-{
-  const TSample* const samples = tree.samples.data() + leaf.begin;
-  return leaf.count() == 1 ? static_cast<double>(samples[0].value)
-                           : meanOf(leaf.count(), [samples](std::size_t i)
-                               { return static_cast<double>(samples[i].value); });
-}
 
 /// An isopoint and the leaves that its edge connects.
 template <class TSample>
@@ -71,6 +62,7 @@ public:
     : Tree(tree)
     , Isovalue(isovalue)
     , Highest(highest)
+    , Values(tree)
   {
   }
 
@@ -107,7 +99,7 @@ public:
   }
 
   /// Sets a moved isopoint's parameter to that of the edge's nearest place, or moves it back.
-  void settle(LocatedIsopoint<TSample>& point, LocalFit& fit, bool move) const
+  void settle(LocatedIsopoint<TSample>& point, LocalFit& fit, bool move)
   {
     if (fit.order == FitOrder::None)
     {
@@ -193,7 +185,7 @@ private:
     this->list(this->WiderSamples);
   }
 
-  bool isBelow(Id slot) const { return this->sampleAt(slot).value < this->Isovalue; }
+  bool isBelow(Id slot) { return this->sampleAt(slot).value < this->Isovalue; }
 
   /// Lists samples by id, each once.
   void list(std::vector<FitSample>& samples)
@@ -238,17 +230,17 @@ private:
     return this->Tree.nodes[static_cast<std::size_t>(slot)];
   }
 
-  FitSample sampleAt(Id slot) const
+  FitSample sampleAt(Id slot)
   {
-    const Node<TSample>& leaf = this->leafAt(slot);
-    const TSample& sample = this->Tree.samples[leaf.begin];
+    const TSample& sample = this->Tree.samples[this->leafAt(slot).begin];
     return { { sample.position[0], sample.position[1], sample.position[2] },
-      leafValue(this->Tree, leaf) };
+      this->Values.at(static_cast<std::size_t>(slot)) };
   }
 
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const FitOrder Highest;
+  LeafValues<TSample> Values;
   std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
   std::vector<Id> Across;
   std::vector<FitSample> Samples;
@@ -266,21 +258,16 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
 {
   std::vector<LocalFit> fits(points.size());
   constexpr std::size_t grain = 256;
-  const std::size_t batch = 8192 * execution.threads;
-  for (std::size_t done = 0; done < points.size(); done += batch)
-  {
-    forRanges(execution, std::min(batch, points.size() - done), grain,
-      [&](std::size_t begin, std::size_t end)
+  forBatches(execution, points.size(), 8192, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest);
+      for (std::size_t i = begin; i < end; ++i)
       {
-        NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest);
-        for (std::size_t i = done + begin; i < done + end; ++i)
-        {
-          fits[i] = fitter.fit(points[i]);
-          fitter.settle(points[i], fits[i], request.move);
-        }
-      });
-    throwIfAborted(execution);
-  }
+        fits[i] = fitter.fit(points[i]);
+        fitter.settle(points[i], fits[i], request.move);
+      }
+    });
   return fits;
 }
 

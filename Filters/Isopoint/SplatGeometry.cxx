@@ -54,9 +54,6 @@ constexpr double overlap = 1.1;
 constexpr double closedReach = 2.5;
 constexpr double openReach = 1.0;
 
-/// Planes that meet at a crease lie under an angle of more than 25 degrees and less than 155.
-constexpr double creaseCosine = 0.906;
-
 /// The distinct ones among positions, and for each position which one it is.
 struct DistinctPositions
 {
@@ -365,7 +362,7 @@ private:
     const double height = dot(normal, offset);
     const double otherHeight = -dot(otherNormal, offset);
     const double tolerance = 0.02 * lengthOf(offset);
-    return isTold && std::abs(dot(normal, otherNormal)) < creaseCosine &&
+    return isTold && std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
            (height < tolerance) == (otherHeight < tolerance);
   }
 
@@ -398,23 +395,6 @@ private:
   const std::vector<Splat>& Splats; // normals at least
 };
 
-/// Calls task(begin, end) on parts of [0, count) in batches, telling progress from one share of the
-/// work to another in between.
-void forBatches(
-  const Execution& execution, std::size_t count, double from, double to, const RangeTask& task)
-{
-  constexpr std::size_t grain = 512;
-  const std::size_t batch = 8192 * execution.threads;
-  for (std::size_t done = 0; done < count; done += batch)
-  {
-    forRanges(execution, std::min(batch, count - done), grain,
-      [&](std::size_t begin, std::size_t end) { task(done + begin, done + end); });
-    throwIfAborted(execution);
-    const double share = static_cast<double>(done + batch) / static_cast<double>(count);
-    execution.progress(from + (to - from) * std::min(1.0, share));
-  }
-}
-
 } // namespace
 
 std::vector<Splat> computeSplats(
@@ -434,7 +414,10 @@ std::vector<Splat> computeSplats(
   throwIfAborted(execution);
 
   constexpr double normalsShare = 0.4;
-  forBatches(execution, splats.size(), 0.0, normalsShare,
+  constexpr std::size_t batch = 8192;
+  constexpr std::size_t grain = 512;
+  forBatches(
+    execution, splats.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
       NormalFitter fitter(tree, distinct, points, options);
@@ -442,8 +425,10 @@ std::vector<Splat> computeSplats(
       {
         splats[i].normal = fitter.fit(i);
       }
-    });
-  forBatches(execution, splats.size(), normalsShare, 1.0,
+    },
+    [&](double share) { execution.progress(normalsShare * share); });
+  forBatches(
+    execution, splats.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
       SplatShaper shaper(tree, distinct, points, splats);
@@ -451,7 +436,8 @@ std::vector<Splat> computeSplats(
       {
         shaper.shape(i, splats[i]);
       }
-    });
+    },
+    [&](double share) { execution.progress(normalsShare + (1.0 - normalsShare) * share); });
   return splats;
 }
 
