@@ -144,14 +144,16 @@ public:
     {
       case LINEAR_FIT:
         return isopoint::FitRequest{ FitOrder::Linear, true };
-      case CREASE_FIT:
-        return isopoint::FitRequest{ FitOrder::Crease, true };
       case QUADRATIC_FIT:
         return isopoint::FitRequest{ FitOrder::Quadratic, true };
+      case CUBIC_FIT:
+        return isopoint::FitRequest{ FitOrder::Cubic, true };
+      case CREASE_FIT:
+        return isopoint::FitRequest{ FitOrder::Crease, true };
       default:
         if (needsGradients)
         {
-          return isopoint::FitRequest{ FitOrder::Quadratic, false };
+          return isopoint::FitRequest{ FitOrder::Cubic, false };
         }
         return needsSplats || filter.ComputeProjectionOrders
                  ? std::optional<isopoint::FitRequest>({ FitOrder::None, false })

@@ -18,17 +18,17 @@
  * is interpolated linearly. Unlike the paper, a node is split along the longest side of its region,
  * and only the part of the tree that surrounds the surface is ever built.
  *
- * Going past the paper, each isopoint is then moved to the zero of a polynomial of degree two,
- * fitted by weighted least squares to the samples of the two cells its edge connects and of those
- * that touch them (see SetProjection). On smooth fields that is a few times (25 samples to a wave)
- * to a hundred times (a sphere of 70 spacings' radius) closer to the true surface than linear
- * interpolation, and the fit's gradient is a better normal than a plane through nearby isopoints.
- * Where samples are noisy, or step from one value to another as at the borders of scanned
- * materials, the fit's residuals tell, and points stay: that is why QUADRATIC_FIT is the default.
- * On five scanned and simulated volumes, of which it saw two fifths of the voxels, it was as far
- * from a spline through all of them as linear interpolation was, or nearer; LINEAR_FIT, which
- * smooths everything, is not safe so. CREASE_FIT also fits two or three affine functions, of which
- * the largest or the smallest counts, and points go to the nearer sheet.
+ * Going past the paper, each isopoint is then moved to the zero of a polynomial, fitted by weighted
+ * least squares to the samples of the two cells its edge connects and of those that touch them (see
+ * SetProjection). It is of degree two, or of degree three where that leaves residuals. On smooth
+ * fields that is twenty to a hundred times closer to the true surface than linear interpolation,
+ * and the fit's gradient is a better normal than a plane through nearby isopoints. Where samples
+ * are noisy, or step from one value to another as at the borders of scanned materials, the fit's
+ * residuals tell, and points stay: that is why CUBIC_FIT is the default. On five scanned and
+ * simulated volumes, of which it saw two fifths of the voxels, it was as far from a spline through
+ * all of them as linear interpolation was, or nearer; LINEAR_FIT, which smooths everything, is not
+ * safe so. CREASE_FIT also fits two or three affine functions, of which the largest or the smallest
+ * counts, and points go to the nearer sheet.
  *
  * What is promised:
  * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
@@ -140,7 +140,8 @@ public:
     NO_PROJECTION = 0,
     LINEAR_FIT = 1,
     QUADRATIC_FIT = 2,
-    CREASE_FIT = 3
+    CUBIC_FIT = 3,
+    CREASE_FIT = 4
   };
 
   ///@{
@@ -148,12 +149,13 @@ public:
    * Whether and how isopoints are moved from their edges to where a least-squares polynomial
    * through the samples around has the isovalue: NO_PROJECTION (they stay where linear
    * interpolation puts them), LINEAR_FIT (an affine function, which smooths noise but flattens what
-   * is curved), QUADRATIC_FIT (degree two, or one where noise hides more) or CREASE_FIT (the same,
-   * and where the samples tell of a crease two or three affine functions that meet there; for
-   * bodies with sharp edges: where there are none it takes longer, much longer in noise, and may
-   * see some that are not). No point moves farther than half its edge's length; where no fit
+   * is curved), QUADRATIC_FIT (degree two), CUBIC_FIT (degree two, and three where that leaves
+   * residuals of more than a five hundredth of the samples' distances) or CREASE_FIT (the same, and
+   * where the samples tell of a crease two or three affine functions that meet there; for bodies
+   * with sharp edges: where there are none it takes longer, much longer in noise, and may see some
+   * that are not). No point moves farther than half its edge's length; where no fit
    * describes the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default:
-   * QUADRATIC_FIT.
+   * CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);
@@ -168,8 +170,8 @@ public:
   ///@{
   /**
    * Where normals come from: NORMALS_FROM_FIELD (the gradient of the fit, which Projection chooses;
-   * degree two with NO_PROJECTION; planes where no fit held) or NORMALS_FROM_PLANES (the plane
-   * through the nearest isopoints, as in the paper; see SetNumberOfNeighbors). Default:
+   * that of CUBIC_FIT with NO_PROJECTION; planes where no fit held) or NORMALS_FROM_PLANES (the
+   * plane through the nearest isopoints, as in the paper; see SetNumberOfNeighbors). Default:
    * NORMALS_FROM_FIELD.
    */
   vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
@@ -190,8 +192,8 @@ public:
   ///@{
   /**
    * Whether to compute the array "ProjectionOrder" (one unsigned char), which tells what moved each
-   * point: 0 nothing, 1 an affine function, 2 a polynomial of degree two, 3 affine functions that
-   * meet at a crease. Default: off.
+   * point: 0 nothing, 1 an affine function, 2 a polynomial of degree two, 3 one of degree
+   * three, 4 affine functions that meet at a crease. Default: off.
    */
   vtkSetMacro(ComputeProjectionOrders, vtkTypeBool);
   vtkGetMacro(ComputeProjectionOrders, vtkTypeBool);
@@ -358,7 +360,7 @@ protected:
   vtkNew<vtkContourValues> ContourValues;
   double Angle;
   double GapFactor = 0.0;
-  int Projection = QUADRATIC_FIT;
+  int Projection = CUBIC_FIT;
   int NormalMethod = NORMALS_FROM_FIELD;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 namespace isopoint
 {
@@ -25,6 +26,10 @@ constexpr double mostResidual = 0.6;
 
 /// Where the polynomial of degree two leaves less than this, in the same unit, nothing else is
 /// tried.
+constexpr double fineResidual = 0.002;
+
+/// Where that of degree two or three leaves less than this, it is as near to the surface as noise
+/// lets it.
 constexpr double smoothResidual = 0.03;
 
 /// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps,
@@ -101,27 +106,34 @@ public:
            std::isfinite(1.0 / this->Scale);
   }
 
-  /// The polynomial of degree two where it leaves residuals of no more than that, weighted so
-  /// steeply that it all but interpolates the nearest samples.
-  Candidate smooth(double mostRelativeResidual)
+  /// The polynomial of a degree, weighted so steeply that it all but interpolates the nearest
+  /// samples.
+  Candidate smooth(int degree)
   {
-    this->weigh([](double squaredDistance) { return 1.0 / std::pow(0.1 + squaredDistance, 3); });
-    const PolynomialFits fits = fitPolynomials(this->Samples, true);
+    if (!this->isUsable())
+    {
+      return {};
+    }
+    this->weigh(
+      [](double squaredDistance)
+      {
+        const double root = 0.1 + squaredDistance;
+        return 1.0 / (root * root * root);
+      });
+    const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
     this->weigh(mildWeight); // residuals of far samples tell of creases
-    return fits.quadraticHolds
-             ? this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostRelativeResidual)
-             : Candidate();
+    return polynomial ? this->tryPolynomial(*polynomial, roughResidual) : Candidate();
   }
 
   /// Whether the samples are as many, and placed so, that they determine a polynomial of degree
   /// two.
-  bool determinesQuadratic() const { return fitPolynomials(this->Samples, true).quadraticHolds; }
+  bool determinesQuadratic() const { return fitPolynomial(this->Samples, 2).has_value(); }
 
   /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
   bool tellsOfNoise() const
   {
-    const PolynomialFits fits = fitPolynomials(this->Samples, true);
-    if (!fits.quadraticHolds)
+    const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
+    if (!quadratic)
     {
       return false;
     }
@@ -135,17 +147,17 @@ public:
     mean /= weights;
     const double variance =
       meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
-    const double residual = meanSquaredResidual(
-      this->Samples, [&fits](const Eigen::Vector3d& p) { return fits.quadratic.value(p); });
-    return this->freedom(10) * residual > noiseShare * variance;
+    return this->freedom(2) * this->meanSquareOf(*quadratic) > noiseShare * variance;
   }
 
   /// The fit that the criterion tells to be best.
   Candidate best(FitOrder highest)
   {
+    if (!this->isUsable())
+    {
+      return {};
+    }
     this->weigh(mildWeight);
-    const bool quadraticWanted = highest != FitOrder::Linear;
-    const PolynomialFits fits = fitPolynomials(this->Samples, quadraticWanted);
     Candidate chosen;
     const auto consider = [&chosen](const Candidate& candidate)
     {
@@ -154,20 +166,20 @@ public:
         chosen = candidate;
       }
     };
-    if (fits.linearHolds)
+    std::optional<Polynomial> rival;
+    for (int degree = 1; degree <= (highest == FitOrder::Linear ? 1 : 2); ++degree)
     {
-      consider(this->tryPolynomial(fits.linear, FitOrder::Linear, 4, mostResidual));
+      const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
+      if (polynomial)
+      {
+        consider(this->tryPolynomial(*polynomial, mostResidual));
+        rival = polynomial;
+      }
     }
-    if (fits.quadraticHolds)
+    if (highest == FitOrder::Crease && rival)
     {
-      consider(this->tryPolynomial(fits.quadratic, FitOrder::Quadratic, 10, mostResidual));
-    }
-    if (highest == FitOrder::Crease && fits.linearHolds)
-    {
-      const Polynomial& rival = fits.quadraticHolds ? fits.quadratic : fits.linear;
-      const double rivalMeanSquare = meanSquaredResidual(
-        this->Samples, [&rival](const Eigen::Vector3d& p) { return rival.value(p); });
-      for (const CreaseFit& crease : fitCreases(this->Samples, mostCreaseResidual, rivalMeanSquare))
+      for (const CreaseFit& crease :
+        fitCreases(this->Samples, mostCreaseResidual, this->meanSquareOf(*rival)))
       {
         consider(this->tryCrease(crease));
       }
@@ -208,11 +220,18 @@ private:
     }
   }
 
-  /// What residuals are to be multiplied by: a fit of as many coefficients as samples leaves none.
-  double freedom(std::size_t coefficientCount) const
+  double meanSquareOf(const Polynomial& polynomial) const
   {
-    return static_cast<double>(this->Samples.size()) /
-           static_cast<double>(this->Samples.size() - coefficientCount);
+    return meanSquaredResidual(
+      this->Samples, [&polynomial](const Eigen::Vector3d& p) { return polynomial.value(p); });
+  }
+
+  /// What mean squares are to be multiplied by: a fit of as many coefficients as samples leaves no
+  /// residuals.
+  double freedom(int degree) const
+  {
+    const auto count = static_cast<double>(this->Samples.size());
+    return count / (count - coefficientCount(degree));
   }
 
   /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
@@ -227,15 +246,13 @@ private:
     return position.norm() <= mostMove * this->Rising.norm();
   }
 
-  Candidate tryPolynomial(const Polynomial& polynomial, FitOrder order,
-    std::size_t coefficientCount, double mostRelativeResidual) const
+  Candidate tryPolynomial(const Polynomial& polynomial, double mostRelativeResidual) const
   {
     Candidate candidate;
-    const double meanSquare = meanSquaredResidual(
-      this->Samples, [&](const Eigen::Vector3d& p) { return polynomial.value(p); });
+    const double meanSquare = this->meanSquareOf(polynomial);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3d gradient = polynomial.gradient(position);
-    candidate.residual = std::sqrt(meanSquare * this->freedom(coefficientCount)) / gradient.norm();
+    candidate.residual = std::sqrt(meanSquare * this->freedom(polynomial.degree)) / gradient.norm();
     if (!(candidate.residual <= mostRelativeResidual) || !this->risesAlong(gradient))
     {
       return candidate;
@@ -258,12 +275,12 @@ private:
     {
       return candidate;
     }
-    candidate.order = order;
-    candidate.criterion = akaikeCriterion(this->Samples.size(), coefficientCount, meanSquare);
+    candidate.order = static_cast<FitOrder>(polynomial.degree);
+    candidate.criterion = akaikeCriterion(this->Samples.size(),
+      static_cast<std::size_t>(coefficientCount(polynomial.degree)), meanSquare);
     candidate.position = position;
     candidate.gradient = gradient;
-    const QuadraticBasis& c = polynomial.coefficients;
-    candidate.hessian = { 2.0 * c[4], 2.0 * c[5], 2.0 * c[6], c[7], c[8], c[9] };
+    candidate.hessian = polynomial.hessian(position);
     return candidate;
   }
 
@@ -352,33 +369,49 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
     return fit;
   }
   Neighborhood neighborhood(edge, isovalue, samples, spacing);
-  if (neighborhood.isUsable())
+  if (!neighborhood.isUsable())
   {
-    if (highest != FitOrder::Linear && neighborhood.apply(neighborhood.smooth(smoothResidual), fit))
+    return fit;
+  }
+  std::optional<Neighborhood> known;
+  const auto wider = [&]() -> Neighborhood&
+  { return known ? *known : known.emplace(edge, isovalue, widerSamples(), spacing); };
+  if (highest == FitOrder::Linear)
+  {
+    wider().apply(wider().best(highest), fit);
+    return fit;
+  }
+  const Candidate quadratic = neighborhood.smooth(2);
+  const auto applyQuadratic = [&](double mostResidual)
+  { return quadratic.residual <= mostResidual && neighborhood.apply(quadratic, fit); };
+  if (applyQuadratic(highest == FitOrder::Quadratic ? smoothResidual : fineResidual))
+  {
+    return fit;
+  }
+  if (highest != FitOrder::Quadratic && quadratic.residual <= roughResidual)
+  {
+    const Candidate cubic = wider().smooth(3);
+    if (cubic.residual <= smoothResidual && wider().apply(cubic, fit))
     {
       return fit;
     }
-    // A quadratic that the samples determine is judged by them alone; creases are looked for
-    // further afield, except in noise.
-    if ((highest == FitOrder::Quadratic && neighborhood.determinesQuadratic()) ||
-        (highest == FitOrder::Crease && neighborhood.tellsOfNoise()))
-    {
-      return fit;
-    }
-    Neighborhood wider(edge, isovalue, widerSamples(), spacing);
-    if (wider.isUsable())
-    {
-      const Candidate best = wider.best(highest);
-      if (highest == FitOrder::Linear || best.order == FitOrder::Crease)
-      {
-        wider.apply(best, fit);
-      }
-      else if (best.residual <= roughResidual &&
-               !neighborhood.apply(neighborhood.smooth(roughResidual), fit))
-      {
-        wider.apply(wider.smooth(roughResidual), fit);
-      }
-    }
+  }
+  // A quadratic that the samples determine is judged by them alone; creases are looked for
+  // further afield, except in noise.
+  if (applyQuadratic(smoothResidual) ||
+      (highest == FitOrder::Crease ? neighborhood.tellsOfNoise()
+                                   : neighborhood.determinesQuadratic()))
+  {
+    return fit;
+  }
+  const Candidate best = wider().best(highest);
+  if (best.order == FitOrder::Crease)
+  {
+    wider().apply(best, fit);
+  }
+  else if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
+  {
+    wider().apply(wider().smooth(2), fit);
   }
   return fit;
 }

@@ -18,7 +18,8 @@ enum class FitOrder : std::uint8_t
   None = 0,      // linear interpolation along the edge alone
   Linear = 1,    // an affine function
   Quadratic = 2, // a polynomial of degree two
-  Crease = 3     // the largest, or the smallest, of two or three affine functions
+  Cubic = 3,     // and of degree three
+  Crease = 4     // the largest, or the smallest, of two or three affine functions
 };
 
 /// The largest cosine between the normals on either side of a crease, that of 25 degrees.
@@ -27,8 +28,8 @@ constexpr double mostCreaseCosine = 0.906;
 /// What is wanted of fits around isopoints.
 struct FitRequest
 {
-  FitOrder highest; // None, Linear or Quadratic
-  bool move;        // isopoints to the zero of the fit, or leave them on their edges
+  FitOrder highest;
+  bool move; // isopoints to the zero of the fit, or leave them on their edges
 };
 
 /// A sample of a neighbourhood. Those at one position are one, with the mean of their values.
@@ -51,27 +52,29 @@ struct LocalFit
 {
   Vector position; // of the isopoint, moved where a fit held
   Vector gradient; // of the field there; where none held, the slope along the edge alone
-  /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic.
+  /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic or Cubic.
   std::array<double, 6> hessian;
   double spacing; // of the samples there: see NeighborhoodFitter
   FitOrder order; // that held
 };
 
 /// Fits polynomials to the values of the samples around an edge, by least squares weighted with
-/// 1 / (1 + (d / s)^2), or 1 / (0.1 + (d / s)^2)^3 where they describe the samples well, d being a
-/// sample's distance from the isopoint and s the mean of those, and moves the isopoint to the zero
-/// of the best one, along gradients (Newton's method).
+/// 1 / (0.1 + (d / s)^2)^3, d being a sample's distance from the isopoint and s the mean of those,
+/// and moves the isopoint to the zero of the best one, along gradients (Newton's method). A
+/// polynomial of degree three takes the wider neighbourhood, and is tried only where that of degree
+/// two leaves residuals that are neither negligible nor those of noise.
 ///
-/// Which one is the best is told by the corrected Akaike criterion (Hurvich, Tsai, "Regression and
-/// time series model selection in small samples", Biometrika 76, 1989): a fit of more coefficients
-/// has to leave residuals that are smaller by more than noise would let it. A fit does not hold if
-/// the samples do not determine it, if its residuals are large beside its rise over the
-/// neighbourhood, if it falls where the edge rises, or if the isopoint would move farther than half
-/// its edge's length. Where no fit holds the isopoint stays: so it does in noise, on steps, and
-/// where only an affine function is determined, all places where linear interpolation errs less.
+/// A fit does not hold if the samples do not determine it, if its residuals, weighted with 1 / (1 +
+/// (d / s)^2), are large beside its rise over the neighbourhood, if it falls where the edge rises,
+/// or if the isopoint would move farther than half its edge's length. Where no fit holds the
+/// isopoint stays: so it does in noise, on steps, and where only an affine function is determined,
+/// all places where linear interpolation errs less. Creases compete with polynomials of degree one
+/// and two by the corrected Akaike criterion (Hurvich, Tsai, "Regression and time series model
+/// selection in small samples", Biometrika 76, 1989): a fit of more coefficients has to leave
+/// residuals that are smaller by more than noise would let it.
 ///
-/// @param highest order to try: None, Linear (also in noise), Quadratic, or Crease, which tries
-/// quadratics first
+/// @param highest order to try: None, Linear (also in noise, with the milder weights), Quadratic,
+/// Cubic, or Crease, which tries the polynomials first
 /// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it

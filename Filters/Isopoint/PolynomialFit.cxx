@@ -3,63 +3,132 @@
 
 #include <Eigen/Cholesky>
 
-#include <cstddef>
-
 namespace isopoint
 {
 namespace
 {
 
-using NormalMatrix = Eigen::Matrix<double, 10, 10>;
-
 /// The reciprocal condition number of normal equations below which samples are taken not to
 /// determine a polynomial: coefficients keep about six digits of double's sixteen there.
 constexpr double leastCondition = 1e-9;
 
-/// Solves the leading N normal equations. @returns whether they determine the coefficients
-template <int N>
-bool solve(const NormalMatrix& matrix, const QuadraticBasis& rightSide, Polynomial& polynomial)
+/// The products of coordinates that coefficients belong to.
+template <int Degree>
+Eigen::Matrix<double, coefficientCount(Degree), 1> basisAt(const Eigen::Vector3d& p)
 {
-  const Eigen::Matrix<double, N, N> block = matrix.topLeftCorner<N, N>();
-  const Eigen::LDLT<Eigen::Matrix<double, N, N>> factors(block);
+  Eigen::Matrix<double, coefficientCount(Degree), 1> basis;
+  const double x = p.x();
+  const double y = p.y();
+  const double z = p.z();
+  basis.template head<4>() << 1.0, x, y, z;
+  if constexpr (Degree > 1)
+  {
+    basis.template segment<6>(4) << x * x, y * y, z * z, x * y, x * z, y * z;
+  }
+  if constexpr (Degree > 2)
+  {
+    basis.template tail<10>() << x * x * x, y * y * y, z * z * z, x * x * y, x * x * z, y * y * x,
+      y * y * z, z * z * x, z * z * y, x * y * z;
+  }
+  return basis;
+}
+
+/// See fitPolynomial().
+template <int Degree>
+std::optional<Polynomial> fit(const std::vector<FrameSample>& samples)
+{
+  constexpr int count = coefficientCount(Degree);
+  // Residuals are to remain, or nothing tells whether the fit describes the samples.
+  constexpr std::size_t fewestSamples = count + 1 + count / 5;
+  if (samples.size() < fewestSamples)
+  {
+    return std::nullopt;
+  }
+  using Matrix = Eigen::Matrix<double, count, count>;
+  using Vector = Eigen::Matrix<double, count, 1>;
+  Matrix matrix = Matrix::Zero();
+  Vector rightSide = Vector::Zero();
+  for (const FrameSample& sample : samples)
+  {
+    const Vector basis = basisAt<Degree>(sample.position);
+    const Vector weighted = sample.weight * basis;
+    matrix.noalias() += weighted * basis.transpose();
+    rightSide += sample.value * weighted;
+  }
+  const Eigen::LDLT<Matrix> factors(matrix);
   // The estimate of the condition passes over pivots of 0.
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0.0) ||
       !(factors.rcond() > leastCondition))
   {
-    return false;
+    return std::nullopt;
   }
-  polynomial.coefficients.setZero();
-  polynomial.coefficients.head<N>() = factors.solve(rightSide.head<N>());
-  return polynomial.coefficients.allFinite();
+  Polynomial polynomial;
+  polynomial.degree = Degree;
+  polynomial.coefficients.template head<count>() = factors.solve(rightSide);
+  return polynomial.coefficients.allFinite() ? std::optional<Polynomial>(polynomial) : std::nullopt;
 }
 
 } // namespace
 
-Eigen::Vector3d Polynomial::gradient(const Eigen::Vector3d& p) const
+double Polynomial::value(const Eigen::Vector3d& p) const
 {
-  const QuadraticBasis& c = this->coefficients;
-  return { c[1] + 2.0 * c[4] * p.x() + c[7] * p.y() + c[8] * p.z(),
-    c[2] + 2.0 * c[5] * p.y() + c[7] * p.x() + c[9] * p.z(),
-    c[3] + 2.0 * c[6] * p.z() + c[8] * p.x() + c[9] * p.y() };
+  const auto& c = this->coefficients;
+  switch (this->degree)
+  {
+    case 1:
+      return c.head<4>().dot(basisAt<1>(p));
+    case 2:
+      return c.head<10>().dot(basisAt<2>(p));
+    default:
+      return c.dot(basisAt<3>(p));
+  }
 }
 
-PolynomialFits fitPolynomials(const std::vector<FrameSample>& samples, bool quadraticWanted)
+Eigen::Vector3d Polynomial::gradient(const Eigen::Vector3d& p) const
 {
-  NormalMatrix matrix = NormalMatrix::Zero();
-  QuadraticBasis rightSide = QuadraticBasis::Zero();
-  for (const FrameSample& sample : samples)
+  const auto& c = this->coefficients;
+  const double x = p.x();
+  const double y = p.y();
+  const double z = p.z();
+  Eigen::Vector3d gradient(c[1] + 2.0 * c[4] * x + c[7] * y + c[8] * z,
+    c[2] + 2.0 * c[5] * y + c[7] * x + c[9] * z, c[3] + 2.0 * c[6] * z + c[8] * x + c[9] * y);
+  if (this->degree > 2)
   {
-    const QuadraticBasis basis = quadraticBasis(sample.position);
-    const QuadraticBasis weighted = sample.weight * basis;
-    matrix.noalias() += weighted * basis.transpose();
-    rightSide += sample.value * weighted;
+    gradient += Eigen::Vector3d(3.0 * c[10] * x * x + 2.0 * x * (c[13] * y + c[14] * z) +
+                                  c[15] * y * y + c[17] * z * z + c[19] * y * z,
+      3.0 * c[11] * y * y + 2.0 * y * (c[15] * x + c[16] * z) + c[13] * x * x + c[18] * z * z +
+        c[19] * x * z,
+      3.0 * c[12] * z * z + 2.0 * z * (c[17] * x + c[18] * y) + c[14] * x * x + c[16] * y * y +
+        c[19] * x * y);
   }
-  // One residual at least is to remain, or nothing tells whether the fit describes the samples.
-  PolynomialFits fits;
-  fits.linearHolds = samples.size() > 4 && solve<4>(matrix, rightSide, fits.linear);
-  fits.quadraticHolds = quadraticWanted && fits.linearHolds && samples.size() > 12 &&
-                        solve<10>(matrix, rightSide, fits.quadratic);
-  return fits;
+  return gradient;
+}
+
+std::array<double, 6> Polynomial::hessian(const Eigen::Vector3d& p) const
+{
+  const auto& c = this->coefficients;
+  const double x = p.x();
+  const double y = p.y();
+  const double z = p.z();
+  return { 2.0 * (c[4] + 3.0 * c[10] * x + c[13] * y + c[14] * z),
+    2.0 * (c[5] + 3.0 * c[11] * y + c[15] * x + c[16] * z),
+    2.0 * (c[6] + 3.0 * c[12] * z + c[17] * x + c[18] * y),
+    c[7] + 2.0 * (c[13] * x + c[15] * y) + c[19] * z,
+    c[8] + 2.0 * (c[14] * x + c[17] * z) + c[19] * y,
+    c[9] + 2.0 * (c[16] * y + c[18] * z) + c[19] * x };
+}
+
+std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree)
+{
+  switch (degree)
+  {
+    case 1:
+      return fit<1>(samples);
+    case 2:
+      return fit<2>(samples);
+    default:
+      return fit<3>(samples);
+  }
 }
 
 } // namespace isopoint

@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -17,36 +20,32 @@ struct FrameSample
   double weight; // positive
 };
 
-using QuadraticBasis = Eigen::Matrix<double, 10, 1>;
-
-/// 1, x, y, z, x^2, y^2, z^2, x y, x z, y z
-inline QuadraticBasis quadraticBasis(const Eigen::Vector3d& p)
+/// How many coefficients a polynomial of three variables has.
+constexpr int coefficientCount(int degree)
 {
-  QuadraticBasis basis;
-  basis << 1.0, p.x(), p.y(), p.z(), p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(),
-    p.x() * p.z(), p.y() * p.z();
-  return basis;
+  return (degree + 1) * (degree + 2) * (degree + 3) / 6;
 }
 
-/// A polynomial of degree two, or one where the last six coefficients are 0.
+/// A polynomial of degree one to three. Coefficients are those of 1; x, y, z; x^2, y^2, z^2, x y,
+/// x z, y z; x^3, y^3, z^3, x^2 y, x^2 z, y^2 x, y^2 z, z^2 x, z^2 y, x y z.
 struct Polynomial
 {
-  QuadraticBasis coefficients = QuadraticBasis::Zero();
+  static constexpr int highestDegree = 3;
 
-  double value(const Eigen::Vector3d& p) const { return this->coefficients.dot(quadraticBasis(p)); }
+  int degree = 1;
+  Eigen::Matrix<double, coefficientCount(highestDegree), 1> coefficients =
+    Eigen::Matrix<double, coefficientCount(highestDegree), 1>::Zero();
+
+  double value(const Eigen::Vector3d& p) const;
   Eigen::Vector3d gradient(const Eigen::Vector3d& p) const;
+
+  /// The second derivatives xx, yy, zz, xy, xz, yz.
+  std::array<double, 6> hessian(const Eigen::Vector3d& p) const;
 };
 
-/// The least-squares polynomials of degree one and two through the same samples.
-struct PolynomialFits
-{
-  bool linearHolds = false; // whether the samples determine it
-  bool quadraticHolds = false;
-  Polynomial linear;
-  Polynomial quadratic;
-};
-
-PolynomialFits fitPolynomials(const std::vector<FrameSample>& samples, bool quadraticWanted);
+/// The least-squares polynomial of a degree, unless the samples do not determine it or leave too
+/// few residuals to tell how well it describes them. Complexity: O(samples.size())
+std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree);
 
 /// The weighted mean of squared residuals.
 template <class Function>

@@ -333,8 +333,12 @@ private:
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(outward, normal);
     const double squaredCosine = 1.0 - height * height;
-    if (!this->Points.fits.empty() && (this->Points.fits[point].order != FitOrder::Quadratic ||
-                                        this->Points.fits[other].order != FitOrder::Quadratic))
+    const auto isSmooth = [this](std::size_t index)
+    {
+      const FitOrder order = this->Points.fits[index].order;
+      return order == FitOrder::Quadratic || order == FitOrder::Cubic;
+    };
+    if (!this->Points.fits.empty() && !(isSmooth(point) && isSmooth(other)))
     {
       return false;
     }

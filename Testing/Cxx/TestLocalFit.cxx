@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 
 namespace
@@ -57,7 +58,7 @@ double degreesBetween(const Vector& a, const Vector& b)
 }
 
 isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
-  std::size_t threads = 2, FitOrder highest = FitOrder::Quadratic)
+  std::size_t threads = 2, FitOrder highest = FitOrder::Cubic)
 {
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
@@ -94,6 +95,46 @@ TEST(LocalFit, ReproducesPolynomialsOfDegreeTwo)
   for (std::size_t i = 0; i < hessian.size(); ++i)
   {
     EXPECT_NEAR(found.hessian[i], hessian[i], 1e-9);
+  }
+}
+
+TEST(LocalFit, ReproducesPolynomialsOfDegreeThree)
+{
+  const Field field = [](const Vector& p)
+  {
+    return 0.1 + 0.2 * p[0] + p[2] + 0.1 * p[0] * p[1] + 0.03 * p[0] * p[0] * p[0] -
+           0.02 * p[1] * p[1] * p[1] + 0.04 * p[2] * p[2] * p[2] +
+           0.02 * (p[0] * p[0] * p[1] - p[0] * p[0] * p[2] + p[1] * p[1] * p[0]) -
+           0.01 * (p[1] * p[1] * p[2] + p[2] * p[2] * p[0] - p[2] * p[2] * p[1]) +
+           0.05 * p[0] * p[1] * p[2];
+  };
+  const std::vector<FitSample> samples = samplesOf(field, 60);
+  ASSERT_NE(fit(samples, upwards(), FitOrder::Quadratic).order, FitOrder::Cubic);
+  const LocalFit found = fit(samples, upwards(), FitOrder::Cubic);
+  ASSERT_EQ(found.order, FitOrder::Cubic);
+  EXPECT_NEAR(field(found.position), 0.0, 1e-9);
+  const auto moved = [&](int first, double one, int second, double other)
+  {
+    Vector p = found.position;
+    p[first] += one;
+    p[second] += other;
+    return field(p);
+  };
+  constexpr double h = 1e-3;
+  const std::array<std::array<int, 2>, 6> pairs{ { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 0, 2 },
+    { 1, 2 } } };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(found.gradient[axis],
+      (moved(axis, h, axis, 0.0) - moved(axis, -h, axis, 0.0)) / (2.0 * h), 1e-6);
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    const auto [a, b] = pairs[i];
+    EXPECT_NEAR(found.hessian[i],
+      (moved(a, h, b, h) - moved(a, h, b, -h) - moved(a, -h, b, h) + moved(a, -h, b, -h)) /
+        (4.0 * h * h),
+      1e-6);
   }
 }
 
@@ -227,6 +268,39 @@ TEST(LocalFit, MovesASpheresPointsOntoIt)
   }
 }
 
+// A field too wavy for degree two alone.
+TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
+{
+  const auto meanDistance = [](FitOrder highest)
+  {
+    const Field field = [](const Vector& p)
+    {
+      return std::sin(0.35 * p[0]) * std::cos(0.35 * p[1]) +
+             std::sin(0.35 * p[1]) * std::cos(0.35 * p[2]) +
+             std::sin(0.35 * p[2]) * std::cos(0.35 * p[0]);
+    };
+    const isopoint::Isosurface surface =
+      extractFitted(cloudOf(field, 20000, 27.0), 0.3, true, 2, highest);
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const LocalFit& at : surface.fits)
+    {
+      if (std::abs(at.position[0]) < 11.0 && std::abs(at.position[1]) < 11.0 &&
+          std::abs(at.position[2]) < 11.0)
+      {
+        sum += std::abs(field(at.position) - 0.3) / lengthOf(at.gradient);
+        ++count;
+      }
+    }
+    return sum / static_cast<double>(count);
+  };
+  const double linear = meanDistance(FitOrder::None);
+  const double quadratic = meanDistance(FitOrder::Quadratic);
+  const double cubic = meanDistance(FitOrder::Cubic);
+  EXPECT_LT(quadratic, 0.5 * linear);
+  EXPECT_LT(cubic, 0.2 * quadratic);
+}
+
 TEST(LocalFit, ACubesPointsLieOnItsFaces)
 {
   const Field field = [](const Vector& p)
@@ -277,7 +351,7 @@ TEST(LocalFit, IsTheSameForAnyThreadsAndAnyTree)
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
   extractor.extract(execution, 2.0, 54.7);
   const isopoint::Isosurface later =
-    extractor.extract(execution, 5.0, 54.7, 0.0, FitRequest{ FitOrder::Quadratic, true });
+    extractor.extract(execution, 5.0, 54.7, 0.0, FitRequest{ FitOrder::Cubic, true });
   ASSERT_EQ(later.fits.size(), expected.fits.size());
   for (std::size_t i = 0; i < later.fits.size(); ++i)
   {

@@ -389,7 +389,7 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetUseAllCores(bytes.below(8) == 0);
   filter->SetContourBlocks(bytes.below(4) == 0);
   filter->SetNumberOfNeighbors(3 + bytes.below(20));
-  filter->SetProjection(bytes.below(4));
+  filter->SetProjection(bytes.below(5));
   filter->SetNormalMethod(bytes.below(2));
   filter->SetComputeGradients(bytes.below(2) != 0);
   filter->SetComputeProjectionOrders(bytes.below(2) != 0);
