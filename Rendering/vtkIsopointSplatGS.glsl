@@ -15,6 +15,10 @@ in vec3 axis2VS[];
 in vec3 normalVS[];
 in vec4 colorVS[];
 in float radiusVS[];
+#ifdef SPLAT_CLIPS
+in vec3 clipVS[];
+flat in int isBehindCreaseVS[];
+#endif
 flat in uint pointIdVS[];
 
 uniform mat4 VCDCMatrix;
@@ -24,6 +28,10 @@ uniform int clippingPlaneCount;
 uniform vec4 clippingPlanes[6]; // in view coordinates
 
 out vec2 placeGS; // within the unit circle where the splat is
+#ifdef SPLAT_CLIPS
+out float clipGS; // distance before the splat's own clipping plane, in radii
+flat out int isBehindCreaseGS;
+#endif
 #ifdef SPLAT_BLEND
 out float depthGS; // z in view coordinates
 flat out vec3 normalGS;
@@ -54,6 +62,10 @@ void emitCorner(vec2 place)
   vec3 corner = centerVS[0] + place.x * axis1VS[0] + place.y * axis2VS[0];
   gl_Position = VCDCMatrix * vec4(corner, 1.0);
   placeGS = place;
+#ifdef SPLAT_CLIPS
+  clipGS = clipVS[0].x + dot(clipVS[0].yz, place);
+  isBehindCreaseGS = isBehindCreaseVS[0];
+#endif
 #ifdef SPLAT_BLEND
   depthGS = corner.z;
   normalGS = normalVS[0];

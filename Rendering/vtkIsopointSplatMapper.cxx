@@ -38,11 +38,13 @@ vtkIsopointSplatMapper::vtkIsopointSplatMapper()
   : RadiusArrayName(nullptr)
   , SplatAxis1ArrayName(nullptr)
   , SplatAxis2ArrayName(nullptr)
+  , SplatClipArrayName(nullptr)
   , Internal(new Internals)
 {
   this->SetRadiusArrayName("Radius");
   this->SetSplatAxis1ArrayName("SplatAxis1");
   this->SetSplatAxis2ArrayName("SplatAxis2");
+  this->SetSplatClipArrayName("SplatClip");
 }
 
 //------------------------------------------------------------------------------
@@ -56,6 +58,7 @@ vtkIsopointSplatMapper::~vtkIsopointSplatMapper()
   this->SetRadiusArrayName(nullptr);
   this->SetSplatAxis1ArrayName(nullptr);
   this->SetSplatAxis2ArrayName(nullptr);
+  this->SetSplatClipArrayName(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -378,6 +381,7 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetSplatAxis1ArrayName(other->GetSplatAxis1ArrayName());
     this->SetSplatAxis2ArrayName(other->GetSplatAxis2ArrayName());
+    this->SetSplatClipArrayName(other->GetSplatClipArrayName());
     this->SetRadius(other->GetRadius());
     this->SetRadiusScale(other->GetRadiusScale());
     this->SetBlendDepth(other->GetBlendDepth());
@@ -397,6 +401,7 @@ void vtkIsopointSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   printName("RadiusArrayName", this->RadiusArrayName);
   printName("SplatAxis1ArrayName", this->SplatAxis1ArrayName);
   printName("SplatAxis2ArrayName", this->SplatAxis2ArrayName);
+  printName("SplatClipArrayName", this->SplatClipArrayName);
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "BlendDepth: " << this->BlendDepth << "\n";

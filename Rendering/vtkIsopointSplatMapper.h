@@ -14,7 +14,8 @@
  * ghost points and points of a position or radius that is not finite. The points' normals are the
  * active normals; without any the splats face the camera, and a warning says so once. Radii come
  * from the array RadiusArrayName, half-axes of ellipses from SplatAxis1ArrayName and
- * SplatAxis2ArrayName, as vtkScatteredIsopointFilter writes them.
+ * SplatAxis2ArrayName, planes at which splats end from SplatClipArrayName, as
+ * vtkScatteredIsopointFilter writes them.
  *
  * Lights, materials, physically based rendering, scalar coloring, opacity, clipping planes,
  * transforms of the actor, face culling, a back face property, SSAO, FXAA, depth peeling,
@@ -115,6 +116,20 @@ public:
 
   ///@{
   /**
+   * Name of the point array of planes at which splats end, as vtkScatteredIsopointFilter writes it
+   * for the sake of sharp edges: four floating-point numbers a, b, c, d; of the splat only the
+   * places with a x + b y + c z + d >= 0, in the units of the points' coordinates, are drawn.
+   * Splats of zeros, of what is not finite, and of a plane that its array's precision does not
+   * place to a tenth of the radius are drawn whole: in single precision those farther than some
+   * hundred thousand radii from the origin. Where the input has no such array, and where the name
+   * is empty, all are. Default: "SplatClip".
+   */
+  vtkSetStringMacro(SplatClipArrayName);
+  vtkGetStringMacro(SplatClipArrayName);
+  ///@}
+
+  ///@{
+  /**
    * Level of detail: one splat in Stride is drawn, chosen at random but always the same, its radius
    * times the square root of Stride. Meant for the time of an interaction: a change of it sends
    * nothing to the graphics card again. At least 1. Default: 1, all splats.
@@ -187,6 +202,7 @@ protected:
   char* RadiusArrayName;
   char* SplatAxis1ArrayName;
   char* SplatAxis2ArrayName;
+  char* SplatClipArrayName;
   double Radius = 0.0;
   double RadiusScale = 1.0;
   double BlendDepth = 1.0;

@@ -30,7 +30,7 @@ namespace
 
 vtkDataArray* arrayOf(vtkPolyData* data, const char* name)
 {
-  return name ? data->GetPointData()->GetArray(name) : nullptr;
+  return name && name[0] ? data->GetPointData()->GetArray(name) : nullptr;
 }
 
 const char* orNothing(const char* name)
@@ -123,6 +123,11 @@ vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
     shape.Axis1 = usable(arrayOf(data, mapper->SplatAxis1ArrayName), 3);
     shape.Axis2 = usable(arrayOf(data, mapper->SplatAxis2ArrayName), 3);
   }
+  vtkDataArray* const clips = arrayOf(data, mapper->SplatClipArrayName);
+  if (clips && (clips->GetDataType() == VTK_FLOAT || clips->GetDataType() == VTK_DOUBLE))
+  {
+    shape.Clips = usable(clips, 4);
+  }
   return shape;
 }
 
@@ -136,6 +141,7 @@ void vtkIsopointSplatMapper::Internals::UpdateGeometry(vtkIsopointSplatMapper* m
           << orNothing(mapper->RadiusArrayName) << '\n'
           << orNothing(mapper->SplatAxis1ArrayName) << '\n'
           << orNothing(mapper->SplatAxis2ArrayName) << '\n'
+          << orNothing(mapper->SplatClipArrayName) << '\n'
           << mapper->Shape << '\n'
           << std::hexfloat << mapper->Radius;
     if (block->GeometryState == state.str())

@@ -384,6 +384,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   define(isDeeper, "SPLAT_DEEPER_LAYER");
   define(buffers.HasNormals(), "SPLAT_NORMALS");
   define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
+  define(buffers.HasClips(), "SPLAT_CLIPS");
   define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
   define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
   define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
