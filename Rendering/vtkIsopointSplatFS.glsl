@@ -66,10 +66,9 @@ void main()
 #ifdef SPLAT_BLEND
   float weight = (1.0 - squaredRadius) * (1.0 - squaredRadius) + 1e-4;
 #ifdef SPLAT_CLIPS
-  // Beyond its plane and behind the face that it meets there a splat counts where there is nothing
-  // else.
-  const float faintness = 1e-4;
-  weight *= (isBeyond ? faintness : 1.0) * (isBehind ? faintness : 1.0);
+  // Beyond its plane a splat counts where there is nothing else, and behind the face that it meets
+  // there even less.
+  weight *= (isBeyond ? 1e-3 : 1.0) * (isBehind ? 1e-6 : 1.0);
 #endif
   gl_FragData[0] = weight * vec4(normalGS, depthGS);
   gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);

@@ -49,12 +49,13 @@ out float gl_ClipDistance[6];
 noperspective out float nearerDepthGS; // depth of the fragment, drawn nearer by the blend depth
 #endif
 
-// Window depth of a point moved along its view ray by a distance, away from the camera.
+// Depth of a point moved along its view ray by a distance, away from the camera, but not out of
+// the far plane, where nothing is seen.
 float movedDepth(vec3 point, float distance)
 {
   vec3 ray = cameraParallel == 1 ? vec3(0.0, 0.0, -1.0) : normalize(point);
   vec4 moved = VCDCMatrix * vec4(point + distance * ray, 1.0);
-  return moved.w > 0.0 ? min(moved.z / moved.w, 1.0) : -1.0;
+  return moved.w > 0.0 ? min(moved.z / moved.w, 1.0 - 1e-6) : -1.0;
 }
 
 void emitCorner(vec2 place)

@@ -371,6 +371,15 @@ def the_near_plane_cuts():
     check(cut > 0.999 * whole, f"its other side is seen through the hole: {cut} of {whole}")
 
 
+def the_far_plane_is_close():
+    """Nothing is hidden because it blends with what would be beyond the far plane."""
+    scene = Scene(actor_of(disk(radius=0.5)))
+    scene.camera.SetClippingRange(1, 100)
+    whole = area(scene.image())
+    scene.camera.SetClippingRange(1, 1.01 * scene.camera.GetDistance())
+    check(whole > 0 and area(scene.image()) == whole, "the same splat")
+
+
 def fewer_splats_look_alike():
     data = torus_splats(300_000)
     actor = actor_of(data)
@@ -409,6 +418,7 @@ def defaults_and_ranges():
     check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
     check(mapper.GetSplatAxis1ArrayName() == "SplatAxis1", "SplatAxis1ArrayName")
     check(mapper.GetSplatAxis2ArrayName() == "SplatAxis2", "SplatAxis2ArrayName")
+    check(mapper.GetSplatClipArrayName() == "SplatClip", "SplatClipArrayName")
     for name, default, low, high in (
         ("Radius", 0.0, 0.0, None),
         ("RadiusScale", 1.0, 0.0, None),
@@ -424,9 +434,11 @@ def defaults_and_ranges():
         if high is not None:
             set_to(1000)
             check(get() == high, "greatest " + name)
+    mapper.SetSplatClipArrayName("planes")
     other = vtkIsopointSplatMapper()
     other.ShallowCopy(mapper)
     check(other.GetMaximumNumberOfLayers() == 32 and other.GetStride() == 1, "ShallowCopy")
+    check(other.GetSplatClipArrayName() == "planes", "ShallowCopy of names")
     check("BlendDepth" in str(mapper), "PrintSelf")
 
 
@@ -457,6 +469,7 @@ if __name__ == "__main__":
         colors_of_cells_that_are_no_vertices,
         normals_of_any_length,
         the_near_plane_cuts,
+        the_far_plane_is_close,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
     ):
