@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatBuffers.h"
 
+#include "vtkIsopointSplatBounds.h"
 #include "vtkIsopointSplatOpenGL.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
@@ -38,13 +40,11 @@ bool isFinite(const double* vector)
 
 std::array<double, 3> centerOf(vtkPoints* points)
 {
-  double bounds[6];
-  points->GetBounds(bounds);
-  std::array<double, 3> center;
-  for (int axis = 0; axis < 3; ++axis)
+  const vtkBoundingBox box = vtkIsopointSplatBounds::OfFinite(points);
+  std::array<double, 3> center = { 0.0, 0.0, 0.0 };
+  for (int axis = 0; axis < 3 && box.IsValid(); ++axis)
   {
-    const double middle = 0.5 * bounds[2 * axis] + 0.5 * bounds[2 * axis + 1];
-    center[axis] = std::isfinite(middle) ? middle : 0.0;
+    center[axis] = 0.5 * box.GetBound(2 * axis) + 0.5 * box.GetBound(2 * axis + 1);
   }
   return center;
 }

@@ -40,7 +40,7 @@ public:
     vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
     vtkDataArray* Axis2 = nullptr;
     vtkDataArray* Clips = nullptr; // of 4 components: a plane's coefficients, or zeros
-    double Radius = 1.0; // of all splats where Radii is null
+    double Radius = 1.0;           // of all splats where Radii is null
   };
 
   /// Takes the points of a polydata of at most 2^31 - 1 points. Splats of a radius that is not

@@ -9,8 +9,6 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkExecutive.h"
 #include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
@@ -27,7 +25,6 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
 
@@ -72,11 +69,7 @@ int vtkIsopointSplatMapper::FillInputPortInformation(int port, vtkInformation* i
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ComputeBounds()
 {
-  vtkBoundingBox box;
-  for (const auto& leaf : vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0)))
-  {
-    box.AddBounds(leaf.second->GetPoints()->GetBounds());
-  }
+  const vtkBoundingBox box = this->Internal->Bounds.Of(this->GetInputDataObject(0, 0));
   if (box.IsValid())
   {
     box.GetBounds(this->Bounds);
@@ -172,14 +165,13 @@ void vtkIsopointSplatMapper::UpdateMaximumPointCellIds(vtkRenderer* renderer, vt
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
-  const auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   vtkIsopointSplatPasses& passes = this->Internal->Passes;
   vtkIsopointSplatPasses::Settings settings;
   this->Internal->SetUpPasses(this, renderer, actor, settings);
-  passes.Render(window, settings, this->Internal->GetPassBlocks(actor));
+  passes.Render(settings, this->Internal->GetPassBlocks(actor));
 
   // What is culled was so splat by splat; the triangle over the viewport has no facing.
-  vtkOpenGLState* const state = window->GetState();
+  vtkOpenGLState* const state = passes.GetWindow()->GetState();
   vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
   state->vtkglDisable(GL_CULL_FACE);
   this->DrawingVertices = false;
@@ -341,6 +333,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
   {
     former->RemoveObserver(this->Internal->WindowObserver);
   }
+  this->Internal->Passes.SetWindow(vtkOpenGLRenderWindow::SafeDownCast(window));
   // Its context goes with it, and handles would be another one's then.
   this->Internal->WindowObserver =
     window->AddObserver(vtkCommand::DeleteEvent, this, &vtkIsopointSplatMapper::ReleaseSplats);

@@ -41,7 +41,7 @@ const char* orNothing(const char* name)
 /// Of points spread over a surface whose area is the bounding box's diagonal, squared.
 double automaticRadius(vtkPolyData* data)
 {
-  const double diagonal = data->GetLength();
+  const double diagonal = vtkIsopointSplatBounds::OfFinite(data->GetPoints()).GetDiagonalLength();
   const double radius = 2.0 * diagonal / std::sqrt(static_cast<double>(data->GetNumberOfPoints()));
   return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
 }
@@ -117,7 +117,10 @@ vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
   vtkIsopointSplatBuffers::Shape shape;
   shape.Normals = usable(data->GetPointData()->GetNormals(), 3);
   shape.Radii = usable(arrayOf(data, mapper->RadiusArrayName), 1);
-  shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+  if (!shape.Radii)
+  {
+    shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+  }
   if (mapper->Shape == vtkIsopointSplatMapper::ELLIPSE)
   {
     shape.Axis1 = usable(arrayOf(data, mapper->SplatAxis1ArrayName), 3);
@@ -317,7 +320,8 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   const int planes = mapper->GetNumberOfClippingPlanes();
   vtkNew<vtkMatrix4x4> planeToView;
   vtkMatrix4x4::Invert(worldToView, planeToView);
-  for (int i = 0; i < std::min(planes, 6); ++i)
+  constexpr int most = vtkIsopointSplatPasses::MaximumNumberOfClippingPlanes;
+  for (int i = 0; i < std::min(planes, most); ++i)
   {
     vtkPlane* const plane = mapper->GetClippingPlanes()->GetItem(i);
     double equation[4];
@@ -327,10 +331,11 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
     planeToView->MultiplyPoint(equation, inView.data());
     settings.ClippingPlanes.push_back(inView);
   }
-  if (planes > 6)
+  if (planes > most && this->TooManyPlanes != mapper->GetClippingPlanes()->GetMTime())
   {
-    vtkErrorWithObjectMacro(mapper,
-      "Of " << planes << " clipping planes the first 6 clip: OpenGL has no more. Remove some.");
+    this->TooManyPlanes = mapper->GetClippingPlanes()->GetMTime();
+    vtkErrorWithObjectMacro(mapper, "Of " << planes << " clipping planes the first " << most
+                                          << " clip: OpenGL has no more. Remove some.");
   }
 
   vtkProperty* const property = actor->GetProperty();

@@ -2,7 +2,6 @@
 #include "vtkIsopointSplatRepresentation.h"
 
 #include "vtkActor.h"
-#include "vtkBoundingBox.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
@@ -83,23 +82,6 @@ vtkSmartPointer<vtkDataObject> compositeSplatsOf(vtkDataObject* object)
     output->SetDataSet(iterator, splatsOf(iterator->GetCurrentDataObject()));
   }
   return output;
-}
-
-void boundsOf(vtkDataObject* object, double bounds[6])
-{
-  vtkBoundingBox box;
-  if (vtkCompositeDataSet* const data = vtkCompositeDataSet::SafeDownCast(object))
-  {
-    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      if (vtkDataSet* const leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
-      {
-        box.AddBounds(leaf->GetBounds());
-      }
-    }
-  }
-  box.GetBounds(bounds);
 }
 
 } // namespace
@@ -188,7 +170,8 @@ int vtkIsopointSplatRepresentation::ProcessViewRequest(
 void vtkIsopointSplatRepresentation::ProvideData(vtkInformation* inInfo, vtkInformation* outInfo)
 {
   double bounds[6];
-  boundsOf(this->Splats, bounds);
+  this->Mapper->SetInputDataObject(this->Splats);
+  this->Mapper->GetBounds(bounds);
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
   vtkPVRenderView::SetPiece(inInfo, this, this->Splats);

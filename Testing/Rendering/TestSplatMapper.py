@@ -23,6 +23,7 @@ from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedChar
 from vtkmodules.vtkCommonDataModel import (
     vtkDataSetAttributes,
     vtkMultiBlockDataSet,
+    vtkPlane,
     vtkPolyData,
 )
 from vtkmodules.vtkFiltersSources import vtkSphereSource
@@ -62,6 +63,43 @@ def draws_nothing():
     ):
         scene = Scene(actor_of(data))
         check(area(scene.image()) == 0, name)
+
+
+def an_infinite_point_changes_nothing():
+    """Neither the radius that suits the points nor their precision."""
+    points = np.array([1e9, -1e9, 1e9]) + [(-0.6, 0, 0), (0.6, 0, 0), (0, 0.3, 0.3)]
+    images = []
+    for extra in ([], [(np.inf, 0, 0)], [(0, -np.inf, np.nan)]):
+        data = polydata([*points, *extra], [UP] * (3 + len(extra)))
+        actor = actor_of(data)
+        # Of an automatic radius that depends on the number of points.
+        actor.GetMapper().SetRadiusScale(np.sqrt((3 + len(extra)) / 3) * 0.2)
+        scene = Scene(actor)
+        scene.renderer.ResetCamera()
+        images.append(scene.image())
+    check(area(images[0]) > 1000, "splats are seen")
+    for image in images[1:]:
+        different = np.any(image != images[0], axis=2).sum()
+        check(different < 0.01 * area(images[0]), f"{different} pixels differ")
+
+
+def clipping_planes_beyond_the_sixth():
+    """One error for each change of the planes, not for each frame."""
+    actor = actor_of(disk())
+    mapper = actor.GetMapper()
+    events = events_of(mapper)
+    scene = Scene(actor)
+    for expected in ([], ["error"], ["error", "error"]):
+        count = 6 if not expected else 1
+        for _ in range(count):
+            plane = vtkPlane()
+            plane.SetNormal(*UP)
+            plane.SetOrigin(0, 1, -1)
+            mapper.AddClippingPlane(plane)
+        for _ in range(3):
+            scene.camera.Azimuth(1)
+            check(area(scene.image()) > 0, "the splat")
+        check(events == expected, f"{mapper.GetClippingPlanes().GetNumberOfItems()}: {events}")
 
 
 def blocks_of(*blocks):
@@ -446,6 +484,17 @@ def bounds():
     mapper = vtkIsopointSplatMapper()
     mapper.SetInputDataObject(blocks_of(disk((-1, 0, 0)), None, disk((2, 3, 4))))
     check(list(mapper.GetBounds()) == [-1, 2, 0, 3, 0, 4], "bounds of blocks")
+    for bad in (np.nan, np.inf, -np.inf):
+        points = [(-1, 0, 1), (bad, 7, 7), (1, 2, 3), (8, bad, 8), (9, 9, bad)]
+        data = polydata(points, [UP] * 5, Radius=np.ones(5))
+        mapper.SetInputDataObject(data)
+        check(list(mapper.GetBounds()) == [-1, 1, 0, 2, 1, 3], f"bounds beside {bad}")
+        data.GetPoints().SetPoint(1, 4, 4, 4)
+        data.GetPoints().Modified()
+        check(list(mapper.GetBounds()) == [-1, 4, 0, 4, 1, 4], f"changed points beside {bad}")
+        mapper.SetInputDataObject(disk((bad, 0, 0)))
+        low, high = mapper.GetBounds()[:2]
+        check(low > high, f"no bounds of {bad} alone")
     mapper.SetInputDataObject(vtkPolyData())
     low, high = mapper.GetBounds()[:2]
     check(low > high, "no bounds without points")
@@ -457,6 +506,8 @@ if __name__ == "__main__":
         bounds,
         draws_nothing,
         leaves_out_only_what_cannot_be_drawn,
+        an_infinite_point_changes_nothing,
+        clipping_planes_beyond_the_sixth,
         has_the_size_it_is_told,
         draws_ellipses,
         warns_once_without_normals,
