@@ -39,7 +39,7 @@ out vec3 axis1VS;
 out vec3 axis2VS;
 out vec3 normalVS;
 out vec4 colorVS;
-out float radiusVS; // in view coordinates
+out float radiusVS; // along the view, in view coordinates
 #ifdef SPLAT_CLIPS
 out vec3 clipVS; // distance before the plane, in radii: at the centre, added along each axis
 flat out int isBehindCreaseVS; // whether the face on the plane's other side hides this one
@@ -141,7 +141,8 @@ void main()
   axis1VS = reach * axis1;
   axis2VS = reach * axis2;
   normalVS = normal;
-  radiusVS = culled ? 0.0 : radiusVC;
+  // Along the view: where the transform flattens the surface, its sides are as near to each other.
+  radiusVS = culled ? 0.0 : r / length(towardsCamera * normalMatrix);
 #ifdef SPLAT_CLIPS
   // Planes take the transposed inverse, too.
   vec3 clip = normalMatrix * clipMC.xyz;

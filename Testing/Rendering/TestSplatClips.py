@@ -12,6 +12,7 @@ from scenes import (
     isopoints,
     polydata,
     psnr,
+    shrunk,
 )
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
@@ -245,15 +246,6 @@ def does_not_blend_across_an_edge():
         print(f"  {position}: {mixed[0]} pixels of both colors, {mixed[1]} with planes")
         check(mixed[0] > 1000, "both colors without planes")
         check(mixed[1] <= 5, "one color each with planes")
-
-
-def shrunk(mask):
-    """Without the pixels at its border."""
-    result = mask.copy()
-    for axis in (0, 1):
-        for shift in (-1, 1):
-            result &= np.roll(mask, shift, axis)
-    return result
 
 
 def edges_of_a_cube():

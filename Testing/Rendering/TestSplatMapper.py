@@ -16,6 +16,8 @@ from scenes import (
     parts,
     polydata,
     psnr,
+    shrunk,
+    torus_mesh,
     torus_splats,
 )
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -418,6 +420,23 @@ def the_far_plane_is_close():
     check(whole > 0 and area(scene.image()) == whole, "the same splat")
 
 
+def flattened_by_a_transform():
+    """The two sides of the surface do not blend, however near to each other they come."""
+    splats, mesh = actor_of(torus_splats(300_000)), actor_of(torus_mesh(), splats=False)
+    for scale in (1.0, 1e-2, 1e-4):
+        images = []
+        for actor in (splats, mesh):
+            actor.SetScale(1, 1, scale)
+            scene = Scene(actor)
+            scene.camera.SetPosition(0, -2, 3)
+            scene.renderer.ResetCameraClippingRange()
+            images.append(scene.image())
+        inside = shrunk(differs(images[1]))
+        specks = np.count_nonzero(inside & (np.abs(images[0] - images[1]).max(2) > 60))
+        print(f"  {specks} specks at a scale of {scale}")
+        check(specks <= 3, "specks")
+
+
 def fewer_splats_look_alike():
     data = torus_splats(300_000)
     actor = actor_of(data)
@@ -521,6 +540,7 @@ if __name__ == "__main__":
         normals_of_any_length,
         the_near_plane_cuts,
         the_far_plane_is_close,
+        flattened_by_a_transform,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
     ):

@@ -191,3 +191,12 @@ def psnr(a, b):
 def differs(image, color=BACKGROUND):
     """Where a picture is not of a color."""
     return np.abs(image - 255 * np.asarray(color)).max(2) > 3
+
+
+def shrunk(mask):
+    """Without the pixels at its border."""
+    result = mask.copy()
+    for axis in (0, 1):
+        for shift in (-1, 1):
+            result &= np.roll(mask, shift, axis)
+    return result
