@@ -153,6 +153,31 @@ def selection(view, isopoints, display):
     simple.ClearSelection(isopoints)
 
 
+def sharp_edges(view):
+    """Splats end at creases where the filter says so: the cube does not stick out of its outline."""
+    image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
+    distance = "max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))"
+    source = simple.Calculator(Input=image, ResultArrayName="r", Function=distance)
+    cube = simple.ScatteredIsopoints(Input=source)
+    cube.ContourBy = ["POINTS", "r"]
+    cube.Isosurfaces = [20.3]
+    cube.Projection = "Quadratic fit with creases"
+    outside = []
+    for cube.ComputeSplatClips in (0, 1):
+        simple.ColorBy(simple.Show(cube, view), None)
+        simple.Render(view)
+        picture = pixels(view)
+        if picture is not None:
+            edge = round(200 * 20.3 / 60)
+            area = covered(picture)
+            area[200 - edge : 200 + edge, 200 - edge : 200 + edge] = False
+            outside.append(np.count_nonzero(area))
+    simple.Hide(cube, view)
+    if outside:
+        print(f"outside of the cube: {outside[0]} pixels, with planes {outside[1]}")
+        check(outside[1] < 0.75 * outside[0], "splats end at the edges")
+
+
 def other_data(view):
     """Every data set with points offers the splats; composite ones show all their blocks."""
     sphere = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[-24, 0, 0])
@@ -207,6 +232,7 @@ def main(plugin, server=None):
         if ranks == 1 and not server:
             level_of_detail(view, isopoints, display)
         simple.Hide(isopoints, view)
+        sharp_edges(view)
         other_data(view)
     finally:
         if process:
