@@ -232,7 +232,8 @@ def main(plugin, server=None):
         if ranks == 1 and not server:
             level_of_detail(view, isopoints, display)
         simple.Hide(isopoints, view)
-        sharp_edges(view)
+        if ranks == 1:
+            sharp_edges(view)  # several ranks' pictures are cut at the points' bounds
         other_data(view)
     finally:
         if process:
