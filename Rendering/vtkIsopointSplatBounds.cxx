@@ -37,18 +37,22 @@ vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
 }
 
 //------------------------------------------------------------------------------
-vtkBoundingBox vtkIsopointSplatBounds::Of(vtkDataObject* input)
+vtkBoundingBox vtkIsopointSplatBounds::Of(
+  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes)
 {
   vtkBoundingBox box;
   decltype(this->Kept) kept;
-  for (const auto& leaf : vtkIsopointSplatLeaves(input))
+  for (const vtkIsopointSplatLeaf& leaf : vtkIsopointSplatLeaves(input, attributes))
   {
-    vtkPoints* const points = leaf.second->GetPoints();
+    vtkPoints* const points = leaf.Data->GetPoints();
     const auto key = std::make_pair(points, points->GetMTime());
     const auto former = this->Kept.find(key);
     const vtkBoundingBox own = former == this->Kept.end() ? OfFinite(points) : former->second;
     kept.emplace(key, own);
-    box.AddBox(own);
+    if (leaf.Visible)
+    {
+      box.AddBox(own);
+    }
   }
   this->Kept.swap(kept);
   return box;

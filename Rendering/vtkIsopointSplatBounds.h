@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
 class vtkPoints;
 
@@ -21,8 +22,8 @@ public:
   /// Of some points; not valid where none is finite. O(points).
   static vtkBoundingBox OfFinite(vtkPoints* points);
 
-  /// Of all polydata in a data object, kept from the last call where points are the same.
-  vtkBoundingBox Of(vtkDataObject* input);
+  /// Of all visible polydata in a data object, kept from the last call where points are the same.
+  vtkBoundingBox Of(vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
 private:
   std::map<std::pair<vtkPoints*, vtkMTimeType>, vtkBoundingBox> Kept;

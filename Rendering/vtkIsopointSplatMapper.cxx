@@ -9,6 +9,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
@@ -69,7 +70,8 @@ int vtkIsopointSplatMapper::FillInputPortInformation(int port, vtkInformation* i
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ComputeBounds()
 {
-  const vtkBoundingBox box = this->Internal->Bounds.Of(this->GetInputDataObject(0, 0));
+  const vtkBoundingBox box =
+    this->Internal->Bounds.Of(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
   if (box.IsValid())
   {
     box.GetBounds(this->Bounds);
@@ -89,12 +91,14 @@ bool vtkIsopointSplatMapper::HasTranslucentPolygonalGeometry()
     return false;
   }
   table->Build();
-  for (const auto& leaf : vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0)))
+  for (const vtkIsopointSplatLeaf& leaf :
+    vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes))
   {
     int cellFlag = 0;
-    vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(leaf.second,
-      this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
-    if (scalars && !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent))
+    vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(
+      leaf.Data, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
+    if (scalars && leaf.Visible && !leaf.HasColor &&
+        !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent))
     {
       return true;
     }
@@ -117,7 +121,7 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
   this->UseWindow(renderer->GetRenderWindow());
-  this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0));
+  this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
   if (this->Internal->Blocks.IsEmpty())
   {
     this->CurrentInput = nullptr;
@@ -314,6 +318,23 @@ void vtkIsopointSplatMapper::ProcessSelectorPixelBuffers(
 }
 
 //------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::SetCompositeDataDisplayAttributes(
+  vtkCompositeDataDisplayAttributes* attributes)
+{
+  if (this->Internal->BlockAttributes != attributes)
+  {
+    this->Internal->BlockAttributes = attributes;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkCompositeDataDisplayAttributes* vtkIsopointSplatMapper::GetCompositeDataDisplayAttributes()
+{
+  return this->Internal->BlockAttributes;
+}
+
+//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->ReleaseSplats();
@@ -381,6 +402,7 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetShape(other->GetShape());
     this->SetStride(other->GetStride());
     this->SetMaximumNumberOfLayers(other->GetMaximumNumberOfLayers());
+    this->SetCompositeDataDisplayAttributes(other->Internal->BlockAttributes);
   }
   this->Superclass::ShallowCopy(mapper);
 }
@@ -401,4 +423,5 @@ void vtkIsopointSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Shape: " << (this->Shape == CIRCLE ? "circle" : "ellipse") << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
   os << indent << "MaximumNumberOfLayers: " << this->MaximumNumberOfLayers << "\n";
+  os << indent << "CompositeDataDisplayAttributes: " << this->Internal->BlockAttributes << "\n";
 }

@@ -42,6 +42,8 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkCompositeDataDisplayAttributes;
+
 class VTKSCATTEREDISOPOINTRENDERING_EXPORT vtkIsopointSplatMapper : public vtkOpenGLPolyDataMapper
 {
 public:
@@ -146,6 +148,17 @@ public:
    */
   vtkSetClampMacro(MaximumNumberOfLayers, int, 1, 32);
   vtkGetMacro(MaximumNumberOfLayers, int);
+  ///@}
+
+  ///@{
+  /**
+   * Visibilities and colors of the blocks of composite input, as vtkCompositePolyDataMapper2 takes
+   * them: a block's color replaces scalar colors and the material's; what is said of a block holds
+   * for those in it of which nothing is said. Opacities and pickabilities are not looked at.
+   * Default: none.
+   */
+  void SetCompositeDataDisplayAttributes(vtkCompositeDataDisplayAttributes* attributes);
+  vtkCompositeDataDisplayAttributes* GetCompositeDataDisplayAttributes();
   ///@}
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;

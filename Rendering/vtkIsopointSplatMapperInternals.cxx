@@ -183,7 +183,8 @@ bool vtkIsopointSplatMapper::Internals::CanUseColorMap(vtkIsopointSplatMapper* m
     [mapper](const std::unique_ptr<vtkIsopointSplatBlocks::Block>& block)
     {
       int cellFlag = 0;
-      return vtkAbstractMapper::GetAbstractScalars(block->Data, mapper->ScalarMode,
+      return !block->Leaf.HasColor &&
+             vtkAbstractMapper::GetAbstractScalars(block->Data, mapper->ScalarMode,
                mapper->ArrayAccessMode, mapper->ArrayId, mapper->ArrayName, cellFlag) != nullptr &&
              cellFlag == 0;
     });
@@ -204,7 +205,11 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* map
           << std::hexfloat << mapper->ScalarRange[0] << ' ' << mapper->ScalarRange[1] << ' '
           << usesMap << ' ' << mapper->FieldDataTupleId << ' ' << table << ' '
           << (table ? table->GetMTime() : 0) << '\n'
-          << mapper->ArrayName;
+          << mapper->ArrayName << '\n';
+    for (const auto& block : this->Blocks.Get())
+    {
+      state << block->Leaf.HasColor;
+    }
     return state.str();
   };
   const std::string state = stateOf();
@@ -246,8 +251,16 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
   forget(mapper->Colors);
   forget(mapper->ColorCoordinates);
   int cellFlag = 0;
-  mapper->MapScalars(block.Data, 1.0, cellFlag);
-  if (mapper->ColorTextureMap && this->Usable(mapper, block.Data, mapper->ColorCoordinates, 2))
+  if (!block.Leaf.HasColor)
+  {
+    mapper->MapScalars(block.Data, 1.0, cellFlag);
+  }
+  if (block.Leaf.HasColor)
+  {
+    block.Buffers.SetColors(nullptr);
+    this->ColoredBy = Coloring::Colors;
+  }
+  else if (mapper->ColorTextureMap && this->Usable(mapper, block.Data, mapper->ColorCoordinates, 2))
   {
     if (!mapper->InternalColorTexture)
     {
@@ -355,12 +368,17 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
 std::vector<vtkIsopointSplatPasses::Block> vtkIsopointSplatMapper::Internals::GetPassBlocks(
   vtkActor* actor)
 {
-  double color[3];
-  actor->GetProperty()->GetDiffuseColor(color);
+  std::array<double, 3> material;
+  actor->GetProperty()->GetDiffuseColor(material.data());
   std::vector<vtkIsopointSplatPasses::Block> result;
   for (const auto& block : this->Blocks.Get())
   {
-    result.push_back({ &block->Buffers, block->Version, block->FlatIndex,
+    if (!block->Leaf.Visible)
+    {
+      continue;
+    }
+    const std::array<double, 3>& color = block->Leaf.HasColor ? block->Leaf.Color : material;
+    result.push_back({ &block->Buffers, block->Version, block->Leaf.FlatIndex,
       { static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]),
         1.0f } });
   }

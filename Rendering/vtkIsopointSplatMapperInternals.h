@@ -25,6 +25,7 @@ public:
   std::vector<vtkIsopointSplatPasses::Block> GetPassBlocks(vtkActor* actor);
 
   vtkIsopointSplatBlocks Blocks;
+  vtkSmartPointer<vtkCompositeDataDisplayAttributes> BlockAttributes;
   vtkIsopointSplatBounds Bounds;
   vtkIsopointSplatPasses Passes;
   Coloring ColoredBy = Coloring::Material;
