@@ -178,6 +178,27 @@ def sharp_edges(view):
         check(outside[1] < 0.75 * outside[0], "splats end at the edges")
 
 
+def colors_and_hides_blocks(view, display):
+    """Of two spheres, to the left and to the right, as the Multi-block Inspector does."""
+    display.BlockColors = ["/Root/Sphere1", "1", "0", "0", "/Root/Sphere2", "0", "1", "0"]
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(image[200, 120, 0] > 100 and image[200, 120, 1] < 50, "the left block is red")
+        check(image[200, 280, 1] > 100 and image[200, 280, 0] < 50, "the right block is green")
+    display.BlockSelectors = ["/Root/Sphere2"]
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(not covered(image)[200, 120] and covered(image)[200, 280], "the left block is hidden")
+    display.BlockSelectors = ["/"]
+    display.BlockColors = []
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(covered(image)[200, 120] and image[200, 280, 0] > 100, "as before")
+
+
 def other_data(view):
     """Every data set with points offers the splats; composite ones show all their blocks."""
     sphere = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[-24, 0, 0])
@@ -196,6 +217,8 @@ def other_data(view):
             check(covered(image).any(), "shown")
             if source is grouped:
                 check(covered(image)[200, 120] and covered(image)[200, 280], "both blocks")
+        if source is grouped:
+            colors_and_hides_blocks(view, display)
         simple.Hide(source, view)
 
 

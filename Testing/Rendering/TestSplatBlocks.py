@@ -3,7 +3,7 @@
 
 import numpy as np
 from scenes import BACKGROUND, Scene, actor_of, check, color_by, differs, polydata
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPartitionedDataSet
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkMultiPieceDataSet
 from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes
 
 UP = [0.0, -1.0, 1.0]  # towards the scene's camera
@@ -18,15 +18,15 @@ def disk(x):
 def nested():
     """(left), ((middle, none), right): the first block is a leaf, the second has blocks."""
     left, middle, right = disk(-0.6), disk(0.0), disk(0.6)
-    partitions = vtkPartitionedDataSet()
-    partitions.SetNumberOfPartitions(2)
-    partitions.SetPartition(0, middle)
+    pieces = vtkMultiPieceDataSet()
+    pieces.SetNumberOfPieces(2)
+    pieces.SetPiece(0, middle)
     inner, outer = vtkMultiBlockDataSet(), vtkMultiBlockDataSet()
-    inner.SetBlock(0, partitions)
+    inner.SetBlock(0, pieces)
     inner.SetBlock(1, right)
     outer.SetBlock(0, left)
     outer.SetBlock(1, inner)
-    return outer, inner, partitions, (left, middle, right)
+    return outer, inner, pieces, (left, middle, right)
 
 
 def with_attributes(data):
@@ -48,7 +48,7 @@ def nothing():
 
 
 def visibilities():
-    outer, inner, partitions, (left, middle, right) = nested()
+    outer, inner, pieces, (left, middle, right) = nested()
     actor, attributes = with_attributes(outer)
     mapper = actor.GetMapper()
     scene = Scene(actor)
@@ -61,7 +61,7 @@ def visibilities():
     check(seen(scene) == [nothing()] * 3, "a block of blocks hidden as well")
     low, high = mapper.GetBounds()[:2]
     check(low > high, "no bounds of nothing")
-    attributes.SetBlockVisibility(partitions, True)
+    attributes.SetBlockVisibility(pieces, True)
     check(seen(scene) == [nothing(), WHITE, nothing()], "an inner block has the last word")
     attributes.RemoveBlockVisibilities()
     attributes.SetBlockVisibility(outer, False)
@@ -75,7 +75,7 @@ def visibilities():
 
 
 def colors():
-    outer, inner, partitions, (left, middle, right) = nested()
+    outer, inner, pieces, (left, middle, right) = nested()
     for scalars in ("none", "mapped", "a color map"):
         actor, attributes = with_attributes(outer)
         plain = WHITE
