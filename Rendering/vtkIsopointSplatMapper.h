@@ -30,6 +30,8 @@
  *
  * @warning Composite input is colored by coordinates in a color map
  * (InterpolateScalarsBeforeMapping) only where each block has the array.
+ * @warning Filters that move points leave arrays of axes and planes as they were: move the actor
+ * instead.
  * @warning A block has at most 2^31 - 1 points; larger ones are an error and not drawn.
  *
  * @sa vtkPointGaussianMapper
