@@ -2,53 +2,115 @@
 #include "vtkIsopointSplatBlocks.h"
 
 #include "vtkCellArray.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
-//------------------------------------------------------------------------------
-std::vector<std::pair<unsigned int, vtkPolyData*>> vtkIsopointSplatLeaves(vtkDataObject* input)
+namespace
 {
-  std::vector<std::pair<unsigned int, vtkPolyData*>> leaves;
-  const auto add = [&leaves](unsigned int index, vtkDataObject* object)
+
+/// Gives leaves what is said of a data object that they are, or are in.
+void applyAttributes(vtkDataObject* object, vtkCompositeDataDisplayAttributes* attributes,
+  std::vector<vtkIsopointSplatLeaf>& leaves)
+{
+  const bool hasVisibility = attributes->HasBlockVisibility(object);
+  const bool hasColor = attributes->HasBlockColor(object);
+  if (!hasVisibility && !hasColor)
   {
-    vtkPolyData* const polyData = vtkPolyData::SafeDownCast(object);
-    if (polyData && polyData->GetNumberOfPoints() > 0)
-    {
-      leaves.emplace_back(index, polyData);
-    }
-  };
-  if (vtkCompositeDataSet* const composite = vtkCompositeDataSet::SafeDownCast(input))
+    return;
+  }
+  std::set<vtkDataObject*> within = { object };
+  if (vtkCompositeDataSet* const composite = vtkCompositeDataSet::SafeDownCast(object))
   {
     const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
-      add(iterator->GetCurrentFlatIndex(), iterator->GetCurrentDataObject());
+      within.insert(iterator->GetCurrentDataObject());
     }
   }
-  else
+  for (vtkIsopointSplatLeaf& leaf : leaves)
+  {
+    if (within.count(leaf.Data) == 0)
+    {
+      continue;
+    }
+    if (hasVisibility)
+    {
+      leaf.Visible = attributes->GetBlockVisibility(object);
+    }
+    if (hasColor)
+    {
+      leaf.HasColor = true;
+      attributes->GetBlockColor(object, leaf.Color.data());
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
+  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes)
+{
+  std::vector<vtkIsopointSplatLeaf> leaves;
+  const auto add = [&leaves](unsigned int index, vtkDataObject* object)
+  {
+    vtkIsopointSplatLeaf leaf;
+    leaf.Data = vtkPolyData::SafeDownCast(object);
+    leaf.FlatIndex = index;
+    if (leaf.Data && leaf.Data->GetNumberOfPoints() > 0)
+    {
+      leaves.push_back(leaf);
+    }
+  };
+  vtkCompositeDataSet* const composite = vtkCompositeDataSet::SafeDownCast(input);
+  if (!composite)
   {
     add(0, input);
+    return leaves;
+  }
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    add(iterator->GetCurrentFlatIndex(), iterator->GetCurrentDataObject());
+  }
+  if (!attributes || !(attributes->HasBlockVisibilities() || attributes->HasBlockColors()))
+  {
+    return leaves;
+  }
+  // Outer blocks come before the inner ones, which have the last word.
+  applyAttributes(composite, attributes, leaves);
+  if (const auto tree = vtkDataObjectTreeIterator::SafeDownCast(iterator))
+  {
+    tree->VisitOnlyLeavesOff();
+  }
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    applyAttributes(iterator->GetCurrentDataObject(), attributes, leaves);
   }
   return leaves;
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatBlocks::SetInput(vtkDataObject* input)
+void vtkIsopointSplatBlocks::SetInput(
+  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes)
 {
   this->Composite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
   std::vector<std::unique_ptr<Block>> former = std::move(this->Blocks);
   this->Blocks.clear();
-  for (const auto& leaf : vtkIsopointSplatLeaves(input))
+  for (const vtkIsopointSplatLeaf& leaf : vtkIsopointSplatLeaves(input, attributes))
   {
     const auto same = std::find_if(former.begin(), former.end(),
-      [&leaf](const std::unique_ptr<Block>& block) { return block && block->Data == leaf.second; });
+      [&leaf](const std::unique_ptr<Block>& block) { return block && block->Data == leaf.Data; });
     this->Blocks.push_back(same == former.end() ? std::make_unique<Block>() : std::move(*same));
-    this->Blocks.back()->Data = leaf.second;
-    this->Blocks.back()->FlatIndex = leaf.first;
+    this->Blocks.back()->Data = leaf.Data;
+    this->Blocks.back()->Leaf = leaf;
   }
 }
 
@@ -61,8 +123,9 @@ vtkIsopointSplatBlocks::Block* vtkIsopointSplatBlocks::Find(unsigned int flatInd
   }
   const auto found = std::lower_bound(this->Blocks.begin(), this->Blocks.end(), flatIndex,
     [](const std::unique_ptr<Block>& block, unsigned int index)
-    { return block->FlatIndex < index; });
-  return found != this->Blocks.end() && (*found)->FlatIndex == flatIndex ? found->get() : nullptr;
+    { return block->Leaf.FlatIndex < index; });
+  return found != this->Blocks.end() && (*found)->Leaf.FlatIndex == flatIndex ? found->get()
+                                                                              : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -7,12 +7,29 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
 class vtkPolyData;
+
+/// A polydata with points that a mapper may draw.
+struct vtkIsopointSplatLeaf
+{
+  vtkPolyData* Data = nullptr;
+  unsigned int FlatIndex = 0; // within composite input
+  bool Visible = true;
+  bool HasColor = false; // of its own, instead of the scalars' and the material's
+  std::array<double, 3> Color = { 0.0, 0.0, 0.0 };
+};
+
+/// Those in a data object. Visibilities and colors are given to them or to blocks that they are in,
+/// of which the innermost counts; attributes may be null.
+std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
+  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
 /**
  * The vtkPolyData that a mapper draws: its input, or the leaves of its composite input, each with
@@ -23,8 +40,8 @@ class vtkIsopointSplatBlocks
 public:
   struct Block
   {
-    vtkSmartPointer<vtkPolyData> Data;
-    unsigned int FlatIndex = 0; // within composite input
+    vtkSmartPointer<vtkPolyData> Data; // the leaf's
+    vtkIsopointSplatLeaf Leaf;
     vtkIsopointSplatBuffers Buffers;
     std::string GeometryState; // what the buffers were filled from
     std::string ColorState;
@@ -33,7 +50,7 @@ public:
   };
 
   /// Takes the points of an input; null and other data objects have none.
-  void SetInput(vtkDataObject* input);
+  void SetInput(vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
   bool IsComposite() const { return this->Composite; }
   bool IsEmpty() const { return this->Blocks.empty(); }
@@ -51,9 +68,6 @@ private:
   std::vector<std::unique_ptr<Block>> Blocks;
   bool Composite = false;
 };
-
-/// The polydata with points in a data object, with their flat indices; all that a mapper draws.
-std::vector<std::pair<unsigned int, vtkPolyData*>> vtkIsopointSplatLeaves(vtkDataObject* input);
 
 #endif
 // VTK-HeaderTest-Exclude: vtkIsopointSplatBlocks.h

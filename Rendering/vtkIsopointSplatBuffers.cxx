@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatBuffers.h"
 
+#include "vtkIsopointSplatBounds.h"
 #include "vtkIsopointSplatOpenGL.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
@@ -15,6 +17,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -37,13 +40,11 @@ bool isFinite(const double* vector)
 
 std::array<double, 3> centerOf(vtkPoints* points)
 {
-  double bounds[6];
-  points->GetBounds(bounds);
-  std::array<double, 3> center;
-  for (int axis = 0; axis < 3; ++axis)
+  const vtkBoundingBox box = vtkIsopointSplatBounds::OfFinite(points);
+  std::array<double, 3> center = { 0.0, 0.0, 0.0 };
+  for (int axis = 0; axis < 3 && box.IsValid(); ++axis)
   {
-    const double middle = 0.5 * bounds[2 * axis] + 0.5 * bounds[2 * axis + 1];
-    center[axis] = std::isfinite(middle) ? middle : 0.0;
+    center[axis] = 0.5 * box.GetBound(2 * axis) + 0.5 * box.GetBound(2 * axis + 1);
   }
   return center;
 }
@@ -71,6 +72,35 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
   {
     vector[axis] = isUsable ? static_cast<float>(values[axis] / length) : 0.0f;
   }
+}
+
+using Clip = std::array<float, 4>;
+
+/// A plane relative to a splat: its normal over the radius and the centre's distance before it, in
+/// radii. Zeros for none, and for one that is not placed to a tenth of the radius: its terms grow
+/// with the coordinates, and so do their rounding errors.
+Clip clipOf(const double* plane, const double* center, double radius, double precision)
+{
+  const double length = std::hypot(plane[0], plane[1], plane[2]);
+  double distance = plane[3];
+  double terms = std::abs(plane[3]);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    distance += plane[axis] * center[axis];
+    terms += std::abs(plane[axis] * center[axis]);
+  }
+  const double scale = 1.0 / (length * radius);
+  constexpr double tolerance = 0.1;
+  Clip clip = { 0.0f, 0.0f, 0.0f, 0.0f };
+  if (length > 0.0 && std::isfinite(scale) && terms * precision * scale < tolerance)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      clip[axis] = static_cast<float>(plane[axis] * scale);
+    }
+    clip[3] = static_cast<float>(distance * scale);
+  }
+  return clip;
 }
 
 template <class TElement>
@@ -145,8 +175,52 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
   {
     upload(this->Axes, axes);
   }
+  this->SetClips(points, shape);
   this->SubsetStride = 0;
   this->ForgetPrograms();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatBuffers::SetClips(vtkPoints* points, const Shape& shape)
+{
+  this->Clipped = false;
+  if (!shape.Clips)
+  {
+    return;
+  }
+  const double precision = shape.Clips->GetDataType() == VTK_FLOAT
+                             ? std::numeric_limits<float>::epsilon()
+                             : std::numeric_limits<double>::epsilon();
+  std::vector<Clip> clips(static_cast<std::size_t>(this->NumberOfSplats));
+  std::atomic<bool> hasClip{ false };
+  vtkSMPTools::For(0, this->NumberOfSplats,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      bool hasOne = false;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        double plane[4];
+        double position[3];
+        double radius = shape.Radius;
+        shape.Clips->GetTuple(i, plane);
+        points->GetPoint(i, position);
+        if (shape.Radii)
+        {
+          shape.Radii->GetTuple(i, &radius);
+        }
+        clips[i] = clipOf(plane, position, radius, precision);
+        hasOne = hasOne || clips[i] != Clip{};
+      }
+      if (hasOne)
+      {
+        hasClip = true;
+      }
+    });
+  this->Clipped = hasClip;
+  if (this->Clipped)
+  {
+    upload(this->Clips, clips);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -234,6 +308,10 @@ void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
     add(this->Axes, "axis1MC", 0, 2 * vectorSize, VTK_FLOAT, 3);
     add(this->Axes, "axis2MC", vectorSize, 2 * vectorSize, VTK_FLOAT, 3);
   }
+  if (this->Clipped)
+  {
+    add(this->Clips, "clipMC", 0, sizeof(Clip), VTK_FLOAT, 4);
+  }
   if (this->ColorComponents == 4)
   {
     add(this->Colors, "color", 0, 4, VTK_UNSIGNED_CHAR, 4);
@@ -285,6 +363,7 @@ void vtkIsopointSplatBuffers::ReleaseGraphicsResources()
   this->ForgetPrograms();
   this->Disks->ReleaseGraphicsResources();
   this->Axes->ReleaseGraphicsResources();
+  this->Clips->ReleaseGraphicsResources();
   this->Colors->ReleaseGraphicsResources();
   this->Subset->ReleaseGraphicsResources();
   this->SubsetStride = 0;

@@ -13,6 +13,7 @@
 class vtkDataArray;
 class vtkOpenGLBufferObject;
 class vtkOpenGLVertexArrayObject;
+class vtkPoints;
 class vtkPolyData;
 class vtkShaderProgram;
 class vtkUnsignedCharArray;
@@ -38,12 +39,14 @@ public:
     vtkDataArray* Radii = nullptr;   // of 1 component
     vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
     vtkDataArray* Axis2 = nullptr;
-    double Radius = 1.0; // of all splats where Radii is null
+    vtkDataArray* Clips = nullptr; // of 4 components: a plane's coefficients, or zeros
+    double Radius = 1.0;           // of all splats where Radii is null
   };
 
   /// Takes the points of a polydata of at most 2^31 - 1 points. Splats of a radius that is not
   /// positive, of a position that is not finite, and hidden or duplicated ghost points are not
-  /// drawn.
+  /// drawn. Of a splat with a plane only the side where a x + b y + c z + d is not negative is
+  /// drawn; a plane that the array's precision does not place to a tenth of the radius is left out.
   void SetSplats(vtkPolyData* polyData, const Shape& shape);
 
   /// One color of 4 components a point; null for none.
@@ -62,17 +65,20 @@ public:
   vtkIdType GetNumberOfSplats() const { return this->NumberOfSplats; }
   bool HasNormals() const { return this->Normals; }
   bool HasEllipses() const { return this->Ellipses; }
+  bool HasClips() const { return this->Clipped; }
   bool HasColors() const { return this->ColorComponents > 0; }
 
 private:
   struct Program;
 
+  void SetClips(vtkPoints* points, const Shape& shape);
   void Bind(vtkShaderProgram* program);
   void BindSubset(int stride);
   void ForgetPrograms();
 
   vtkNew<vtkOpenGLBufferObject> Disks; // position, normal, radius
   vtkNew<vtkOpenGLBufferObject> Axes;
+  vtkNew<vtkOpenGLBufferObject> Clips;
   vtkNew<vtkOpenGLBufferObject> Colors;
   vtkNew<vtkOpenGLBufferObject> Subset; // indices of a random part of the splats
   std::map<unsigned int, std::unique_ptr<Program>> Programs; // by the program's handle
@@ -83,6 +89,7 @@ private:
   int ColorComponents = 0; // 4: colors, 2: coordinates in a color map
   bool Normals = false;
   bool Ellipses = false;
+  bool Clipped = false;
 };
 
 #endif

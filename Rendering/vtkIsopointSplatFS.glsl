@@ -8,6 +8,10 @@
 //VTK::Define::Dec
 
 in vec2 placeGS;
+#ifdef SPLAT_CLIPS
+in float clipGS;
+flat in int isBehindCreaseGS;
+#endif
 #ifdef SPLAT_BLEND
 in float depthGS;
 flat in vec3 normalGS;
@@ -25,13 +29,34 @@ uniform sampler2D previousDepth;
 
 //VTK::Output::Dec
 
+#ifdef SPLAT_CLIPS
+// In pixels. Faces that meet at a crease leave no slit though their planes are not quite the same.
+const float slit = 0.05;
+#endif
+
 void main()
 {
   float squaredRadius = dot(placeGS, placeGS);
+#ifdef SPLAT_CLIPS
+  float pixel = fwidth(clipGS);
+  bool isBeyond = clipGS < 0.0;
+  bool isBehind = isBehindCreaseGS == 1;
+#endif
   if (squaredRadius > 1.0)
   {
     discard;
   }
+#ifdef SPLAT_CLIPS
+  // Twice as far where the passes blend: all that is covered has a weight, however it is rounded.
+#ifdef SPLAT_VISIBILITY
+  if (clipGS < -slit * pixel)
+#else
+  if (clipGS < -2.0 * slit * pixel)
+#endif
+  {
+    discard;
+  }
+#endif
 #ifdef SPLAT_DEEPER_LAYER
   if (nearerDepthGS <= texelFetch(previousDepth, ivec2(gl_FragCoord.xy), 0).r)
   {
@@ -40,6 +65,11 @@ void main()
 #endif
 #ifdef SPLAT_BLEND
   float weight = (1.0 - squaredRadius) * (1.0 - squaredRadius) + 1e-4;
+#ifdef SPLAT_CLIPS
+  // Beyond its plane a splat counts where there is nothing else, and behind the face that it meets
+  // there even less.
+  weight *= (isBeyond ? 1e-3 : 1.0) * (isBehind ? 1e-6 : 1.0);
+#endif
   gl_FragData[0] = weight * vec4(normalGS, depthGS);
   gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
 #ifdef SPLAT_TRANSLUCENT_COLORS
@@ -52,6 +82,10 @@ void main()
     discard;
   }
   gl_FragData[0] = vec4(float(pointIdGS & 0xffffu), float(pointIdGS >> 16u), blockIndex, 1.0);
-  gl_FragDepth = sqrt(squaredRadius);
+  float distance = 0.5 * sqrt(squaredRadius);
+#ifdef SPLAT_CLIPS
+  distance += isBeyond || isBehind ? 0.5 : 0.0;
+#endif
+  gl_FragDepth = distance;
 #endif
 }

@@ -15,6 +15,10 @@ in vec3 axis2VS[];
 in vec3 normalVS[];
 in vec4 colorVS[];
 in float radiusVS[];
+#ifdef SPLAT_CLIPS
+in vec3 clipVS[];
+flat in int isBehindCreaseVS[];
+#endif
 flat in uint pointIdVS[];
 
 uniform mat4 VCDCMatrix;
@@ -24,6 +28,10 @@ uniform int clippingPlaneCount;
 uniform vec4 clippingPlanes[6]; // in view coordinates
 
 out vec2 placeGS; // within the unit circle where the splat is
+#ifdef SPLAT_CLIPS
+out float clipGS; // distance before the splat's own clipping plane, in radii
+flat out int isBehindCreaseGS;
+#endif
 #ifdef SPLAT_BLEND
 out float depthGS; // z in view coordinates
 flat out vec3 normalGS;
@@ -41,12 +49,13 @@ out float gl_ClipDistance[6];
 noperspective out float nearerDepthGS; // depth of the fragment, drawn nearer by the blend depth
 #endif
 
-// Window depth of a point moved along its view ray by a distance, away from the camera.
+// Depth of a point moved along its view ray by a distance, away from the camera, but not out of
+// the far plane, where nothing is seen.
 float movedDepth(vec3 point, float distance)
 {
   vec3 ray = cameraParallel == 1 ? vec3(0.0, 0.0, -1.0) : normalize(point);
   vec4 moved = VCDCMatrix * vec4(point + distance * ray, 1.0);
-  return moved.w > 0.0 ? min(moved.z / moved.w, 1.0) : -1.0;
+  return moved.w > 0.0 ? min(moved.z / moved.w, 1.0 - 1e-6) : -1.0;
 }
 
 void emitCorner(vec2 place)
@@ -54,6 +63,10 @@ void emitCorner(vec2 place)
   vec3 corner = centerVS[0] + place.x * axis1VS[0] + place.y * axis2VS[0];
   gl_Position = VCDCMatrix * vec4(corner, 1.0);
   placeGS = place;
+#ifdef SPLAT_CLIPS
+  clipGS = clipVS[0].x + dot(clipVS[0].yz, place);
+  isBehindCreaseGS = isBehindCreaseVS[0];
+#endif
 #ifdef SPLAT_BLEND
   depthGS = corner.z;
   normalGS = normalVS[0];

@@ -9,8 +9,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkExecutive.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
@@ -27,7 +26,6 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
 
@@ -38,11 +36,13 @@ vtkIsopointSplatMapper::vtkIsopointSplatMapper()
   : RadiusArrayName(nullptr)
   , SplatAxis1ArrayName(nullptr)
   , SplatAxis2ArrayName(nullptr)
+  , SplatClipArrayName(nullptr)
   , Internal(new Internals)
 {
   this->SetRadiusArrayName("Radius");
   this->SetSplatAxis1ArrayName("SplatAxis1");
   this->SetSplatAxis2ArrayName("SplatAxis2");
+  this->SetSplatClipArrayName("SplatClip");
 }
 
 //------------------------------------------------------------------------------
@@ -56,6 +56,7 @@ vtkIsopointSplatMapper::~vtkIsopointSplatMapper()
   this->SetRadiusArrayName(nullptr);
   this->SetSplatAxis1ArrayName(nullptr);
   this->SetSplatAxis2ArrayName(nullptr);
+  this->SetSplatClipArrayName(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -69,11 +70,8 @@ int vtkIsopointSplatMapper::FillInputPortInformation(int port, vtkInformation* i
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ComputeBounds()
 {
-  vtkBoundingBox box;
-  for (const auto& leaf : vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0)))
-  {
-    box.AddBounds(leaf.second->GetPoints()->GetBounds());
-  }
+  const vtkBoundingBox box =
+    this->Internal->Bounds.Of(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
   if (box.IsValid())
   {
     box.GetBounds(this->Bounds);
@@ -93,12 +91,14 @@ bool vtkIsopointSplatMapper::HasTranslucentPolygonalGeometry()
     return false;
   }
   table->Build();
-  for (const auto& leaf : vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0)))
+  for (const vtkIsopointSplatLeaf& leaf :
+    vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes))
   {
     int cellFlag = 0;
-    vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(leaf.second,
-      this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
-    if (scalars && !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent))
+    vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(
+      leaf.Data, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
+    if (scalars && leaf.Visible && !leaf.HasColor &&
+        !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent))
     {
       return true;
     }
@@ -121,7 +121,7 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
   this->UseWindow(renderer->GetRenderWindow());
-  this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0));
+  this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
   if (this->Internal->Blocks.IsEmpty())
   {
     this->CurrentInput = nullptr;
@@ -169,14 +169,13 @@ void vtkIsopointSplatMapper::UpdateMaximumPointCellIds(vtkRenderer* renderer, vt
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
-  const auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   vtkIsopointSplatPasses& passes = this->Internal->Passes;
   vtkIsopointSplatPasses::Settings settings;
   this->Internal->SetUpPasses(this, renderer, actor, settings);
-  passes.Render(window, settings, this->Internal->GetPassBlocks(actor));
+  passes.Render(settings, this->Internal->GetPassBlocks(actor));
 
   // What is culled was so splat by splat; the triangle over the viewport has no facing.
-  vtkOpenGLState* const state = window->GetState();
+  vtkOpenGLState* const state = passes.GetWindow()->GetState();
   vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
   state->vtkglDisable(GL_CULL_FACE);
   this->DrawingVertices = false;
@@ -319,6 +318,23 @@ void vtkIsopointSplatMapper::ProcessSelectorPixelBuffers(
 }
 
 //------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::SetCompositeDataDisplayAttributes(
+  vtkCompositeDataDisplayAttributes* attributes)
+{
+  if (this->Internal->BlockAttributes != attributes)
+  {
+    this->Internal->BlockAttributes = attributes;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkCompositeDataDisplayAttributes* vtkIsopointSplatMapper::GetCompositeDataDisplayAttributes()
+{
+  return this->Internal->BlockAttributes;
+}
+
+//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->ReleaseSplats();
@@ -338,6 +354,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
   {
     former->RemoveObserver(this->Internal->WindowObserver);
   }
+  this->Internal->Passes.SetWindow(vtkOpenGLRenderWindow::SafeDownCast(window));
   // Its context goes with it, and handles would be another one's then.
   this->Internal->WindowObserver =
     window->AddObserver(vtkCommand::DeleteEvent, this, &vtkIsopointSplatMapper::ReleaseSplats);
@@ -378,12 +395,14 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetSplatAxis1ArrayName(other->GetSplatAxis1ArrayName());
     this->SetSplatAxis2ArrayName(other->GetSplatAxis2ArrayName());
+    this->SetSplatClipArrayName(other->GetSplatClipArrayName());
     this->SetRadius(other->GetRadius());
     this->SetRadiusScale(other->GetRadiusScale());
     this->SetBlendDepth(other->GetBlendDepth());
     this->SetShape(other->GetShape());
     this->SetStride(other->GetStride());
     this->SetMaximumNumberOfLayers(other->GetMaximumNumberOfLayers());
+    this->SetCompositeDataDisplayAttributes(other->Internal->BlockAttributes);
   }
   this->Superclass::ShallowCopy(mapper);
 }
@@ -397,10 +416,12 @@ void vtkIsopointSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   printName("RadiusArrayName", this->RadiusArrayName);
   printName("SplatAxis1ArrayName", this->SplatAxis1ArrayName);
   printName("SplatAxis2ArrayName", this->SplatAxis2ArrayName);
+  printName("SplatClipArrayName", this->SplatClipArrayName);
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "BlendDepth: " << this->BlendDepth << "\n";
   os << indent << "Shape: " << (this->Shape == CIRCLE ? "circle" : "ellipse") << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
   os << indent << "MaximumNumberOfLayers: " << this->MaximumNumberOfLayers << "\n";
+  os << indent << "CompositeDataDisplayAttributes: " << this->Internal->BlockAttributes << "\n";
 }

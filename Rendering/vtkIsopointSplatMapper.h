@@ -14,7 +14,8 @@
  * ghost points and points of a position or radius that is not finite. The points' normals are the
  * active normals; without any the splats face the camera, and a warning says so once. Radii come
  * from the array RadiusArrayName, half-axes of ellipses from SplatAxis1ArrayName and
- * SplatAxis2ArrayName, as vtkScatteredIsopointFilter writes them.
+ * SplatAxis2ArrayName, planes at which splats end from SplatClipArrayName, as
+ * vtkScatteredIsopointFilter writes them.
  *
  * Lights, materials, physically based rendering, scalar coloring, opacity, clipping planes,
  * transforms of the actor, face culling, a back face property, SSAO, FXAA, depth peeling,
@@ -29,6 +30,8 @@
  *
  * @warning Composite input is colored by coordinates in a color map
  * (InterpolateScalarsBeforeMapping) only where each block has the array.
+ * @warning Filters that move points leave arrays of axes and planes as they were: move the actor
+ * instead.
  * @warning A block has at most 2^31 - 1 points; larger ones are an error and not drawn.
  *
  * @sa vtkPointGaussianMapper
@@ -40,6 +43,8 @@
 #include "vtkScatteredIsopointRenderingModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
+
+class vtkCompositeDataDisplayAttributes;
 
 class VTKSCATTEREDISOPOINTRENDERING_EXPORT vtkIsopointSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -115,6 +120,20 @@ public:
 
   ///@{
   /**
+   * Name of the point array of planes at which splats end, as vtkScatteredIsopointFilter writes it
+   * for the sake of sharp edges: four floating-point numbers a, b, c, d; of the splat only the
+   * places with a x + b y + c z + d >= 0, in the units of the points' coordinates, are drawn.
+   * Splats of zeros, of what is not finite, and of a plane that its array's precision does not
+   * place to a tenth of the radius are drawn whole: in single precision those farther than some
+   * hundred thousand radii from the origin. Where the input has no such array, and where the name
+   * is empty, all are. Default: "SplatClip".
+   */
+  vtkSetStringMacro(SplatClipArrayName);
+  vtkGetStringMacro(SplatClipArrayName);
+  ///@}
+
+  ///@{
+  /**
    * Level of detail: one splat in Stride is drawn, chosen at random but always the same, its radius
    * times the square root of Stride. Meant for the time of an interaction: a change of it sends
    * nothing to the graphics card again. At least 1. Default: 1, all splats.
@@ -131,6 +150,17 @@ public:
    */
   vtkSetClampMacro(MaximumNumberOfLayers, int, 1, 32);
   vtkGetMacro(MaximumNumberOfLayers, int);
+  ///@}
+
+  ///@{
+  /**
+   * Visibilities and colors of the blocks of composite input, as vtkCompositePolyDataMapper2 takes
+   * them: a block's color replaces scalar colors and the material's; what is said of a block holds
+   * for those in it of which nothing is said. Opacities and pickabilities are not looked at.
+   * Default: none.
+   */
+  void SetCompositeDataDisplayAttributes(vtkCompositeDataDisplayAttributes* attributes);
+  vtkCompositeDataDisplayAttributes* GetCompositeDataDisplayAttributes();
   ///@}
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
@@ -187,6 +217,7 @@ protected:
   char* RadiusArrayName;
   char* SplatAxis1ArrayName;
   char* SplatAxis2ArrayName;
+  char* SplatClipArrayName;
   double Radius = 0.0;
   double RadiusScale = 1.0;
   double BlendDepth = 1.0;

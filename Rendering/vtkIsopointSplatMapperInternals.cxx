@@ -30,7 +30,7 @@ namespace
 
 vtkDataArray* arrayOf(vtkPolyData* data, const char* name)
 {
-  return name ? data->GetPointData()->GetArray(name) : nullptr;
+  return name && name[0] ? data->GetPointData()->GetArray(name) : nullptr;
 }
 
 const char* orNothing(const char* name)
@@ -41,7 +41,7 @@ const char* orNothing(const char* name)
 /// Of points spread over a surface whose area is the bounding box's diagonal, squared.
 double automaticRadius(vtkPolyData* data)
 {
-  const double diagonal = data->GetLength();
+  const double diagonal = vtkIsopointSplatBounds::OfFinite(data->GetPoints()).GetDiagonalLength();
   const double radius = 2.0 * diagonal / std::sqrt(static_cast<double>(data->GetNumberOfPoints()));
   return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
 }
@@ -117,11 +117,19 @@ vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
   vtkIsopointSplatBuffers::Shape shape;
   shape.Normals = usable(data->GetPointData()->GetNormals(), 3);
   shape.Radii = usable(arrayOf(data, mapper->RadiusArrayName), 1);
-  shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+  if (!shape.Radii)
+  {
+    shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+  }
   if (mapper->Shape == vtkIsopointSplatMapper::ELLIPSE)
   {
     shape.Axis1 = usable(arrayOf(data, mapper->SplatAxis1ArrayName), 3);
     shape.Axis2 = usable(arrayOf(data, mapper->SplatAxis2ArrayName), 3);
+  }
+  vtkDataArray* const clips = arrayOf(data, mapper->SplatClipArrayName);
+  if (clips && (clips->GetDataType() == VTK_FLOAT || clips->GetDataType() == VTK_DOUBLE))
+  {
+    shape.Clips = usable(clips, 4);
   }
   return shape;
 }
@@ -136,6 +144,7 @@ void vtkIsopointSplatMapper::Internals::UpdateGeometry(vtkIsopointSplatMapper* m
           << orNothing(mapper->RadiusArrayName) << '\n'
           << orNothing(mapper->SplatAxis1ArrayName) << '\n'
           << orNothing(mapper->SplatAxis2ArrayName) << '\n'
+          << orNothing(mapper->SplatClipArrayName) << '\n'
           << mapper->Shape << '\n'
           << std::hexfloat << mapper->Radius;
     if (block->GeometryState == state.str())
@@ -174,7 +183,8 @@ bool vtkIsopointSplatMapper::Internals::CanUseColorMap(vtkIsopointSplatMapper* m
     [mapper](const std::unique_ptr<vtkIsopointSplatBlocks::Block>& block)
     {
       int cellFlag = 0;
-      return vtkAbstractMapper::GetAbstractScalars(block->Data, mapper->ScalarMode,
+      return !block->Leaf.HasColor &&
+             vtkAbstractMapper::GetAbstractScalars(block->Data, mapper->ScalarMode,
                mapper->ArrayAccessMode, mapper->ArrayId, mapper->ArrayName, cellFlag) != nullptr &&
              cellFlag == 0;
     });
@@ -195,7 +205,11 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* map
           << std::hexfloat << mapper->ScalarRange[0] << ' ' << mapper->ScalarRange[1] << ' '
           << usesMap << ' ' << mapper->FieldDataTupleId << ' ' << table << ' '
           << (table ? table->GetMTime() : 0) << '\n'
-          << mapper->ArrayName;
+          << mapper->ArrayName << '\n';
+    for (const auto& block : this->Blocks.Get())
+    {
+      state << block->Leaf.HasColor;
+    }
     return state.str();
   };
   const std::string state = stateOf();
@@ -237,8 +251,16 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
   forget(mapper->Colors);
   forget(mapper->ColorCoordinates);
   int cellFlag = 0;
-  mapper->MapScalars(block.Data, 1.0, cellFlag);
-  if (mapper->ColorTextureMap && this->Usable(mapper, block.Data, mapper->ColorCoordinates, 2))
+  if (!block.Leaf.HasColor)
+  {
+    mapper->MapScalars(block.Data, 1.0, cellFlag);
+  }
+  if (block.Leaf.HasColor)
+  {
+    block.Buffers.SetColors(nullptr);
+    this->ColoredBy = Coloring::Colors;
+  }
+  else if (mapper->ColorTextureMap && this->Usable(mapper, block.Data, mapper->ColorCoordinates, 2))
   {
     if (!mapper->InternalColorTexture)
     {
@@ -311,7 +333,8 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   const int planes = mapper->GetNumberOfClippingPlanes();
   vtkNew<vtkMatrix4x4> planeToView;
   vtkMatrix4x4::Invert(worldToView, planeToView);
-  for (int i = 0; i < std::min(planes, 6); ++i)
+  constexpr int most = vtkIsopointSplatPasses::MaximumNumberOfClippingPlanes;
+  for (int i = 0; i < std::min(planes, most); ++i)
   {
     vtkPlane* const plane = mapper->GetClippingPlanes()->GetItem(i);
     double equation[4];
@@ -321,10 +344,11 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
     planeToView->MultiplyPoint(equation, inView.data());
     settings.ClippingPlanes.push_back(inView);
   }
-  if (planes > 6)
+  if (planes > most && this->TooManyPlanes != mapper->GetClippingPlanes()->GetMTime())
   {
-    vtkErrorWithObjectMacro(mapper,
-      "Of " << planes << " clipping planes the first 6 clip: OpenGL has no more. Remove some.");
+    this->TooManyPlanes = mapper->GetClippingPlanes()->GetMTime();
+    vtkErrorWithObjectMacro(mapper, "Of " << planes << " clipping planes the first " << most
+                                          << " clip: OpenGL has no more. Remove some.");
   }
 
   vtkProperty* const property = actor->GetProperty();
@@ -344,12 +368,17 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
 std::vector<vtkIsopointSplatPasses::Block> vtkIsopointSplatMapper::Internals::GetPassBlocks(
   vtkActor* actor)
 {
-  double color[3];
-  actor->GetProperty()->GetDiffuseColor(color);
+  std::array<double, 3> material;
+  actor->GetProperty()->GetDiffuseColor(material.data());
   std::vector<vtkIsopointSplatPasses::Block> result;
   for (const auto& block : this->Blocks.Get())
   {
-    result.push_back({ &block->Buffers, block->Version, block->FlatIndex,
+    if (!block->Leaf.Visible)
+    {
+      continue;
+    }
+    const std::array<double, 3>& color = block->Leaf.HasColor ? block->Leaf.Color : material;
+    result.push_back({ &block->Buffers, block->Version, block->Leaf.FlatIndex,
       { static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]),
         1.0f } });
   }

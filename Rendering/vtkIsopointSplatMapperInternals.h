@@ -3,6 +3,7 @@
 #define vtkIsopointSplatMapperInternals_h
 
 #include "vtkIsopointSplatBlocks.h"
+#include "vtkIsopointSplatBounds.h"
 #include "vtkIsopointSplatMapper.h"
 #include "vtkIsopointSplatPasses.h"
 
@@ -24,12 +25,15 @@ public:
   std::vector<vtkIsopointSplatPasses::Block> GetPassBlocks(vtkActor* actor);
 
   vtkIsopointSplatBlocks Blocks;
+  vtkSmartPointer<vtkCompositeDataDisplayAttributes> BlockAttributes;
+  vtkIsopointSplatBounds Bounds;
   vtkIsopointSplatPasses Passes;
   Coloring ColoredBy = Coloring::Material;
   bool HasTranslucentColors = false;
   bool WarnedOfNormals = false;
   bool WarnedOfShortArrays = false;
   bool WarnedOfCells = false;
+  vtkMTimeType TooManyPlanes = 0; // the change of the clipping planes that was an error
   unsigned long WindowObserver = 0;
   bool ShaderOfComposite = false; // whether the shader at hand was built for composite input
   int ViewportOrigin[2] = { 0, 0 };

@@ -27,8 +27,6 @@ constexpr float minimumHalfAxis = 0.75f;
 /// was.
 constexpr double blendingReach = 1.4;
 
-constexpr unsigned int maximumClippingPlanes = 6;
-
 void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
 {
   if (texture->GetHandle() == 0)
@@ -146,20 +144,14 @@ bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vec
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatPasses::Render(
-  vtkOpenGLRenderWindow* window, const Settings& settings, const std::vector<Block>& blocks)
+void vtkIsopointSplatPasses::Render(const Settings& settings, const std::vector<Block>& blocks)
 {
-  if (this->Window != window)
-  {
-    this->ReleaseGraphicsResources();
-    this->Window = window;
-  }
   const bool isUpToDate = this->IsUpToDate(settings, blocks);
   if (isUpToDate && (this->HasIds || !settings.Ids))
   {
     return;
   }
-  vtkOpenGLState* const state = window->GetState();
+  vtkOpenGLState* const state = this->Window->GetState();
   const StateKeeper keeper(state);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDisable(GL_STENCIL_TEST);
@@ -213,7 +205,6 @@ void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings
     {
       texture->SetContext(this->Window);
     }
-    layer.HasOpacity = false;
   }
   const bool isNew = layer.Depth->GetHandle() == 0;
   prepareDepthTexture(layer.Depth, settings.Size);
@@ -271,9 +262,9 @@ bool vtkIsopointSplatPasses::RenderLayer(
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   state->vtkglDepthFunc(GL_LESS);
   // What is in front of the near plane must not hide anything, though it is drawn further back.
-  glEnable(GL_CLIP_DISTANCE0 + maximumClippingPlanes);
+  glEnable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
   this->DrawBlocks(Pass::Visibility, index, settings, blocks);
-  glDisable(GL_CLIP_DISTANCE0 + maximumClippingPlanes);
+  glDisable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
   if (index > 0)
   {
     GLuint samples = 0;
@@ -384,6 +375,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   define(isDeeper, "SPLAT_DEEPER_LAYER");
   define(buffers.HasNormals(), "SPLAT_NORMALS");
   define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
+  define(buffers.HasClips(), "SPLAT_CLIPS");
   define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
   define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
   define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
@@ -434,7 +426,7 @@ void vtkIsopointSplatPasses::SetUniforms(
   program->SetUniform4f("plainColor", block.PlainColor.data());
   program->SetUniformf("blockIndex", static_cast<float>(block.Index));
 
-  float planes[maximumClippingPlanes][4] = {};
+  float planes[MaximumNumberOfClippingPlanes][4] = {};
   const int planeCount = static_cast<int>(settings.ClippingPlanes.size());
   for (int i = 0; i < planeCount; ++i)
   {

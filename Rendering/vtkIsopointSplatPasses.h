@@ -33,6 +33,8 @@ public:
   vtkIsopointSplatPasses(const vtkIsopointSplatPasses&) = delete;
   vtkIsopointSplatPasses& operator=(const vtkIsopointSplatPasses&) = delete;
 
+  static constexpr int MaximumNumberOfClippingPlanes = 6; // the shaders' arrays have as many
+
   struct Block
   {
     vtkIsopointSplatBuffers* Buffers;
@@ -48,7 +50,7 @@ public:
     vtkNew<vtkMatrix4x4> ModelToView; // VTK's camera and actor store them, and all of these,
     vtkNew<vtkMatrix4x4> ViewToClip;  // transposed
     bool ParallelProjection = false;
-    std::vector<std::array<double, 4>> ClippingPlanes; // in view coordinates
+    std::vector<std::array<double, 4>> ClippingPlanes; // in view coordinates, so many at most
     double RadiusScale = 1.0;
     double BlendDepth = 1.0;
     int Stride = 1;
@@ -69,19 +71,20 @@ public:
     bool HasOpacity = false;
   };
 
-  /// Brings the layers up to date.
-  void Render(
-    vtkOpenGLRenderWindow* window, const Settings& settings, const std::vector<Block>& blocks);
+  /// The window to render for; what was made for another one is to be released before. It may go
+  /// away at any time, and is null then.
+  void SetWindow(vtkOpenGLRenderWindow* window) { this->Window = window; }
+  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
+
+  /// Brings the layers up to date, in the window's context.
+  void Render(const Settings& settings, const std::vector<Block>& blocks);
 
   /// Of the last Render, nearest first; layers that nothing was seen of are left out.
   int GetNumberOfLayers() const { return this->NumberOfLayers; }
   const Layer& GetLayer(int index) const { return *this->Layers[index]; }
   vtkTextureObject* GetIds() const { return this->Ids; }
 
-  /// That the layers were last rendered for; null where it is gone.
-  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
-
-  /// To be called in that window's context.
+  /// To be called in the window's context.
   void ReleaseGraphicsResources();
 
 private:

@@ -15,6 +15,9 @@ in vec3 normalMC;
 in vec3 axis1MC;
 in vec3 axis2MC;
 #endif
+#ifdef SPLAT_CLIPS
+in vec4 clipMC; // a plane: its normal over the radius, the centre's distance before it, in radii
+#endif
 #ifdef SPLAT_COLORS
 in vec4 color;
 #endif
@@ -36,7 +39,11 @@ out vec3 axis1VS;
 out vec3 axis2VS;
 out vec3 normalVS;
 out vec4 colorVS;
-out float radiusVS; // in view coordinates
+out float radiusVS; // along the view, in view coordinates
+#ifdef SPLAT_CLIPS
+out vec3 clipVS; // distance before the plane, in radii: at the centre, added along each axis
+flat out int isBehindCreaseVS; // whether the face on the plane's other side hides this one
+#endif
 flat out uint pointIdVS;
 
 // Two unit vectors orthogonal to a unit vector and to each other, and continuous but for z = 0
@@ -71,28 +78,23 @@ void main()
   vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
   float r = radius * radiusScale;
   float radiusVC = r * viewScale;
+  vec3 normal = vec3(0.0);
   vec3 axis1;
   vec3 axis2;
 #ifdef SPLAT_NORMALS
-  vec3 normal = normalize(normalMatrix * normalMC);
-  vec3 unitNormalMC = normalize(normalMC);
-  tangents(unitNormalMC, axis1, axis2);
+  normal = normalize(normalMatrix * normalMC);
+  tangents(normalize(normalMC), axis1, axis2);
   axis1 = mat3(MCVCMatrix) * (axis1 * r);
   axis2 = mat3(MCVCMatrix) * (axis2 * r);
-  // Also where the transform is singular.
-  if (!(dot(normalMC, normalMC) > 0.0 && dot(normal, normal) > 0.0))
+#endif
+  // Also where the transform is singular, or the normal has no length.
+  if (!(dot(normal, normal) > 0.0))
   {
     normal = towardsCamera;
     tangents(normal, axis1, axis2);
     axis1 *= radiusVC;
     axis2 *= radiusVC;
   }
-#else
-  vec3 normal = towardsCamera;
-  tangents(normal, axis1, axis2);
-  axis1 *= radiusVC;
-  axis2 *= radiusVC;
-#endif
 #ifdef SPLAT_ELLIPSES
   if (dot(axis1MC, axis1MC) > 0.0 && dot(axis2MC, axis2MC) > 0.0)
   {
@@ -139,7 +141,14 @@ void main()
   axis1VS = reach * axis1;
   axis2VS = reach * axis2;
   normalVS = normal;
-  radiusVS = culled ? 0.0 : radiusVC;
+  // Along the view: where the transform flattens the surface, its sides are as near to each other.
+  radiusVS = culled ? 0.0 : r / length(towardsCamera * normalMatrix);
+#ifdef SPLAT_CLIPS
+  // Planes take the transposed inverse, too.
+  vec3 clip = normalMatrix * clipMC.xyz;
+  clipVS = vec3(clipMC.w, dot(clip, axis1VS), dot(clip, axis2VS));
+  isBehindCreaseVS = !facesCamera && dot(clip, towardsCamera) < 0.0 ? 1 : 0;
+#endif
 #ifdef SPLAT_COLORS
   colorVS = color;
 #else

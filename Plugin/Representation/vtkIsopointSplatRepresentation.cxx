@@ -2,9 +2,13 @@
 #include "vtkIsopointSplatRepresentation.h"
 
 #include "vtkActor.h"
-#include "vtkBoundingBox.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataAssembly.h"
+#include "vtkDataAssemblyUtilities.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -20,6 +24,8 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
+
+#include <set>
 
 vtkStandardNewMacro(vtkIsopointSplatRepresentation);
 
@@ -85,23 +91,6 @@ vtkSmartPointer<vtkDataObject> compositeSplatsOf(vtkDataObject* object)
   return output;
 }
 
-void boundsOf(vtkDataObject* object, double bounds[6])
-{
-  vtkBoundingBox box;
-  if (vtkCompositeDataSet* const data = vtkCompositeDataSet::SafeDownCast(object))
-  {
-    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      if (vtkDataSet* const leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
-      {
-        box.AddBounds(leaf->GetBounds());
-      }
-    }
-  }
-  box.GetBounds(bounds);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -109,6 +98,7 @@ vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
   : Property(this->Actor->GetProperty())
 {
   this->Actor->SetMapper(this->Mapper);
+  this->Mapper->SetCompositeDataDisplayAttributes(this->BlockAttributes);
 }
 
 //------------------------------------------------------------------------------
@@ -178,7 +168,9 @@ int vtkIsopointSplatRepresentation::ProcessViewRequest(
   {
     const bool isLowerDetail = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
     this->Mapper->SetStride(isLowerDetail ? this->LODStride : 1);
-    this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
+    vtkDataObject* const splats = vtkPVView::GetDeliveredPiece(inInfo, this);
+    this->UpdateBlockAttributes(splats);
+    this->Mapper->SetInputDataObject(splats);
     this->UpdateColoring();
   }
   return 1;
@@ -188,7 +180,9 @@ int vtkIsopointSplatRepresentation::ProcessViewRequest(
 void vtkIsopointSplatRepresentation::ProvideData(vtkInformation* inInfo, vtkInformation* outInfo)
 {
   double bounds[6];
-  boundsOf(this->Splats, bounds);
+  this->UpdateBlockAttributes(this->Splats);
+  this->Mapper->SetInputDataObject(this->Splats);
+  this->Mapper->GetBounds(bounds);
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
   vtkPVRenderView::SetPiece(inInfo, this, this->Splats);
@@ -240,6 +234,80 @@ void vtkIsopointSplatRepresentation::UpdateColoring()
     default:
       this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::UpdateBlockAttributes(vtkDataObject* splats)
+{
+  vtkDataObjectTree* const tree = vtkDataObjectTree::SafeDownCast(splats);
+  this->BlockAttributes->RemoveBlockVisibilities();
+  this->BlockAttributes->RemoveBlockColors();
+  const bool showsAll = this->BlockSelectors == std::vector<std::string>{ "/" };
+  vtkNew<vtkDataAssembly> hierarchy;
+  if (!tree || (showsAll && this->BlockColors.empty()) ||
+      !vtkDataAssemblyUtilities::GenerateHierarchy(tree, hierarchy))
+  {
+    return;
+  }
+  const auto forBlocks = [&](const std::vector<std::string>& selectors, const auto& apply)
+  {
+    const std::vector<unsigned int> ids =
+      vtkDataAssemblyUtilities::GetSelectedCompositeIds(selectors, hierarchy);
+    const std::set<unsigned int> chosen(ids.begin(), ids.end());
+    const auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      if (chosen.count(iterator->GetCurrentFlatIndex()) > 0)
+      {
+        apply(iterator->GetCurrentDataObject());
+      }
+    }
+  };
+  if (!showsAll)
+  {
+    this->BlockAttributes->SetBlockVisibility(tree, false);
+    forBlocks(this->BlockSelectors,
+      [this](vtkDataObject* block) { this->BlockAttributes->SetBlockVisibility(block, true); });
+  }
+  for (const auto& color : this->BlockColors)
+  {
+    forBlocks({ color.first }, [&](vtkDataObject* block)
+      { this->BlockAttributes->SetBlockColor(block, color.second.data()); });
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::AddBlockSelector(const char* selector)
+{
+  if (selector)
+  {
+    this->BlockSelectors.emplace_back(selector);
+    this->MarkModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::RemoveAllBlockSelectors()
+{
+  this->BlockSelectors.clear();
+  this->MarkModified();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::SetBlockColor(
+  const char* selector, double red, double green, double blue)
+{
+  if (selector)
+  {
+    this->BlockColors.emplace_back(selector, std::array<double, 3>{ red, green, blue });
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatRepresentation::RemoveAllBlockColors()
+{
+  this->BlockColors.clear();
 }
 
 //------------------------------------------------------------------------------

@@ -17,7 +17,13 @@
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
 class vtkActor;
+class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
 class vtkIsopointSplatMapper;
 class vtkProperty;
@@ -61,6 +67,24 @@ public:
    */
   vtkSetClampMacro(LODStride, int, 1, VTK_INT_MAX);
   vtkGetMacro(LODStride, int);
+  ///@}
+
+  ///@{
+  /**
+   * Selectors of the blocks that are shown, as of vtkDataAssembly, in the hierarchy of the input's
+   * blocks. Default: "/", all.
+   */
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  ///@}
+
+  ///@{
+  /**
+   * Colors of the blocks of a selector, instead of any array's; from 0 to 1. Of several for a block
+   * the last one holds. Default: none.
+   */
+  void SetBlockColor(const char* selector, double red, double green, double blue);
+  void RemoveAllBlockColors();
   ///@}
 
   ///@{
@@ -121,10 +145,14 @@ private:
 
   void ProvideData(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
+  void UpdateBlockAttributes(vtkDataObject* splats);
   bool MayBeTranslucent();
 
   vtkNew<vtkIsopointSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
+  vtkNew<vtkCompositeDataDisplayAttributes> BlockAttributes;
+  std::vector<std::string> BlockSelectors = { "/" };
+  std::vector<std::pair<std::string, std::array<double, 3>>> BlockColors;
   vtkProperty* const Property;           // the actor's
   vtkSmartPointer<vtkDataObject> Splats; // vtkPolyData, within composite data
 };

@@ -153,6 +153,52 @@ def selection(view, isopoints, display):
     simple.ClearSelection(isopoints)
 
 
+def sharp_edges(view):
+    """Splats end at creases where the filter says so: the cube does not stick out of its outline."""
+    image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
+    distance = "max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))"
+    source = simple.Calculator(Input=image, ResultArrayName="r", Function=distance)
+    cube = simple.ScatteredIsopoints(Input=source)
+    cube.ContourBy = ["POINTS", "r"]
+    cube.Isosurfaces = [20.3]
+    cube.Projection = "Quadratic fit with creases"
+    outside = []
+    for cube.ComputeSplatClips in (0, 1):
+        simple.ColorBy(simple.Show(cube, view), None)
+        simple.Render(view)
+        picture = pixels(view)
+        if picture is not None:
+            edge = round(200 * 20.3 / 60)
+            area = covered(picture)
+            area[200 - edge : 200 + edge, 200 - edge : 200 + edge] = False
+            outside.append(np.count_nonzero(area))
+    simple.Hide(cube, view)
+    if outside:
+        print(f"outside of the cube: {outside[0]} pixels, with planes {outside[1]}")
+        check(outside[1] < 0.75 * outside[0], "splats end at the edges")
+
+
+def colors_and_hides_blocks(view, display):
+    """Of two spheres, to the left and to the right, as the Multi-block Inspector does."""
+    display.BlockColors = ["/Root/Sphere1", "1", "0", "0", "/Root/Sphere2", "0", "1", "0"]
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(image[200, 120, 0] > 100 and image[200, 120, 1] < 50, "the left block is red")
+        check(image[200, 280, 1] > 100 and image[200, 280, 0] < 50, "the right block is green")
+    display.BlockSelectors = ["/Root/Sphere2"]
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(not covered(image)[200, 120] and covered(image)[200, 280], "the left block is hidden")
+    display.BlockSelectors = ["/"]
+    display.BlockColors = []
+    simple.Render(view)
+    image = pixels(view)
+    if image is not None:
+        check(covered(image)[200, 120] and image[200, 280, 0] > 100, "as before")
+
+
 def other_data(view):
     """Every data set with points offers the splats; composite ones show all their blocks."""
     sphere = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[-24, 0, 0])
@@ -171,6 +217,8 @@ def other_data(view):
             check(covered(image).any(), "shown")
             if source is grouped:
                 check(covered(image)[200, 120] and covered(image)[200, 280], "both blocks")
+        if source is grouped:
+            colors_and_hides_blocks(view, display)
         simple.Hide(source, view)
 
 
@@ -207,6 +255,8 @@ def main(plugin, server=None):
         if ranks == 1 and not server:
             level_of_detail(view, isopoints, display)
         simple.Hide(isopoints, view)
+        if ranks == 1:
+            sharp_edges(view)  # several ranks' pictures are cut at the points' bounds
         other_data(view)
     finally:
         if process:

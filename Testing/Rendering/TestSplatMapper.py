@@ -16,6 +16,8 @@ from scenes import (
     parts,
     polydata,
     psnr,
+    shrunk,
+    torus_mesh,
     torus_splats,
 )
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -23,6 +25,7 @@ from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedChar
 from vtkmodules.vtkCommonDataModel import (
     vtkDataSetAttributes,
     vtkMultiBlockDataSet,
+    vtkPlane,
     vtkPolyData,
 )
 from vtkmodules.vtkFiltersSources import vtkSphereSource
@@ -62,6 +65,43 @@ def draws_nothing():
     ):
         scene = Scene(actor_of(data))
         check(area(scene.image()) == 0, name)
+
+
+def an_infinite_point_changes_nothing():
+    """Neither the radius that suits the points nor their precision."""
+    points = np.array([1e9, -1e9, 1e9]) + [(-0.6, 0, 0), (0.6, 0, 0), (0, 0.3, 0.3)]
+    images = []
+    for extra in ([], [(np.inf, 0, 0)], [(0, -np.inf, np.nan)]):
+        data = polydata([*points, *extra], [UP] * (3 + len(extra)))
+        actor = actor_of(data)
+        # Of an automatic radius that depends on the number of points.
+        actor.GetMapper().SetRadiusScale(np.sqrt((3 + len(extra)) / 3) * 0.2)
+        scene = Scene(actor)
+        scene.renderer.ResetCamera()
+        images.append(scene.image())
+    check(area(images[0]) > 1000, "splats are seen")
+    for image in images[1:]:
+        different = np.any(image != images[0], axis=2).sum()
+        check(different < 0.01 * area(images[0]), f"{different} pixels differ")
+
+
+def clipping_planes_beyond_the_sixth():
+    """One error for each change of the planes, not for each frame."""
+    actor = actor_of(disk())
+    mapper = actor.GetMapper()
+    events = events_of(mapper)
+    scene = Scene(actor)
+    for expected in ([], ["error"], ["error", "error"]):
+        count = 6 if not expected else 1
+        for _ in range(count):
+            plane = vtkPlane()
+            plane.SetNormal(*UP)
+            plane.SetOrigin(0, 1, -1)
+            mapper.AddClippingPlane(plane)
+        for _ in range(3):
+            scene.camera.Azimuth(1)
+            check(area(scene.image()) > 0, "the splat")
+        check(events == expected, f"{mapper.GetClippingPlanes().GetNumberOfItems()}: {events}")
 
 
 def blocks_of(*blocks):
@@ -371,6 +411,32 @@ def the_near_plane_cuts():
     check(cut > 0.999 * whole, f"its other side is seen through the hole: {cut} of {whole}")
 
 
+def the_far_plane_is_close():
+    """Nothing is hidden because it blends with what would be beyond the far plane."""
+    scene = Scene(actor_of(disk(radius=0.5)))
+    scene.camera.SetClippingRange(1, 100)
+    whole = area(scene.image())
+    scene.camera.SetClippingRange(1, 1.01 * scene.camera.GetDistance())
+    check(whole > 0 and area(scene.image()) == whole, "the same splat")
+
+
+def flattened_by_a_transform():
+    """The two sides of the surface do not blend, however near to each other they come."""
+    splats, mesh = actor_of(torus_splats(300_000)), actor_of(torus_mesh(), splats=False)
+    for scale in (1.0, 1e-2, 1e-4):
+        images = []
+        for actor in (splats, mesh):
+            actor.SetScale(1, 1, scale)
+            scene = Scene(actor)
+            scene.camera.SetPosition(0, -2, 3)
+            scene.renderer.ResetCameraClippingRange()
+            images.append(scene.image())
+        inside = shrunk(differs(images[1]))
+        specks = np.count_nonzero(inside & (np.abs(images[0] - images[1]).max(2) > 60))
+        print(f"  {specks} specks at a scale of {scale}")
+        check(specks <= 3, "specks")
+
+
 def fewer_splats_look_alike():
     data = torus_splats(300_000)
     actor = actor_of(data)
@@ -409,6 +475,7 @@ def defaults_and_ranges():
     check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
     check(mapper.GetSplatAxis1ArrayName() == "SplatAxis1", "SplatAxis1ArrayName")
     check(mapper.GetSplatAxis2ArrayName() == "SplatAxis2", "SplatAxis2ArrayName")
+    check(mapper.GetSplatClipArrayName() == "SplatClip", "SplatClipArrayName")
     for name, default, low, high in (
         ("Radius", 0.0, 0.0, None),
         ("RadiusScale", 1.0, 0.0, None),
@@ -424,9 +491,11 @@ def defaults_and_ranges():
         if high is not None:
             set_to(1000)
             check(get() == high, "greatest " + name)
+    mapper.SetSplatClipArrayName("planes")
     other = vtkIsopointSplatMapper()
     other.ShallowCopy(mapper)
     check(other.GetMaximumNumberOfLayers() == 32 and other.GetStride() == 1, "ShallowCopy")
+    check(other.GetSplatClipArrayName() == "planes", "ShallowCopy of names")
     check("BlendDepth" in str(mapper), "PrintSelf")
 
 
@@ -434,6 +503,17 @@ def bounds():
     mapper = vtkIsopointSplatMapper()
     mapper.SetInputDataObject(blocks_of(disk((-1, 0, 0)), None, disk((2, 3, 4))))
     check(list(mapper.GetBounds()) == [-1, 2, 0, 3, 0, 4], "bounds of blocks")
+    for bad in (np.nan, np.inf, -np.inf):
+        points = [(-1, 0, 1), (bad, 7, 7), (1, 2, 3), (8, bad, 8), (9, 9, bad)]
+        data = polydata(points, [UP] * 5, Radius=np.ones(5))
+        mapper.SetInputDataObject(data)
+        check(list(mapper.GetBounds()) == [-1, 1, 0, 2, 1, 3], f"bounds beside {bad}")
+        data.GetPoints().SetPoint(1, 4, 4, 4)
+        data.GetPoints().Modified()
+        check(list(mapper.GetBounds()) == [-1, 4, 0, 4, 1, 4], f"changed points beside {bad}")
+        mapper.SetInputDataObject(disk((bad, 0, 0)))
+        low, high = mapper.GetBounds()[:2]
+        check(low > high, f"no bounds of {bad} alone")
     mapper.SetInputDataObject(vtkPolyData())
     low, high = mapper.GetBounds()[:2]
     check(low > high, "no bounds without points")
@@ -445,6 +525,8 @@ if __name__ == "__main__":
         bounds,
         draws_nothing,
         leaves_out_only_what_cannot_be_drawn,
+        an_infinite_point_changes_nothing,
+        clipping_planes_beyond_the_sixth,
         has_the_size_it_is_told,
         draws_ellipses,
         warns_once_without_normals,
@@ -457,6 +539,8 @@ if __name__ == "__main__":
         colors_of_cells_that_are_no_vertices,
         normals_of_any_length,
         the_near_plane_cuts,
+        the_far_plane_is_close,
+        flattened_by_a_transform,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
     ):

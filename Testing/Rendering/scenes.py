@@ -54,14 +54,19 @@ def polydata(points, normals=None, **arrays):
     return data
 
 
-def isopoints(field, low, high, count, seed=1):
-    """The filter's isopoints where a field is 0, of random samples in a box."""
+def isopoints(field, low, high, count, seed=1, creases=False):
+    """The filter's isopoints where a field is 0, of random samples in a box; on request with what
+    it tells of creases."""
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")
     contour = vtkScatteredIsopointFilter()
     contour.SetInputData(samples)
     contour.SetValue(0, 0.0)
+    if creases:
+        contour.SetProjection(vtkScatteredIsopointFilter.CREASE_FIT)
+        contour.ComputeSplatAxesOn()
+        contour.ComputeSplatClipsOn()
     contour.Update()
     return contour.GetOutput()
 
@@ -186,3 +191,12 @@ def psnr(a, b):
 def differs(image, color=BACKGROUND):
     """Where a picture is not of a color."""
     return np.abs(image - 255 * np.asarray(color)).max(2) > 3
+
+
+def shrunk(mask):
+    """Without the pixels at its border."""
+    result = mask.copy()
+    for axis in (0, 1):
+        for shift in (-1, 1):
+            result &= np.roll(mask, shift, axis)
+    return result
