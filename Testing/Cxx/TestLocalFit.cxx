@@ -275,9 +275,9 @@ TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
   {
     const Field field = [](const Vector& p)
     {
-      return std::sin(0.35 * p[0]) * std::cos(0.35 * p[1]) +
-             std::sin(0.35 * p[1]) * std::cos(0.35 * p[2]) +
-             std::sin(0.35 * p[2]) * std::cos(0.35 * p[0]);
+      return std::sin(0.2 * p[0]) * std::cos(0.2 * p[1]) +
+             std::sin(0.2 * p[1]) * std::cos(0.2 * p[2]) +
+             std::sin(0.2 * p[2]) * std::cos(0.2 * p[0]);
     };
     const isopoint::Isosurface surface =
       extractFitted(cloudOf(field, 20000, 27.0), 0.3, true, 2, highest);
