@@ -63,8 +63,12 @@ vtkIsopointGeometry::vtkIsopointGeometry(const Arrays& wanted, vtkIdType count)
 
 bool vtkIsopointGeometry::NeedsSplats() const
 {
-  return this->Wanted.Normals || this->Wanted.Radius || this->Wanted.SplatAxes ||
-         this->Wanted.SplatClip;
+  return this->Wanted.Normals || this->NeedsShapes();
+}
+
+bool vtkIsopointGeometry::NeedsShapes() const
+{
+  return this->Wanted.Radius || this->Wanted.SplatAxes || this->Wanted.SplatClip;
 }
 
 void vtkIsopointGeometry::Append(const isopoint::SurfacePoints& surface,

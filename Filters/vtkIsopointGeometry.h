@@ -33,7 +33,13 @@ public:
 
   vtkIsopointGeometry(const Arrays& wanted, vtkIdType count);
 
+  ///@{
+  /**
+   * Whether any array is of splats, and whether one is of more than their normals.
+   */
   bool NeedsSplats() const;
+  bool NeedsShapes() const;
+  ///@}
 
   /**
    * Writes the next surface's positions to the points, and its arrays. Splats may be empty where

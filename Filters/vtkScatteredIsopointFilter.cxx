@@ -435,8 +435,9 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
     std::vector<isopoint::Splat> splats;
     if (geometry.NeedsSplats())
     {
-      splats = isopoint::computeSplats(
-        step, placed, { this->NumberOfNeighbors, this->NormalMethod == NORMALS_FROM_FIELD });
+      splats = isopoint::computeSplats(step, placed,
+        { this->NumberOfNeighbors, this->NormalMethod == NORMALS_FROM_FIELD,
+          geometry.NeedsShapes() });
     }
     geometry.Append(placed, splats, points);
     point += static_cast<vtkIdType>(placed.positions.size());

@@ -1,45 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SplatGeometry.h"
 
+#include "NearestPositions.h"
+#include "SplatNormals.h"
 #include "SplatShape.h"
 #include "TangentCell.h"
 
-#include <CGAL/Orthogonal_k_neighbor_search.h>
-#include <CGAL/Search_traits_3.h>
-#include <CGAL/Search_traits_adapter.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/linear_least_squares_fitting_3.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
 
 namespace isopoint
 {
 namespace
 {
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;
-
-/// CGAL's view of indices as points.
-struct PointOfIndex
-{
-  using key_type = std::size_t;
-  using value_type = Point;
-  using reference = const Point&;
-  using category = boost::lvalue_property_map_tag;
-
-  const Point* points = nullptr;
-
-  const Point& operator[](std::size_t index) const { return this->points[index]; }
-  friend const Point& get(const PointOfIndex& map, std::size_t index) { return map[index]; }
-};
-
-using Traits =
-  CGAL::Search_traits_adapter<std::size_t, PointOfIndex, CGAL::Search_traits_3<Kernel>>;
-using Search = CGAL::Orthogonal_k_neighbor_search<Traits>;
-using Tree = Search::Tree;
 
 /// How many of the nearest positions are looked at first when a cell is cut, and at most. Cells of
 /// a uniform cloud have about six sides.
@@ -54,184 +28,13 @@ constexpr double overlap = 1.1;
 constexpr double closedReach = 2.5;
 constexpr double openReach = 1.0;
 
-/// The distinct ones among positions, and for each position which one it is.
-struct DistinctPositions
-{
-  std::vector<Point> points;
-  std::vector<std::size_t> firstUser; // for each distinct position, a position at it
-  std::vector<std::size_t> ofPosition;
-
-  explicit DistinctPositions(const std::vector<Vector>& positions)
-    : ofPosition(positions.size())
-  {
-    std::vector<std::size_t> order(positions.size());
-    std::iota(order.begin(), order.end(), std::size_t{ 0 });
-    std::sort(order.begin(), order.end(),
-      [&](std::size_t a, std::size_t b)
-      { return positions[a] != positions[b] ? positions[a] < positions[b] : a < b; });
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      const Vector& position = positions[order[i]];
-      if (i == 0 || position != positions[order[i - 1]])
-      {
-        this->points.emplace_back(position[0], position[1], position[2]);
-        this->firstUser.push_back(order[i]);
-      }
-      this->ofPosition[order[i]] = this->points.size() - 1;
-    }
-  }
-};
-
-/// The normal of the plane through points around the origin of a size near 1, unoriented; of
-/// length 0 where they do not tell of one.
-Vector planeNormal(const std::vector<Point>& points)
-{
-  Kernel::Plane_3 plane;
-  Point centroid;
-  const double quality = CGAL::linear_least_squares_fitting_3(
-    points.begin(), points.end(), plane, centroid, CGAL::Dimension_tag<0>());
-  const Kernel::Vector_3 normal = plane.orthogonal_vector();
-  const Vector result{ normal.x(), normal.y(), normal.z() };
-  const double length = lengthOf(result);
-  constexpr double leastQuality = 1e-6;
-  if (!(quality > leastQuality) || !std::isfinite(length) || length == 0.0)
-  {
-    return { 0.0, 0.0, 0.0 };
-  }
-  return directionOf(result);
-}
-
-/// Finds the nearest distinct positions.
-class NearestSearch
-{
-public:
-  struct Neighbor
-  {
-    std::size_t index; // among the distinct positions
-    double distance;
-  };
-
-  NearestSearch(const Tree& tree, const DistinctPositions& distinct)
-    : Positions(tree)
-    , Distinct(distinct)
-  {
-  }
-
-  /// Lists that many other positions, by distance, or all there are.
-  const std::vector<Neighbor>& find(std::size_t self, std::size_t count)
-  {
-    const PointOfIndex map{ this->Distinct.points.data() };
-    Search search(this->Positions, this->Distinct.points[self], static_cast<unsigned>(count + 1),
-      0.0, true, Search::Distance(map));
-    this->Found.clear();
-    for (const auto& found : search)
-    {
-      if (found.first != self)
-      {
-        this->Found.push_back({ found.first, std::sqrt(found.second) });
-      }
-    }
-    return this->Found;
-  }
-
-private:
-  const Tree& Positions;
-  const DistinctPositions& Distinct;
-  std::vector<Neighbor> Found;
-};
-
-/// Fits normals one at a time; scratch is kept from one to the next.
-class NormalFitter
-{
-public:
-  NormalFitter(const Tree& tree, const DistinctPositions& distinct, const SurfacePoints& points,
-    const SplatOptions& options)
-    : Finder(tree, distinct)
-    , Distinct(distinct)
-    , FallingEdges(points.fallingEdges)
-    , Fits(options.fieldNormals ? &points.fits : nullptr)
-    , PlaneNeighbors(static_cast<std::size_t>(options.neighborCount))
-  {
-  }
-
-  Vector fit(std::size_t point)
-  {
-    if (this->Fits && !this->Fits->empty() && (*this->Fits)[point].order != FitOrder::None)
-    {
-      const Vector normal = scaled(-1.0, directionOf((*this->Fits)[point].gradient));
-      if (std::isfinite(lengthOf(normal)))
-      {
-        return normal;
-      }
-    }
-    const std::size_t self = this->Distinct.ofPosition[point];
-    this->Nearest = this->Finder.find(self, this->PlaneNeighbors);
-    const Vector own = directionOf(this->FallingEdges[point]);
-    const Vector normal = this->fitPlane(self);
-    if (lengthOf(normal) == 0.0)
-    {
-      return own;
-    }
-    return dot(normal, this->fallingSide(own)) < 0.0 ? scaled(-1.0, normal) : normal;
-  }
-
-private:
-  Vector fitPlane(std::size_t self)
-  {
-    const std::size_t count = std::min(this->PlaneNeighbors, this->Nearest.size());
-    if (count < 2)
-    {
-      return { 0.0, 0.0, 0.0 };
-    }
-    // Around the point and at a size near 1, so that neither a far origin nor a tiny cloud costs
-    // the fit its digits.
-    const double scale = 1.0 / this->Nearest[count - 1].distance;
-    const Point& origin = this->Distinct.points[self];
-    this->PlanePoints.assign(1, Point(0.0, 0.0, 0.0));
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const Point& other = this->Distinct.points[this->Nearest[i].index];
-      this->PlanePoints.emplace_back((other.x() - origin.x()) * scale,
-        (other.y() - origin.y()) * scale, (other.z() - origin.z()) * scale);
-    }
-    return planeNormal(this->PlanePoints);
-  }
-
-  /// The mean direction of the edges around that fall to the same side as the point's own: a
-  /// single edge may run nearly along the surface, and edges of a sheet close by fall the other
-  /// way.
-  Vector fallingSide(const Vector& own) const
-  {
-    Vector sum = own;
-    for (const NearestSearch::Neighbor& neighbor : this->Nearest)
-    {
-      const Vector other =
-        directionOf(this->FallingEdges[this->Distinct.firstUser[neighbor.index]]);
-      if (dot(other, own) > 0.0)
-      {
-        sum = { sum[0] + other[0], sum[1] + other[1], sum[2] + other[2] };
-      }
-    }
-    return sum;
-  }
-
-  NearestSearch Finder;
-  const DistinctPositions& Distinct;
-  const std::vector<Vector>& FallingEdges;
-  const std::vector<LocalFit>* Fits;
-  const std::size_t PlaneNeighbors;
-  std::vector<NearestSearch::Neighbor> Nearest;
-  std::vector<Point> PlanePoints;
-};
-
 /// Shapes splats whose normals are known, one at a time.
 class SplatShaper
 {
 public:
-  SplatShaper(const Tree& tree, const DistinctPositions& distinct, const SurfacePoints& points,
-    const std::vector<Splat>& splats)
-    : Finder(tree, distinct)
-    , Distinct(distinct)
+  SplatShaper(
+    const NearestPositions& nearest, const SurfacePoints& points, const std::vector<Splat>& splats)
+    : Finder(nearest)
     , Points(points)
     , Splats(splats)
   {
@@ -287,16 +90,15 @@ private:
   /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, TangentCell& cell, Splat& splat)
   {
-    const std::size_t self = this->Distinct.ofPosition[point];
     for (std::size_t count = firstNeighbors;; count *= 2)
     {
       cell.reset(limit);
       double nearestCrease = limit;
-      const auto& nearest = this->Finder.find(self, count);
-      bool isComplete = nearest.size() < count;
-      for (const NearestSearch::Neighbor& neighbor : nearest)
+      this->Finder.find(point, count, this->Nearest);
+      bool isComplete = this->Nearest.size() < count;
+      for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
-        const std::size_t other = this->Distinct.firstUser[neighbor.index];
+        const std::size_t other = neighbor.point;
         const Vector offset =
           difference(this->Points.positions[other], this->Points.positions[point]);
         if (this->meetAtCrease(point, other, offset))
@@ -393,11 +195,34 @@ private:
     }
   }
 
-  NearestSearch Finder;
-  const DistinctPositions& Distinct;
+  const NearestPositions& Finder;
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // normals at least
+  std::vector<NearestPositions::Neighbor> Nearest;
 };
+
+/// Takes normals from the fits' gradients. @returns the points that have none
+std::vector<std::size_t> takeFieldNormals(
+  const SurfacePoints& points, bool fieldNormals, std::vector<Splat>& splats)
+{
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    const bool isFitted =
+      fieldNormals && !points.fits.empty() && points.fits[i].order != FitOrder::None;
+    const Vector normal =
+      isFitted ? scaled(-1.0, directionOf(points.fits[i].gradient)) : Vector{ 0.0, 0.0, 0.0 };
+    if (isFitted && std::isfinite(lengthOf(normal)))
+    {
+      splats[i].normal = normal;
+    }
+    else
+    {
+      others.push_back(i);
+    }
+  }
+  return others;
+}
 
 } // namespace
 
@@ -405,37 +230,34 @@ std::vector<Splat> computeSplats(
   const Execution& execution, const SurfacePoints& points, const SplatOptions& options)
 {
   std::vector<Splat> splats(points.positions.size());
-  if (points.positions.empty())
+  const std::vector<std::size_t> unfitted = takeFieldNormals(points, options.fieldNormals, splats);
+  if (unfitted.empty() && !options.shapes)
   {
-    return splats; // CGAL's tree takes no empty set
+    return splats;
   }
-  const DistinctPositions distinct(points.positions);
-  std::vector<std::size_t> indices(distinct.points.size());
-  std::iota(indices.begin(), indices.end(), std::size_t{ 0 });
-  Tree tree(indices.begin(), indices.end(), Tree::Splitter(),
-    Traits(PointOfIndex{ distinct.points.data() }));
-  tree.build();
+  const NearestPositions nearest(points.positions);
   throwIfAborted(execution);
 
   constexpr double normalsShare = 0.4;
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
   forBatches(
-    execution, splats.size(), batch, grain,
+    execution, unfitted.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      NormalFitter fitter(tree, distinct, points, options);
+      PlaneNormals planes(nearest, points.positions, points.fallingEdges,
+        static_cast<std::size_t>(options.neighborCount));
       for (std::size_t i = begin; i < end; ++i)
       {
-        splats[i].normal = fitter.fit(i);
+        splats[unfitted[i]].normal = planes.at(unfitted[i]);
       }
     },
     [&](double share) { execution.progress(normalsShare * share); });
   forBatches(
-    execution, splats.size(), batch, grain,
+    execution, options.shapes ? splats.size() : 0, batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      SplatShaper shaper(tree, distinct, points, splats);
+      SplatShaper shaper(nearest, points, splats);
       for (std::size_t i = begin; i < end; ++i)
       {
         shaper.shape(i, splats[i]);

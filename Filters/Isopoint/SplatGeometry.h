@@ -36,20 +36,19 @@ struct SurfacePoints
   std::vector<LocalFit> fits; // or none
 };
 
-/// How normals are found.
+/// How normals are found, and whether more is wanted.
 struct SplatOptions
 {
   int neighborCount =
     defaultNeighborCount;   // nearest positions a plane is fitted through, 3 or more
   bool fieldNormals = true; // the fits' gradients, where fits held
+  bool shapes = true;       // or normals alone: everything else of the splats is 0
 };
 
 /// Normals and shapes of splats for the points of one surface.
 ///
 /// The normal is against the gradient of the point's fit, or, where none held or planes are asked
-/// for, that of the least-squares plane through the point and its nearest ones, turned to the
-/// falling side (section 8 of the paper); the direction of its own edge where those are fewer than
-/// three or collinear. Points at one position count as one among the nearest.
+/// for, that of PlaneNormals. Points at one position count as one among the nearest.
 ///
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
 /// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that

@@ -5,6 +5,7 @@
 #include "Vector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -41,13 +42,17 @@ public:
   /// Starts again with a disk.
   void reset(double limit)
   {
-    constexpr int cornerCount = 12;
-    constexpr double step = 2.0 * 3.14159265358979323846 / cornerCount;
+    constexpr double half = 0.5;
+    constexpr double most = 0.86602540378443865; // sqrt(3) / 2
+    constexpr std::array<std::array<double, 2>, 12> directions{ { { 1.0, 0.0 }, { most, half },
+      { half, most }, { 0.0, 1.0 }, { -half, most }, { -most, half }, { -1.0, 0.0 },
+      { -most, -half }, { -half, -most }, { 0.0, -1.0 }, { half, -most }, { most, -half } } };
     this->Corners.clear();
-    for (int i = 0; i < cornerCount; ++i)
+    for (const auto& [x, y] : directions)
     {
-      this->Corners.push_back({ limit * std::cos(i * step), limit * std::sin(i * step), true });
+      this->Corners.push_back({ limit * x, limit * y, true });
     }
+    this->SquaredReach = limit * limit;
   }
 
   /// Keeps the places whose offset o from the point has outward . o <= distance.
@@ -57,6 +62,10 @@ public:
     const double b = dot(outward, this->Second);
     const auto excess = [=](const Corner& corner)
     { return a * corner.x + b * corner.y - distance; };
+    if (distance >= 0.0 && distance * distance >= (a * a + b * b) * this->SquaredReach)
+    {
+      return;
+    }
     this->Cut.clear();
     for (std::size_t i = 0; i < this->Corners.size(); ++i)
     {
@@ -76,18 +85,15 @@ public:
       }
     }
     this->Corners.swap(this->Cut);
+    this->SquaredReach = 0.0;
+    for (const Corner& corner : this->Corners)
+    {
+      this->SquaredReach = std::max(this->SquaredReach, corner.x * corner.x + corner.y * corner.y);
+    }
   }
 
   /// The distance of the farthest corner.
-  double reach() const
-  {
-    double reach = 0.0;
-    for (const Corner& corner : this->Corners)
-    {
-      reach = std::max(reach, std::hypot(corner.x, corner.y));
-    }
-    return reach;
-  }
+  double reach() const { return std::sqrt(this->SquaredReach); }
 
   /// Whether a part of the disk's rim is left.
   bool isOpen() const
@@ -105,6 +111,7 @@ private:
   Vector Second;
   std::vector<Corner> Corners;
   std::vector<Corner> Cut;
+  double SquaredReach = 0.0; // of the farthest corner
 };
 
 } // namespace isopoint
