@@ -170,7 +170,8 @@ public:
   ///@{
   /**
    * Where normals come from: NORMALS_FROM_FIELD (the gradient of the fit, which Projection chooses;
-   * that of CUBIC_FIT with NO_PROJECTION; planes where no fit held) or NORMALS_FROM_PLANES (the
+   * that of CUBIC_FIT with NO_PROJECTION; where no fit held, that of an
+   * affine function, or else planes) or NORMALS_FROM_PLANES (the
    * plane through the nearest isopoints, as in the paper; see SetNumberOfNeighbors). Default:
    * NORMALS_FROM_FIELD.
    */
@@ -181,8 +182,8 @@ public:
   ///@{
   /**
    * Whether to compute the array "Gradients" (three floats): the contoured array's gradient, in its
-   * units over the points', of the fit; where none held, the slope along the point's edge. Default:
-   * off.
+   * units over the points', of the fit; where none held, that of an affine function through the
+   * samples around, or else the slope along the point's edge. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);

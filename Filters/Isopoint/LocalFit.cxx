@@ -41,6 +41,10 @@ constexpr double roughResidual = 0.1;
 /// tell of noise alone: a crease leaves less than a fifth, since it bends one way.
 constexpr double noiseShare = 0.3;
 
+/// Where an affine function leaves more than this share of the variance, its gradient tells less
+/// of the surface than the isopoints around do: so it does where sheets are close by.
+constexpr double mostUnexplained = 0.2;
+
 /// The largest residual of a fit with a crease: creases are told apart from smooth fields only
 /// where there is little noise.
 constexpr double mostCreaseResidual = 0.03;
@@ -133,21 +137,7 @@ public:
   bool tellsOfNoise() const
   {
     const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
-    if (!quadratic)
-    {
-      return false;
-    }
-    double mean = 0.0;
-    double weights = 0.0;
-    for (const FrameSample& sample : this->Samples)
-    {
-      mean += sample.weight * sample.value;
-      weights += sample.weight;
-    }
-    mean /= weights;
-    const double variance =
-      meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
-    return this->freedom(2) * this->meanSquareOf(*quadratic) > noiseShare * variance;
+    return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
   }
 
   /// The fit that the criterion tells to be best.
@@ -187,6 +177,25 @@ public:
     return chosen;
   }
 
+  /// The gradient of the affine function through the samples, in the units of the field, unless it
+  /// tells of too little or contradicts the edge.
+  std::optional<Vector> affineGradient()
+  {
+    this->weigh(mildWeight);
+    const std::optional<Polynomial> affine = fitPolynomial(this->Samples, 1);
+    if (!affine)
+    {
+      return std::nullopt;
+    }
+    const Eigen::Vector3d gradient = affine->gradient(Eigen::Vector3d::Zero());
+    if (!(this->unexplainedShare(*affine) <= mostUnexplained) || !this->risesAlong(gradient))
+    {
+      return std::nullopt;
+    }
+    const double slopeScale = this->ValueScale / this->Scale;
+    return Vector{ slopeScale * gradient[0], slopeScale * gradient[1], slopeScale * gradient[2] };
+  }
+
   /// Takes a fit over where it holds. @returns whether it does
   bool apply(const Candidate& candidate, LocalFit& fit) const
   {
@@ -205,6 +214,7 @@ public:
       fit.hessian[i] = slopeScale / this->Scale * candidate.hessian[i];
     }
     fit.order = candidate.order;
+    fit.isGradientFitted = true;
     return true;
   }
 
@@ -218,6 +228,22 @@ private:
     {
       sample.weight = weightOf(sample.position.squaredNorm());
     }
+  }
+
+  /// The share of the values' variance that a polynomial does not tell of.
+  double unexplainedShare(const Polynomial& polynomial) const
+  {
+    double mean = 0.0;
+    double weights = 0.0;
+    for (const FrameSample& sample : this->Samples)
+    {
+      mean += sample.weight * sample.value;
+      weights += sample.weight;
+    }
+    mean /= weights;
+    const double variance =
+      meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
+    return this->freedom(polynomial.degree) * this->meanSquareOf(polynomial) / variance;
   }
 
   double meanSquareOf(const Polynomial& polynomial) const
@@ -349,6 +375,52 @@ private:
   Eigen::Vector3d Rising;
 };
 
+/// Takes over the best fit that holds, if one does.
+void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& gatherWider,
+  FitOrder highest, LocalFit& fit)
+{
+  std::optional<Neighborhood> known;
+  const auto wider = [&]() -> Neighborhood&
+  { return known ? *known : known.emplace(gatherWider()); };
+  if (highest == FitOrder::Linear)
+  {
+    wider().apply(wider().best(highest), fit);
+    return;
+  }
+  const Candidate quadratic = neighborhood.smooth(2);
+  const auto applyQuadratic = [&](double most)
+  { return quadratic.residual <= most && neighborhood.apply(quadratic, fit); };
+  if (applyQuadratic(highest == FitOrder::Quadratic ? smoothResidual : fineResidual))
+  {
+    return;
+  }
+  if (highest != FitOrder::Quadratic && quadratic.residual <= roughResidual)
+  {
+    const Candidate cubic = wider().smooth(3);
+    if (cubic.residual <= smoothResidual && wider().apply(cubic, fit))
+    {
+      return;
+    }
+  }
+  // A quadratic that the samples determine is judged by them alone; creases are looked for
+  // further afield, except in noise.
+  if (applyQuadratic(smoothResidual) ||
+      (highest == FitOrder::Crease ? neighborhood.tellsOfNoise()
+                                   : neighborhood.determinesQuadratic()))
+  {
+    return;
+  }
+  const Candidate best = wider().best(highest);
+  if (best.order == FitOrder::Crease)
+  {
+    wider().apply(best, fit);
+  }
+  else if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
+  {
+    wider().apply(wider().smooth(2), fit);
+  }
+}
+
 } // namespace
 
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
@@ -364,54 +436,21 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
     spacing +=
       lengthOf(difference(sample.position, edge.position)) / static_cast<double>(samples.size());
   }
-  if (highest == FitOrder::None)
-  {
-    return fit;
-  }
   Neighborhood neighborhood(edge, isovalue, samples, spacing);
-  if (!neighborhood.isUsable())
+  if (highest == FitOrder::None || !neighborhood.isUsable())
   {
     return fit;
   }
-  std::optional<Neighborhood> known;
-  const auto wider = [&]() -> Neighborhood&
-  { return known ? *known : known.emplace(edge, isovalue, widerSamples(), spacing); };
-  if (highest == FitOrder::Linear)
+  fitBest(
+    neighborhood, [&]() { return Neighborhood(edge, isovalue, widerSamples(), spacing); }, highest,
+    fit);
+  if (fit.order == FitOrder::None)
   {
-    wider().apply(wider().best(highest), fit);
-    return fit;
-  }
-  const Candidate quadratic = neighborhood.smooth(2);
-  const auto applyQuadratic = [&](double mostResidual)
-  { return quadratic.residual <= mostResidual && neighborhood.apply(quadratic, fit); };
-  if (applyQuadratic(highest == FitOrder::Quadratic ? smoothResidual : fineResidual))
-  {
-    return fit;
-  }
-  if (highest != FitOrder::Quadratic && quadratic.residual <= roughResidual)
-  {
-    const Candidate cubic = wider().smooth(3);
-    if (cubic.residual <= smoothResidual && wider().apply(cubic, fit))
+    if (const std::optional<Vector> gradient = neighborhood.affineGradient())
     {
-      return fit;
+      fit.gradient = *gradient;
+      fit.isGradientFitted = true;
     }
-  }
-  // A quadratic that the samples determine is judged by them alone; creases are looked for
-  // further afield, except in noise.
-  if (applyQuadratic(smoothResidual) ||
-      (highest == FitOrder::Crease ? neighborhood.tellsOfNoise()
-                                   : neighborhood.determinesQuadratic()))
-  {
-    return fit;
-  }
-  const Candidate best = wider().best(highest);
-  if (best.order == FitOrder::Crease)
-  {
-    wider().apply(best, fit);
-  }
-  else if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
-  {
-    wider().apply(wider().smooth(2), fit);
   }
   return fit;
 }

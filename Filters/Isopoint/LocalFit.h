@@ -51,7 +51,10 @@ struct FitEdge
 struct LocalFit
 {
   Vector position; // of the isopoint, moved where a fit held
-  Vector gradient; // of the field there; where none held, the slope along the edge alone
+  /// Of the field there. Where no fit held, that of the affine function through the samples, if it
+  /// tells of most of their variance, or else the slope along the edge alone.
+  Vector gradient;
+  bool isGradientFitted;
   /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic or Cubic.
   std::array<double, 6> hessian;
   double spacing; // of the samples there: see NeighborhoodFitter

@@ -20,6 +20,9 @@ namespace
 constexpr std::size_t firstNeighbors = 20;
 constexpr std::size_t mostNeighbors = 160;
 
+/// The distance of this one of the nearest positions tells how dense they are.
+constexpr std::size_t densityNeighbors = 12;
+
 /// A splat's size beside its cell's, since the surface bends where the cell is flat.
 constexpr double overlap = 1.1;
 
@@ -42,12 +45,14 @@ public:
 
   void shape(std::size_t point, Splat& splat)
   {
+    this->Finder.find(point, firstNeighbors, this->Nearest);
     const double spacing = this->spacingAt(point);
     TangentCell cell(splat.normal);
     splat.clip = { 0.0, 0.0, 0.0, 0.0 };
     this->cutOut(point, closedReach * spacing, cell, splat);
     if (cell.isOpen())
     {
+      this->Finder.find(point, firstNeighbors, this->Nearest);
       this->cutOut(point, openReach * spacing, cell, splat);
     }
     this->cutWhereSurfaceTurns(point, cell);
@@ -60,11 +65,19 @@ public:
   }
 
 private:
+  /// The spacing of the samples at a point, or that of the points around where these are denser:
+  /// the samples' neighbourhood may reach across a void, as it does about thin shells.
   double spacingAt(std::size_t point) const
   {
     // Of a sample alone with another one there is no other measure than their edge.
     const double fitted = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
-    return fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.fallingEdges[point]);
+    const double spacing = fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.fallingEdges[point]);
+    if (this->Nearest.size() < densityNeighbors)
+    {
+      return spacing;
+    }
+    constexpr double share = 0.8;
+    return std::min(spacing, share * this->Nearest[densityNeighbors - 1].distance);
   }
 
   /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
@@ -92,9 +105,12 @@ private:
   {
     for (std::size_t count = firstNeighbors;; count *= 2)
     {
+      if (count > firstNeighbors)
+      {
+        this->Finder.find(point, count, this->Nearest);
+      }
       cell.reset(limit);
       double nearestCrease = limit;
-      this->Finder.find(point, count, this->Nearest);
       bool isComplete = this->Nearest.size() < count;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
@@ -208,8 +224,7 @@ std::vector<std::size_t> takeFieldNormals(
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    const bool isFitted =
-      fieldNormals && !points.fits.empty() && points.fits[i].order != FitOrder::None;
+    const bool isFitted = fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
     const Vector normal =
       isFitted ? scaled(-1.0, directionOf(points.fits[i].gradient)) : Vector{ 0.0, 0.0, 0.0 };
     if (isFitted && std::isfinite(lengthOf(normal)))

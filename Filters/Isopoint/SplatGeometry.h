@@ -54,10 +54,11 @@ struct SplatOptions
 /// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
 /// bend. A cell reaches no farther than two and a half spacings of the samples around the edge (its
 /// length where no fits are given), and one where no points bound it, as at a
-/// border: an isolated point does not become a plate. Nor does it reach farther than the radius of
-/// the surface's curvature, so that splats of a small blob do not stick out of it. Across a crease
-/// that a fit found cells do not end halfway but at the other side's plane, and so are their splats
-/// to be clipped.
+/// border: an isolated point does not become a plate. Where points are dense, that spacing is at
+/// most 0.8 times the distance of the 12th nearest point. Nor does it reach farther than the radius
+/// of the surface's curvature, so that splats of a small blob do not stick out of it. Across a
+/// crease that a fit found cells do not end halfway but at the other side's plane, and so are their
+/// splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
 std::vector<Splat> computeSplats(
