@@ -303,8 +303,6 @@ def edges_of_translated_points():
         translation.SetTransform(transform)
         translation.Update()
         image = picture_around(shift, translation.GetOutput(), "cube_translated")
-        noise = psnr(image, expected)
-        print(f"  {shift}: {noise:.1f} dB, {np.any(image != expected, axis=2).sum()} differ, most {np.abs(image-expected).max()}")
         nearly_same(image, expected, f"translated by {shift}")
 
 
