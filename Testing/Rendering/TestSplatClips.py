@@ -260,9 +260,7 @@ CUBE = 12.0  # half a side, of samples with a spacing of 1
 def cube(center):
     """The isopoints of a cube at a centre."""
     low, high = np.subtract(center, 20.0), np.add(center, 20.0)
-    return isopoints(
-        lambda p: CUBE - np.abs(p - center).max(1), low, high, 64_000, creases=True
-    )
+    return isopoints(lambda p: CUBE - np.abs(p - center).max(1), low, high, 64_000, creases=True)
 
 
 def picture_around(center, data, name, clips="SplatClip"):
@@ -270,7 +268,7 @@ def picture_around(center, data, name, clips="SplatClip"):
     actor.GetMapper().SetSplatClipArrayName(clips)
     scene = Scene(actor)
     scene.camera.SetFocalPoint(*center)
-    scene.camera.SetPosition(*np.add(center, (35.0, -55.0, 32.0)))
+    scene.camera.SetPosition(*np.add(center, (46.0, -72.0, 42.0)))
     scene.camera.SetViewUp(0, 0, 1)
     scene.renderer.ResetCameraClippingRange()
     image = scene.image()
