@@ -215,9 +215,11 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "SplatClip" (four floats a, b, c, d): of a splat beside a crease
-   * only the places with a x + b y + c z + d >= 0, in the units of the points, belong to the
-   * surface; (a, b, c) is of length 1. All are 0 where nothing is to be clipped. Default: off.
+   * Whether to compute the array "SplatClip" (four floats a, b, c, d): of a splat beside a crease,
+   * at the point q, only the places p with (a, b, c) . (p - q) + d >= 0 belong to the surface.
+   * (a, b, c) is of length 1; d, in the units of the points and not negative, is the distance of
+   * the point from the plane at which its splat ends. All are 0 where nothing is to be clipped.
+   * Default: off.
    */
   vtkSetMacro(ComputeSplatClips, vtkTypeBool);
   vtkGetMacro(ComputeSplatClips, vtkTypeBool);

@@ -76,29 +76,24 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 
 using Clip = std::array<float, 4>;
 
-/// A plane relative to a splat: its normal over the radius and the centre's distance before it, in
-/// radii. Zeros for none, and for one that is not placed to a tenth of the radius: its terms grow
-/// with the coordinates, and so do their rounding errors.
-Clip clipOf(const double* plane, const double* center, double radius, double precision)
+/// A splat's plane: its normal over the radius and the centre's distance before it, in radii. Zeros
+/// for none, and for one that single precision does not hold.
+Clip clipOf(const double* plane, double radius)
 {
-  const double length = std::hypot(plane[0], plane[1], plane[2]);
-  double distance = plane[3];
-  double terms = std::abs(plane[3]);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    distance += plane[axis] * center[axis];
-    terms += std::abs(plane[axis] * center[axis]);
-  }
-  const double scale = 1.0 / (length * radius);
-  constexpr double tolerance = 0.1;
+  const double scale = std::hypot(plane[0], plane[1], plane[2]) * radius;
   Clip clip = { 0.0f, 0.0f, 0.0f, 0.0f };
-  if (length > 0.0 && std::isfinite(scale) && terms * precision * scale < tolerance)
+  if (!(scale > 0.0))
   {
-    for (int axis = 0; axis < 3; ++axis)
+    return clip;
+  }
+  for (std::size_t i = 0; i < clip.size(); ++i)
+  {
+    const double value = plane[i] / scale;
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
     {
-      clip[axis] = static_cast<float>(plane[axis] * scale);
+      return Clip{};
     }
-    clip[3] = static_cast<float>(distance * scale);
+    clip[i] = static_cast<float>(value);
   }
   return clip;
 }
@@ -175,22 +170,19 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
   {
     upload(this->Axes, axes);
   }
-  this->SetClips(points, shape);
+  this->SetClips(shape);
   this->SubsetStride = 0;
   this->ForgetPrograms();
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatBuffers::SetClips(vtkPoints* points, const Shape& shape)
+void vtkIsopointSplatBuffers::SetClips(const Shape& shape)
 {
   this->Clipped = false;
   if (!shape.Clips)
   {
     return;
   }
-  const double precision = shape.Clips->GetDataType() == VTK_FLOAT
-                             ? std::numeric_limits<float>::epsilon()
-                             : std::numeric_limits<double>::epsilon();
   std::vector<Clip> clips(static_cast<std::size_t>(this->NumberOfSplats));
   std::atomic<bool> hasClip{ false };
   vtkSMPTools::For(0, this->NumberOfSplats,
@@ -200,15 +192,13 @@ void vtkIsopointSplatBuffers::SetClips(vtkPoints* points, const Shape& shape)
       for (vtkIdType i = begin; i < end; ++i)
       {
         double plane[4];
-        double position[3];
         double radius = shape.Radius;
         shape.Clips->GetTuple(i, plane);
-        points->GetPoint(i, position);
         if (shape.Radii)
         {
           shape.Radii->GetTuple(i, &radius);
         }
-        clips[i] = clipOf(plane, position, radius, precision);
+        clips[i] = clipOf(plane, radius);
         hasOne = hasOne || clips[i] != Clip{};
       }
       if (hasOne)

@@ -13,7 +13,6 @@
 class vtkDataArray;
 class vtkOpenGLBufferObject;
 class vtkOpenGLVertexArrayObject;
-class vtkPoints;
 class vtkPolyData;
 class vtkShaderProgram;
 class vtkUnsignedCharArray;
@@ -39,14 +38,14 @@ public:
     vtkDataArray* Radii = nullptr;   // of 1 component
     vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
     vtkDataArray* Axis2 = nullptr;
-    vtkDataArray* Clips = nullptr; // of 4 components: a plane's coefficients, or zeros
+    vtkDataArray* Clips = nullptr; // of 4 components: a plane relative to the point, or zeros
     double Radius = 1.0;           // of all splats where Radii is null
   };
 
   /// Takes the points of a polydata of at most 2^31 - 1 points. Splats of a radius that is not
   /// positive, of a position that is not finite, and hidden or duplicated ghost points are not
-  /// drawn. Of a splat with a plane only the side where a x + b y + c z + d is not negative is
-  /// drawn; a plane that the array's precision does not place to a tenth of the radius is left out.
+  /// drawn. Of a splat at q with a plane only the places p with (a, b, c) . (p - q) + d >= 0 are
+  /// drawn.
   void SetSplats(vtkPolyData* polyData, const Shape& shape);
 
   /// One color of 4 components a point; null for none.
@@ -71,7 +70,7 @@ public:
 private:
   struct Program;
 
-  void SetClips(vtkPoints* points, const Shape& shape);
+  void SetClips(const Shape& shape);
   void Bind(vtkShaderProgram* program);
   void BindSubset(int stride);
   void ForgetPrograms();

@@ -30,8 +30,8 @@
  *
  * @warning Composite input is colored by coordinates in a color map
  * (InterpolateScalarsBeforeMapping) only where each block has the array.
- * @warning Filters that move points leave arrays of axes and planes as they were: move the actor
- * instead.
+ * @warning Filters that turn or scale points leave arrays of radii, axes and planes as they were:
+ * turn or scale the actor instead. Those that translate points need not change them.
  * @warning A block has at most 2^31 - 1 points; larger ones are an error and not drawn.
  *
  * @sa vtkPointGaussianMapper
@@ -121,12 +121,12 @@ public:
   ///@{
   /**
    * Name of the point array of planes at which splats end, as vtkScatteredIsopointFilter writes it
-   * for the sake of sharp edges: four floating-point numbers a, b, c, d; of the splat only the
-   * places with a x + b y + c z + d >= 0, in the units of the points' coordinates, are drawn.
-   * Splats of zeros, of what is not finite, and of a plane that its array's precision does not
-   * place to a tenth of the radius are drawn whole: in single precision those farther than some
-   * hundred thousand radii from the origin. Where the input has no such array, and where the name
-   * is empty, all are. Default: "SplatClip".
+   * for the sake of sharp edges: four floating-point numbers a, b, c, d; of the splat of a point q
+   * only the places p with (a, b, c) . (p - q) + d >= 0 are drawn, in the units of the points'
+   * coordinates. A plane that the splat does not reach cuts nothing off, but still keeps its
+   * back from blending with a face before it, on the plane's other side. Splats of zeros and of
+   * what is not finite are drawn whole; where the input has no such array, and where the name is
+   * empty, all are. Default: "SplatClip".
    */
   vtkSetStringMacro(SplatClipArrayName);
   vtkGetStringMacro(SplatClipArrayName);

@@ -205,9 +205,8 @@ private:
     if (distance < nearestCrease)
     {
       nearestCrease = distance;
-      const double constant = side * dot(otherNormal, this->Points.positions[point]) + inside;
       splat.clip = { -side * otherNormal[0], -side * otherNormal[1], -side * otherNormal[2],
-        constant };
+        inside };
     }
   }
 

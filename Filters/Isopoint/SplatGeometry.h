@@ -21,8 +21,8 @@ struct Splat
   double radius; // half the longer axis, positive
   Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
   Vector axis2;
-  /// a, b, c, d: of the splat only a x + b y + c z + d >= 0 is to be drawn, (a, b, c) of length 1;
-  /// all 0 where nothing is to be cut
+  /// a, b, c, d: of a splat at the point q only the places p with (a, b, c) . (p - q) + d >= 0 are
+  /// to be drawn, (a, b, c) of length 1, d >= 0; all 0 where nothing is to be cut
   std::array<double, 4> clip;
 };
 

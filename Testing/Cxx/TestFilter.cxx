@@ -12,6 +12,8 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -150,6 +152,91 @@ TEST(Filter, SplatArraysAreThereWhenAskedFor)
                               (a[0] * b[1] - a[1] * b[0]) * p[2];
       ASSERT_LT(outwards, 0.0); // distances fall inwards
     }
+  }
+}
+
+/// Samples with a spacing of 1 whose scalars are 0 on a cube around a center.
+vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
+{
+  const auto cloud = newCloud(64000, VTK_DOUBLE);
+  const auto height = newArray<vtkDoubleArray>("height", cloud->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = 20.0 * p[axis] + center[axis];
+      largest = std::max(largest, std::abs(p[axis] - center[axis]));
+    }
+    cloud->GetPoints()->SetPoint(i, p);
+    height->SetValue(i, 12.0 - largest);
+  }
+  cloud->GetPointData()->SetScalars(height);
+  return cloud;
+}
+
+/// Whether a splat's plane is the tangent plane of another point, or goes through its own point
+/// where that lies beyond.
+bool endsAtAnother(vtkPolyData* points, vtkIdType point, const double* clip)
+{
+  double center[3];
+  points->GetPoint(point, center);
+  for (vtkIdType other = 0; other < points->GetNumberOfPoints(); ++other)
+  {
+    double p[3];
+    double normal[3];
+    points->GetPoint(other, p);
+    points->GetPointData()->GetNormals()->GetTuple(other, normal);
+    double cosine = 0.0;
+    double distance = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cosine += clip[axis] * normal[axis];
+      distance += clip[axis] * (center[axis] - p[axis]);
+    }
+    constexpr double tolerance = 1e-5;
+    if (std::abs(cosine) > 1.0 - 1e-6 && std::abs(clip[3] - std::max(0.0, distance)) < tolerance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Far from the origin, single precision tells the coordinates to several spacings of the samples
+// only.
+TEST(Filter, SplatClipsAreRelativeToThePoints)
+{
+  for (const std::array<double, 3> center :
+    { std::array<double, 3>{ 0.0, 0.0, 0.0 }, std::array<double, 3>{ 1e8, 2e8, -1e8 } })
+  {
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(newCubeCloud(center));
+    filter->SetValue(0, 0.0);
+    filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
+    filter->ComputeSplatClipsOn();
+    filter->Update();
+    vtkDataArray* const clips = filter->GetOutput()->GetPointData()->GetArray("SplatClip");
+    int ending = 0;
+    for (vtkIdType i = 0; i < clips->GetNumberOfTuples(); ++i)
+    {
+      double clip[4];
+      clips->GetTuple(i, clip);
+      ASSERT_GE(clip[3], 0.0);
+      if (clip[0] != 0.0 || clip[1] != 0.0 || clip[2] != 0.0)
+      {
+        ASSERT_NEAR(std::hypot(clip[0], clip[1], clip[2]), 1.0, 1e-6);
+        ASSERT_TRUE(endsAtAnother(filter->GetOutput(), i, clip)) << i;
+        ending += clip[3] > 0.0 ? 1 : 0;
+      }
+      else
+      {
+        ASSERT_EQ(clip[3], 0.0);
+      }
+    }
+    EXPECT_GT(ending, 500);
   }
 }
 

@@ -188,8 +188,8 @@ TEST(Splats, AreClippedAtACrease)
   {
     const bool top = i % 2 == 0;
     const double toCrease = -(top ? points.positions[i][0] : points.positions[i][2]);
-    const std::array<double, 4> expected = top ? std::array<double, 4>{ -1.0, 0.0, 0.0, 0.0 }
-                                               : std::array<double, 4>{ 0.0, 0.0, -1.0, 0.0 };
+    const std::array<double, 4> expected = top ? std::array<double, 4>{ -1.0, 0.0, 0.0, toCrease }
+                                               : std::array<double, 4>{ 0.0, 0.0, -1.0, toCrease };
     if (splats[i].clip != (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }))
     {
       ++clipped;

@@ -161,7 +161,7 @@ def sharp_edges(view):
     cube = simple.ScatteredIsopoints(Input=source)
     cube.ContourBy = ["POINTS", "r"]
     cube.Isosurfaces = [20.3]
-    cube.Projection = "Quadratic fit with creases"
+    cube.Projection = "Cubic fit with creases"
     outside = []
     for cube.ComputeSplatClips in (0, 1):
         simple.ColorBy(simple.Show(cube, view), None)

@@ -17,6 +17,8 @@ from scenes import (
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkRenderingCore import vtkHardwareSelector
 
@@ -25,9 +27,9 @@ UP = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)  # towards the scene's camera
 RIGHT, ABOVE = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 1.0]) / np.sqrt(2.0)
 
 
-def plane_through(point, normal):
-    """What a x + b y + c z + d >= 0 keeps: the side that the normal points to."""
-    return np.append(normal, -np.dot(normal, point))
+def plane_through(point, normal, center=(0.0, 0.0, 0.0)):
+    """The plane of a splat at a centre that keeps the side that the normal points to."""
+    return np.append(normal, np.dot(normal, np.subtract(center, point)))
 
 
 def disk(plane, center=(0.0, 0.0, 0.0), kind=np.float64, **arrays):
@@ -76,7 +78,9 @@ def nearly_same(one, other, message):
 def follows_the_actor():
     """As clipping planes of the mapper do, which are the world's."""
     normal = 0.6 * RIGHT - 0.8 * ABOVE + 0.3 * UP
-    plane = plane_through(-0.1 * RIGHT, normal)
+    center = np.array([0.2, 0.3, -0.1])
+    point = center - 0.1 * RIGHT
+    plane = plane_through(point, normal, center)
     half_axes = dict(
         SplatAxis1=np.array([RADIUS * RIGHT]), SplatAxis2=np.array([0.3 * RADIUS * ABOVE])
     )
@@ -90,7 +94,8 @@ def follows_the_actor():
     for arrays in ({}, half_axes):
         for moves in (False, True):
             for scale in (0.3, 1.0, 2.0):
-                own, world = actor_of(disk(plane, **arrays)), actor_of(disk(np.zeros(4), **arrays))
+                own = actor_of(disk(plane, center, **arrays))
+                world = actor_of(disk(np.zeros(4), center, **arrays))
                 for actor in (own, world):
                     actor.GetMapper().SetRadiusScale(scale)
                     if moves:
@@ -98,7 +103,7 @@ def follows_the_actor():
                 to_model = vtkMatrix4x4()
                 vtkMatrix4x4.Invert(world.GetMatrix(), to_model)
                 to_model.Transpose()
-                moved = np.array(to_model.MultiplyPoint(plane))
+                moved = np.array(to_model.MultiplyPoint(plane_through(point, normal)))
                 length = np.linalg.norm(moved[:3])
                 clipping = vtkPlane()
                 clipping.SetNormal(moved[:3] / length)
@@ -134,7 +139,10 @@ def whole_where_no_plane_is():
         ("zeros", np.zeros(4)),
         ("no normal", np.array([0.0, 0.0, 0.0, -1.0])),
         ("not a number", np.full(4, np.nan)),
-        ("an infinite constant", np.append(RIGHT, -np.inf)),
+        ("infinitely far behind the centre", np.append(RIGHT, -np.inf)),
+        ("infinitely far before the centre", np.append(RIGHT, np.inf)),
+        ("farther than single precision reaches", np.append(RIGHT, 1e300)),
+        ("farther than the splat reaches", np.append(RIGHT, 1.01 * RADIUS)),
     ):
         check(np.array_equal(seen(disk(plane)), whole), what)
     for what, values in (
@@ -148,7 +156,7 @@ def whole_where_no_plane_is():
 def mixes_clipped_and_whole_splats():
     """The splats of no plane are as large as without the array."""
     points = [(-0.6, 0, 0), (0.6, 0, 0)]
-    planes = np.array([np.zeros(4), plane_through(points[1], ABOVE)])
+    planes = np.array([np.zeros(4), plane_through(points[1], ABOVE, points[1])])
     data = polydata(points, [UP] * 2, Radius=np.full(2, RADIUS), SplatClip=planes)
     covered = differs(parallel_scene(actor_of(data)).image())
     left, right = covered[:, :300].sum(), covered[:, 300:].sum()
@@ -157,23 +165,21 @@ def mixes_clipped_and_whole_splats():
 
 
 def far_from_the_origin():
-    """Double planes stay sharp; single ones, whose constant is off by several radii, do not clip."""
+    """Planes of both precisions are where they are near the origin."""
     near = parallel_scene(actor_of(disk(plane_through(-0.1 * RIGHT, RIGHT)))).image()
-    whole = parallel_scene(actor_of(disk(np.zeros(4)))).image()
     center = np.array([1e8, 2e8, -1e8])
-    plane = plane_through(center - 0.1 * RIGHT, RIGHT)
-    for kind, expected in ((np.float64, near), (np.float32, whole)):
+    plane = plane_through(center - 0.1 * RIGHT, RIGHT, center)
+    for kind in (np.float64, np.float32):
         actor = actor_of(disk(plane, center, kind))
         image = parallel_scene(actor, center).image()
-        nearly_same(image, expected, f"{kind.__name__} at 1e8")
+        nearly_same(image, near, f"{kind.__name__} at 1e8")
 
 
 def selects_what_is_seen():
     """Of two splats at one place that end at one plane each is chosen on its own side."""
-    planes = np.array([plane_through((0, 0, 0), RIGHT), plane_through((0, 0, 0), -RIGHT)])
-    data = polydata(
-        [-0.1 * RIGHT, 0.1 * RIGHT], [UP] * 2, Radius=np.full(2, RADIUS), SplatClip=planes
-    )
+    points = np.array([-0.1 * RIGHT, 0.1 * RIGHT])
+    planes = [plane_through((0, 0, 0), side, p) for side, p in zip((RIGHT, -RIGHT), points)]
+    data = polydata(points, [UP] * 2, Radius=np.full(2, RADIUS), SplatClip=np.array(planes))
     scene = parallel_scene(actor_of(data))
     scene.window.Render()
     selector = vtkHardwareSelector()
@@ -208,7 +214,7 @@ def wedge(random, count=4000):
         first[:, None], np.column_stack([-away, y, zero]), np.column_stack([zero, y, -away])
     )
     normals = np.where(first[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
-    planes = np.where(first[:, None], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0])
+    planes = np.column_stack([-1.0 * first, zero, -1.0 * ~first, away])
     radius = np.sqrt(12 * 4 / (np.pi * count))
     planes[away > 2 * radius] = 0.0
     return polydata(
@@ -246,6 +252,56 @@ def does_not_blend_across_an_edge():
         print(f"  {position}: {mixed[0]} pixels of both colors, {mixed[1]} with planes")
         check(mixed[0] > 1000, "both colors without planes")
         check(mixed[1] <= 5, "one color each with planes")
+
+
+CUBE = 12.0  # half a side, of samples with a spacing of 1
+
+
+def cube(center):
+    """The isopoints of a cube at a centre."""
+    low, high = np.subtract(center, 20.0), np.add(center, 20.0)
+    return isopoints(lambda p: CUBE - np.abs(p - center).max(1), low, high, 64_000, creases=True)
+
+
+def picture_around(center, data, name, clips="SplatClip"):
+    actor = actor_of(data)
+    actor.GetMapper().SetSplatClipArrayName(clips)
+    scene = Scene(actor)
+    scene.camera.SetFocalPoint(*center)
+    scene.camera.SetPosition(*np.add(center, (46.0, -72.0, 42.0)))
+    scene.camera.SetViewUp(0, 0, 1)
+    scene.renderer.ResetCameraClippingRange()
+    image = scene.image()
+    scene.save(f"{name}.png")
+    return image
+
+
+def edges_far_from_the_origin():
+    """A cube has the edges that it has near the origin, also where the spacing of the samples is
+    less than the precision of the arrays at their coordinates."""
+    center = np.array([1e8, 2e8, -1e8])
+    near, far = cube(np.zeros(3)), cube(center)
+    expected = picture_around(np.zeros(3), near, "cube_near")
+    whole = picture_around(np.zeros(3), near, "cube_near_whole", clips="")
+    image = picture_around(center, far, "cube_far")
+    noise = [psnr(other, expected) for other in (whole, image)]
+    print(f"  {noise[0]:.1f} dB, with planes {noise[1]:.1f} dB")
+    check(noise[1] > noise[0] + 6.0, "as near the origin")
+
+
+def edges_of_translated_points():
+    """A filter that translates points leaves the array as it is."""
+    points = cube(np.zeros(3))
+    expected = picture_around(np.zeros(3), points, "cube_before")
+    for shift in ((3.0, -2.0, 5.0), (4096.0, 1024.0, -8192.0)):
+        transform = vtkTransform()
+        transform.Translate(*shift)
+        translation = vtkTransformPolyDataFilter()
+        translation.SetInputData(points)
+        translation.SetTransform(transform)
+        translation.Update()
+        image = picture_around(shift, translation.GetOutput(), "cube_translated")
+        nearly_same(image, expected, f"translated by {shift}")
 
 
 def edges_of_a_cube():
@@ -292,6 +348,8 @@ if __name__ == "__main__":
         whole_where_no_plane_is,
         mixes_clipped_and_whole_splats,
         far_from_the_origin,
+        edges_far_from_the_origin,
+        edges_of_translated_points,
         selects_what_is_seen,
         does_not_blend_across_an_edge,
         edges_of_a_cube,
