@@ -45,14 +45,13 @@ public:
 
   void shape(std::size_t point, Splat& splat)
   {
-    this->Finder.find(point, firstNeighbors, this->Nearest);
+    this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
     TangentCell cell(splat.normal);
     splat.clip = { 0.0, 0.0, 0.0, 0.0 };
     this->cutOut(point, closedReach * spacing, cell, splat);
     if (cell.isOpen())
     {
-      this->Finder.find(point, firstNeighbors, this->Nearest);
       this->cutOut(point, openReach * spacing, cell, splat);
     }
     this->cutWhereSurfaceTurns(point, cell);
@@ -65,6 +64,12 @@ public:
   }
 
 private:
+  void list(std::size_t point, std::size_t count)
+  {
+    this->Wanted = count;
+    this->Finder.find(point, count, this->Nearest);
+  }
+
   /// The spacing of the samples at a point, or that of the points around where these are denser:
   /// the samples' neighbourhood may reach across a void, as it does about thin shells.
   double spacingAt(std::size_t point) const
@@ -100,18 +105,15 @@ private:
     }
   }
 
-  /// Cuts a disk down to the cell: positions farther than twice its reach do not touch it.
+  /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
+  /// farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, TangentCell& cell, Splat& splat)
   {
-    for (std::size_t count = firstNeighbors;; count *= 2)
+    for (;; this->list(point, 2 * this->Wanted))
     {
-      if (count > firstNeighbors)
-      {
-        this->Finder.find(point, count, this->Nearest);
-      }
       cell.reset(limit);
       double nearestCrease = limit;
-      bool isComplete = this->Nearest.size() < count;
+      bool isComplete = this->Nearest.size() < this->Wanted;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
         const std::size_t other = neighbor.point;
@@ -119,7 +121,7 @@ private:
           difference(this->Points.positions[other], this->Points.positions[point]);
         if (this->meetAtCrease(point, other, offset))
         {
-          this->cutAtCrease(point, other, offset, cell, splat, nearestCrease);
+          this->cutAtCrease(other, offset, cell, splat, nearestCrease);
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
@@ -134,7 +136,7 @@ private:
           isComplete = true; // but creases a little farther off may cut the splat's rim
         }
       }
-      if (isComplete || count >= mostNeighbors)
+      if (isComplete || this->Wanted >= mostNeighbors)
       {
         return;
       }
@@ -189,8 +191,8 @@ private:
   }
 
   /// Cuts off what lies beyond the plane of a point across a crease.
-  void cutAtCrease(std::size_t point, std::size_t other, const Vector& offset, TangentCell& cell,
-    Splat& splat, double& nearestCrease) const
+  void cutAtCrease(std::size_t other, const Vector& offset, TangentCell& cell, Splat& splat,
+    double& nearestCrease) const
   {
     const Vector& otherNormal = this->Splats[other].normal;
     const double cosine = dot(splat.normal, otherNormal);
@@ -214,6 +216,7 @@ private:
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // normals at least
   std::vector<NearestPositions::Neighbor> Nearest;
+  std::size_t Wanted = 0; // of the nearest; there may be fewer
 };
 
 /// Takes normals from the fits' gradients. @returns the points that have none
