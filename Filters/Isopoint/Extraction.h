@@ -17,7 +17,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -38,7 +37,7 @@ public:
   /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
     const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room, SampleBounds<TSample>& bounds,
-    ListingLimit<TSample>& limit)
+    ListingLimit& limit)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)
@@ -60,15 +59,16 @@ public:
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
     {
-      if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
-      {
-        return;
-      }
-      if (!this->listNeighbors(leaf))
+      if (this->Limit.isReached() && !this->Criterion.dropsNothing() && this->Many.canSearch())
       {
         this->connectToSurvivors(leaf, value);
         return;
       }
+      if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
+      {
+        return;
+      }
+      this->listNeighbors(leaf);
     }
     this->findCrossings(isBelow);
     if (this->Crossings.empty())
@@ -98,33 +98,24 @@ public:
   }
 
 private:
-  static constexpr std::size_t maximumSize = std::numeric_limits<std::size_t>::max();
-
   struct Crossing
   {
     std::size_t neighbor;
     double value;
   };
 
-  /// @returns whether the list is complete: not of those that are to be searched instead
-  bool listNeighbors(const Path& leaf)
+  void listNeighbors(const Path& leaf)
   {
     const std::size_t begin = this->KeptRecords;
     this->Records.resize(begin);
     this->Records.push_back(static_cast<Id>(leaf.slot()));
     this->Records.push_back(0);
-    const std::size_t most = this->Criterion.dropsNothing() ? maximumSize : this->Limit.most();
-    const std::size_t end = most < maximumSize ? begin + 2 + most : maximumSize;
-    const bool isCut = visitTouching(this->Tree, leaf, maximumDepth,
-      [this, end](std::size_t slot)
+    visitTouching(this->Tree, leaf, maximumDepth,
+      [this](std::size_t slot)
       {
         this->Records.push_back(static_cast<Id>(slot));
-        return this->Records.size() > end;
+        return false;
       });
-    if (isCut)
-    {
-      return false;
-    }
     const std::size_t count = this->Records.size() - begin - 2;
     this->Limit.listed(count);
     this->Records[begin + 1] = static_cast<Id>(count);
@@ -134,7 +125,6 @@ private:
     {
       this->KeptRecords = this->Records.size();
     }
-    return true;
   }
 
   /// What find() does, without a list of the neighbours.
@@ -246,7 +236,7 @@ private:
   const AngleCriterion& Criterion;
   const GapCriterion& Gaps;
   std::atomic<std::int64_t>& Room;
-  ListingLimit<TSample>& Limit;
+  ListingLimit& Limit;
   LargeNeighborhood<TSample> Many;
   SlotList<Id> Neighbors;
   std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
@@ -307,7 +297,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
     tree.neighborhoods.room(tree.samples.size())) };
   SampleBounds<TSample> bounds(tree);
-  ListingLimit<TSample> limit(tree);
+  ListingLimit limit(tree.samples.size());
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forBatches(execution, crossing.size(), 64 * grain, grain,

@@ -7,54 +7,12 @@
 #include "SampleBounds.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace isopoint
 {
-
-/// Which neighbourhoods are listed, and which searched as LargeNeighborhood does: listing is quicker
-/// for small ones, and for a few large ones as well. The large ones that are listed add up to O(n)
-/// neighbours. No result depends on it. Shared by all threads.
-template <class TSample>
-class ListingLimit
-{
-public:
-  explicit ListingLimit(const SampleTree<TSample>& tree)
-    : Budget(static_cast<std::int64_t>(tree.samples.size()))
-  {
-    // Bounds on offsets hold where nothing overflows.
-    const OffsetBounds extent =
-      offsetsToBox(tree.region.lower, tree.region.lower, tree.region.upper);
-    this->IsLimited = extent.greatestSquaredLength < std::numeric_limits<double>::max() / 16.0;
-  }
-
-  /// How many neighbours to list before giving up.
-  std::size_t most() const
-  {
-    return this->IsLimited && this->Budget.load(std::memory_order_relaxed) <= 0
-             ? fewNeighbors
-             : std::numeric_limits<std::size_t>::max();
-  }
-
-  /// Tells of a neighbourhood that was listed.
-  void listed(std::size_t count)
-  {
-    if (count > fewNeighbors)
-    {
-      this->Budget.fetch_sub(static_cast<std::int64_t>(count), std::memory_order_relaxed);
-    }
-  }
-
-private:
-  static constexpr std::size_t fewNeighbors = 64;
-
-  std::atomic<std::int64_t> Budget;
-  bool IsLimited;
-};
 
 /// The neighbourhood of a leaf, searched without listing it: what of it matters is found by the
 /// bounding boxes of the samples below nodes. Neighbourhoods of n cells each, as of samples on two
@@ -66,8 +24,13 @@ public:
   LargeNeighborhood(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds)
     : Tree(tree)
     , Bounds(bounds)
+    , CanSearch(offsetsToBox(tree.region.lower, tree.region.lower, tree.region.upper)
+                  .greatestSquaredLength < std::numeric_limits<double>::max() / 16.0)
   {
   }
+
+  /// Whether no offset between samples is so long that its square overflows: then it cannot.
+  bool canSearch() const { return this->CanSearch; }
 
   /// Goes to the neighbourhood of a leaf. The tree is to be refined there.
   /// @throws std::bad_alloc
@@ -86,8 +49,8 @@ public:
   }
 
   /// Visits the neighbours that survive the angle criterion, in no particular order. Those that a
-  /// survivor drops are left out by whole subtrees, and whether another one drops what is left is
-  /// asked of all neighbours.
+  /// nearer one found before drops are left out by whole subtrees; whether any other neighbour drops
+  /// what is left is searched for.
   /// @param enter(node) whether the node and those below it are of interest
   /// @param isWanted(slot) whether a leaf is
   /// @param visit(slot) called for each wanted one that survives
@@ -96,36 +59,82 @@ public:
     const Visitor& visit)
   {
     this->Droppers.clear();
-    this->nearestFirst(
-      [&](const Node<TSample>& node, const OffsetBounds& offsets)
+    this->Queue.clear();
+    const auto add = [&](std::size_t slot)
+    {
+      const Node<TSample>& node = this->Tree.nodes[slot];
+      if (enter(node))
       {
-        return enter(node) && std::none_of(this->Droppers.begin(), this->Droppers.end(),
-                                [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
-      },
-      [&](std::size_t slot)
-      {
-        const Offset y = this->offsetTo(slot);
-        const auto drops = [&](const Offset& z) { return criterion.isDroppedBy(y, z); };
-        if (isWanted(slot) && std::none_of(this->Droppers.begin(), this->Droppers.end(), drops))
+        const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
+        if (!this->areDropped(criterion, offsets, 0))
         {
-          if (!this->isDropped(criterion, y))
-          {
-            visit(slot);
-          }
-          this->Droppers.push_back(y);
+          this->push({ offsets.leastSquaredLength, slot, this->Droppers.size() });
         }
-        return false;
-      });
+      }
+    };
+    std::for_each(this->Tops.begin(), this->Tops.end(), add);
+    while (!this->Queue.empty())
+    {
+      const Found found = this->pop();
+      const Node<TSample>& node = this->Tree.nodes[found.slot];
+      if (found.checked < this->Droppers.size() &&
+          this->areDropped(criterion, this->Bounds.offsets(this->Center, node), found.checked))
+      {
+        continue;
+      }
+      if (node.isSplit())
+      {
+        this->forEachChild(node, add);
+      }
+      else if (isWanted(found.slot))
+      {
+        const Offset y = this->offsetTo(found.slot);
+        if (!this->isDropped(criterion, y))
+        {
+          visit(found.slot);
+        }
+        this->Droppers.push_back(y);
+      }
+    }
   }
 
 private:
+  /// A node met in the search for survivors.
   struct Found
   {
-    double squaredLength; // least of the offsets to the node's samples
+    double squaredLength; // least of the offsets to its samples
     std::size_t slot;
+    std::size_t checked; // droppers that do not drop all of it
 
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
+
+  void push(const Found& found)
+  {
+    this->Queue.push_back(found);
+    std::push_heap(this->Queue.begin(), this->Queue.end());
+  }
+
+  Found pop()
+  {
+    std::pop_heap(this->Queue.begin(), this->Queue.end());
+    const Found found = this->Queue.back();
+    this->Queue.pop_back();
+    return found;
+  }
+
+  template <class Visitor>
+  void forEachChild(const Node<TSample>& node, const Visitor& visit) const
+  {
+    if (node.plane >= this->Region.lower[node.axis])
+    {
+      visit(node.lowerSlot());
+    }
+    if (node.plane <= this->Region.upper[node.axis])
+    {
+      visit(node.upperSlot());
+    }
+  }
 
   Offset offsetTo(std::size_t slot) const
   {
@@ -134,51 +143,12 @@ private:
     return offsetBetween(this->Center, position);
   }
 
-  /// Visits the neighbours by their distance.
-  /// @param enter(node, offsets) asked again before the node's children are searched
-  /// @param visit(slot) returns whether to end the search
-  template <class Filter, class Visitor>
-  void nearestFirst(const Filter& enter, const Visitor& visit)
+  /// Whether one of the droppers from the given one on certainly drops all within the bounds.
+  bool areDropped(
+    const AngleCriterion& criterion, const OffsetBounds& offsets, std::size_t first) const
   {
-    this->Queue.clear();
-    const auto add = [&](std::size_t slot)
-    {
-      const Node<TSample>& node = this->Tree.nodes[slot];
-      const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
-      if (enter(node, offsets))
-      {
-        this->Queue.push_back({ offsets.leastSquaredLength, slot });
-        std::push_heap(this->Queue.begin(), this->Queue.end());
-      }
-    };
-    std::for_each(this->Tops.begin(), this->Tops.end(), add);
-    while (!this->Queue.empty())
-    {
-      std::pop_heap(this->Queue.begin(), this->Queue.end());
-      const std::size_t slot = this->Queue.back().slot;
-      this->Queue.pop_back();
-      const Node<TSample>& node = this->Tree.nodes[slot];
-      if (!node.isSplit())
-      {
-        if (visit(slot))
-        {
-          return;
-        }
-        continue;
-      }
-      if (!enter(node, this->Bounds.offsets(this->Center, node)))
-      {
-        continue;
-      }
-      if (node.plane >= this->Region.lower[node.axis])
-      {
-        add(node.lowerSlot());
-      }
-      if (node.plane <= this->Region.upper[node.axis])
-      {
-        add(node.upperSlot());
-      }
-    }
+    return std::any_of(this->Droppers.begin() + static_cast<std::ptrdiff_t>(first),
+      this->Droppers.end(), [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
   }
 
   /// Whether any neighbour drops that one.
@@ -197,11 +167,12 @@ private:
 
   const SampleTree<TSample>& Tree;
   SampleBounds<TSample>& Bounds;
+  bool CanSearch;
   isopoint::Region Region{};
   double Center[3]{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
   std::vector<Found> Queue;
-  std::vector<Offset> Droppers;
+  std::vector<Offset> Droppers; // neighbours of interest met so far
 };
 
 } // namespace isopoint
