@@ -36,8 +36,8 @@ public:
 
   /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
-    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room, SampleBounds<TSample>& bounds,
-    ListingLimit& limit)
+    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room,
+    SampleBounds<TSample>& bounds, ListingLimit& limit)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)

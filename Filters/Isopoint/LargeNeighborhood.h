@@ -5,6 +5,7 @@
 #include "AngleCriterion.h"
 #include "NeighborSearch.h"
 #include "SampleBounds.h"
+#include "Vector.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +42,8 @@ public:
     const TSample& sample = this->Tree.samples[this->Tree.nodes[leaf.slot()].begin];
     std::copy_n(sample.position, 3, this->Center);
     this->Tops.clear();
-    forEachAcross(leaf, [this](FoundNode across)
+    forEachAcross(leaf,
+      [this](FoundNode across)
       {
         this->Tops.push_back(across.slot);
         return false;
@@ -49,8 +51,8 @@ public:
   }
 
   /// Visits the neighbours that survive the angle criterion, in no particular order. Those that a
-  /// nearer one found before drops are left out by whole subtrees; whether any other neighbour drops
-  /// what is left is searched for.
+  /// nearer one found before drops are left out by whole subtrees; whether any other neighbour
+  /// drops what is left is searched for.
   /// @param enter(node) whether the node and those below it are of interest
   /// @param isWanted(slot) whether a leaf is
   /// @param visit(slot) called for each wanted one that survives
@@ -98,6 +100,21 @@ public:
     }
   }
 
+  /// Visits a neighbour for each direction and distance: all near ones, and one of those that are
+  /// small as seen from the leaf's sample, side by side in the tree. The whole neighbourhood
+  /// determines which, not what else of the tree is refined.
+  /// @param size of the samples' bounding box, as a share of its distance
+  /// @param visit(slot, count) of the leaf and about how many neighbours it stands for
+  /// Complexity: O(log n) for n neighbours on lines
+  template <class Visitor>
+  void forEachSpread(double size, const Visitor& visit) const
+  {
+    for (const std::size_t top : this->Tops)
+    {
+      this->visitSpread(top, size, visit);
+    }
+  }
+
 private:
   /// A node met in the search for survivors.
   struct Found
@@ -121,6 +138,51 @@ private:
     const Found found = this->Queue.back();
     this->Queue.pop_back();
     return found;
+  }
+
+  template <class Visitor>
+  void visitSpread(std::size_t slot, double size, const Visitor& visit) const
+  {
+    const Node<TSample>& node = this->Tree.nodes[slot];
+    if (!node.isSplit())
+    {
+      visit(slot, std::size_t{ 1 });
+    }
+    else if (this->touchesBoth(node) && this->isSmall(node, size))
+    {
+      visit(this->leafBelow(slot), node.count());
+    }
+    else
+    {
+      this->forEachChild(node, [&](std::size_t child) { this->visitSpread(child, size, visit); });
+    }
+  }
+
+  bool touchesBoth(const Node<TSample>& node) const
+  {
+    return node.plane >= this->Region.lower[node.axis] &&
+           node.plane <= this->Region.upper[node.axis];
+  }
+
+  bool isSmall(const Node<TSample>& node, double size) const
+  {
+    const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
+    const Vector diagonal = difference({ offsets.upper[0], offsets.upper[1], offsets.upper[2] },
+      { offsets.lower[0], offsets.lower[1], offsets.lower[2] });
+    return dot(diagonal, diagonal) < size * size * offsets.leastSquaredLength;
+  }
+
+  /// A leaf below a node that touches the region, and that touches it as well.
+  std::size_t leafBelow(std::size_t slot) const
+  {
+    const Node<TSample>* node = &this->Tree.nodes[slot];
+    while (node->isSplit())
+    {
+      const bool isLower = node->plane >= this->Region.lower[node->axis];
+      slot = isLower ? node->lowerSlot() : node->upperSlot();
+      node = &this->Tree.nodes[slot];
+    }
+    return slot;
   }
 
   template <class Visitor>

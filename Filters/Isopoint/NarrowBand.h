@@ -274,7 +274,8 @@ private:
       const FoundNode lower{ node.lowerSlot(), top.depth + 1 };
       const FoundNode upper{ node.upperSlot(), top.depth + 1 };
       areAll = node.plane >= region.lower[node.axis] && this->markBelow(lower, depth, region);
-      areAll = node.plane <= region.upper[node.axis] && this->markBelow(upper, depth, region) && areAll;
+      areAll =
+        node.plane <= region.upper[node.axis] && this->markBelow(upper, depth, region) && areAll;
     }
     if (areAll)
     {

@@ -88,8 +88,7 @@ template <class TSample, class Filter, class Visitor>
 bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
   const Filter& enter, const Visitor& visit)
 {
-  return forEachAcross(path,
-    [&](FoundNode across)
+  return forEachAcross(path, [&](FoundNode across)
     { return visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit); });
 }
 

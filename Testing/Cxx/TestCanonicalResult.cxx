@@ -141,7 +141,8 @@ TEST(BruteForce, CellsThatTouchManyEachAddUpToMoreThanCanBeListed)
       { return sum + (neighbors.size() > 64 ? neighbors.size() : 0); });
   };
   clouds::Random random(20);
-  const auto anyAngles = [&random]() -> std::vector<double> {
+  const auto anyAngles = [&random]() -> std::vector<double>
+  {
     return { 60.0 * random() + 1.0, isopoint::defaultAngle, 90.0 * random() + 60.0,
       30.0 * random() + 150.0 };
   };
