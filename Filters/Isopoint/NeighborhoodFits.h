@@ -134,7 +134,7 @@ private:
   /// Of a neighbourhood of more cells than that, as where samples stand in lines, those that are
   /// this small beside their distance from its middle are represented by one.
   static constexpr std::size_t mostNeighbors = 256;
-  static constexpr double smallSize = 0.1;
+  static constexpr double smallSize = 0.2;
 
   void clear()
   {
