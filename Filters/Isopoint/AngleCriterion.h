@@ -2,6 +2,8 @@
 #ifndef isopoint_AngleCriterion_h
 #define isopoint_AngleCriterion_h
 
+#include "Offset.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,27 +15,6 @@ namespace isopoint
 /// Just under arccos(1 / sqrt(3)) = 54.7356 degrees, the angle between an edge and a diagonal of
 /// a cube: on a regular lattice the diagonals survive rounding.
 constexpr double defaultAngle = 54.7;
-
-/// A neighbour as seen from the sample whose neighbourhood it belongs to.
-struct Offset
-{
-  double vector[3];
-  double squaredLength;
-  double length;
-};
-
-inline Offset offsetBetween(const double from[3], const double to[3])
-{
-  Offset offset;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    offset.vector[axis] = to[axis] - from[axis];
-  }
-  offset.squaredLength = offset.vector[0] * offset.vector[0] + offset.vector[1] * offset.vector[1] +
-                         offset.vector[2] * offset.vector[2];
-  offset.length = std::sqrt(offset.squaredLength);
-  return offset;
-}
 
 /// The order in which AngleCriterion::survivesAmongSorted() takes a neighbourhood.
 inline void nearestFirst(std::vector<Offset>& offsets)
@@ -85,6 +66,34 @@ public:
       }
     }
     return true;
+  }
+
+  /// Whether z is closer than all y within the bounds and drops them. It may be told false where it
+  /// is true, never the other way round.
+  bool dropsAll(const Offset& z, const OffsetBounds& y) const
+  {
+    const double squaredLength =
+      this->Cosine > 0.0 ? y.greatestSquaredLength : y.leastSquaredLength;
+    return z.squaredLength < y.leastSquaredLength &&
+           leastProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
+  }
+
+  /// Whether a z within the bounds might be closer than y and drop it. It may be told true where it
+  /// is false, never the other way round.
+  bool mayDrop(const OffsetBounds& z, const Offset& y) const
+  {
+    const double squaredLength =
+      this->Cosine > 0.0 ? z.leastSquaredLength : z.greatestSquaredLength;
+    return z.leastSquaredLength < y.squaredLength &&
+           greatestProduct(y, z) > this->Cosine * (y.length * std::sqrt(squaredLength));
+  }
+
+  bool dropsNothing() const { return this->DropsNothing; }
+
+  /// Whether z is closer than y and lies under a smaller angle from it than the given one.
+  bool isDroppedBy(const Offset& y, const Offset& z) const
+  {
+    return z.squaredLength < y.squaredLength && this->drops(z, y);
   }
 
 private:

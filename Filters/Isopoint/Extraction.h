@@ -7,6 +7,7 @@
 #include "GapCriterion.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
+#include "LargeNeighborhood.h"
 #include "LeafValues.h"
 #include "NarrowBand.h"
 #include "NeighborhoodFits.h"
@@ -35,12 +36,15 @@ public:
 
   /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
-    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room)
+    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room,
+    SampleBounds<TSample>& bounds, ListingLimit& limit)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)
     , Gaps(gapCriterion)
     , Room(room)
+    , Limit(limit)
+    , Many(tree, bounds)
     , Values(tree)
   {
   }
@@ -50,39 +54,33 @@ public:
   /// across a gap.
   void find(const Path& leaf)
   {
-    const Node<TSample>& node = this->Tree.nodes[leaf.slot()];
     const double value = this->Values.at(leaf.slot());
     const bool isBelow = value < this->Isovalue;
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
     {
+      if (this->Limit.isReached() && !this->Criterion.dropsNothing() && this->Many.canSearch())
+      {
+        this->connectToSurvivors(leaf, value);
+        return;
+      }
       if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
       {
         return;
       }
-      this->searchNeighbors(leaf);
+      this->listNeighbors(leaf);
     }
     this->findCrossings(isBelow);
     if (this->Crossings.empty())
     {
       return;
     }
-    const TSample& sample = this->Tree.samples[node.begin];
-    this->measureNeighbors(sample);
+    this->measureNeighbors(this->sampleAt(leaf.slot()));
     for (const Crossing& crossing : this->Crossings)
     {
       if (this->survives(crossing.neighbor))
       {
-        const std::size_t otherSlot = this->Neighbors[crossing.neighbor];
-        const TSample& otherSample = this->Tree.samples[this->Tree.nodes[otherSlot].begin];
-        if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
-        {
-          continue;
-        }
-        this->addPoint({ sample.id, static_cast<Id>(leaf.slot()), value },
-          { otherSample.id, static_cast<Id>(otherSlot), crossing.value });
-        this->addMerged(leaf.slot());
-        this->addMerged(otherSlot);
+        this->connect(leaf, value, this->Neighbors[crossing.neighbor], crossing.value);
       }
     }
   }
@@ -106,7 +104,7 @@ private:
     double value;
   };
 
-  void searchNeighbors(const Path& leaf)
+  void listNeighbors(const Path& leaf)
   {
     const std::size_t begin = this->KeptRecords;
     this->Records.resize(begin);
@@ -119,6 +117,7 @@ private:
         return false;
       });
     const std::size_t count = this->Records.size() - begin - 2;
+    this->Limit.listed(count);
     this->Records[begin + 1] = static_cast<Id>(count);
     this->Neighbors = { this->Records.data() + begin + 2, count };
     if (this->Room.fetch_sub(static_cast<std::int64_t>(count + 2)) >
@@ -126,6 +125,26 @@ private:
     {
       this->KeptRecords = this->Records.size();
     }
+  }
+
+  /// What find() does, without a list of the neighbours.
+  void connectToSurvivors(const Path& leaf, double value)
+  {
+    const bool isBelow = value < this->Isovalue;
+    this->Many.moveTo(leaf);
+    this->Many.forEachSurvivor(
+      this->Criterion,
+      [this, isBelow](const Node<TSample>& node)
+      { return isBelow ? node.maximum >= this->Isovalue : node.minimum < this->Isovalue; },
+      [this, isBelow](std::size_t slot)
+      { return (this->Values.at(slot) < this->Isovalue) != isBelow; },
+      [this, &leaf, value](std::size_t slot)
+      { this->connect(leaf, value, slot, this->Values.at(slot)); });
+  }
+
+  const TSample& sampleAt(std::size_t slot) const
+  {
+    return this->Tree.samples[this->Tree.nodes[slot].begin];
   }
 
   /// Lists the neighbours on the other side.
@@ -149,7 +168,7 @@ private:
     this->Offsets.clear();
     for (const std::size_t slot : this->Neighbors)
     {
-      const TSample& other = this->Tree.samples[this->Tree.nodes[slot].begin];
+      const TSample& other = this->sampleAt(slot);
       const double position[3] = { other.position[0], other.position[1], other.position[2] };
       this->Offsets.push_back(offsetBetween(center, position));
     }
@@ -171,6 +190,21 @@ private:
       nearestFirst(this->Sorted);
     }
     return this->Criterion.survivesAmongSorted(this->Sorted.data(), this->Offsets[neighbor]);
+  }
+
+  /// Adds the isopoint between a leaf's sample and another one, unless a gap parts them.
+  void connect(const Path& leaf, double value, std::size_t otherSlot, double otherValue)
+  {
+    const TSample& sample = this->sampleAt(leaf.slot());
+    const TSample& otherSample = this->sampleAt(otherSlot);
+    if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
+    {
+      return;
+    }
+    this->addPoint({ sample.id, static_cast<Id>(leaf.slot()), value },
+      { otherSample.id, static_cast<Id>(otherSlot), otherValue });
+    this->addMerged(leaf.slot());
+    this->addMerged(otherSlot);
   }
 
   struct End
@@ -202,6 +236,8 @@ private:
   const AngleCriterion& Criterion;
   const GapCriterion& Gaps;
   std::atomic<std::int64_t>& Room;
+  ListingLimit& Limit;
+  LargeNeighborhood<TSample> Many;
   SlotList<Id> Neighbors;
   std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
   std::size_t KeptRecords = 0;
@@ -260,12 +296,14 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   std::vector<std::vector<typename TSample::Id>> records;
   std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
     tree.neighborhoods.room(tree.samples.size())) };
+  SampleBounds<TSample> bounds(tree);
+  ListingLimit limit(tree.samples.size());
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forBatches(execution, crossing.size(), 64 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, room);
+      EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, room, bounds, limit);
       for (std::size_t i = begin; i < end; ++i)
       {
         Path path = pathTo(tree, crossing[i]);

@@ -3,6 +3,7 @@
 #define isopoint_NarrowBand_h
 
 #include "Execution.h"
+#include "ListingLimit.h"
 #include "NeighborSearch.h"
 #include "TreeletSplitting.h"
 
@@ -47,6 +48,7 @@ public:
     : Tree(tree)
     , Isovalue(isovalue)
     , Run(execution)
+    , Limit(tree.samples.size())
   {
   }
 
@@ -227,14 +229,59 @@ private:
   void markAround(const Path& crossing, int depth)
   {
     this->Marks[crossing.slot()].store(Mark::Crossing, std::memory_order_relaxed);
+    if (this->Limit.isReached())
+    {
+      forEachAcross(crossing,
+        [&](FoundNode across)
+        {
+          this->markBelow(across, depth, crossing.region);
+          return false;
+        });
+      return;
+    }
+    std::size_t count = 0;
     visitTouching(this->Tree, crossing, depth,
-      [this](std::size_t slot)
+      [this, &count](std::size_t slot)
       {
-        Mark none = Mark::None;
-        this->Marks[slot].compare_exchange_strong(
-          none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
+        this->markNeeded(slot);
+        ++count;
         return false;
       });
+    this->Limit.listed(count);
+  }
+
+  void markNeeded(std::size_t slot)
+  {
+    Mark none = Mark::None;
+    this->Marks[slot].compare_exchange_strong(
+      none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
+  }
+
+  /// Marks the nodes of a depth in a subtree that touch the region, and with them those above that
+  /// depth below which all are marked. There the next search ends: where many crossing nodes touch
+  /// the same many others, it would mark them time and again.
+  /// @returns whether all are marked
+  bool markBelow(FoundNode top, int depth, const Region& region)
+  {
+    if (this->Marks[top.slot].load(std::memory_order_relaxed) != Mark::None)
+    {
+      return true;
+    }
+    const NodeType& node = this->Tree.nodes[top.slot];
+    bool areAll = true;
+    if (top.depth < depth && node.isSplit())
+    {
+      const FoundNode lower{ node.lowerSlot(), top.depth + 1 };
+      const FoundNode upper{ node.upperSlot(), top.depth + 1 };
+      areAll = node.plane >= region.lower[node.axis] && this->markBelow(lower, depth, region);
+      areAll =
+        node.plane <= region.upper[node.axis] && this->markBelow(upper, depth, region) && areAll;
+    }
+    if (areAll)
+    {
+      this->markNeeded(top.slot);
+    }
+    return areAll;
   }
 
   /// The marked nodes of a depth.
@@ -275,7 +322,8 @@ private:
   SampleTree<TSample>& Tree;
   const double Isovalue;
   const Execution& Run;
-  std::vector<std::atomic<Mark>> Marks; // by slot, of the depth at hand
+  ListingLimit Limit;
+  std::vector<std::atomic<Mark>> Marks; // by slot, of the depth at hand and above
 };
 
 } // namespace isopoint

@@ -54,12 +54,32 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
   return false;
 }
 
+/// Visits the roots of the subtrees that hold all nodes whose closed region shares a point with the
+/// closed region of the path's node. Each lies across a plane that bounds the node's region; that
+/// plane belongs to an ancestor whose split of this axis has the node on this side. The nearest
+/// such ancestor bounds the region, and so does every farther one whose plane has the same
+/// coordinate, as in lattices: the search crosses them all.
+/// @param visit(root) returns whether to end the search
+/// @returns whether a visit did
+template <class Visitor>
+bool forEachAcross(const Path& path, const Visitor& visit)
+{
+  for (int depth = path.depth; depth > 0; --depth)
+  {
+    const bool upper = path.uppers[depth - 1];
+    const int axis = path.axes[depth - 1];
+    const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
+    if (bound == path.planes[depth - 1] && visit(FoundNode{ siblingOf(path.slots[depth]), depth }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
 /// path's own, whose closed region shares a point with the closed region of the path's node (the
-/// neighbourhood N(c), section 5 of the paper). Each lies across a plane that bounds the node's
-/// region; that plane belongs to an ancestor whose split of this axis has the node on this side.
-/// The nearest such ancestor bounds the region, and so does every farther one whose plane has the
-/// same coordinate, as in lattices: the search crosses them all.
+/// neighbourhood N(c), section 5 of the paper).
 /// @param enter(node) whether a node and those below it are of interest
 /// @param visit(slot) returns whether to end the search
 /// @returns whether a visit did
@@ -68,19 +88,8 @@ template <class TSample, class Filter, class Visitor>
 bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
   const Filter& enter, const Visitor& visit)
 {
-  for (int depth = path.depth; depth > 0; --depth)
-  {
-    const bool upper = path.uppers[depth - 1];
-    const int axis = path.axes[depth - 1];
-    const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
-    const FoundNode across{ siblingOf(path.slots[depth]), depth };
-    if (bound == path.planes[depth - 1] &&
-        visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit))
-    {
-      return true;
-    }
-  }
-  return false;
+  return forEachAcross(path, [&](FoundNode across)
+    { return visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit); });
 }
 
 /// The same with every node of interest.

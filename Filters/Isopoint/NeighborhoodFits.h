@@ -5,12 +5,14 @@
 #include "Execution.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
+#include "LargeNeighborhood.h"
 #include "LeafValues.h"
 #include "LocalFit.h"
 #include "NeighborSearch.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -58,10 +60,12 @@ template <class TSample>
 class NeighborhoodFitter
 {
 public:
-  NeighborhoodFitter(const SampleTree<TSample>& tree, double isovalue, FitOrder highest)
+  NeighborhoodFitter(const SampleTree<TSample>& tree, double isovalue, FitOrder highest,
+    SampleBounds<TSample>& bounds)
     : Tree(tree)
     , Isovalue(isovalue)
     , Highest(highest)
+    , Many(tree, bounds)
     , Values(tree)
   {
   }
@@ -127,10 +131,21 @@ private:
   /// Neighbourhoods of more samples are wide enough, as where samples stand in lines.
   static constexpr std::size_t enoughSamples = 64;
 
+  /// Of a neighbourhood of more cells than that, as where samples stand in lines, those that are
+  /// this small beside their distance from its middle are represented by one.
+  static constexpr std::size_t mostNeighbors = 256;
+  static constexpr double smallSize = 0.2;
+
+  void clear()
+  {
+    this->Slots.clear();
+    this->Counts.clear();
+  }
+
   /// Lists the samples of both ends' neighbourhoods.
   void gather(const LocatedIsopoint<TSample>& point)
   {
-    this->Slots.clear();
+    this->clear();
     this->addNeighborhood(point.firstSlot);
     this->Spacing = 0.5 * this->spacingAt(point.firstSlot, 0);
     const std::size_t middle = this->Slots.size();
@@ -148,13 +163,18 @@ private:
     this->Distances.clear();
     for (std::size_t i = begin; i < this->Slots.size(); ++i)
     {
-      this->Distances.push_back(
-        lengthOf(difference(this->sampleAt(this->Slots[i].second).position, center)));
+      this->Distances.emplace_back(
+        lengthOf(difference(this->sampleAt(this->Slots[i].second).position, center)),
+        this->Counts[i]);
     }
-    const auto found =
-      this->Distances.begin() + static_cast<std::ptrdiff_t>(2 * this->Distances.size() / 5);
-    std::nth_element(this->Distances.begin(), found, this->Distances.end());
-    return *found;
+    std::sort(this->Distances.begin(), this->Distances.end());
+    const std::size_t all =
+      std::accumulate(this->Counts.begin() + static_cast<std::ptrdiff_t>(begin), this->Counts.end(),
+        std::size_t{ 0 });
+    std::size_t nearer = 0;
+    const auto found = std::find_if(this->Distances.begin(), this->Distances.end(),
+      [&](const auto& distance) { return (nearer += distance.second) > 2 * all / 5; });
+    return found->first;
   }
 
   /// Adds the samples of the neighbourhoods of those that lie on the other side of the isovalue
@@ -164,7 +184,7 @@ private:
     this->Across.clear();
     for (const Id end : { point.firstSlot, point.secondSlot })
     {
-      this->Slots.clear();
+      this->clear();
       this->addNeighborhood(end);
       const bool isBelow = this->isBelow(end);
       for (const auto& [id, slot] : this->Slots)
@@ -175,7 +195,7 @@ private:
         }
       }
     }
-    this->Slots.clear();
+    this->clear();
     this->addNeighborhood(point.firstSlot);
     this->addNeighborhood(point.secondSlot);
     for (const Id slot : this->Across)
@@ -199,29 +219,42 @@ private:
     }
   }
 
+  /// Adds a sample and its neighbours, of very many only some.
   void addNeighborhood(Id leafSlot)
   {
     this->addSlot(leafSlot);
     const SlotList<Id> known = this->Tree.neighborhoods.at(static_cast<std::size_t>(leafSlot));
-    for (const Id slot : known)
+    if (!known.isEmpty() && known.count <= mostNeighbors)
     {
-      this->addSlot(slot);
+      for (const Id slot : known)
+      {
+        this->addSlot(slot);
+      }
+      return;
     }
-    if (known.isEmpty())
+    Path path = pathToRoot(this->Tree);
+    descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
+    const std::size_t begin = this->Slots.size();
+    const bool areMany = visitTouching(this->Tree, path, maximumDepth,
+      [this, begin](std::size_t slot)
+      {
+        this->addSlot(static_cast<Id>(slot));
+        return this->Slots.size() - begin > mostNeighbors;
+      });
+    if (areMany)
     {
-      Path path = pathToRoot(this->Tree);
-      descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
-      visitTouching(this->Tree, path, maximumDepth,
-        [this](std::size_t slot)
-        {
-          this->addSlot(static_cast<Id>(slot));
-          return false;
-        });
+      this->Slots.resize(begin);
+      this->Counts.resize(begin);
+      this->Many.moveTo(path);
+      this->Many.forEachSpread(smallSize, [this](std::size_t slot, std::size_t count)
+        { this->addSlot(static_cast<Id>(slot), count); });
     }
   }
 
-  void addSlot(Id slot)
+  /// @param count of the samples that it stands for
+  void addSlot(Id slot, std::size_t count = 1)
   {
+    this->Counts.push_back(count);
     this->Slots.emplace_back(this->Tree.samples[this->leafAt(slot).begin].id, slot);
   }
 
@@ -240,13 +273,15 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const FitOrder Highest;
+  LargeNeighborhood<TSample> Many;
   LeafValues<TSample> Values;
   std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
   std::vector<Id> Across;
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
-  std::vector<double> Distances;
-  double Spacing = 0.0; // mean of those at the ends
+  std::vector<std::size_t> Counts; // of the samples that those of Slots stand for
+  std::vector<std::pair<double, std::size_t>> Distances; // and the same counts
+  double Spacing = 0.0;                                  // mean of those at the ends
 };
 
 /// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
@@ -257,11 +292,12 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
   double isovalue, FitRequest request, std::vector<LocatedIsopoint<TSample>>& points)
 {
   std::vector<LocalFit> fits(points.size());
+  SampleBounds<TSample> bounds(tree);
   constexpr std::size_t grain = 256;
   forBatches(execution, points.size(), 8192, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest);
+      NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, bounds);
       for (std::size_t i = begin; i < end; ++i)
       {
         fits[i] = fitter.fit(points[i]);

@@ -166,6 +166,72 @@ inline Cloud layerBeforeOne(std::size_t count, std::uint64_t seed)
   return cloud;
 }
 
+/// Samples on straight lines along the axes, each with values of its own around 0, so that cells of
+/// one line touch most of those of others.
+/// @param steps how many places there are on a line, so that samples meet; 0: any
+inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  const auto place = [&]() { return steps > 0 ? std::floor(steps * random()) / steps : random(); };
+  std::vector<double> offsets(2 * lineCount);
+  std::generate(offsets.begin(), offsets.end(), place);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t line = i % lineCount;
+    double position[3];
+    position[line % 3] = place();
+    position[(line + 1) % 3] = offsets[2 * line];
+    position[(line + 2) % 3] = offsets[2 * line + 1];
+    cloud.add(position[0], position[1], position[2],
+      line % 2 ? random() - 0.25 : waves(position[0], position[1], position[2]));
+  }
+  return cloud;
+}
+
+/// Two rows of parallel lines, one above the other and across it.
+inline Cloud combs(std::size_t count, int teeth, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double tooth = std::floor(teeth * random()) / teeth;
+    const double place = random();
+    const bool isUpper = i % 2 == 1;
+    cloud.add(isUpper ? place : tooth, isUpper ? tooth : place, isUpper ? 0.8 : 0.2,
+      (isUpper ? 0.5 : -0.5) + random() - 0.5);
+  }
+  return cloud;
+}
+
+/// Linked circles, one of them around a straight line, with values that change along them.
+inline Cloud curves(std::size_t count, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double t = 6.28318 * random();
+    const double x = std::cos(t);
+    const double y = std::sin(t);
+    const double value = std::sin(3.0 * t);
+    if (i % 3 == 0)
+    {
+      cloud.add(x, y, 0.0, value);
+    }
+    else if (i % 3 == 1)
+    {
+      cloud.add(1.0 + x, 0.0, y, -value);
+    }
+    else
+    {
+      cloud.add(0.0, 0.0, t - 3.14159, value + 0.5);
+    }
+  }
+  return cloud;
+}
+
 /// As many threads as asked for, whatever the machine has.
 inline isopoint::Execution executionOn(std::size_t threads)
 {

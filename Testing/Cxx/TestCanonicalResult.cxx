@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace
 {
@@ -27,12 +28,13 @@ void expectSamePoints(
 }
 
 /// @returns how many isopoints there were
-std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isovalues)
+std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isovalues,
+  const std::vector<double>& angles = { 0.0, 30.0, isopoint::defaultAngle, 80.0, 90.0, 180.0 })
 {
   std::size_t count = 0;
   for (const double isovalue : isovalues)
   {
-    for (const double angle : { 0.0, 30.0, isopoint::defaultAngle, 80.0, 90.0, 180.0 })
+    for (const double angle : angles)
     {
       SCOPED_TRACE(testing::Message() << "isovalue " << isovalue << ", angle " << angle);
       const auto expected = bruteforce::extract(cloud, isovalue, angle);
@@ -126,6 +128,42 @@ TEST(BruteForce, OneCellThatTouchesManyOthers)
   EXPECT_GT(largest, cloud.size() / 3);
   EXPECT_GT(compare(cloud, { 0.5 }), 0u);
   EXPECT_GT(compare(clouds::heaped(cloud, 0.2), { 0.5 }), 0u);
+}
+
+TEST(BruteForce, CellsThatTouchManyEachAddUpToMoreThanCanBeListed)
+{
+  const auto neighborsOf = [](const clouds::Cloud& cloud)
+  {
+    const bruteforce::Tree tree(cloud);
+    const auto neighborhoods = bruteforce::neighborhoods(tree.cells);
+    return std::accumulate(neighborhoods.begin(), neighborhoods.end(), std::size_t{ 0 },
+      [](std::size_t sum, const auto& neighbors)
+      { return sum + (neighbors.size() > 64 ? neighbors.size() : 0); });
+  };
+  clouds::Random random(20);
+  const auto anyAngles = [&random]() -> std::vector<double>
+  {
+    return { 60.0 * random() + 1.0, isopoint::defaultAngle, 90.0 * random() + 60.0,
+      30.0 * random() + 150.0 };
+  };
+  const auto check = [&](const clouds::Cloud& cloud, const std::vector<double>& isovalues)
+  {
+    EXPECT_GT(neighborsOf(cloud), 2 * cloud.size());
+    EXPECT_GT(compare(cloud, isovalues, anyAngles()), 0u);
+    EXPECT_GT(compare(clouds::heaped(cloud, 0.2), isovalues, anyAngles()), 0u);
+  };
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    for (const std::size_t lineCount : { 2, 3, 4 })
+    {
+      SCOPED_TRACE(lineCount);
+      check(clouds::lines(700, lineCount, 0, seed), { 0.0, 0.4 });
+    }
+    check(clouds::lines(1200, 3, 512, seed), { 0.0 });
+    check(clouds::combs(900, 3, seed), { 0.0, 0.3 });
+    check(clouds::curves(900, seed), { 0.0, 0.6 });
+  }
 }
 
 TEST(BruteForce, NearTheEndsOfDouble)

@@ -73,6 +73,33 @@ TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
   }
 }
 
+// Of many neighbours only some are fitted to: which ones must not depend on what was asked before.
+TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
+{
+  const isopoint::FitRequest request{ isopoint::FitOrder::Quadratic, true };
+  for (const clouds::Cloud& cloud : { clouds::lines(6000, 3, 0, 5), clouds::curves(6000, 6) })
+  {
+    IsosurfaceExtractor kept = loaded(cloud);
+    for (const double isovalue : { 0.3, -0.1, 0.3 })
+    {
+      const Isosurface expected =
+        loaded(cloud).extract(clouds::executionOn(1), isovalue, 30.0, 0.0, request);
+      const Isosurface found = kept.extract(clouds::executionOn(3), isovalue, 30.0, 0.0, request);
+      expectSameBytes(expected, found);
+      ASSERT_EQ(expected.fits.size(), expected.points.size());
+      ASSERT_EQ(found.fits.size(), expected.points.size());
+      ASSERT_GT(found.fits.size(), 100u);
+      for (std::size_t i = 0; i < found.fits.size(); ++i)
+      {
+        EXPECT_EQ(found.fits[i].position, expected.fits[i].position);
+        EXPECT_EQ(found.fits[i].gradient, expected.fits[i].gradient);
+        EXPECT_EQ(found.fits[i].spacing, expected.fits[i].spacing);
+        EXPECT_TRUE(std::isfinite(found.fits[i].spacing));
+      }
+    }
+  }
+}
+
 TEST(SameResult, ForNewValuesAtKeptPositions)
 {
   clouds::Cloud cloud = clouds::heaped(clouds::uniform(30000, 4), 0.05);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SampleBounds_h
+#define isopoint_SampleBounds_h
+
+#include "Offset.h"
+#include "RawArray.h"
+#include "SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+
+namespace isopoint
+{
+
+/// The bounding boxes of the samples below each split node, which can be far smaller than its
+/// region. They are there from the first call of compute() on and take six coordinates for each
+/// split node. The tree is not to be changed meanwhile.
+template <class TSample>
+class SampleBounds
+{
+public:
+  explicit SampleBounds(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// Computes them at its first call, from any thread: O(samples + nodes).
+  /// @throws std::bad_alloc; then the next call tries again
+  void compute()
+  {
+    std::call_once(this->Computed,
+      [this]()
+      {
+        this->Boxes.resize(this->Tree.usedPairs);
+        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootSlot]);
+      });
+  }
+
+  /// What bounds the offsets from a position to the samples of a node, which is a leaf or split.
+  OffsetBounds offsets(const double from[3], const Node<TSample>& node) const
+  {
+    if (!node.isSplit())
+    {
+      const auto* const position = this->Tree.samples[node.begin].position;
+      return offsetsToBox(from, position, position);
+    }
+    const Box& box = this->Boxes[static_cast<std::size_t>(node.childPair)];
+    return offsetsToBox(from, box.lower, box.upper);
+  }
+
+private:
+  using Coordinate = typename TSample::Coordinate;
+
+  struct Box
+  {
+    Coordinate lower[3];
+    Coordinate upper[3];
+
+    void add(const Coordinate otherLower[3], const Coordinate otherUpper[3])
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->lower[axis] = std::min(this->lower[axis], otherLower[axis]);
+        this->upper[axis] = std::max(this->upper[axis], otherUpper[axis]);
+      }
+    }
+  };
+
+  Box boxOf(const Node<TSample>& node)
+  {
+    constexpr Coordinate infinity = std::numeric_limits<Coordinate>::infinity();
+    Box box{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+    if (!node.isSplit())
+    {
+      const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+      for (std::size_t i = node.begin; i < end; ++i)
+      {
+        box.add(this->Tree.samples[i].position, this->Tree.samples[i].position);
+      }
+      return box;
+    }
+    for (const std::size_t child : { node.lowerSlot(), node.upperSlot() })
+    {
+      const Box part = this->boxOf(this->Tree.nodes[child]);
+      box.add(part.lower, part.upper);
+    }
+    this->Boxes[static_cast<std::size_t>(node.childPair)] = box;
+    return box;
+  }
+
+  const SampleTree<TSample>& Tree;
+  RawArray<Box> Boxes; // by the number of the node's pair of children
+  std::once_flag Computed;
+};
+
+} // namespace isopoint
+
+#endif
