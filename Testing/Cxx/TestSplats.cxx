@@ -118,6 +118,7 @@ TEST(Splats, RowsAreJoined)
   points.fallingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
   isopoint::LocalFit fit{};
   fit.order = isopoint::FitOrder::Linear;
+  fit.isGradientFitted = true;
   fit.gradient = { 0.0, 0.0, -1.0 };
   fit.spacing = 1.0;
   points.fits.assign(positions.size(), fit);
@@ -150,6 +151,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
     {
       isopoint::LocalFit fit{};
       fit.order = isopoint::FitOrder::Quadratic;
+      fit.isGradientFitted = true;
       fit.gradient = isopoint::scaled(-1.0, p);
       fit.hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
       fit.spacing = 2.0;
@@ -177,6 +179,7 @@ TEST(Splats, AreClippedAtACrease)
     points.fallingEdges.push_back({ 1.0, 0.0, 1.0 });
     isopoint::LocalFit fit{};
     fit.order = isopoint::FitOrder::Crease;
+    fit.isGradientFitted = true;
     fit.gradient = top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 };
     fit.spacing = 1.0;
     points.fits.push_back(fit);
