@@ -374,6 +374,10 @@ void vtkScatteredIsopointFilter::CheckParameters()
             << "; it must be 0, which drops nothing, or a positive number. See SetGapFactor().";
     throw vtkUnusableIsopointInput(message.str());
   }
+  if (std::isnan(this->MinimumSpacing))
+  {
+    throw vtkUnusableIsopointInput("The minimum spacing is not a number. See SetMinimumSpacing().");
+  }
 }
 
 void vtkScatteredIsopointFilter::ExtractBlocks(

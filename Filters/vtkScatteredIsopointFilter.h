@@ -257,7 +257,8 @@ public:
    * sphere in random samples 0.25, 0.5, 0.75 and 1 leave 68, 46, 32 and 22 percent of the points.
    * Sensible is 0.5: no hole was seen in smooth surfaces of random, clustered or jittered samples,
    * and hardly more than without in those of samples on lines; larger values open some. At a border
-   * the surface may end that much earlier. 0: nothing is dropped, at no cost. 0 up to 1, default: 0.
+   * the surface may end that much earlier. 0: nothing is dropped, at no cost. 0 up to 1, default:
+   * 0.
    */
   vtkSetClampMacro(MinimumSpacing, double, 0.0, 1.0);
   vtkGetMacro(MinimumSpacing, double);
@@ -357,8 +358,8 @@ public:
   vtkGetMacro(NumberOfSkippedSamples, vtkIdType);
 
   /**
-   * Isopoints of the output that the last update left where linear interpolation puts them: all of them with
-   * NO_PROJECTION, and those around which no fit held.
+   * Isopoints of the output that the last update left where linear interpolation puts them: all of
+   * them with NO_PROJECTION, and those around which no fit held.
    */
   vtkGetMacro(NumberOfUnprojectedPoints, vtkIdType);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Thinning.h"
 
+#include "LocalFit.h"
 #include "Vector.h"
 
 #include <algorithm>
@@ -26,20 +27,18 @@ constexpr double mostHeight = 0.25;
 /// Reaches no larger leave any coordinate finite that they are added to.
 constexpr double largestSpacing = 1e290;
 
-bool isFinite(const Vector& a)
-{
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
-}
-
 /// Whether a point may be close to others at all.
-bool tellsOfSheet(const LocalFit& fit)
+bool tellsOfSheet(const LocalFit& fit, double minimumSpacing)
 {
   const double slope = lengthOf(fit.gradient);
   return fit.order != FitOrder::None && slope > 0.0 && std::isfinite(slope) &&
-         fit.spacing <= largestSpacing && isFinite(fit.position);
+         fit.spacing <= largestSpacing && minimumSpacing * fit.spacing > 0.0 &&
+         std::all_of(fit.position.begin(), fit.position.end(),
+           [](double coordinate) { return std::isfinite(coordinate); });
 }
 
-bool areCloseOnSheets(const LocalFit& one, const LocalFit& other, double minimumSpacing)
+/// Whether two points that both tell of their sheets are close.
+bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
 {
   const double reach = minimumSpacing * std::min(one.spacing, other.spacing);
   const Vector offset = difference(other.position, one.position);
@@ -84,9 +83,9 @@ public:
     {
       this->Exponents.insert(isAt, exponent);
     }
-    const Cell cell{ exponent, { std::floor(fit.position[0] / size),
-                                 std::floor(fit.position[1] / size),
-                                 std::floor(fit.position[2] / size) } };
+    const Cell cell{ exponent,
+      { std::floor(fit.position[0] / size), std::floor(fit.position[1] / size),
+        std::floor(fit.position[2] / size) } };
     std::size_t& first = this->FirstInCell.emplace(cell, none).first->second;
     this->NextInCell[point] = first;
     first = point;
@@ -166,7 +165,7 @@ private:
     for (std::size_t point = found == this->FirstInCell.end() ? none : found->second; point != none;
          point = this->NextInCell[point])
     {
-      if (areCloseOnSheets(this->Fits[point], fit, this->MinimumSpacing))
+      if (areClose(this->Fits[point], fit, this->MinimumSpacing))
       {
         return true;
       }
@@ -194,7 +193,7 @@ std::vector<std::size_t> keptPoints(
     {
       throwIfAborted(execution);
     }
-    if (!tellsOfSheet(fits[i]) || !(minimumSpacing * fits[i].spacing > 0.0))
+    if (!tellsOfSheet(fits[i], minimumSpacing))
     {
       kept.push_back(i);
     }
@@ -240,11 +239,6 @@ std::vector<MergedSamples> endsAmong(
 }
 
 } // namespace
-
-bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
-{
-  return tellsOfSheet(one) && tellsOfSheet(other) && areCloseOnSheets(one, other, minimumSpacing);
-}
 
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface)
 {
