@@ -117,6 +117,8 @@ TEST(OutOfMemory, ThinnedPoints)
     {
       setUp(filter, cloud);
       filter->SetMinimumSpacing(0.5);
+      filter->ComputeNormalsOff();
+      filter->ComputeRadiiOff();
     });
 }
 
