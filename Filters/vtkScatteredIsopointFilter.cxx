@@ -4,6 +4,7 @@
 #include "Isopoint/AngleCriterion.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Isopoint/SplatGeometry.h"
+#include "Isopoint/Thinning.h"
 #include "vtkIsopointAllocation.h"
 #include "vtkIsopointArrays.h"
 #include "vtkIsopointBlocks.h"
@@ -132,7 +133,8 @@ public:
 class vtkScatteredIsopointFilter::Internals
 {
 public:
-  /// What is wanted of fits around isopoints, if anything: splats need the samples' spacing.
+  /// What is wanted of fits around isopoints, if anything: splats need the samples' spacing, and
+  /// thinning what they tell of sheets.
   static std::optional<isopoint::FitRequest> FitRequestOf(const vtkScatteredIsopointFilter& filter)
   {
     using isopoint::FitOrder;
@@ -151,7 +153,7 @@ public:
       case CREASE_FIT:
         return isopoint::FitRequest{ FitOrder::Crease, true };
       default:
-        if (needsGradients)
+        if (needsGradients || filter.MinimumSpacing > 0.0)
         {
           return isopoint::FitRequest{ FitOrder::Cubic, false };
         }
@@ -372,6 +374,10 @@ void vtkScatteredIsopointFilter::CheckParameters()
             << "; it must be 0, which drops nothing, or a positive number. See SetGapFactor().";
     throw vtkUnusableIsopointInput(message.str());
   }
+  if (std::isnan(this->MinimumSpacing))
+  {
+    throw vtkUnusableIsopointInput("The minimum spacing is not a number. See SetMinimumSpacing().");
+  }
 }
 
 void vtkScatteredIsopointFilter::ExtractBlocks(
@@ -409,6 +415,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
     surfaces.push_back(
       { isovalue, kept.Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
                     isovalue, this->Angle, this->GapFactor, Internals::FitRequestOf(*this)) });
+    isopoint::thin(execution, this->MinimumSpacing, surfaces.back().Surface);
     pointCount += surfaces.back().Surface.points.size();
     isopoint::throwIfAborted(execution);
   }
@@ -472,6 +479,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Angle: " << this->Angle << "\n";
   os << indent << "GapFactor: " << this->GapFactor << "\n";
+  os << indent << "MinimumSpacing: " << this->MinimumSpacing << "\n";
   os << indent << "ComputeNormals: " << onOff(this->ComputeNormals) << "\n";
   os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";
   os << indent << "ComputeScalars: " << onOff(this->ComputeScalars) << "\n";

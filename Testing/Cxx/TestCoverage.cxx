@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The accuracy benchmark's coverage: reading splats, and the search against all splats.
+// The accuracy benchmark's coverage: reading splats, and the search against all splats. What the
+// filter's splats cover where isopoints are thinned out.
 #include "AccuracySplats.h"
+#include "FilterTesting.h"
 
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
@@ -112,4 +114,36 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   EXPECT_EQ(ellipse.axis1, (Vector{ 0.0, 2.0, 0.0 }));
   EXPECT_EQ(ellipse.axis2, (Vector{ 0.25, 0.0, 0.0 }));
   EXPECT_EQ(ellipse.radius(), 2.0);
+}
+
+TEST(Coverage, ThinnedPointsStillCoverASphere)
+{
+  constexpr double radius = 0.7;
+  constexpr vtkIdType samples = 50000;
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(filtertesting::newCloud(samples));
+  filter->SetValue(0, radius);
+  filter->ComputeSplatAxesOn();
+  filter->Update();
+  const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
+  for (const int projection :
+    { vtkScatteredIsopointFilter::NO_PROJECTION, vtkScatteredIsopointFilter::CUBIC_FIT })
+  {
+    filter->SetProjection(projection);
+    for (const double minimumSpacing : { 0.25, 0.5, 0.75 })
+    {
+      SCOPED_TRACE(testing::Message() << projection << ", " << minimumSpacing);
+      filter->SetMinimumSpacing(minimumSpacing);
+      filter->Update();
+      EXPECT_LT(filter->GetOutput()->GetNumberOfPoints(), 0.75 * all);
+      const std::vector<Splat> splats = accuracy::splatsOf(filter->GetOutput());
+      const Coverage coverage(splats, 0.25 * 2.0 / std::cbrt(static_cast<double>(samples)));
+      clouds::Random random(3);
+      for (int i = 0; i < 50000; ++i)
+      {
+        const Vector place = analytic::scaled(analytic::directionOf(randomVector(random)), radius);
+        ASSERT_TRUE(coverage.covers(place)) << place[0] << " " << place[1] << " " << place[2];
+      }
+    }
+  }
 }

@@ -518,6 +518,9 @@ TEST(Filter, WrongUseIsOneClearErrorAndAnEmptyOutput)
     expectError("gap factor");
   }
   filter->SetGapFactor(0.0);
+  filter->SetMinimumSpacing(std::numeric_limits<double>::quiet_NaN());
+  expectError("minimum spacing");
+  filter->SetMinimumSpacing(0.0);
   filter->SetNumberOfContours(2);
   filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());
   filter->SetValue(1, 0.7);
@@ -804,4 +807,71 @@ TEST(Filter, ProgressRisesAndAbortLeavesAReusableFilter)
     filter->Update();
     EXPECT_EQ(pointsOf(filter->GetOutput()), expected);
   }
+}
+
+TEST(Filter, ThinnedPointsAreSomeOfAll)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(20000));
+  filter->SetValue(0, 0.7);
+  filter->SetValue(1, 0.5);
+  filter->ComputeProjectionOrdersOn();
+  for (const int projection :
+    { vtkScatteredIsopointFilter::NO_PROJECTION, vtkScatteredIsopointFilter::CUBIC_FIT })
+  {
+    filter->SetProjection(projection);
+    filter->SetMinimumSpacing(0.0);
+    filter->Update();
+    vtkNew<vtkPolyData> all;
+    all->DeepCopy(filter->GetOutput());
+    filter->SetMinimumSpacing(0.5);
+    filter->Update();
+    vtkPolyData* const few = filter->GetOutput();
+    EXPECT_GT(few->GetNumberOfPoints(), 0.3 * all->GetNumberOfPoints());
+    EXPECT_LT(few->GetNumberOfPoints(), 0.6 * all->GetNumberOfPoints());
+    EXPECT_EQ(few->GetNumberOfVerts(), few->GetNumberOfPoints());
+    vtkIdType next = 0;
+    vtkIdType unprojected = 0;
+    for (vtkIdType i = 0; i < few->GetNumberOfPoints(); ++i, ++next)
+    {
+      while (next < all->GetNumberOfPoints() &&
+             !std::equal(few->GetPoint(i), few->GetPoint(i) + 3, all->GetPoint(next)))
+      {
+        ++next;
+      }
+      ASSERT_LT(next, all->GetNumberOfPoints());
+      for (const char* const name : { "distance", "x", "position", "ProjectionOrder" })
+      {
+        vtkDataArray* const array = few->GetPointData()->GetArray(name);
+        for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+        {
+          ASSERT_EQ(array->GetComponent(i, component),
+            all->GetPointData()->GetArray(name)->GetComponent(next, component))
+            << name;
+        }
+      }
+      unprojected +=
+        few->GetPointData()->GetArray("ProjectionOrder")->GetComponent(i, 0) == 0.0 ? 1 : 0;
+    }
+    EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), unprojected);
+    filter->SetMinimumSpacing(0.0);
+    filter->Update();
+    EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(all));
+  }
+}
+
+TEST(Filter, ThinningNeedsNoOtherOutput)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(20000));
+  filter->SetValue(0, 0.7);
+  filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  filter->ComputeNormalsOff();
+  filter->ComputeRadiiOff();
+  filter->Update();
+  const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
+  filter->SetMinimumSpacing(0.5);
+  filter->Update();
+  EXPECT_LT(filter->GetOutput()->GetNumberOfPoints(), 0.6 * all);
+  EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), filter->GetOutput()->GetNumberOfPoints());
 }

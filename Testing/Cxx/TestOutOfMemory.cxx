@@ -109,6 +109,19 @@ TEST(OutOfMemory, ACloudOfPoints)
   failEach([&](vtkScatteredIsopointFilter* filter) { setUp(filter, cloud); });
 }
 
+TEST(OutOfMemory, ThinnedPoints)
+{
+  const auto cloud = newCloud(4000);
+  failEach(
+    [&](vtkScatteredIsopointFilter* filter)
+    {
+      setUp(filter, cloud);
+      filter->SetMinimumSpacing(0.5);
+      filter->ComputeNormalsOff();
+      filter->ComputeRadiiOff();
+    });
+}
+
 TEST(OutOfMemory, AnotherIsovalueOnAKeptTree)
 {
   const auto cloud = newCloud(4000);

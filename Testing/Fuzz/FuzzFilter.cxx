@@ -27,6 +27,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -368,43 +369,65 @@ void checkPoints(
   }
 }
 
-void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter* errors)
+/// The thinned points are some of all, in their order.
+void checkThinned(vtkPolyData* all, vtkPolyData* thinned)
 {
-  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
-  const vtkSmartPointer<vtkDataObject> input = newInput(bytes, leaves);
-  const bool ofCells = bytes.flag();
-  const double angle = bytes.flag() ? 54.7 : static_cast<double>(bytes.below(181));
-  double isovalue = bytes.number(bytes.below(4));
-  filter->SetInputData(input);
-  filter->SetInputArrayToProcess(0, 0, 0,
-    ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    "f");
-  filter->SetAngle(angle);
-  filter->SetValue(0, isovalue);
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetComputeNormals(bytes.below(4) != 0);
-  filter->SetComputeRadii(bytes.below(4) != 0);
-  filter->SetComputeScalars(bytes.below(4) != 0);
-  filter->SetKeepTree(bytes.below(4) != 0);
-  filter->SetUseAllCores(bytes.below(8) == 0);
-  filter->SetContourBlocks(bytes.below(4) == 0);
-  filter->SetNumberOfNeighbors(3 + bytes.below(20));
-  filter->SetProjection(bytes.below(5));
-  filter->SetNormalMethod(bytes.below(2));
-  filter->SetComputeGradients(bytes.below(2) != 0);
-  filter->SetComputeProjectionOrders(bytes.below(2) != 0);
-  filter->SetComputeSplatAxes(bytes.below(2) != 0);
-  filter->SetComputeSplatClips(bytes.below(2) != 0);
-  errors->Count = 0;
-  filter->Update();
+  vtkIdType next = 0;
+  for (vtkIdType i = 0; i < thinned->GetNumberOfPoints(); ++i)
+  {
+    double wanted[3];
+    thinned->GetPoint(i, wanted);
+    for (double found[3] = {}; next < all->GetNumberOfPoints(); ++next)
+    {
+      all->GetPoint(next, found);
+      if (std::equal(found, found + 3, wanted))
+      {
+        break;
+      }
+    }
+    if (next++ >= all->GetNumberOfPoints())
+    {
+      fail("a thinned point");
+    }
+  }
+}
 
+/// Updates the filter again, with thinning.
+void checkThinning(double minimumSpacing, vtkScatteredIsopointFilter* filter)
+{
+  vtkDataObject* const output = filter->GetOutputDataObject(0);
+  const auto former = vtkSmartPointer<vtkDataObject>::Take(output->NewInstance());
+  former->DeepCopy(output);
+  filter->SetMinimumSpacing(minimumSpacing);
+  filter->Update();
+  filter->SetMinimumSpacing(0.0);
+  if (auto* const all = vtkPolyData::SafeDownCast(former))
+  {
+    checkThinned(all, filter->GetOutput());
+    return;
+  }
+  auto* const all = vtkCompositeDataSet::SafeDownCast(former);
+  auto* const thinned = vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(all->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    checkThinned(vtkPolyData::SafeDownCast(all->GetDataSet(iterator)),
+      vtkPolyData::SafeDownCast(thinned->GetDataSet(iterator)));
+  }
+}
+
+/// Compares the filter's output with what brute force finds in the input's leaves.
+void check(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* input,
+  bool ofCells, int errorCount, vtkScatteredIsopointFilter* filter)
+{
+  const double isovalue = filter->GetValue(0);
   Expectation expected;
   for (vtkDataSet* const leaf : leaves)
   {
     expected.add(leaf, ofCells);
   }
   const bool isUsable = expected.hasArray && !std::isnan(isovalue);
-  if (errors->Count != (isUsable ? 0 : 1))
+  if (errorCount != (isUsable ? 0 : 1))
   {
     fail("number of errors");
   }
@@ -441,6 +464,43 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
     {
       checkPoints(filter, output, alone.samples, isovalue);
     }
+  }
+}
+
+void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter* errors)
+{
+  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  const vtkSmartPointer<vtkDataObject> input = newInput(bytes, leaves);
+  const bool ofCells = bytes.flag();
+  const double angle = bytes.flag() ? 54.7 : static_cast<double>(bytes.below(181));
+  double isovalue = bytes.number(bytes.below(4));
+  filter->SetInputData(input);
+  filter->SetInputArrayToProcess(0, 0, 0,
+    ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    "f");
+  filter->SetAngle(angle);
+  filter->SetValue(0, isovalue);
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  filter->SetComputeNormals(bytes.below(4) != 0);
+  filter->SetComputeRadii(bytes.below(4) != 0);
+  filter->SetComputeScalars(bytes.below(4) != 0);
+  filter->SetKeepTree(bytes.below(4) != 0);
+  filter->SetUseAllCores(bytes.below(8) == 0);
+  filter->SetContourBlocks(bytes.below(4) == 0);
+  filter->SetNumberOfNeighbors(3 + bytes.below(20));
+  filter->SetProjection(bytes.below(5));
+  filter->SetNormalMethod(bytes.below(2));
+  filter->SetComputeGradients(bytes.below(2) != 0);
+  filter->SetComputeProjectionOrders(bytes.below(2) != 0);
+  filter->SetComputeSplatAxes(bytes.below(2) != 0);
+  filter->SetComputeSplatClips(bytes.below(2) != 0);
+  errors->Count = 0;
+  filter->Update();
+  check(leaves, input, ofCells, errors->Count, filter);
+  const int percent = bytes.below(101);
+  if (errors->Count == 0)
+  {
+    checkThinning(0.01 * percent, filter);
   }
 }
 

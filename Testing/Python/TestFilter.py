@@ -61,6 +61,11 @@ class FilterTest(unittest.TestCase):
             self.assertEqual(getattr(isopoints, "Get" + name)(), 1)
             getattr(isopoints, name + "Off")()
             self.assertEqual(getattr(isopoints, "Get" + name)(), 0)
+        self.assertEqual(isopoints.GetMinimumSpacing(), 0.0)
+        isopoints.SetMinimumSpacing(2.0)
+        self.assertEqual(isopoints.GetMinimumSpacing(), 1.0)
+        isopoints.SetMinimumSpacing(-1.0)
+        self.assertEqual(isopoints.GetMinimumSpacing(), 0.0)
         isopoints.SetNumberOfNeighbors(1)
         self.assertEqual(isopoints.GetNumberOfNeighbors(), 3)
         isopoints.GenerateValues(3, 0.0, 1.0)
@@ -83,6 +88,17 @@ class FilterTest(unittest.TestCase):
         self.assertLess(deviation[2], 0.1 * deviation[0])
         self.assertLess(deviation[3], 0.5 * deviation[2])
         self.assertEqual(vtkScatteredIsopointFilter().GetProjection(), 3)
+
+    def test_thinning_leaves_some_of_the_points(self):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetInputData(cloud(30000))
+        isopoints.SetValue(0, 0.7)
+        isopoints.SetMinimumSpacing(0.5)
+        isopoints.Update()
+        few = {tuple(p) for p in vtk_to_numpy(isopoints.GetOutput().GetPoints().GetData())}
+        every = {tuple(p) for p in vtk_to_numpy(contoured().GetPoints().GetData())}
+        self.assertTrue(few <= every)
+        self.assertLess(len(few), 0.6 * len(every))
 
     def test_no_isovalue_gives_nothing(self):
         isopoints = vtkScatteredIsopointFilter()
