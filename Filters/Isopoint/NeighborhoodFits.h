@@ -142,15 +142,33 @@ private:
     this->Counts.clear();
   }
 
-  /// Lists the samples of both ends' neighbourhoods.
+  /// Lists the samples of both ends' neighbourhoods; but where one end alone has very many
+  /// neighbours, as in a cell that fills a void, they are far off beside those of the other.
   void gather(const LocatedIsopoint<TSample>& point)
   {
     this->clear();
-    this->addNeighborhood(point.firstSlot);
-    this->Spacing = 0.5 * this->spacingAt(point.firstSlot, 0);
-    const std::size_t middle = this->Slots.size();
-    this->addNeighborhood(point.secondSlot);
-    this->Spacing += 0.5 * this->spacingAt(point.secondSlot, middle);
+    this->Ends.clear();
+    this->Spacing = 0.0;
+    for (const Id end : { point.firstSlot, point.secondSlot })
+    {
+      const std::size_t begin = this->Slots.size();
+      if (this->addFew(end))
+      {
+        this->Ends.push_back(end);
+        this->Spacing += this->spacingAt(end, begin);
+      }
+    }
+    if (this->Ends.empty())
+    {
+      this->Ends = { point.firstSlot, point.secondSlot };
+      for (const Id end : this->Ends)
+      {
+        const std::size_t begin = this->Slots.size();
+        this->addSome(end);
+        this->Spacing += this->spacingAt(end, begin);
+      }
+    }
+    this->Spacing /= static_cast<double>(this->Ends.size());
     this->list(this->Samples);
   }
 
@@ -182,7 +200,7 @@ private:
   void gatherWider(const LocatedIsopoint<TSample>& point)
   {
     this->Across.clear();
-    for (const Id end : { point.firstSlot, point.secondSlot })
+    for (const Id end : this->Ends)
     {
       this->clear();
       this->addNeighborhood(end);
@@ -196,11 +214,18 @@ private:
       }
     }
     this->clear();
-    this->addNeighborhood(point.firstSlot);
-    this->addNeighborhood(point.secondSlot);
+    this->addSlot(point.firstSlot);
+    this->addSlot(point.secondSlot);
+    for (const Id end : this->Ends)
+    {
+      this->addNeighborhood(end);
+    }
     for (const Id slot : this->Across)
     {
-      this->addNeighborhood(slot);
+      if (!this->addFew(slot) && this->Ends.size() == 2)
+      {
+        this->addSome(slot);
+      }
     }
     this->list(this->WiderSamples);
   }
@@ -222,20 +247,31 @@ private:
   /// Adds a sample and its neighbours, of very many only some.
   void addNeighborhood(Id leafSlot)
   {
+    if (!this->addFew(leafSlot))
+    {
+      this->addSome(leafSlot);
+    }
+  }
+
+  /// Adds a sample and, unless they are very many, its neighbours. @returns whether they are few
+  bool addFew(Id leafSlot)
+  {
     this->addSlot(leafSlot);
     const SlotList<Id> known = this->Tree.neighborhoods.at(static_cast<std::size_t>(leafSlot));
-    if (!known.isEmpty() && known.count <= mostNeighbors)
+    if (known.count > mostNeighbors)
     {
-      for (const Id slot : known)
-      {
-        this->addSlot(slot);
-      }
-      return;
+      return false;
     }
-    Path path = pathToRoot(this->Tree);
-    descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
+    for (const Id slot : known)
+    {
+      this->addSlot(slot);
+    }
+    if (!known.isEmpty())
+    {
+      return true;
+    }
     const std::size_t begin = this->Slots.size();
-    const bool areMany = visitTouching(this->Tree, path, maximumDepth,
+    const bool areMany = visitTouching(this->Tree, this->pathTo(leafSlot), maximumDepth,
       [this, begin](std::size_t slot)
       {
         this->addSlot(static_cast<Id>(slot));
@@ -245,10 +281,23 @@ private:
     {
       this->Slots.resize(begin);
       this->Counts.resize(begin);
-      this->Many.moveTo(path);
-      this->Many.forEachSpread(smallSize, [this](std::size_t slot, std::size_t count)
-        { this->addSlot(static_cast<Id>(slot), count); });
     }
+    return !areMany;
+  }
+
+  /// Adds some of a sample's neighbours, one for each direction and distance.
+  void addSome(Id leafSlot)
+  {
+    this->Many.moveTo(this->pathTo(leafSlot));
+    this->Many.forEachSpread(smallSize,
+      [this](std::size_t slot, std::size_t count) { this->addSlot(static_cast<Id>(slot), count); });
+  }
+
+  Path pathTo(Id leafSlot) const
+  {
+    Path path = pathToRoot(this->Tree);
+    descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
+    return path;
   }
 
   /// @param count of the samples that it stands for
@@ -276,6 +325,7 @@ private:
   LargeNeighborhood<TSample> Many;
   LeafValues<TSample> Values;
   std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
+  std::vector<Id> Ends;                 // whose neighbourhoods are taken
   std::vector<Id> Across;
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
