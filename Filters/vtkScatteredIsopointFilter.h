@@ -79,9 +79,10 @@
  *
  * @warning
  * Time grows with the number of cells that touch. That is about 15 for each sample and stays so for
- * all that was found but samples on curves that pass each other, such as two skew lines: 50
- * thousand of these take 19 times as long as uniform ones, and the factor grows with their number.
- * (A Delaunay tetrahedrisation of them has quadratic size.)
+ * all that was found but samples on curves that pass each other, such as two skew lines, where
+ * neighbourhoods are searched instead of listed. (A Delaunay tetrahedrisation of them has quadratic
+ * size.) Fits take no more than a few hundred samples: where a cell touches more than 256 others,
+ * one of those that lie close together as seen from it stands for all.
  *
  * @warning
  * 64-bit integer values beyond 2^53 are rounded to double.

@@ -335,7 +335,9 @@ private:
 };
 
 /// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
-/// of the cells that touch one of them. The tree is to be refined for the isovalue.
+/// of the cells that touch one of them. Where one of the two touches more than 256, its own are
+/// left out; where both do, those that are small as seen from it are represented by one. The tree
+/// is to be refined for the isovalue.
 /// @param points whose parameters are set to where moved isopoints stand
 template <class TSample>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
