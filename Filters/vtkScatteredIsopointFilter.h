@@ -171,10 +171,9 @@ public:
   ///@{
   /**
    * Where normals come from: NORMALS_FROM_FIELD (the gradient of the fit, which Projection chooses;
-   * that of CUBIC_FIT with NO_PROJECTION; where no fit held, that of an
-   * affine function, or else planes) or NORMALS_FROM_PLANES (the
-   * plane through the nearest isopoints, as in the paper; see SetNumberOfNeighbors). Default:
-   * NORMALS_FROM_FIELD.
+   * that of CUBIC_FIT with NO_PROJECTION; where no fit held, that of an affine function, or else
+   * planes) or NORMALS_FROM_PLANES (the plane through the nearest isopoints, as in the paper; see
+   * SetNumberOfNeighbors). Default: NORMALS_FROM_FIELD.
    */
   vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
   vtkGetMacro(NormalMethod, int);

@@ -52,9 +52,10 @@ struct LocalFit
 {
   Vector position; // of the isopoint, moved where a fit held
   /// Of the field there. Where no fit held, that of the affine function through the samples, if it
-  /// tells of most of their variance, or else the slope along the edge alone.
+  /// tells of most of their variance, or else, and where none was asked for, the slope along the
+  /// edge alone.
   Vector gradient;
-  bool isGradientFitted;
+  bool isGradientFitted; // to the samples, not the slope along the edge
   /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic or Cubic.
   std::array<double, 6> hessian;
   double spacing; // of the samples there: see NeighborhoodFitter

@@ -22,7 +22,6 @@ public:
     double distance;
   };
 
-  /// @param positions that outlive it
   /// @throws std::bad_alloc. Complexity: O(n log n)
   explicit NearestPositions(const std::vector<Vector>& positions);
   ~NearestPositions();

@@ -54,8 +54,8 @@ bool descendToLeaf(const SampleTree<TSample>& tree, Path& path, std::size_t leaf
 }
 
 /// Gathers the samples around edges and fits to them, one edge at a time. Scratch is kept. The
-/// spacing of the samples at an edge is the mean over both ends of the distance that two fifths of
-/// the neighbours do not exceed.
+/// spacing of the samples at an edge is the mean, over the ends whose neighbours are taken, of the
+/// distance that two fifths of them do not exceed.
 template <class TSample>
 class NeighborhoodFitter
 {
