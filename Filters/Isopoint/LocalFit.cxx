@@ -430,6 +430,10 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   fit.position = edge.position;
   const double length = lengthOf(edge.rising);
   fit.gradient = scaled(edge.rise / length, directionOf(edge.rising));
+  if (highest == FitOrder::None)
+  {
+    return fit;
+  }
   double spacing = 0.0;
   for (const FitSample& sample : samples)
   {
@@ -437,7 +441,7 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
       lengthOf(difference(sample.position, edge.position)) / static_cast<double>(samples.size());
   }
   Neighborhood neighborhood(edge, isovalue, samples, spacing);
-  if (highest == FitOrder::None || !neighborhood.isUsable())
+  if (!neighborhood.isUsable())
   {
     return fit;
   }

@@ -346,7 +346,8 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
   std::vector<LocalFit> fits(points.size());
   SampleBounds<TSample> bounds(tree);
   constexpr std::size_t grain = 256;
-  forBatches(execution, points.size(), 8192, grain,
+  constexpr std::size_t batch = 1024; // where cells touch hundreds of others, a point takes long
+  forBatches(execution, points.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
       NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, bounds);

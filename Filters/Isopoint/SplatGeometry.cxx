@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace isopoint
 {
@@ -227,11 +228,11 @@ std::vector<std::size_t> takeFieldNormals(
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     const bool isFitted = fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
-    const Vector normal =
-      isFitted ? scaled(-1.0, directionOf(points.fits[i].gradient)) : Vector{ 0.0, 0.0, 0.0 };
-    if (isFitted && std::isfinite(lengthOf(normal)))
+    const double length = isFitted ? lengthOf(points.fits[i].gradient) : 0.0;
+    // Denormal gradients have lost their direction.
+    if (std::isfinite(length) && length >= std::numeric_limits<double>::min())
     {
-      splats[i].normal = normal;
+      splats[i].normal = scaled(-1.0, directionOf(points.fits[i].gradient));
     }
     else
     {
@@ -250,12 +251,13 @@ std::vector<Splat> computeSplats(
   const std::vector<std::size_t> unfitted = takeFieldNormals(points, options.fieldNormals, splats);
   if (unfitted.empty() && !options.shapes)
   {
+    execution.progress(1.0);
     return splats;
   }
   const NearestPositions nearest(points.positions);
   throwIfAborted(execution);
 
-  constexpr double normalsShare = 0.4;
+  const double normalsShare = options.shapes ? 0.4 : 1.0;
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
   forBatches(

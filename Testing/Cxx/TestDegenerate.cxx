@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -445,6 +446,31 @@ TEST(Degenerate, AdversarialOrdersGiveTheSameSurface)
       {
         ASSERT_NEAR(found[i][axis], expected[i][axis], 1e-12);
       }
+    }
+  }
+}
+
+// Gradients that double cannot hold, or not with all their digits, are not taken for normals.
+TEST(Degenerate, GradientsBeyondDoubleLeaveNormalsRight)
+{
+  const std::array<std::array<double, 2>, 4> scales{ { { 1e30, 1e-300 }, { 1e-20, 1e300 },
+    { 1e-5, 1e303 }, { 1.5e-6, 1e302 } } };
+  for (const auto& [size, slope] : scales)
+  {
+    SCOPED_TRACE(size);
+    std::vector<Sample> samples = ball(3000);
+    for (Sample& sample : samples)
+    {
+      sample = { size * sample[0], size * sample[1], size * sample[2], slope * (sample[3] - 0.7) };
+    }
+    const Surface surface = contour(samples, 0.0);
+    EXPECT_GT(surface.count(), 200);
+    vtkDataArray* const normals = surface.Output->GetPointData()->GetNormals();
+    for (vtkIdType i = 0; i < surface.count(); ++i)
+    {
+      const std::array<double, 3> p = surface.point(i);
+      const double* const n = normals->GetTuple3(i);
+      ASSERT_LT((n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / std::hypot(p[0], p[1], p[2]), -0.5);
     }
   }
 }
