@@ -96,6 +96,7 @@ public:
     {
       this->ValueScale = std::max(this->ValueScale, std::abs(sample.value - isovalue));
     }
+    this->Samples.reserve(samples.size());
     for (const FitSample& sample : samples)
     {
       const Eigen::Vector3d offset =
