@@ -135,7 +135,7 @@ private:
     this->Many.forEachSurvivor(
       this->Criterion,
       [this, isBelow](const Node<TSample>& node)
-      { return isBelow ? node.maximum >= this->Isovalue : node.minimum < this->Isovalue; },
+      { return mayHoldOtherSide(node, this->Isovalue, isBelow); },
       [this, isBelow](std::size_t slot)
       { return (this->Values.at(slot) < this->Isovalue) != isBelow; },
       [this, &leaf, value](std::size_t slot)
@@ -330,7 +330,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     sortedUnique(execution, points, idCount, [](const Isopoint& point) { return point.first; });
   if (fitRequest)
   {
-    result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, points);
+    result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, bounds, points);
   }
   result.points.assign(points.begin(), points.end());
   result.merged = mergedSamplesOf(tree, merged);

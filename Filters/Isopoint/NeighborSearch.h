@@ -126,6 +126,13 @@ bool visitAround(
   return false;
 }
 
+/// Whether samples of a node may lie on the other side of the isovalue than one that `isBelow`.
+template <class TSample>
+bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
+{
+  return isBelow ? node.maximum >= isovalue : node.minimum < isovalue;
+}
+
 /// Whether a node that touches the path's has samples on the other side of the isovalue than
 /// where the path's node has some: `isBelow` tells that side. Ranges steer the search, so that it
 /// is short where there is none.
@@ -136,7 +143,7 @@ bool touchesOtherSide(
   return visitTouching(
     tree, path, nodeDepth,
     [isovalue, isBelow](const Node<TSample>& node)
-    { return isBelow ? node.maximum >= isovalue : node.minimum < isovalue; },
+    { return mayHoldOtherSide(node, isovalue, isBelow); },
     [](std::size_t) { return true; });
 }
 

@@ -200,25 +200,22 @@ private:
   void gatherWider(const LocatedIsopoint<TSample>& point)
   {
     this->Across.clear();
-    for (const Id end : this->Ends)
-    {
-      this->clear();
-      this->addNeighborhood(end);
-      const bool isBelow = this->isBelow(end);
-      for (const auto& [id, slot] : this->Slots)
-      {
-        if (this->isBelow(slot) != isBelow)
-        {
-          this->Across.push_back(slot);
-        }
-      }
-    }
     this->clear();
     this->addSlot(point.firstSlot);
     this->addSlot(point.secondSlot);
     for (const Id end : this->Ends)
     {
+      const std::size_t begin = this->Slots.size();
       this->addNeighborhood(end);
+      const bool isBelow = this->isBelow(end);
+      for (std::size_t i = begin; i < this->Slots.size(); ++i)
+      {
+        const Id slot = this->Slots[i].second;
+        if (this->isBelow(slot) != isBelow)
+        {
+          this->Across.push_back(slot);
+        }
+      }
     }
     for (const Id slot : this->Across)
     {
@@ -338,13 +335,14 @@ private:
 /// of the cells that touch one of them. Where one of the two touches more than 256, its own are
 /// left out; where both do, those that are small as seen from it are represented by one. The tree
 /// is to be refined for the isovalue.
+/// @param bounds of the tree's nodes, by which large neighbourhoods are searched
 /// @param points whose parameters are set to where moved isopoints stand
 template <class TSample>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
-  double isovalue, FitRequest request, std::vector<LocatedIsopoint<TSample>>& points)
+  double isovalue, FitRequest request, SampleBounds<TSample>& bounds,
+  std::vector<LocatedIsopoint<TSample>>& points)
 {
   std::vector<LocalFit> fits(points.size());
-  SampleBounds<TSample> bounds(tree);
   constexpr std::size_t grain = 256;
   constexpr std::size_t batch = 1024; // where cells touch hundreds of others, a point takes long
   forBatches(execution, points.size(), batch, grain,

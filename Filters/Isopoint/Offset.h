@@ -61,27 +61,28 @@ OffsetBounds offsetsToBox(
   return bounds;
 }
 
-/// Bounds on the scalar products with an offset, summed as AngleCriterion does.
-inline double leastProduct(const Offset& offset, const OffsetBounds& bounds)
+/// The least, or the greatest, of the scalar products with an offset, summed as AngleCriterion does.
+/// @param choose(a, b) the lesser or the greater of two
+template <class Choice>
+double extremeProduct(const Offset& offset, const OffsetBounds& bounds, const Choice& choose)
 {
-  double least[3];
+  double products[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    least[axis] =
-      std::min(bounds.lower[axis] * offset.vector[axis], bounds.upper[axis] * offset.vector[axis]);
+    products[axis] =
+      choose(bounds.lower[axis] * offset.vector[axis], bounds.upper[axis] * offset.vector[axis]);
   }
-  return least[0] + least[1] + least[2];
+  return products[0] + products[1] + products[2];
+}
+
+inline double leastProduct(const Offset& offset, const OffsetBounds& bounds)
+{
+  return extremeProduct(offset, bounds, [](double a, double b) { return std::min(a, b); });
 }
 
 inline double greatestProduct(const Offset& offset, const OffsetBounds& bounds)
 {
-  double greatest[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    greatest[axis] =
-      std::max(bounds.lower[axis] * offset.vector[axis], bounds.upper[axis] * offset.vector[axis]);
-  }
-  return greatest[0] + greatest[1] + greatest[2];
+  return extremeProduct(offset, bounds, [](double a, double b) { return std::max(a, b); });
 }
 
 } // namespace isopoint
