@@ -11,10 +11,10 @@
 #include "LeafValues.h"
 #include "NarrowBand.h"
 #include "NeighborhoodFits.h"
+#include "SharedState.h"
 #include "SortUnique.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -34,18 +34,15 @@ class EdgeFinder
 public:
   using Id = typename TSample::Id;
 
-  /// @param room how many more numbers of neighbourhoods are worth keeping; shared by all threads
   EdgeFinder(const SampleTree<TSample>& tree, double isovalue, const AngleCriterion& criterion,
-    const GapCriterion& gapCriterion, std::atomic<std::int64_t>& room,
-    SampleBounds<TSample>& bounds, ListingLimit& limit)
+    const GapCriterion& gapCriterion, SharedState<TSample>& shared)
     : Tree(tree)
     , Isovalue(isovalue)
     , Criterion(criterion)
     , Gaps(gapCriterion)
-    , Room(room)
-    , Limit(limit)
-    , Many(tree, bounds)
-    , Values(tree)
+    , Shared(shared)
+    , Many(tree, shared.bounds)
+    , Values(tree, shared.heapMeans)
   {
   }
 
@@ -59,7 +56,7 @@ public:
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
     {
-      if (this->Limit.isReached() && !this->Criterion.dropsNothing() && this->Many.canSearch())
+      if (this->Shared.limit.isReached() && !this->Criterion.dropsNothing() && this->Many.canSearch())
       {
         this->connectToSurvivors(leaf, value);
         return;
@@ -117,10 +114,10 @@ private:
         return false;
       });
     const std::size_t count = this->Records.size() - begin - 2;
-    this->Limit.listed(count);
+    this->Shared.limit.listed(count);
     this->Records[begin + 1] = static_cast<Id>(count);
     this->Neighbors = { this->Records.data() + begin + 2, count };
-    if (this->Room.fetch_sub(static_cast<std::int64_t>(count + 2)) >
+    if (this->Shared.room.fetch_sub(static_cast<std::int64_t>(count + 2)) >
         static_cast<std::int64_t>(count + 2))
     {
       this->KeptRecords = this->Records.size();
@@ -235,8 +232,7 @@ private:
   const double Isovalue;
   const AngleCriterion& Criterion;
   const GapCriterion& Gaps;
-  std::atomic<std::int64_t>& Room;
-  ListingLimit& Limit;
+  SharedState<TSample>& Shared;
   LargeNeighborhood<TSample> Many;
   SlotList<Id> Neighbors;
   std::vector<Id> Records; // behind the kept ones, one for the leaf at hand where there is no room
@@ -294,16 +290,13 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   std::vector<LocatedIsopoint<TSample>> points;
   std::vector<std::size_t> merged;
   std::vector<std::vector<typename TSample::Id>> records;
-  std::atomic<std::int64_t> room{ static_cast<std::int64_t>(
-    tree.neighborhoods.room(tree.samples.size())) };
-  SampleBounds<TSample> bounds(tree);
-  ListingLimit limit(tree.samples.size());
+  SharedState<TSample> shared(tree);
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forBatches(execution, crossing.size(), 64 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, room, bounds, limit);
+      EdgeFinder<TSample> finder(tree, isovalue, criterion, gapCriterion, shared);
       for (std::size_t i = begin; i < end; ++i)
       {
         Path path = pathTo(tree, crossing[i]);
@@ -330,7 +323,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
     sortedUnique(execution, points, idCount, [](const Isopoint& point) { return point.first; });
   if (fitRequest)
   {
-    result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, bounds, points);
+    result.fits = fitNeighborhoods(execution, tree, isovalue, *fitRequest, shared, points);
   }
   result.points.assign(points.begin(), points.end());
   result.merged = mergedSamplesOf(tree, merged);

@@ -62,6 +62,7 @@ public:
   {
     this->Droppers.clear();
     this->Queue.clear();
+    this->addNearDroppers();
     const auto add = [&](std::size_t slot)
     {
       const Node<TSample>& node = this->Tree.nodes[slot];
@@ -126,6 +127,20 @@ private:
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
 
+  /// Those in the smallest subtrees stand side by side with the leaf's sample, and so drop most of
+  /// what lies behind them.
+  void addNearDroppers()
+  {
+    constexpr std::size_t few = 8;
+    for (const std::size_t top : this->Tops)
+    {
+      if (this->Tree.nodes[top].count() <= few)
+      {
+        this->Droppers.push_back(this->offsetTo(this->nearLeafBelow(top)));
+      }
+    }
+  }
+
   void push(const Found& found)
   {
     this->Queue.push_back(found);
@@ -181,6 +196,27 @@ private:
       const bool isLower = node->plane >= this->Region.lower[node->axis];
       slot = isLower ? node->lowerSlot() : node->upperSlot();
       node = &this->Tree.nodes[slot];
+    }
+    return slot;
+  }
+
+  /// One of the nearest neighbours below a node that touches the region.
+  std::size_t nearLeafBelow(std::size_t slot) const
+  {
+    while (this->Tree.nodes[slot].isSplit())
+    {
+      double least = std::numeric_limits<double>::infinity();
+      this->forEachChild(this->Tree.nodes[slot],
+        [&](std::size_t child)
+        {
+          const double squaredLength =
+            this->Bounds.offsets(this->Center, this->Tree.nodes[child]).leastSquaredLength;
+          if (squaredLength < least)
+          {
+            least = squaredLength;
+            slot = child;
+          }
+        });
     }
     return slot;
   }

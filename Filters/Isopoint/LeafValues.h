@@ -6,19 +6,69 @@
 #include "SampleTree.h"
 
 #include <cstddef>
+#include <mutex>
 #include <unordered_map>
 
 namespace isopoint
 {
 
-/// The values of leaves: the means of their samples, which count as one. Those of large heaps are
+template <class TSample>
+double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
+{
+  const TSample* const samples = tree.samples.data() + leaf.begin;
+  return meanOf(
+    leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
+}
+
+/// The means of very large heaps, each computed by about one of the threads that share them.
+template <class TSample>
+class HeapMeans
+{
+public:
+  explicit HeapMeans(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// O(1) but for the first time a leaf of over 4096 samples is asked for. From any thread.
+  /// @throws std::bad_alloc
+  double at(std::size_t slot)
+  {
+    constexpr std::size_t manySamples = 4096;
+    const Node<TSample>& leaf = this->Tree.nodes[slot];
+    if (leaf.count() <= manySamples)
+    {
+      return meanOfLeaf(this->Tree, leaf);
+    }
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const auto found = this->Means.find(slot);
+      if (found != this->Means.end())
+      {
+        return found->second;
+      }
+    }
+    const double mean = meanOfLeaf(this->Tree, leaf);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Means.emplace(slot, mean).first->second;
+  }
+
+private:
+  const SampleTree<TSample>& Tree;
+  std::mutex Mutex;
+  std::unordered_map<std::size_t, double> Means; // by slot
+};
+
+/// The values of leaves: the means of their samples, which count as one. Those of heaps are
 /// remembered, since many cells may touch one. For one thread.
 template <class TSample>
 class LeafValues
 {
 public:
-  explicit LeafValues(const SampleTree<TSample>& tree)
+  /// @param heapMeans of the same tree
+  LeafValues(const SampleTree<TSample>& tree, HeapMeans<TSample>& heapMeans)
     : Tree(tree)
+    , Shared(heapMeans)
   {
   }
 
@@ -33,25 +83,19 @@ public:
     }
     if (leaf.count() <= fewSamples)
     {
-      return this->mean(leaf);
+      return meanOfLeaf(this->Tree, leaf);
     }
     const auto [found, isNew] = this->Heaps.try_emplace(slot, 0.0);
     if (isNew)
     {
-      found->second = this->mean(leaf);
+      found->second = this->Shared.at(slot);
     }
     return found->second;
   }
 
 private:
-  double mean(const Node<TSample>& leaf) const
-  {
-    const TSample* const samples = this->Tree.samples.data() + leaf.begin;
-    return meanOf(
-      leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
-  }
-
   const SampleTree<TSample>& Tree;
+  HeapMeans<TSample>& Shared;
   std::unordered_map<std::size_t, double> Heaps; // by slot
 };
 

@@ -9,6 +9,7 @@
 #include "LeafValues.h"
 #include "LocalFit.h"
 #include "NeighborSearch.h"
+#include "SharedState.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,32 +28,6 @@ struct LocatedIsopoint : Isopoint
   typename TSample::Id secondSlot;
 };
 
-/// Extends a path to an ancestor down to a leaf. Where a coordinate lies on a plane either child
-/// may hold it. @returns whether the leaf is there
-template <class TSample>
-bool descendToLeaf(const SampleTree<TSample>& tree, Path& path, std::size_t leafSlot)
-{
-  const Node<TSample>& node = tree.nodes[path.slot()];
-  if (!node.isSplit())
-  {
-    return path.slot() == leafSlot;
-  }
-  const double coordinate = tree.samples[tree.nodes[leafSlot].begin].position[node.axis];
-  for (const bool upper : { false, true })
-  {
-    if (upper ? coordinate >= node.plane : coordinate <= node.plane)
-    {
-      const double former = descend(tree, path, upper);
-      if (descendToLeaf(tree, path, leafSlot))
-      {
-        return true;
-      }
-      ascend(path, former);
-    }
-  }
-  return false;
-}
-
 /// Gathers the samples around edges and fits to them, one edge at a time. Scratch is kept. The
 /// spacing of the samples at an edge is the mean, over the ends whose neighbours are taken, of the
 /// distance that two fifths of them do not exceed.
@@ -61,12 +36,12 @@ class NeighborhoodFitter
 {
 public:
   NeighborhoodFitter(const SampleTree<TSample>& tree, double isovalue, FitOrder highest,
-    SampleBounds<TSample>& bounds)
+    SharedState<TSample>& shared)
     : Tree(tree)
     , Isovalue(isovalue)
     , Highest(highest)
-    , Many(tree, bounds)
-    , Values(tree)
+    , Many(tree, shared.bounds)
+    , Values(tree, shared.heapMeans)
   {
   }
 
@@ -268,7 +243,7 @@ private:
       return true;
     }
     const std::size_t begin = this->Slots.size();
-    const bool areMany = visitTouching(this->Tree, this->pathTo(leafSlot), maximumDepth,
+    const bool areMany = visitTouching(this->Tree, pathToLeaf(this->Tree, leafSlot), maximumDepth,
       [this, begin](std::size_t slot)
       {
         this->addSlot(static_cast<Id>(slot));
@@ -285,16 +260,9 @@ private:
   /// Adds some of a sample's neighbours, one for each direction and distance.
   void addSome(Id leafSlot)
   {
-    this->Many.moveTo(this->pathTo(leafSlot));
+    this->Many.moveTo(pathToLeaf(this->Tree, leafSlot));
     this->Many.forEachSpread(smallSize,
       [this](std::size_t slot, std::size_t count) { this->addSlot(static_cast<Id>(slot), count); });
-  }
-
-  Path pathTo(Id leafSlot) const
-  {
-    Path path = pathToRoot(this->Tree);
-    descendToLeaf(this->Tree, path, static_cast<std::size_t>(leafSlot));
-    return path;
   }
 
   /// @param count of the samples that it stands for
@@ -335,11 +303,10 @@ private:
 /// of the cells that touch one of them. Where one of the two touches more than 256, its own are
 /// left out; where both do, those that are small as seen from it are represented by one. The tree
 /// is to be refined for the isovalue.
-/// @param bounds of the tree's nodes, by which large neighbourhoods are searched
 /// @param points whose parameters are set to where moved isopoints stand
 template <class TSample>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
-  double isovalue, FitRequest request, SampleBounds<TSample>& bounds,
+  double isovalue, FitRequest request, SharedState<TSample>& shared,
   std::vector<LocatedIsopoint<TSample>>& points)
 {
   std::vector<LocalFit> fits(points.size());
@@ -348,7 +315,7 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
   forBatches(execution, points.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, bounds);
+      NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, shared);
       for (std::size_t i = begin; i < end; ++i)
       {
         fits[i] = fitter.fit(points[i]);

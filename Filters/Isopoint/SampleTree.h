@@ -187,6 +187,19 @@ Path pathTo(const SampleTree<TSample>& tree, NodeIndex index)
   return path;
 }
 
+/// The path to a leaf, found by the place of its samples. O(depth)
+template <class TSample>
+Path pathToLeaf(const SampleTree<TSample>& tree, std::size_t leafSlot)
+{
+  Path path = pathToRoot(tree);
+  while (path.slot() != leafSlot)
+  {
+    const Node<TSample>& upper = tree.nodes[tree.nodes[path.slot()].upperSlot()];
+    descend(tree, path, tree.nodes[leafSlot].begin >= upper.begin);
+  }
+  return path;
+}
+
 /// Visits the nodes of the depth `nodeDepth` below the path's node, and the unsplit ones above
 /// that depth; `visit` gets the path to each.
 template <class TSample, class Visitor>
