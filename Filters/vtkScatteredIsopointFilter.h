@@ -23,12 +23,12 @@
  * SetProjection). It is of degree two, or of degree three where that leaves residuals. On smooth
  * fields that is twenty to a hundred times closer to the true surface than linear interpolation,
  * and the fit's gradient is a better normal than a plane through nearby isopoints. Where samples
- * are noisy, or step from one value to another as at the borders of scanned materials, the fit's
- * residuals tell, and points stay: that is why CUBIC_FIT is the default. On five scanned and
- * simulated volumes, of which it saw two fifths of the voxels, it was as far from a spline through
- * all of them as linear interpolation was, or nearer; LINEAR_FIT, which smooths everything, is not
- * safe so. CREASE_FIT also fits two or three affine functions, of which the largest or the smallest
- * counts, and points go to the nearer sheet.
+ * are noisy, degree three is no better than degree two, and points stay. On six scanned and
+ * simulated volumes, of which it saw a quarter of the voxels, points came 2 to 53 % nearer to the
+ * surface of all voxels than linear interpolation puts them, normals as near or nearer: that is why
+ * CUBIC_FIT is the default. LINEAR_FIT, which smooths everything, is not safe so. CREASE_FIT also
+ * fits two or three affine functions, of which the largest or the smallest counts, and points go to
+ * the nearer sheet.
  *
  * What is promised:
  * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,

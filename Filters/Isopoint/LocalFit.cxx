@@ -20,8 +20,8 @@ namespace
 /// How far an isopoint may move, in lengths of its edge.
 constexpr double mostMove = 0.5;
 
-/// The largest residual a fit may leave, as the root of their mean square, in units of how much it
-/// rises over the samples' mean distance.
+/// The largest residual that a fit with mild weights may leave, as the root of their mean square,
+/// in units of how much it rises over the samples' mean distance.
 constexpr double mostResidual = 0.6;
 
 /// Where the polynomial of degree two leaves less than this, in the same unit, nothing else is
@@ -32,9 +32,7 @@ constexpr double fineResidual = 0.002;
 /// lets it.
 constexpr double smoothResidual = 0.03;
 
-/// Where it leaves more than this over the wider neighbourhood too, the field is noisy, or steps,
-/// and linear interpolation errs less (measured on scans; a smooth field that is sampled so thinly
-/// is no better off).
+/// The same where the samples are too few to tell noise from what they resolve.
 constexpr double roughResidual = 0.1;
 
 /// Where the polynomial of degree two leaves more than this share of the values' variance, samples
@@ -49,10 +47,14 @@ constexpr double mostUnexplained = 0.2;
 /// where there is little noise.
 constexpr double mostCreaseResidual = 0.03;
 
+/// The same of one that a polynomial competes with, since its pieces may bend.
+constexpr double mostBentCreaseResidual = 0.2;
+
 /// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
 struct Candidate
 {
   FitOrder order = FitOrder::None;
+  bool isDetermined = false; // by the samples
   double criterion = std::numeric_limits<double>::infinity(); // lower is better
   double residual = std::numeric_limits<double>::infinity();  // relative
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -127,18 +129,37 @@ public:
       });
     const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
     this->weigh(mildWeight); // residuals of far samples tell of creases
-    return polynomial ? this->tryPolynomial(*polynomial, roughResidual) : Candidate();
+    return polynomial ? this->tryPolynomial(*polynomial) : Candidate();
   }
-
-  /// Whether the samples are as many, and placed so, that they determine a polynomial of degree
-  /// two.
-  bool determinesQuadratic() const { return fitPolynomial(this->Samples, 2).has_value(); }
 
   /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
   bool tellsOfNoise() const
   {
     const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
     return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
+  }
+
+  /// Whether the criterion tells a polynomial of degree three to be better than one of degree two,
+  /// as it is not in noise, and than creases.
+  bool tellsOfDetail()
+  {
+    this->weigh(mildWeight);
+    const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
+    const std::optional<Polynomial> cubic = fitPolynomial(this->Samples, 3);
+    if (!quadratic || !cubic)
+    {
+      return false;
+    }
+    const double quadraticMeanSquare = this->meanSquareOf(*quadratic);
+    const double criterion = this->criterionOf(3, this->meanSquareOf(*cubic));
+    if (!(criterion < this->criterionOf(2, quadraticMeanSquare)))
+    {
+      return false;
+    }
+    const std::vector<CreaseFit> creases =
+      fitCreases(this->Samples, mostBentCreaseResidual, quadraticMeanSquare);
+    return std::none_of(creases.begin(), creases.end(),
+      [&](const CreaseFit& crease) { return this->criterionOf(crease) < criterion; });
   }
 
   /// The fit that the criterion tells to be best.
@@ -152,7 +173,8 @@ public:
     Candidate chosen;
     const auto consider = [&chosen](const Candidate& candidate)
     {
-      if (candidate.holds() && candidate.criterion < chosen.criterion)
+      if (candidate.holds() && candidate.criterion < chosen.criterion &&
+        candidate.residual <= mostResidual)
       {
         chosen = candidate;
       }
@@ -163,7 +185,7 @@ public:
       const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
       if (polynomial)
       {
-        consider(this->tryPolynomial(*polynomial, mostResidual));
+        consider(this->tryPolynomial(*polynomial));
         rival = polynomial;
       }
     }
@@ -200,14 +222,21 @@ public:
   /// Takes a fit over where it holds. @returns whether it does
   bool apply(const Candidate& candidate, LocalFit& fit) const
   {
-    if (!candidate.holds())
+    Vector position = fit.position;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] += this->Scale * candidate.position[axis];
+    }
+    const bool isFinite =
+      std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
+    if (!candidate.holds() || !isFinite)
     {
       return false;
     }
+    fit.position = position;
     const double slopeScale = this->ValueScale / this->Scale;
     for (int axis = 0; axis < 3; ++axis)
     {
-      fit.position[axis] += this->Scale * candidate.position[axis];
       fit.gradient[axis] = slopeScale * candidate.gradient[axis];
     }
     for (std::size_t i = 0; i < fit.hessian.size(); ++i)
@@ -253,6 +282,17 @@ private:
       this->Samples, [&polynomial](const Eigen::Vector3d& p) { return polynomial.value(p); });
   }
 
+  double criterionOf(int degree, double meanSquare) const
+  {
+    return akaikeCriterion(
+      this->Samples.size(), static_cast<std::size_t>(coefficientCount(degree)), meanSquare);
+  }
+
+  double criterionOf(const CreaseFit& crease) const
+  {
+    return akaikeCriterion(this->Samples.size(), 4 * crease.pieces.size(), crease.meanSquare);
+  }
+
   /// What mean squares are to be multiplied by: a fit of as many coefficients as samples leaves no
   /// residuals.
   double freedom(int degree) const
@@ -273,14 +313,15 @@ private:
     return position.norm() <= mostMove * this->Rising.norm();
   }
 
-  Candidate tryPolynomial(const Polynomial& polynomial, double mostRelativeResidual) const
+  Candidate tryPolynomial(const Polynomial& polynomial) const
   {
     Candidate candidate;
+    candidate.isDetermined = true;
     const double meanSquare = this->meanSquareOf(polynomial);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3d gradient = polynomial.gradient(position);
     candidate.residual = std::sqrt(meanSquare * this->freedom(polynomial.degree)) / gradient.norm();
-    if (!(candidate.residual <= mostRelativeResidual) || !this->risesAlong(gradient))
+    if (!std::isfinite(candidate.residual) || !this->risesAlong(gradient))
     {
       return candidate;
     }
@@ -303,8 +344,7 @@ private:
       return candidate;
     }
     candidate.order = static_cast<FitOrder>(polynomial.degree);
-    candidate.criterion = akaikeCriterion(this->Samples.size(),
-      static_cast<std::size_t>(coefficientCount(polynomial.degree)), meanSquare);
+    candidate.criterion = this->criterionOf(polynomial.degree, meanSquare);
     candidate.position = position;
     candidate.gradient = gradient;
     candidate.hessian = polynomial.hessian(position);
@@ -327,8 +367,8 @@ private:
       }
     }
     this->moveToNearestSheet(fit, candidate);
-    candidate.criterion =
-      akaikeCriterion(this->Samples.size(), 4 * fit.pieces.size(), fit.meanSquare);
+    candidate.criterion = this->criterionOf(fit);
+    candidate.residual = fit.relativeResidual();
     return candidate;
   }
 
@@ -395,7 +435,8 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
   {
     return;
   }
-  if (highest != FitOrder::Quadratic && quadratic.residual <= roughResidual)
+  const bool triesCubic = highest != FitOrder::Quadratic;
+  if (triesCubic && quadratic.residual <= roughResidual)
   {
     const Candidate cubic = wider().smooth(3);
     if (cubic.residual <= smoothResidual && wider().apply(cubic, fit))
@@ -403,22 +444,37 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
       return;
     }
   }
-  // A quadratic that the samples determine is judged by them alone; creases are looked for
-  // further afield, except in noise.
-  if (applyQuadratic(smoothResidual) ||
-      (highest == FitOrder::Crease ? neighborhood.tellsOfNoise()
-                                   : neighborhood.determinesQuadratic()))
+  if (applyQuadratic(smoothResidual))
   {
     return;
   }
-  const Candidate best = wider().best(highest);
+  const bool seeksCreases = highest == FitOrder::Crease && !neighborhood.tellsOfNoise();
+  Candidate best = seeksCreases ? wider().best(highest) : Candidate();
   if (best.order == FitOrder::Crease)
   {
     wider().apply(best, fit);
+    return;
   }
-  else if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
+  if (triesCubic && wider().tellsOfDetail() && wider().apply(wider().smooth(3), fit))
   {
-    wider().apply(wider().smooth(2), fit);
+    return;
+  }
+  // A quadratic that the samples determine is judged by them alone, except beside creases.
+  if (!seeksCreases)
+  {
+    if (highest == FitOrder::Crease || quadratic.isDetermined)
+    {
+      return;
+    }
+    best = wider().best(highest);
+  }
+  if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
+  {
+    const Candidate wide = wider().smooth(2);
+    if (wide.residual <= roughResidual)
+    {
+      wider().apply(wide, fit);
+    }
   }
 }
 

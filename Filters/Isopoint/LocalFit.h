@@ -66,16 +66,18 @@ struct LocalFit
 /// 1 / (0.1 + (d / s)^2)^3, d being a sample's distance from the isopoint and s the mean of those,
 /// and moves the isopoint to the zero of the best one, along gradients (Newton's method). A
 /// polynomial of degree three takes the wider neighbourhood, and is tried only where that of degree
-/// two leaves residuals that are neither negligible nor those of noise.
+/// two leaves residuals that are not negligible.
 ///
-/// A fit does not hold if the samples do not determine it, if its residuals, weighted with 1 / (1 +
-/// (d / s)^2), are large beside its rise over the neighbourhood, if it falls where the edge rises,
-/// or if the isopoint would move farther than half its edge's length. Where no fit holds the
-/// isopoint stays: so it does in noise, on steps, and where only an affine function is determined,
-/// all places where linear interpolation errs less. Creases compete with polynomials of degree one
-/// and two by the corrected Akaike criterion (Hurvich, Tsai, "Regression and time series model
-/// selection in small samples", Biometrika 76, 1989): a fit of more coefficients has to leave
-/// residuals that are smaller by more than noise would let it.
+/// Large residuals, weighted with 1 / (1 + (d / s)^2), come from noise, from creases, or from detail
+/// that the samples resolve thinly. The corrected Akaike criterion (Hurvich, Tsai, "Regression and
+/// time series model selection in small samples", Biometrika 76, 1989) tells these apart: in detail
+/// a polynomial of degree three is better than one of degree two, by more than noise would let it,
+/// and than two or three affine functions that meet at creases.
+///
+/// A fit does not hold if the samples do not determine it, if it is not the best, if it falls where
+/// the edge rises, or if the isopoint would move farther than half its edge's length. Where no fit
+/// holds the isopoint stays: so it does in noise, and where only an affine function is determined,
+/// all places where linear interpolation errs less.
 ///
 /// @param highest order to try: None, Linear (also in noise, with the milder weights), Quadratic,
 /// Cubic, or Crease, which tries the polynomials first

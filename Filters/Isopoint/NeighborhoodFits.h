@@ -12,6 +12,7 @@
 #include "SharedState.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -115,6 +116,7 @@ private:
   {
     this->Slots.clear();
     this->Counts.clear();
+    this->Seen.fill(0);
   }
 
   /// Lists the samples of both ends' neighbourhoods; but where one end alone has very many
@@ -127,6 +129,7 @@ private:
     for (const Id end : { point.firstSlot, point.secondSlot })
     {
       const std::size_t begin = this->Slots.size();
+      this->Seen.fill(0);
       if (this->addFew(end))
       {
         this->Ends.push_back(end);
@@ -139,6 +142,7 @@ private:
       for (const Id end : this->Ends)
       {
         const std::size_t begin = this->Slots.size();
+        this->Seen.fill(0);
         this->addSome(end);
         this->Spacing += this->spacingAt(end, begin);
       }
@@ -181,6 +185,7 @@ private:
     for (const Id end : this->Ends)
     {
       const std::size_t begin = this->Slots.size();
+      this->Seen.fill(0);
       this->addNeighborhood(end);
       const bool isBelow = this->isBelow(end);
       for (std::size_t i = begin; i < this->Slots.size(); ++i)
@@ -242,19 +247,22 @@ private:
     {
       return true;
     }
-    const std::size_t begin = this->Slots.size();
+    this->Touching.clear();
     const bool areMany = visitTouching(this->Tree, pathToLeaf(this->Tree, leafSlot), maximumDepth,
-      [this, begin](std::size_t slot)
+      [this](std::size_t slot)
       {
-        this->addSlot(static_cast<Id>(slot));
-        return this->Slots.size() - begin > mostNeighbors;
+        this->Touching.push_back(static_cast<Id>(slot));
+        return this->Touching.size() > mostNeighbors;
       });
     if (areMany)
     {
-      this->Slots.resize(begin);
-      this->Counts.resize(begin);
+      return false;
     }
-    return !areMany;
+    for (const Id slot : this->Touching)
+    {
+      this->addSlot(slot);
+    }
+    return true;
   }
 
   /// Adds some of a sample's neighbours, one for each direction and distance.
@@ -265,9 +273,16 @@ private:
       [this](std::size_t slot, std::size_t count) { this->addSlot(static_cast<Id>(slot), count); });
   }
 
+  /// Adds a leaf, unless it was added and is remembered: most leaves are met many times.
   /// @param count of the samples that it stands for
   void addSlot(Id slot, std::size_t count = 1)
   {
+    Id& seen = this->Seen[static_cast<std::size_t>(slot) % this->Seen.size()];
+    if (seen == slot)
+    {
+      return;
+    }
+    seen = slot;
     this->Counts.push_back(count);
     this->Slots.emplace_back(this->Tree.samples[this->leafAt(slot).begin].id, slot);
   }
@@ -290,8 +305,10 @@ private:
   LargeNeighborhood<TSample> Many;
   LeafValues<TSample> Values;
   std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
+  std::array<Id, 1024> Seen{};          // by their numbers' last digits
   std::vector<Id> Ends;                 // whose neighbourhoods are taken
   std::vector<Id> Across;
+  std::vector<Id> Touching; // a leaf
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
   std::vector<std::size_t> Counts; // of the samples that those of Slots stand for

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 
 namespace
 {
@@ -226,9 +227,9 @@ TEST(LocalFit, StaysWhereSamplesDoNotTell)
 }
 
 // Gathering a wider neighbourhood costs ten times as much as a fit.
-TEST(LocalFit, InNoiseNoWiderNeighborhoodIsAskedFor)
+TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
 {
-  const auto asksForMore = [](const Field& field, double noise)
+  const auto asksForMore = [](FitOrder highest, const Field& field, double noise)
   {
     bool asked = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
@@ -239,14 +240,17 @@ TEST(LocalFit, InNoiseNoWiderNeighborhoodIsAskedFor)
         asked = true;
         return samples;
       },
-      FitOrder::Crease);
+      highest);
     return asked;
   };
   const Field plane = [](const Vector& p) { return p[2]; };
-  EXPECT_FALSE(asksForMore(plane, 0.0));
-  EXPECT_FALSE(asksForMore(plane, 10.0));
-  EXPECT_TRUE(asksForMore([](const Vector& p) { return std::max(p[2], p[0]) - 0.1; }, 0.0));
-  EXPECT_TRUE(asksForMore([](const Vector& p) { return std::abs(p[2] + 0.5) - 0.5; }, 0.0));
+  EXPECT_FALSE(asksForMore(FitOrder::Crease, plane, 0.0));
+  EXPECT_FALSE(asksForMore(FitOrder::Quadratic, plane, 10.0));
+  const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
+  const Field fold = [](const Vector& p) { return std::abs(p[2] + 0.5) - 0.5; };
+  EXPECT_TRUE(asksForMore(FitOrder::Crease, wedge, 0.0));
+  EXPECT_TRUE(asksForMore(FitOrder::Crease, fold, 0.0));
+  EXPECT_TRUE(asksForMore(FitOrder::Cubic, fold, 0.0));
 }
 
 TEST(LocalFit, FindsTheNearerSheetOfACrease)
@@ -271,37 +275,92 @@ TEST(LocalFit, MovesASpheresPointsOntoIt)
   }
 }
 
+namespace
+{
+
+/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
+/// border. There is one sample in each unit of volume.
+double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
+{
+  const Field field = [k = waveNumber](const Vector& p)
+  {
+    return std::sin(k * p[0]) * std::cos(k * p[1]) + std::sin(k * p[1]) * std::cos(k * p[2]) +
+           std::sin(k * p[2]) * std::cos(k * p[0]);
+  };
+  constexpr double isovalue = 0.3;
+  const isopoint::Isosurface surface =
+    extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    const Vector& p = at.position;
+    if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
+    {
+      constexpr double step = 1e-4;
+      const Vector slope{ field({ p[0] + step, p[1], p[2] }) - field(p),
+        field({ p[0], p[1] + step, p[2] }) - field(p),
+        field({ p[0], p[1], p[2] + step }) - field(p) };
+      sum += step * std::abs(field(p) - isovalue) / lengthOf(slope);
+      ++count;
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+} // namespace
+
 // A field too wavy for degree two alone.
 TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
 {
-  const auto meanDistance = [](FitOrder highest)
-  {
-    const Field field = [](const Vector& p)
-    {
-      return std::sin(0.2 * p[0]) * std::cos(0.2 * p[1]) +
-             std::sin(0.2 * p[1]) * std::cos(0.2 * p[2]) +
-             std::sin(0.2 * p[2]) * std::cos(0.2 * p[0]);
-    };
-    const isopoint::Isosurface surface =
-      extractFitted(cloudOf(field, 20000, 27.0), 0.3, true, 2, highest);
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const LocalFit& at : surface.fits)
-    {
-      if (std::abs(at.position[0]) < 11.0 && std::abs(at.position[1]) < 11.0 &&
-          std::abs(at.position[2]) < 11.0)
-      {
-        sum += std::abs(field(at.position) - 0.3) / lengthOf(at.gradient);
-        ++count;
-      }
-    }
-    return sum / static_cast<double>(count);
-  };
-  const double linear = meanDistance(FitOrder::None);
-  const double quadratic = meanDistance(FitOrder::Quadratic);
-  const double cubic = meanDistance(FitOrder::Cubic);
+  const double linear = meanDistanceFromGyroid(0.2, FitOrder::None);
+  const double quadratic = meanDistanceFromGyroid(0.2, FitOrder::Quadratic);
+  const double cubic = meanDistanceFromGyroid(0.2, FitOrder::Cubic);
   EXPECT_LT(quadratic, 0.5 * linear);
   EXPECT_LT(cubic, 0.2 * quadratic);
+}
+
+// Residuals are as large as those of noise here, six samples to a wave; but they fall with the
+// degree.
+TEST(LocalFit, DetailThatIsThinlySampledIsToldFromNoise)
+{
+  const double linear = meanDistanceFromGyroid(1.0, FitOrder::None);
+  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Cubic), 0.5 * linear);
+  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
+}
+
+TEST(LocalFit, NoiseMovesFewPoints)
+{
+  clouds::Random random(5);
+  const Field field = [&](const Vector& p) { return lengthOf(p) + 0.5 * (random() - 0.5); };
+  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 50000, 36.8), 12.0, true);
+  std::size_t moved = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    moved += at.order != FitOrder::None ? 1 : 0;
+  }
+  ASSERT_GT(surface.fits.size(), 2000u);
+  EXPECT_LT(moved, surface.fits.size() / 50);
+}
+
+// Half an edge farther would be beyond double's range.
+TEST(LocalFit, PointsAtTheEndOfTheRangeStayInIt)
+{
+  const double most = std::numeric_limits<double>::max();
+  clouds::Random random(7);
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    std::vector<FitSample> samples;
+    for (int i = 0; i < 30; ++i)
+    {
+      const Vector p{ random() - 0.5, random() - 0.5, random() - 0.5 };
+      samples.push_back({ { 0.5 * most * p[0], 0.5 * most * p[1], most * (0.6 + 0.8 * p[2]) },
+        p[2] - 0.52 - 0.2 * p[0] * p[0] });
+    }
+    const FitEdge edge{ { 0.0, 0.0, most }, { 0.0, 0.0, 0.2 * most }, 0.2 };
+    const Vector found = fit(samples, edge, FitOrder::Cubic).position;
+    ASSERT_TRUE(std::isfinite(found[0]) && std::isfinite(found[1]) && std::isfinite(found[2]));
+  }
 }
 
 TEST(LocalFit, ACubesPointsLieOnItsFaces)
