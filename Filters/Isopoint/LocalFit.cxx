@@ -50,6 +50,9 @@ constexpr double mostCreaseResidual = 0.03;
 /// The same of one that a polynomial competes with, since its pieces may bend.
 constexpr double mostBentCreaseResidual = 0.2;
 
+/// Edges longer than this many spacings of the samples at their ends may cross gaps.
+constexpr double gapSpacings = 2.0;
+
 /// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
 struct Candidate
 {
@@ -93,6 +96,7 @@ public:
     const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples, double spacing)
     : Scale(spacing)
     , Rising(toEigen(edge.rising) / spacing)
+    , EndSpacing(edge.spacing / spacing)
   {
     for (const FitSample& sample : samples)
     {
@@ -106,6 +110,9 @@ public:
       this->Samples.push_back({ offset, (sample.value - isovalue) / this->ValueScale, 1.0 });
     }
   }
+
+  /// Whether the edge may cross a gap of the samples, so that those around it stand far apart.
+  bool mayCrossGap() const { return this->Rising.norm() > gapSpacings * this->EndSpacing; }
 
   bool isUsable() const
   {
@@ -414,6 +421,7 @@ private:
   double ValueScale = 0.0;
   std::vector<FrameSample> Samples;
   Eigen::Vector3d Rising;
+  double EndSpacing;
 };
 
 /// Takes over the best fit that holds, if one does.
@@ -455,7 +463,7 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     wider().apply(best, fit);
     return;
   }
-  if (triesCubic && wider().tellsOfDetail() && wider().apply(wider().smooth(3), fit))
+  if (triesCubic && !neighborhood.mayCrossGap() && wider().tellsOfDetail() && wider().apply(wider().smooth(3), fit))
   {
     return;
   }

@@ -45,6 +45,7 @@ struct FitEdge
   Vector position; // by linear interpolation
   Vector rising;   // from the end that is below the isovalue to the one that is not
   double rise;     // by how much the value rises along it, positive
+  double spacing;  // of the samples around its ends
 };
 
 /// What the samples around an isopoint tell of the field and the surface there.
@@ -75,7 +76,8 @@ struct LocalFit
 /// and than two or three affine functions that meet at creases.
 ///
 /// A fit does not hold if the samples do not determine it, if it is not the best, if it falls where
-/// the edge rises, or if the isopoint would move farther than half its edge's length. Where no fit
+/// the edge rises, or if the isopoint would move farther than half its edge's length; nor is detail
+/// looked for on edges so long beside the samples' spacing that they may cross a gap. Where no fit
 /// holds the isopoint stays: so it does in noise, and where only an affine function is determined,
 /// all places where linear interpolation errs less.
 ///

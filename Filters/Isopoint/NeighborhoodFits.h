@@ -61,7 +61,7 @@ public:
     edge.rising = rises ? difference(second.position, first.position)
                         : difference(first.position, second.position);
     edge.rise = rises ? second.value - first.value : first.value - second.value;
-    const double spacing = this->Spacing;
+    edge.spacing = this->Spacing;
     LocalFit fit = fitAround(
       edge, this->Isovalue, this->Samples,
       [&]() -> const std::vector<FitSample>&
@@ -74,7 +74,7 @@ public:
         return this->WiderSamples;
       },
       this->Highest);
-    fit.spacing = spacing;
+    fit.spacing = edge.spacing;
     return fit;
   }
 

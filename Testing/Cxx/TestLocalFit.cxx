@@ -50,7 +50,7 @@ LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrde
 /// A vertical edge of length 2 on which linear interpolation is at the origin.
 FitEdge upwards(double rise = 2.0)
 {
-  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise };
+  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise, 1.0 };
 }
 
 double degreesBetween(const Vector& a, const Vector& b)
@@ -188,7 +188,8 @@ TEST(LocalFit, DoesNotDependOnUnits)
         sample.position = scaled(scale, sample.position);
         sample.value *= slope;
       }
-      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope };
+      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope,
+        scale };
       const LocalFit found = fit(others, edge, FitOrder::Quadratic);
       EXPECT_EQ(found.order, FitOrder::Quadratic);
       for (int axis = 0; axis < 3; ++axis)
@@ -329,6 +330,15 @@ TEST(LocalFit, DetailThatIsThinlySampledIsToldFromNoise)
   EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
 }
 
+TEST(LocalFit, NoDetailIsLookedForAcrossGaps)
+{
+  const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
+  FitEdge edge = upwards();
+  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::Cubic);
+  edge.spacing = 0.1;
+  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::None);
+}
+
 TEST(LocalFit, NoiseMovesFewPoints)
 {
   clouds::Random random(5);
@@ -357,7 +367,7 @@ TEST(LocalFit, PointsAtTheEndOfTheRangeStayInIt)
       samples.push_back({ { 0.5 * most * p[0], 0.5 * most * p[1], most * (0.6 + 0.8 * p[2]) },
         p[2] - 0.52 - 0.2 * p[0] * p[0] });
     }
-    const FitEdge edge{ { 0.0, 0.0, most }, { 0.0, 0.0, 0.2 * most }, 0.2 };
+    const FitEdge edge{ { 0.0, 0.0, most }, { 0.0, 0.0, 0.2 * most }, 0.2, 0.1 * most };
     const Vector found = fit(samples, edge, FitOrder::Cubic).position;
     ASSERT_TRUE(std::isfinite(found[0]) && std::isfinite(found[1]) && std::isfinite(found[2]));
   }
