@@ -8,6 +8,11 @@ preset=${1:?usage: prepare.sh PRESET, one of CMakePresets.json}
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_dir"
 
+package_lists=(Utilities/debian-packages.txt)
+if [[ -f Utilities/debian-packages-$preset.txt ]]; then
+  package_lists+=("Utilities/debian-packages-$preset.txt")
+fi
+
 missing_packages()
 {
   local package
@@ -15,12 +20,12 @@ missing_packages()
     case $package in '' | '#'*) continue ;; esac
     dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null |
       grep -qx installed || echo "$package"
-  done < Utilities/debian-packages.txt
+  done < <(cat "${package_lists[@]}")
 }
 
 if ! command -v dpkg-query > /dev/null; then
   echo "$0: this is not a Debian system. Install the equivalents of the packages in" >&2
-  echo "Utilities/debian-packages.txt, then use cmake as the README says." >&2
+  echo "${package_lists[*]}, then use cmake as the README says." >&2
   exit 1
 fi
 mapfile -t missing < <(missing_packages)
