@@ -26,6 +26,7 @@ constexpr std::size_t densityNeighbors = 12;
 
 /// A splat's size beside its cell's, since the surface bends where the cell is flat.
 constexpr double overlap = 1.1;
+constexpr double unknownOverlap = 1.2; // where no fit tells how it bends
 
 /// How far a cell may reach, in spacings of the samples, where other points bound it on all
 /// sides and where they do not.
@@ -59,8 +60,9 @@ public:
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
-    splat.axis1 = scaled(overlap, ellipse.axis1);
-    splat.axis2 = scaled(overlap, ellipse.axis2);
+    const double share = fit.hessian == none.hessian ? unknownOverlap : overlap;
+    splat.axis1 = scaled(share, ellipse.axis1);
+    splat.axis2 = scaled(share, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
   }
 

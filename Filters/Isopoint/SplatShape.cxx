@@ -89,12 +89,18 @@ Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   Ellipse best{};
   double leastCost = std::numeric_limits<double>::infinity();
   const double reach = cell.reach();
+  // Where nothing tells how the surface bends, ellipses that are as long as the cell leave gaps.
+  const bool isBendKnown = hessian != std::array<double, 6>{};
   for (const double angle : { shapeOf(cell).flattestAngle(), curvature.flattestAngle() })
   {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     for (const double aspect : { 1.0, 1.25, 1.6, 2.0 })
     {
+      if (aspect > 1.0 && !isBendKnown)
+      {
+        break;
+      }
       double minor = 0.0;
       for (const TangentCell::Corner& corner : cell.corners())
       {
@@ -104,7 +110,7 @@ Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
       const double major = aspect * minor;
       const double departure = 0.5 * std::max(std::abs(curvature.at(angle)) * major * major,
                                        std::abs(curvature.at(angle + 0.5 * pi)) * minor * minor);
-      // In units of lengths; the area decides where neither bends.
+      // In units of lengths; the area decides where both are flat.
       constexpr double areaShare = 0.05;
       const double cost = departure + areaShare * major * minor / reach;
       if (cost < leastCost)

@@ -30,10 +30,10 @@ std::array<Curvature, 2> principalCurvatures(
   const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength);
 
 /// An ellipse around a cell, and of those the one whose rim departs least from the surface that
-/// curves as a fit tells: long where the surface is flat, short where it bends. Where the surface
-/// does not bend, it is the one of the least area.
+/// curves as a fit tells: long where the surface is flat, short where it bends. Where the fit tells
+/// of no bend it is the circle.
 /// @param normal of length 1
-/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 for a plane
+/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 where nothing is known
 Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   const std::array<double, 6>& hessian, double gradientLength);
 
