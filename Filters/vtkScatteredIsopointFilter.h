@@ -153,9 +153,10 @@ public:
    * is curved), QUADRATIC_FIT (degree two), CUBIC_FIT (degree two, and three where that leaves
    * residuals of more than a five hundredth of the samples' distances) or CREASE_FIT (the same, and
    * where the samples tell of a crease two or three affine functions that meet there; for bodies
-   * with sharp edges: where there are none it takes longer, much longer in noise, and may see some
-   * that are not). No point moves farther than half its edge's length; where no fit
-   * describes the samples it stays, and is counted (GetNumberOfUnprojectedPoints). Default:
+   * with sharp edges: where there are none it takes longer, and may see some that are not). No point
+   * moves farther than half its edge's length; where no fit describes the samples, as in noise, it
+   * stays, and is counted (GetNumberOfUnprojectedPoints): to tell that, cubic fits take several
+   * times as long as the extraction. Default:
    * CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);

@@ -56,7 +56,8 @@ public:
     this->Neighbors = this->Tree.neighborhoods.at(leaf.slot());
     if (this->Neighbors.isEmpty())
     {
-      if (this->Shared.limit.isReached() && !this->Criterion.dropsNothing() && this->Many.canSearch())
+      if (this->Shared.limit.isReached() && !this->Criterion.dropsNothing() &&
+          this->Many.canSearch())
       {
         this->connectToSurvivors(leaf, value);
         return;

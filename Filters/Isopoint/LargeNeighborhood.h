@@ -50,9 +50,9 @@ public:
       });
   }
 
-  /// Visits the neighbours that survive the angle criterion, in no particular order. Those that a
-  /// nearer one found before drops are left out by whole subtrees; whether any other neighbour
-  /// drops what is left is searched for.
+  /// Visits the neighbours that survive the angle criterion, in no particular order. Those that one
+  /// next to the leaf, or found before, drops are left out by whole subtrees; whether any other
+  /// neighbour drops what is left is searched for.
   /// @param enter(node) whether the node and those below it are of interest
   /// @param isWanted(slot) whether a leaf is
   /// @param visit(slot) called for each wanted one that survives
@@ -200,7 +200,7 @@ private:
     return slot;
   }
 
-  /// One of the nearest neighbours below a node that touches the region.
+  /// One of the nearest neighbours below a node that touches the region, as long as it canSearch().
   std::size_t nearLeafBelow(std::size_t slot) const
   {
     while (this->Tree.nodes[slot].isSplit())
@@ -270,7 +270,7 @@ private:
   double Center[3]{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
   std::vector<Found> Queue;
-  std::vector<Offset> Droppers; // neighbours of interest met so far
+  std::vector<Offset> Droppers; // neighbours known so far: near ones, and those of interest
 };
 
 } // namespace isopoint

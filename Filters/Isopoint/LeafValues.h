@@ -73,6 +73,7 @@ public:
   }
 
   /// O(1) but for the first time a heap is asked for.
+  /// @throws std::bad_alloc
   double at(std::size_t slot)
   {
     constexpr std::size_t fewSamples = 16;
@@ -85,12 +86,10 @@ public:
     {
       return meanOfLeaf(this->Tree, leaf);
     }
-    const auto [found, isNew] = this->Heaps.try_emplace(slot, 0.0);
-    if (isNew)
-    {
-      found->second = this->Shared.at(slot);
-    }
-    return found->second;
+    const auto found = this->Heaps.find(slot);
+    return found != this->Heaps.end()
+             ? found->second
+             : this->Heaps.emplace(slot, this->Shared.at(slot)).first->second;
   }
 
 private:

@@ -32,7 +32,8 @@ constexpr double fineResidual = 0.002;
 /// lets it.
 constexpr double smoothResidual = 0.03;
 
-/// The same where the samples are too few to tell noise from what they resolve.
+/// The same where samples too few to tell noise from detail determine no more than a quadratic, and
+/// where no crease was found.
 constexpr double roughResidual = 0.1;
 
 /// Where the polynomial of degree two leaves more than this share of the values' variance, samples
@@ -57,7 +58,7 @@ constexpr double gapSpacings = 2.0;
 struct Candidate
 {
   FitOrder order = FitOrder::None;
-  bool isDetermined = false; // by the samples
+  bool isDetermined = false;                                  // the polynomial, by the samples
   double criterion = std::numeric_limits<double>::infinity(); // lower is better
   double residual = std::numeric_limits<double>::infinity();  // relative
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -181,7 +182,7 @@ public:
     const auto consider = [&chosen](const Candidate& candidate)
     {
       if (candidate.holds() && candidate.criterion < chosen.criterion &&
-        candidate.residual <= mostResidual)
+          candidate.residual <= mostResidual)
       {
         chosen = candidate;
       }
@@ -463,26 +464,28 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     wider().apply(best, fit);
     return;
   }
-  if (triesCubic && !neighborhood.mayCrossGap() && wider().tellsOfDetail() && wider().apply(wider().smooth(3), fit))
+  if (triesCubic && !neighborhood.mayCrossGap() && wider().tellsOfDetail() &&
+      wider().apply(wider().smooth(3), fit))
   {
     return;
   }
   // A quadratic that the samples determine is judged by them alone, except beside creases.
+  if (!seeksCreases && (highest == FitOrder::Crease || quadratic.isDetermined))
+  {
+    return;
+  }
   if (!seeksCreases)
   {
-    if (highest == FitOrder::Crease || quadratic.isDetermined)
-    {
-      return;
-    }
     best = wider().best(highest);
   }
-  if (best.residual <= roughResidual && !applyQuadratic(roughResidual))
+  if (!(best.residual <= roughResidual) || applyQuadratic(roughResidual))
   {
-    const Candidate wide = wider().smooth(2);
-    if (wide.residual <= roughResidual)
-    {
-      wider().apply(wide, fit);
-    }
+    return;
+  }
+  const Candidate wide = wider().smooth(2);
+  if (wide.residual <= roughResidual)
+  {
+    wider().apply(wide, fit);
   }
 }
 

@@ -65,24 +65,27 @@ struct LocalFit
 
 /// Fits polynomials to the values of the samples around an edge, by least squares weighted with
 /// 1 / (0.1 + (d / s)^2)^3, d being a sample's distance from the isopoint and s the mean of those,
-/// and moves the isopoint to the zero of the best one, along gradients (Newton's method). A
-/// polynomial of degree three takes the wider neighbourhood, and is tried only where that of degree
-/// two leaves residuals that are not negligible.
+/// and moves the isopoint to the zero of one, along gradients (Newton's method). A polynomial of
+/// degree two that leaves next to no residuals, weighted with 1 / (1 + (d / s)^2), is taken at
+/// once, then one of degree three through the wider neighbourhood, then one of degree two, if they
+/// leave but small ones.
 ///
-/// Large residuals, weighted with 1 / (1 + (d / s)^2), come from noise, from creases, or from detail
-/// that the samples resolve thinly. The corrected Akaike criterion (Hurvich, Tsai, "Regression and
-/// time series model selection in small samples", Biometrika 76, 1989) tells these apart: in detail
-/// a polynomial of degree three is better than one of degree two, by more than noise would let it,
-/// and than two or three affine functions that meet at creases.
+/// Larger residuals come from noise, from creases, or from detail that the samples resolve thinly.
+/// Creases are looked for first, where they are asked for. Otherwise the corrected Akaike criterion
+/// (Hurvich, Tsai, "Regression and time series model selection in small samples", Biometrika 76,
+/// 1989) tells detail from the rest: there a polynomial of degree three is better than one of
+/// degree two, by more than noise would let it, and than two or three affine functions that meet at
+/// creases. Where samples are too few for that, a polynomial of degree two may leave residuals
+/// three times as large.
 ///
-/// A fit does not hold if the samples do not determine it, if it is not the best, if it falls where
-/// the edge rises, or if the isopoint would move farther than half its edge's length; nor is detail
-/// looked for on edges so long beside the samples' spacing that they may cross a gap. Where no fit
-/// holds the isopoint stays: so it does in noise, and where only an affine function is determined,
-/// all places where linear interpolation errs less.
+/// A fit does not hold if the samples do not determine it, if it falls where the edge rises, or if
+/// the isopoint would move farther than half its edge's length; nor is detail looked for on edges
+/// so long beside the samples' spacing that they may cross a gap. Where no fit holds the isopoint
+/// stays: so it does in noise, and where only an affine function is determined, all places where
+/// linear interpolation errs less.
 ///
 /// @param highest order to try: None, Linear (also in noise, with the milder weights), Quadratic,
-/// Cubic, or Crease, which tries the polynomials first
+/// Cubic, or Crease
 /// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it

@@ -273,7 +273,9 @@ private:
       [this](std::size_t slot, std::size_t count) { this->addSlot(static_cast<Id>(slot), count); });
   }
 
-  /// Adds a leaf, unless it was added and is remembered: most leaves are met many times.
+  /// Adds a leaf, unless it was added and is remembered: around an edge most are met many times.
+  /// One that is forgotten is listed again, until list() takes each once; within the neighbourhood
+  /// of one end none is met twice.
   /// @param count of the samples that it stands for
   void addSlot(Id slot, std::size_t count = 1)
   {
@@ -305,13 +307,13 @@ private:
   LargeNeighborhood<TSample> Many;
   LeafValues<TSample> Values;
   std::vector<std::pair<Id, Id>> Slots; // by the id of the leaf's first sample
-  std::array<Id, 1024> Seen{};          // by their numbers' last digits
+  std::array<Id, 1024> Seen{};          // slots added lately, by their last bits
   std::vector<Id> Ends;                 // whose neighbourhoods are taken
   std::vector<Id> Across;
-  std::vector<Id> Touching; // a leaf
+  std::vector<Id> Touching; // the leaf at hand
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
-  std::vector<std::size_t> Counts; // of the samples that those of Slots stand for
+  std::vector<std::size_t> Counts; // of the samples that those gathered in Slots stand for
   std::vector<std::pair<double, std::size_t>> Distances; // and the same counts
   double Spacing = 0.0;                                  // mean of those at the ends
 };

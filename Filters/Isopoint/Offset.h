@@ -61,7 +61,8 @@ OffsetBounds offsetsToBox(
   return bounds;
 }
 
-/// The least, or the greatest, of the scalar products with an offset, summed as AngleCriterion does.
+/// The least, or the greatest, of the scalar products with an offset, summed as AngleCriterion
+/// does.
 /// @param choose(a, b) the lesser or the greater of two
 template <class Choice>
 double extremeProduct(const Offset& offset, const OffsetBounds& bounds, const Choice& choose)

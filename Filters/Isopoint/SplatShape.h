@@ -33,7 +33,8 @@ std::array<Curvature, 2> principalCurvatures(
 /// curves as a fit tells: long where the surface is flat, short where it bends. Where the fit tells
 /// of no bend it is the circle.
 /// @param normal of length 1
-/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 where nothing is known
+/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 where nothing is
+/// known
 Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   const std::array<double, 6>& hessian, double gradientLength);
 

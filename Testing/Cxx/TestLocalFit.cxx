@@ -188,8 +188,7 @@ TEST(LocalFit, DoesNotDependOnUnits)
         sample.position = scaled(scale, sample.position);
         sample.value *= slope;
       }
-      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope,
-        scale };
+      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope, scale };
       const LocalFit found = fit(others, edge, FitOrder::Quadratic);
       EXPECT_EQ(found.order, FitOrder::Quadratic);
       for (int axis = 0; axis < 3; ++axis)
@@ -337,6 +336,23 @@ TEST(LocalFit, NoDetailIsLookedForAcrossGaps)
   EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::Cubic);
   edge.spacing = 0.1;
   EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::None);
+}
+
+TEST(LocalFit, StepsAreNotMadeWorse)
+{
+  const auto meanDistance = [](FitOrder highest)
+  {
+    const Field field = [](const Vector& p) { return lengthOf(p) < 12.0 ? 0.0 : 1.0; };
+    const isopoint::Isosurface surface =
+      extractFitted(cloudOf(field, 50000, 36.8), 0.5, true, 2, highest);
+    double sum = 0.0;
+    for (const LocalFit& at : surface.fits)
+    {
+      sum += std::abs(lengthOf(at.position) - 12.0);
+    }
+    return sum / static_cast<double>(surface.fits.size());
+  };
+  EXPECT_LT(meanDistance(FitOrder::Cubic), meanDistance(FitOrder::None));
 }
 
 TEST(LocalFit, NoiseMovesFewPoints)

@@ -76,12 +76,14 @@ TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
 // Of many neighbours only some are fitted to: which ones must not depend on what was asked before.
 TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
 {
-  const isopoint::FitRequest request{ isopoint::FitOrder::Quadratic, true };
+  const isopoint::FitRequest quadratic{ isopoint::FitOrder::Quadratic, true };
+  const isopoint::FitRequest crease{ isopoint::FitOrder::Crease, true }; // looks further afield
   for (const clouds::Cloud& cloud : { clouds::lines(6000, 3, 0, 5), clouds::curves(6000, 6) })
   {
     IsosurfaceExtractor kept = loaded(cloud);
     for (const double isovalue : { 0.3, -0.1, 0.3 })
     {
+      const isopoint::FitRequest request = isovalue < 0.0 ? quadratic : crease;
       const Isosurface expected =
         loaded(cloud).extract(clouds::executionOn(1), isovalue, 30.0, 0.0, request);
       const Isosurface found = kept.extract(clouds::executionOn(3), isovalue, 30.0, 0.0, request);
