@@ -445,13 +445,13 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     return;
   }
   const bool triesCubic = highest != FitOrder::Quadratic;
-  if (triesCubic && quadratic.residual <= roughResidual)
+  std::optional<Candidate> knownCubic;
+  const auto cubic = [&]() -> const Candidate&
+  { return knownCubic ? *knownCubic : knownCubic.emplace(wider().smooth(3)); };
+  if (triesCubic && quadratic.residual <= roughResidual && cubic().residual <= smoothResidual &&
+      wider().apply(cubic(), fit))
   {
-    const Candidate cubic = wider().smooth(3);
-    if (cubic.residual <= smoothResidual && wider().apply(cubic, fit))
-    {
-      return;
-    }
+    return;
   }
   if (applyQuadratic(smoothResidual))
   {
@@ -465,17 +465,17 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     return;
   }
   if (triesCubic && !neighborhood.mayCrossGap() && wider().tellsOfDetail() &&
-      wider().apply(wider().smooth(3), fit))
+      wider().apply(cubic(), fit))
   {
     return;
   }
   // A quadratic that the samples determine is judged by them alone, except beside creases.
-  if (!seeksCreases && (highest == FitOrder::Crease || quadratic.isDetermined))
-  {
-    return;
-  }
   if (!seeksCreases)
   {
+    if (highest == FitOrder::Crease || quadratic.isDetermined)
+    {
+      return;
+    }
     best = wider().best(highest);
   }
   if (!(best.residual <= roughResidual) || applyQuadratic(roughResidual))

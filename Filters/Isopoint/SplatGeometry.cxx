@@ -60,7 +60,7 @@ public:
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
-    const double share = fit.hessian == none.hessian ? unknownOverlap : overlap;
+    const double share = isBendKnown(fit.hessian) ? overlap : unknownOverlap;
     splat.axis1 = scaled(share, ellipse.axis1);
     splat.axis2 = scaled(share, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);

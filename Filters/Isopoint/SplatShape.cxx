@@ -90,14 +90,14 @@ Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
   double leastCost = std::numeric_limits<double>::infinity();
   const double reach = cell.reach();
   // Where nothing tells how the surface bends, ellipses that are as long as the cell leave gaps.
-  const bool isBendKnown = hessian != std::array<double, 6>{};
+  const bool mayBeLong = isBendKnown(hessian);
   for (const double angle : { shapeOf(cell).flattestAngle(), curvature.flattestAngle() })
   {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     for (const double aspect : { 1.0, 1.25, 1.6, 2.0 })
     {
-      if (aspect > 1.0 && !isBendKnown)
+      if (aspect > 1.0 && !mayBeLong)
       {
         break;
       }

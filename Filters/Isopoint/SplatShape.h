@@ -24,6 +24,12 @@ struct Curvature
   double value;     // not negative
 };
 
+/// Whether a hessian tells how the surface bends; it is 0 where no fit does.
+inline bool isBendKnown(const std::array<double, 6>& hessian)
+{
+  return hessian != std::array<double, 6>{};
+}
+
 /// In the two directions of a cell's plane in which the surface bends most and least.
 /// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 for a plane
 std::array<Curvature, 2> principalCurvatures(
