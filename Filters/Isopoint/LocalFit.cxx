@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "LocalFit.h"
 
-#include "CreaseFit.h"
-#include "PolynomialFit.h"
+#include "FitNeighborhood.h"
 
-#include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace isopoint
@@ -17,427 +10,41 @@ namespace isopoint
 namespace
 {
 
-/// How far an isopoint may move, in lengths of its edge.
-constexpr double mostMove = 0.5;
+// Residuals are roots of mean squares, in units of how much a fit rises over the samples' mean
+// distance.
 
-/// The largest residual that a fit with mild weights may leave, as the root of their mean square,
-/// in units of how much it rises over the samples' mean distance.
-constexpr double mostResidual = 0.6;
-
-/// Where the polynomial of degree two leaves less than this, in the same unit, nothing else is
-/// tried.
+/// Where the polynomial of degree two leaves less than this, nothing else is tried.
 constexpr double fineResidual = 0.002;
 
 /// Where that of degree two or three leaves less than this, it is as near to the surface as noise
 /// lets it.
 constexpr double smoothResidual = 0.03;
 
-/// The same where samples too few to tell noise from detail determine no more than a quadratic, and
-/// where no crease was found.
+/// Where it may leave this: samples too few to tell noise from detail determine no more than a
+/// quadratic, and no crease was found.
 constexpr double roughResidual = 0.1;
 
-/// Where the polynomial of degree two leaves more than this share of the values' variance, samples
-/// tell of noise alone: a crease leaves less than a fifth, since it bends one way.
-constexpr double noiseShare = 0.3;
-
-/// Where an affine function leaves more than this share of the variance, its gradient tells less
-/// of the surface than the isopoints around do: so it does where sheets are close by.
-constexpr double mostUnexplained = 0.2;
-
-/// The largest residual of a fit with a crease: creases are told apart from smooth fields only
-/// where there is little noise.
-constexpr double mostCreaseResidual = 0.03;
-
-/// The same of one that a polynomial competes with, since its pieces may bend.
-constexpr double mostBentCreaseResidual = 0.2;
-
-/// Edges longer than this many spacings of the samples at their ends may cross gaps.
-constexpr double gapSpacings = 2.0;
-
-/// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
-struct Candidate
+/// Whether detail that the samples resolve thinly leaves the residuals, not noise or creases.
+bool tellsOfDetail(FitNeighborhood& wider, DetailTally& tally)
 {
-  FitOrder order = FitOrder::None;
-  bool isDetermined = false;                                  // the polynomial, by the samples
-  double criterion = std::numeric_limits<double>::infinity(); // lower is better
-  double residual = std::numeric_limits<double>::infinity();  // relative
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  std::array<double, 6> hessian{};
-
-  bool holds() const { return this->order != FitOrder::None; }
-};
-
-/// The corrected Akaike criterion of a least-squares fit.
-double akaikeCriterion(std::size_t sampleCount, std::size_t coefficientCount, double meanSquare)
-{
-  const auto n = static_cast<double>(sampleCount);
-  const double k = static_cast<double>(coefficientCount) + 1.0; // and the residuals' variance
-  if (n <= k + 1.0)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  // Residuals of rounding alone are as good as none.
-  constexpr double rounding = 1e-28;
-  return n * std::log(std::max(meanSquare, rounding)) + 2.0 * k +
-         2.0 * k * (k + 1.0) / (n - k - 1.0);
+  const int degree = wider.bestDegree();
+  tally.add(degree == 3);
+  return degree == 3 || (degree == 2 && tally.isCommon());
 }
-
-Eigen::Vector3d toEigen(const Vector& v)
-{
-  return { v[0], v[1], v[2] };
-}
-
-/// The samples around an isopoint in a frame of its own.
-class Neighborhood
-{
-public:
-  /// @param spacing the unit of length
-  Neighborhood(
-    const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples, double spacing)
-    : Scale(spacing)
-    , Rising(toEigen(edge.rising) / spacing)
-    , EndSpacing(edge.spacing / spacing)
-  {
-    for (const FitSample& sample : samples)
-    {
-      this->ValueScale = std::max(this->ValueScale, std::abs(sample.value - isovalue));
-    }
-    this->Samples.reserve(samples.size());
-    for (const FitSample& sample : samples)
-    {
-      const Eigen::Vector3d offset =
-        toEigen(difference(sample.position, edge.position)) / this->Scale;
-      this->Samples.push_back({ offset, (sample.value - isovalue) / this->ValueScale, 1.0 });
-    }
-  }
-
-  /// Whether the edge may cross a gap of the samples, so that those around it stand far apart.
-  bool mayCrossGap() const { return this->Rising.norm() > gapSpacings * this->EndSpacing; }
-
-  bool isUsable() const
-  {
-    return std::isfinite(this->ValueScale) && this->ValueScale > 0.0 && this->Rising.allFinite() &&
-           std::isfinite(1.0 / this->Scale);
-  }
-
-  /// The polynomial of a degree, weighted so steeply that it all but interpolates the nearest
-  /// samples.
-  Candidate smooth(int degree)
-  {
-    if (!this->isUsable())
-    {
-      return {};
-    }
-    this->weigh(
-      [](double squaredDistance)
-      {
-        const double root = 0.1 + squaredDistance;
-        return 1.0 / (root * root * root);
-      });
-    const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
-    this->weigh(mildWeight); // residuals of far samples tell of creases
-    return polynomial ? this->tryPolynomial(*polynomial) : Candidate();
-  }
-
-  /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
-  bool tellsOfNoise() const
-  {
-    const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
-    return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
-  }
-
-  /// Whether the criterion tells a polynomial of degree three to be better than one of degree two,
-  /// as it is not in noise, and than creases.
-  bool tellsOfDetail()
-  {
-    this->weigh(mildWeight);
-    const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
-    const std::optional<Polynomial> cubic = fitPolynomial(this->Samples, 3);
-    if (!quadratic || !cubic)
-    {
-      return false;
-    }
-    const double quadraticMeanSquare = this->meanSquareOf(*quadratic);
-    const double criterion = this->criterionOf(3, this->meanSquareOf(*cubic));
-    if (!(criterion < this->criterionOf(2, quadraticMeanSquare)))
-    {
-      return false;
-    }
-    const std::vector<CreaseFit> creases =
-      fitCreases(this->Samples, mostBentCreaseResidual, quadraticMeanSquare);
-    return std::none_of(creases.begin(), creases.end(),
-      [&](const CreaseFit& crease) { return this->criterionOf(crease) < criterion; });
-  }
-
-  /// The fit that the criterion tells to be best.
-  Candidate best(FitOrder highest)
-  {
-    if (!this->isUsable())
-    {
-      return {};
-    }
-    this->weigh(mildWeight);
-    Candidate chosen;
-    const auto consider = [&chosen](const Candidate& candidate)
-    {
-      if (candidate.holds() && candidate.criterion < chosen.criterion &&
-          candidate.residual <= mostResidual)
-      {
-        chosen = candidate;
-      }
-    };
-    std::optional<Polynomial> rival;
-    for (int degree = 1; degree <= (highest == FitOrder::Linear ? 1 : 2); ++degree)
-    {
-      const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
-      if (polynomial)
-      {
-        consider(this->tryPolynomial(*polynomial));
-        rival = polynomial;
-      }
-    }
-    if (highest == FitOrder::Crease && rival)
-    {
-      for (const CreaseFit& crease :
-        fitCreases(this->Samples, mostCreaseResidual, this->meanSquareOf(*rival)))
-      {
-        consider(this->tryCrease(crease));
-      }
-    }
-    return chosen;
-  }
-
-  /// The gradient of the affine function through the samples, in the units of the field, unless it
-  /// tells of too little or contradicts the edge.
-  std::optional<Vector> affineGradient()
-  {
-    this->weigh(mildWeight);
-    const std::optional<Polynomial> affine = fitPolynomial(this->Samples, 1);
-    if (!affine)
-    {
-      return std::nullopt;
-    }
-    const Eigen::Vector3d gradient = affine->gradient(Eigen::Vector3d::Zero());
-    if (!(this->unexplainedShare(*affine) <= mostUnexplained) || !this->risesAlong(gradient))
-    {
-      return std::nullopt;
-    }
-    const double slopeScale = this->ValueScale / this->Scale;
-    return Vector{ slopeScale * gradient[0], slopeScale * gradient[1], slopeScale * gradient[2] };
-  }
-
-  /// Takes a fit over where it holds. @returns whether it does
-  bool apply(const Candidate& candidate, LocalFit& fit) const
-  {
-    Vector position = fit.position;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      position[axis] += this->Scale * candidate.position[axis];
-    }
-    const bool isFinite =
-      std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
-    if (!candidate.holds() || !isFinite)
-    {
-      return false;
-    }
-    fit.position = position;
-    const double slopeScale = this->ValueScale / this->Scale;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      fit.gradient[axis] = slopeScale * candidate.gradient[axis];
-    }
-    for (std::size_t i = 0; i < fit.hessian.size(); ++i)
-    {
-      fit.hessian[i] = slopeScale / this->Scale * candidate.hessian[i];
-    }
-    fit.order = candidate.order;
-    fit.isGradientFitted = true;
-    return true;
-  }
-
-private:
-  static double mildWeight(double squaredDistance) { return 1.0 / (1.0 + squaredDistance); }
-
-  template <class Weight>
-  void weigh(const Weight& weightOf)
-  {
-    for (FrameSample& sample : this->Samples)
-    {
-      sample.weight = weightOf(sample.position.squaredNorm());
-    }
-  }
-
-  /// The share of the values' variance that a polynomial does not tell of.
-  double unexplainedShare(const Polynomial& polynomial) const
-  {
-    double mean = 0.0;
-    double weights = 0.0;
-    for (const FrameSample& sample : this->Samples)
-    {
-      mean += sample.weight * sample.value;
-      weights += sample.weight;
-    }
-    mean /= weights;
-    const double variance =
-      meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
-    return this->freedom(polynomial.degree) * this->meanSquareOf(polynomial) / variance;
-  }
-
-  double meanSquareOf(const Polynomial& polynomial) const
-  {
-    return meanSquaredResidual(
-      this->Samples, [&polynomial](const Eigen::Vector3d& p) { return polynomial.value(p); });
-  }
-
-  double criterionOf(int degree, double meanSquare) const
-  {
-    return akaikeCriterion(
-      this->Samples.size(), static_cast<std::size_t>(coefficientCount(degree)), meanSquare);
-  }
-
-  double criterionOf(const CreaseFit& crease) const
-  {
-    return akaikeCriterion(this->Samples.size(), 4 * crease.pieces.size(), crease.meanSquare);
-  }
-
-  /// What mean squares are to be multiplied by: a fit of as many coefficients as samples leaves no
-  /// residuals.
-  double freedom(int degree) const
-  {
-    const auto count = static_cast<double>(this->Samples.size());
-    return count / (count - coefficientCount(degree));
-  }
-
-  /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
-  bool risesAlong(const Eigen::Vector3d& gradient) const
-  {
-    constexpr double leastCosine = -0.2;
-    return gradient.dot(this->Rising) > leastCosine * gradient.norm() * this->Rising.norm();
-  }
-
-  bool mayMoveTo(const Eigen::Vector3d& position) const
-  {
-    return position.norm() <= mostMove * this->Rising.norm();
-  }
-
-  Candidate tryPolynomial(const Polynomial& polynomial) const
-  {
-    Candidate candidate;
-    candidate.isDetermined = true;
-    const double meanSquare = this->meanSquareOf(polynomial);
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    Eigen::Vector3d gradient = polynomial.gradient(position);
-    candidate.residual = std::sqrt(meanSquare * this->freedom(polynomial.degree)) / gradient.norm();
-    if (!std::isfinite(candidate.residual) || !this->risesAlong(gradient))
-    {
-      return candidate;
-    }
-    constexpr int mostSteps = 8;
-    constexpr double accuracy = 1e-12;
-    bool converged = false;
-    for (int step = 0; step < mostSteps && !converged; ++step)
-    {
-      const Eigen::Vector3d move = -polynomial.value(position) / gradient.squaredNorm() * gradient;
-      position += move;
-      if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
-      {
-        return candidate;
-      }
-      gradient = polynomial.gradient(position);
-      converged = move.norm() <= accuracy;
-    }
-    if (!converged || !this->risesAlong(gradient))
-    {
-      return candidate;
-    }
-    candidate.order = static_cast<FitOrder>(polynomial.degree);
-    candidate.criterion = this->criterionOf(polynomial.degree, meanSquare);
-    candidate.position = position;
-    candidate.gradient = gradient;
-    candidate.hessian = polynomial.hessian(position);
-    return candidate;
-  }
-
-  Candidate tryCrease(const CreaseFit& fit) const
-  {
-    Candidate candidate;
-    for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
-    {
-      const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
-      for (std::size_t other = 0; other < piece; ++other)
-      {
-        const Eigen::Vector3d otherGradient = fit.pieces[other].tail<3>();
-        if (gradient.dot(otherGradient) > mostCreaseCosine * gradient.norm() * otherGradient.norm())
-        {
-          return candidate;
-        }
-      }
-    }
-    this->moveToNearestSheet(fit, candidate);
-    candidate.criterion = this->criterionOf(fit);
-    candidate.residual = fit.relativeResidual();
-    return candidate;
-  }
-
-  /// Moves to the nearest point of the zero plane of one piece that belongs to the surface, or else
-  /// to the crease between two.
-  void moveToNearestSheet(const CreaseFit& fit, Candidate& candidate) const
-  {
-    double nearest = std::numeric_limits<double>::infinity();
-    const auto consider = [&](std::size_t piece, const Eigen::Vector3d& position)
-    {
-      constexpr double tolerance = 1e-9;
-      if (position.norm() < nearest && this->mayMoveTo(position) &&
-          fit.isOnSurface(piece, position, tolerance))
-      {
-        nearest = position.norm();
-        candidate.order = FitOrder::Crease;
-        candidate.position = position;
-        candidate.gradient = fit.pieces[piece].tail<3>();
-      }
-    };
-    for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
-    {
-      const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
-      consider(piece, -fit.pieces[piece][0] / gradient.squaredNorm() * gradient);
-    }
-    for (std::size_t piece = 0; piece < fit.pieces.size() && !candidate.holds(); ++piece)
-    {
-      for (std::size_t other = 0; other < piece; ++other)
-      {
-        // The point of the line that is nearest to the origin is a sum of the gradients.
-        Eigen::Matrix<double, 2, 3> gradients;
-        gradients << fit.pieces[piece].tail<3>().transpose(),
-          fit.pieces[other].tail<3>().transpose();
-        const Eigen::Matrix2d products = gradients * gradients.transpose();
-        const Eigen::Vector2d values(-fit.pieces[piece][0], -fit.pieces[other][0]);
-        const Eigen::Vector3d onCrease = gradients.transpose() * (products.inverse() * values);
-        consider(piece, onCrease);
-      }
-    }
-  }
-
-  const double Scale;
-  double ValueScale = 0.0;
-  std::vector<FrameSample> Samples;
-  Eigen::Vector3d Rising;
-  double EndSpacing;
-};
 
 /// Takes over the best fit that holds, if one does.
-void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& gatherWider,
-  FitOrder highest, LocalFit& fit)
+void fitBest(FitNeighborhood& neighborhood, const std::function<FitNeighborhood()>& gatherWider,
+  FitOrder highest, DetailTally& tally, LocalFit& fit)
 {
-  std::optional<Neighborhood> known;
-  const auto wider = [&]() -> Neighborhood&
+  std::optional<FitNeighborhood> known;
+  const auto wider = [&]() -> FitNeighborhood&
   { return known ? *known : known.emplace(gatherWider()); };
   if (highest == FitOrder::Linear)
   {
     wider().apply(wider().best(highest), fit);
     return;
   }
-  const Candidate quadratic = neighborhood.smooth(2);
+  const CandidateFit quadratic = neighborhood.smooth(2);
   const auto applyQuadratic = [&](double most)
   { return quadratic.residual <= most && neighborhood.apply(quadratic, fit); };
   if (applyQuadratic(highest == FitOrder::Quadratic ? smoothResidual : fineResidual))
@@ -445,8 +52,8 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     return;
   }
   const bool triesCubic = highest != FitOrder::Quadratic;
-  std::optional<Candidate> knownCubic;
-  const auto cubic = [&]() -> const Candidate&
+  std::optional<CandidateFit> knownCubic;
+  const auto cubic = [&]() -> const CandidateFit&
   { return knownCubic ? *knownCubic : knownCubic.emplace(wider().smooth(3)); };
   if (triesCubic && quadratic.residual <= roughResidual && cubic().residual <= smoothResidual &&
       wider().apply(cubic(), fit))
@@ -458,14 +65,14 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
     return;
   }
   const bool seeksCreases = highest == FitOrder::Crease && !neighborhood.tellsOfNoise();
-  Candidate best = seeksCreases ? wider().best(highest) : Candidate();
+  CandidateFit best = seeksCreases ? wider().best(highest) : CandidateFit();
   if (best.order == FitOrder::Crease)
   {
     wider().apply(best, fit);
     return;
   }
-  if (triesCubic && !neighborhood.mayCrossGap() && wider().tellsOfDetail() &&
-      wider().apply(cubic(), fit))
+  const bool mayBeDetail = triesCubic && !neighborhood.mayCrossGap() && !tally.isRare();
+  if (mayBeDetail && tellsOfDetail(wider(), tally) && wider().apply(cubic(), fit))
   {
     return;
   }
@@ -482,7 +89,7 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
   {
     return;
   }
-  const Candidate wide = wider().smooth(2);
+  const CandidateFit wide = wider().smooth(2);
   if (wide.residual <= roughResidual)
   {
     wider().apply(wide, fit);
@@ -492,7 +99,8 @@ void fitBest(Neighborhood& neighborhood, const std::function<Neighborhood()>& ga
 } // namespace
 
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
-  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest)
+  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest,
+  DetailTally& tally)
 {
   LocalFit fit{};
   fit.position = edge.position;
@@ -508,14 +116,14 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
     spacing +=
       lengthOf(difference(sample.position, edge.position)) / static_cast<double>(samples.size());
   }
-  Neighborhood neighborhood(edge, isovalue, samples, spacing);
+  FitNeighborhood neighborhood(edge, isovalue, samples, spacing);
   if (!neighborhood.isUsable())
   {
     return fit;
   }
   fitBest(
-    neighborhood, [&]() { return Neighborhood(edge, isovalue, widerSamples(), spacing); }, highest,
-    fit);
+    neighborhood, [&]() { return FitNeighborhood(edge, isovalue, widerSamples(), spacing); },
+    highest, tally, fit);
   if (fit.order == FitOrder::None)
   {
     if (const std::optional<Vector> gradient = neighborhood.affineGradient())

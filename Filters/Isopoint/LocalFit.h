@@ -2,6 +2,7 @@
 #ifndef isopoint_LocalFit_h
 #define isopoint_LocalFit_h
 
+#include "DetailTally.h"
 #include "Vector.h"
 
 #include <cstdint>
@@ -73,10 +74,11 @@ struct LocalFit
 /// Larger residuals come from noise, from creases, or from detail that the samples resolve thinly.
 /// Creases are looked for first, where they are asked for. Otherwise the corrected Akaike criterion
 /// (Hurvich, Tsai, "Regression and time series model selection in small samples", Biometrika 76,
-/// 1989) tells detail from the rest: there a polynomial of degree three is better than one of
-/// degree two, by more than noise would let it, and than two or three affine functions that meet at
-/// creases. Where samples are too few for that, a polynomial of degree two may leave residuals
-/// three times as large.
+/// 1989) tells detail from the rest: there a polynomial of degree three is better than those of a
+/// lower degree, by more than noise would let it, and than two or three affine functions that meet
+/// at creases. Where this is common among the isopoints around, one of degree two is enough to
+/// tell of detail; where next to none do, the others are not asked. Where samples are too few for
+/// all that, a polynomial of degree two may leave residuals three times as large.
 ///
 /// A fit does not hold if the samples do not determine it, if it falls where the edge rises, or if
 /// the isopoint would move farther than half its edge's length; nor is detail looked for on edges
@@ -86,12 +88,14 @@ struct LocalFit
 ///
 /// @param highest order to try: None, Linear (also in noise, with the milder weights), Quadratic,
 /// Cubic, or Crease
+/// @param tally of the isopoints around that were fitted before
 /// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it
 /// Complexity: O(samples.size())
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
-  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest);
+  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest,
+  DetailTally& tally);
 
 } // namespace isopoint
 

@@ -2,6 +2,7 @@
 #ifndef isopoint_NeighborhoodFits_h
 #define isopoint_NeighborhoodFits_h
 
+#include "DetailTally.h"
 #include "Execution.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
@@ -10,10 +11,12 @@
 #include "LocalFit.h"
 #include "NeighborSearch.h"
 #include "SharedState.h"
+#include "SortUnique.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -46,7 +49,7 @@ public:
   {
   }
 
-  LocalFit fit(const LocatedIsopoint<TSample>& point)
+  LocalFit fit(const LocatedIsopoint<TSample>& point, DetailTally& tally)
   {
     this->gather(point);
     const FitSample first = this->sampleAt(point.firstSlot);
@@ -73,7 +76,7 @@ public:
         this->gatherWider(point);
         return this->WiderSamples;
       },
-      this->Highest);
+      this->Highest, tally);
     fit.spacing = edge.spacing;
     return fit;
   }
@@ -318,6 +321,43 @@ private:
   double Spacing = 0.0;                                  // mean of those at the ends
 };
 
+/// The place of an isopoint in the tree.
+struct TreePlace
+{
+  std::uint64_t lower; // of its edge's ends among the tree's samples
+  std::uint64_t upper;
+  std::size_t point;
+
+  bool operator<(const TreePlace& other) const
+  {
+    return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
+  }
+  bool operator==(const TreePlace& other) const
+  {
+    return this->lower == other.lower && this->upper == other.upper;
+  }
+};
+
+/// Isopoints in the order of the tree, where those that follow each other lie close together,
+/// however samples are numbered.
+template <class TSample>
+std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSample>& tree,
+  const std::vector<LocatedIsopoint<TSample>>& points)
+{
+  const auto beginOf = [&tree](typename TSample::Id slot) -> std::uint64_t
+  { return tree.nodes[static_cast<std::size_t>(slot)].begin; };
+  std::vector<TreePlace> places;
+  places.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const auto [lower, upper] =
+      std::minmax({ beginOf(points[i].firstSlot), beginOf(points[i].secondSlot) });
+    places.push_back({ lower, upper, i });
+  }
+  return sortedUnique(
+    execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
+}
+
 /// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
 /// of the cells that touch one of them. Where one of the two touches more than 256, its own are
 /// left out; where both do, those that are small as seen from it are represented by one. The tree
@@ -329,16 +369,25 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
   std::vector<LocatedIsopoint<TSample>>& points)
 {
   std::vector<LocalFit> fits(points.size());
-  constexpr std::size_t grain = 256;
-  constexpr std::size_t batch = 1024; // where cells touch hundreds of others, a point takes long
-  forBatches(execution, points.size(), batch, grain,
+  const std::vector<TreePlace> places = placesOf(execution, tree, points);
+  // So many isopoints share a tally. Batches are of few groups: where cells touch hundreds of
+  // others, a point takes long.
+  constexpr std::size_t groupSize = 256;
+  constexpr std::size_t batch = 4;
+  forBatches(execution, (places.size() + groupSize - 1) / groupSize, batch, 1,
     [&](std::size_t begin, std::size_t end)
     {
       NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, shared);
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t group = begin; group < end; ++group)
       {
-        fits[i] = fitter.fit(points[i]);
-        fitter.settle(points[i], fits[i], request.move);
+        DetailTally tally;
+        const std::size_t groupEnd = std::min((group + 1) * groupSize, places.size());
+        for (std::size_t i = group * groupSize; i < groupEnd; ++i)
+        {
+          const std::size_t point = places[i].point;
+          fits[point] = fitter.fit(points[point], tally);
+          fitter.settle(points[point], fits[point], request.move);
+        }
       }
     });
   return fits;

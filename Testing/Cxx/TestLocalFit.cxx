@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fits around isopoints, against dense least squares and fields whose surfaces are known.
-#include "Clouds.h"
-
-#include "Isopoint/LocalFit.h"
+#include "FitTesting.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
@@ -26,57 +24,17 @@ using isopoint::LocalFit;
 using isopoint::scaled;
 using isopoint::Vector;
 
-using Field = std::function<double(const Vector&)>;
-
-std::vector<FitSample> samplesOf(const Field& field, std::size_t count, double noise = 0.0)
-{
-  clouds::Random random(11);
-  std::vector<FitSample> samples;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Vector p{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 4.0 * random() - 2.0 };
-    samples.push_back({ p, field(p) + noise * (random() - 0.5) });
-  }
-  return samples;
-}
-
-LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
-  double isovalue = 0.0)
-{
-  return isopoint::fitAround(
-    edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest);
-}
-
-/// A vertical edge of length 2 on which linear interpolation is at the origin.
-FitEdge upwards(double rise = 2.0)
-{
-  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise, 1.0 };
-}
+using fittesting::cloudOf;
+using fittesting::extractFitted;
+using fittesting::Field;
+using fittesting::fit;
+using fittesting::meanDistanceFromGyroid;
+using fittesting::samplesOf;
+using fittesting::upwards;
 
 double degreesBetween(const Vector& a, const Vector& b)
 {
   return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
-}
-
-isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
-  std::size_t threads = 2, FitOrder highest = FitOrder::Cubic)
-{
-  const isopoint::Execution execution = clouds::executionOn(threads);
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
-}
-
-clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
-{
-  clouds::Random random(2);
-  clouds::Cloud cloud;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Vector p{ side * (random() - 0.5), side * (random() - 0.5), side * (random() - 0.5) };
-    cloud.add(p[0], p[1], p[2], field(p));
-  }
-  return cloud;
 }
 
 } // namespace
@@ -233,6 +191,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
   {
     bool asked = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
+    isopoint::DetailTally tally;
     isopoint::fitAround(
       upwards(), 0.0, samples,
       [&]() -> const std::vector<FitSample>&
@@ -240,7 +199,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
         asked = true;
         return samples;
       },
-      highest);
+      highest, tally);
     return asked;
   };
   const Field plane = [](const Vector& p) { return p[2]; };
@@ -275,41 +234,6 @@ TEST(LocalFit, MovesASpheresPointsOntoIt)
   }
 }
 
-namespace
-{
-
-/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
-/// border. There is one sample in each unit of volume.
-double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
-{
-  const Field field = [k = waveNumber](const Vector& p)
-  {
-    return std::sin(k * p[0]) * std::cos(k * p[1]) + std::sin(k * p[1]) * std::cos(k * p[2]) +
-           std::sin(k * p[2]) * std::cos(k * p[0]);
-  };
-  constexpr double isovalue = 0.3;
-  const isopoint::Isosurface surface =
-    extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const LocalFit& at : surface.fits)
-  {
-    const Vector& p = at.position;
-    if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
-    {
-      constexpr double step = 1e-4;
-      const Vector slope{ field({ p[0] + step, p[1], p[2] }) - field(p),
-        field({ p[0], p[1] + step, p[2] }) - field(p),
-        field({ p[0], p[1], p[2] + step }) - field(p) };
-      sum += step * std::abs(field(p) - isovalue) / lengthOf(slope);
-      ++count;
-    }
-  }
-  return sum / static_cast<double>(count);
-}
-
-} // namespace
-
 // A field too wavy for degree two alone.
 TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
 {
@@ -318,55 +242,6 @@ TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
   const double cubic = meanDistanceFromGyroid(0.2, FitOrder::Cubic);
   EXPECT_LT(quadratic, 0.5 * linear);
   EXPECT_LT(cubic, 0.2 * quadratic);
-}
-
-// Residuals are as large as those of noise here, six samples to a wave; but they fall with the
-// degree.
-TEST(LocalFit, DetailThatIsThinlySampledIsToldFromNoise)
-{
-  const double linear = meanDistanceFromGyroid(1.0, FitOrder::None);
-  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Cubic), 0.5 * linear);
-  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
-}
-
-TEST(LocalFit, NoDetailIsLookedForAcrossGaps)
-{
-  const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
-  FitEdge edge = upwards();
-  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::Cubic);
-  edge.spacing = 0.1;
-  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::None);
-}
-
-TEST(LocalFit, StepsAreNotMadeWorse)
-{
-  const auto meanDistance = [](FitOrder highest)
-  {
-    const Field field = [](const Vector& p) { return lengthOf(p) < 12.0 ? 0.0 : 1.0; };
-    const isopoint::Isosurface surface =
-      extractFitted(cloudOf(field, 50000, 36.8), 0.5, true, 2, highest);
-    double sum = 0.0;
-    for (const LocalFit& at : surface.fits)
-    {
-      sum += std::abs(lengthOf(at.position) - 12.0);
-    }
-    return sum / static_cast<double>(surface.fits.size());
-  };
-  EXPECT_LT(meanDistance(FitOrder::Cubic), meanDistance(FitOrder::None));
-}
-
-TEST(LocalFit, NoiseMovesFewPoints)
-{
-  clouds::Random random(5);
-  const Field field = [&](const Vector& p) { return lengthOf(p) + 0.5 * (random() - 0.5); };
-  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 50000, 36.8), 12.0, true);
-  std::size_t moved = 0;
-  for (const LocalFit& at : surface.fits)
-  {
-    moved += at.order != FitOrder::None ? 1 : 0;
-  }
-  ASSERT_GT(surface.fits.size(), 2000u);
-  EXPECT_LT(moved, surface.fits.size() / 50);
 }
 
 // Half an edge farther would be beyond double's range.

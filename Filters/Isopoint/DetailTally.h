@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_DetailTally_h
+#define isopoint_DetailTally_h
+
+namespace isopoint
+{
+
+/// Counts how often samples tell of detail among isopoints that lie close together. In noise, next
+/// to none do, and those by chance: there the question is not worth its time. Where many do, weaker
+/// evidence of the others is to be believed.
+class DetailTally
+{
+public:
+  /// Whether next to none of those asked told of detail, if there were enough of them.
+  bool isRare() const { return this->Asked >= fewestAsked && this->Told < rareShare * this->Asked; }
+
+  /// Whether many of those asked told of detail, if there were enough of them.
+  bool isCommon() const
+  {
+    return this->Asked >= fewestAsked && this->Told >= commonShare * this->Asked;
+  }
+
+  void add(bool told)
+  {
+    this->Asked += 1.0;
+    this->Told += told ? 1.0 : 0.0;
+  }
+
+private:
+  /// In noise the criterion errs at one place in thirty or less.
+  static constexpr double fewestAsked = 16.0;
+  static constexpr double rareShare = 0.1;
+  static constexpr double commonShare = 0.3;
+
+  double Asked = 0.0;
+  double Told = 0.0;
+};
+
+} // namespace isopoint
+
+#endif

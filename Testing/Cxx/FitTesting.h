@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef FitTesting_h
+#define FitTesting_h
+
+#include "Clouds.h"
+
+#include "Isopoint/LocalFit.h"
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+/// What the tests of fits share.
+namespace fittesting
+{
+
+using isopoint::difference;
+using isopoint::FitEdge;
+using isopoint::FitOrder;
+using isopoint::FitRequest;
+using isopoint::FitSample;
+using isopoint::lengthOf;
+using isopoint::LocalFit;
+using isopoint::Vector;
+
+using Field = std::function<double(const Vector&)>;
+
+inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, double noise = 0.0)
+{
+  clouds::Random random(11);
+  std::vector<FitSample> samples;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Vector p{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 4.0 * random() - 2.0 };
+    samples.push_back({ p, field(p) + noise * (random() - 0.5) });
+  }
+  return samples;
+}
+
+inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
+  double isovalue = 0.0, isopoint::DetailTally tally = {})
+{
+  return isopoint::fitAround(
+    edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest,
+    tally);
+}
+
+/// A vertical edge of length 2 on which linear interpolation is at the origin.
+inline FitEdge upwards(double rise = 2.0)
+{
+  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise, 1.0 };
+}
+
+inline isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
+  std::size_t threads = 2, FitOrder highest = FitOrder::Cubic)
+{
+  const isopoint::Execution execution = clouds::executionOn(threads);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
+  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
+}
+
+inline clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
+{
+  clouds::Random random(2);
+  clouds::Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Vector p{ side * (random() - 0.5), side * (random() - 0.5), side * (random() - 0.5) };
+    cloud.add(p[0], p[1], p[2], field(p));
+  }
+  return cloud;
+}
+
+/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
+/// border. There is one sample in each unit of volume.
+inline double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
+{
+  const Field field = [k = waveNumber](const Vector& p)
+  {
+    return std::sin(k * p[0]) * std::cos(k * p[1]) + std::sin(k * p[1]) * std::cos(k * p[2]) +
+           std::sin(k * p[2]) * std::cos(k * p[0]);
+  };
+  constexpr double isovalue = 0.3;
+  const isopoint::Isosurface surface =
+    extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    const Vector& p = at.position;
+    if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
+    {
+      constexpr double step = 1e-4;
+      const Vector slope{ field({ p[0] + step, p[1], p[2] }) - field(p),
+        field({ p[0], p[1] + step, p[2] }) - field(p),
+        field({ p[0], p[1], p[2] + step }) - field(p) };
+      sum += step * std::abs(field(p) - isovalue) / lengthOf(slope);
+      ++count;
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+} // namespace fittesting
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Detail that samples resolve thinly, told from noise and from steps.
+#include "FitTesting.h"
+
+#include "Isopoint/DetailTally.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+namespace
+{
+
+using fittesting::cloudOf;
+using fittesting::extractFitted;
+using fittesting::Field;
+using fittesting::fit;
+using fittesting::meanDistanceFromGyroid;
+using fittesting::samplesOf;
+using fittesting::upwards;
+using isopoint::DetailTally;
+using isopoint::FitEdge;
+using isopoint::FitOrder;
+using isopoint::lengthOf;
+using isopoint::LocalFit;
+using isopoint::Vector;
+
+DetailTally tallyOf(int told, int asked)
+{
+  DetailTally tally;
+  for (int i = 0; i < asked; ++i)
+  {
+    tally.add(i < told);
+  }
+  return tally;
+}
+
+} // namespace
+
+TEST(Detail, TalliesTellWhetherItIsRareOrCommon)
+{
+  EXPECT_FALSE(tallyOf(0, 15).isRare());
+  EXPECT_TRUE(tallyOf(0, 16).isRare());
+  EXPECT_TRUE(tallyOf(1, 16).isRare());
+  EXPECT_FALSE(tallyOf(2, 16).isRare());
+  EXPECT_FALSE(tallyOf(15, 15).isCommon());
+  EXPECT_FALSE(tallyOf(4, 16).isCommon());
+  EXPECT_TRUE(tallyOf(5, 16).isCommon());
+}
+
+// Residuals are as large as those of noise here, six samples to a wave; but they fall with the
+// degree.
+TEST(Detail, IsToldFromNoiseWhereItIsThinlySampled)
+{
+  const double linear = meanDistanceFromGyroid(1.0, FitOrder::None);
+  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Cubic), 0.5 * linear);
+  EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
+}
+
+TEST(Detail, IsNotLookedForAcrossGaps)
+{
+  const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
+  FitEdge edge = upwards();
+  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::Cubic);
+  edge.spacing = 0.1;
+  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::None);
+}
+
+TEST(Detail, StepsAreNotMadeWorse)
+{
+  const auto meanDistance = [](FitOrder highest)
+  {
+    const Field field = [](const Vector& p) { return lengthOf(p) < 12.0 ? 0.0 : 1.0; };
+    const isopoint::Isosurface surface =
+      extractFitted(cloudOf(field, 50000, 36.8), 0.5, true, 2, highest);
+    double sum = 0.0;
+    for (const LocalFit& at : surface.fits)
+    {
+      sum += std::abs(lengthOf(at.position) - 12.0);
+    }
+    return sum / static_cast<double>(surface.fits.size());
+  };
+  EXPECT_LT(meanDistance(FitOrder::Cubic), meanDistance(FitOrder::None));
+}
+
+TEST(Detail, NoiseMovesFewPoints)
+{
+  clouds::Random random(5);
+  const Field field = [&](const Vector& p) { return lengthOf(p) + 0.5 * (random() - 0.5); };
+  const isopoint::Isosurface surface = extractFitted(cloudOf(field, 50000, 36.8), 12.0, true);
+  std::size_t moved = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    moved += at.order != FitOrder::None ? 1 : 0;
+  }
+  ASSERT_GT(surface.fits.size(), 2000u);
+  EXPECT_LT(moved, surface.fits.size() / 50);
+}
+
+// In noise it takes the time of several fits to no avail.
+TEST(Detail, IsNotLookedForWhereItIsRare)
+{
+  const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
+  const auto orderAfter = [&](const DetailTally& tally)
+  { return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, tally).order; };
+  EXPECT_EQ(orderAfter(tallyOf(2, 16)), FitOrder::Cubic);
+  EXPECT_EQ(orderAfter(tallyOf(1, 16)), FitOrder::None);
+}
+
+// Samples that tell of a bend, but not of more.
+TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
+{
+  const Field field = [](const Vector& p) { return p[2] + 0.2 * p[0] * p[0]; };
+  const auto orderAfter = [&](const DetailTally& tally)
+  { return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, tally).order; };
+  EXPECT_EQ(orderAfter(tallyOf(4, 16)), FitOrder::None);
+  EXPECT_EQ(orderAfter(tallyOf(8, 16)), FitOrder::Cubic);
+}
+
+// Isopoints share tallies; ranges of threads must not cut these.
+TEST(Detail, DoesNotDependOnThreads)
+{
+  clouds::Random random(8);
+  const Field field = [&](const Vector& p)
+  { return lengthOf(p) + std::sin(p[0]) + 0.2 * (random() - 0.5); };
+  const clouds::Cloud cloud = cloudOf(field, 50000, 36.8);
+  const isopoint::Isosurface one = extractFitted(cloud, 12.0, true, 1);
+  for (const std::size_t threads : { 2, 3, 5 })
+  {
+    const isopoint::Isosurface several = extractFitted(cloud, 12.0, true, threads);
+    ASSERT_EQ(one.fits.size(), several.fits.size());
+    for (std::size_t i = 0; i < one.fits.size(); ++i)
+    {
+      ASSERT_EQ(one.fits[i].order, several.fits[i].order);
+      ASSERT_EQ(one.fits[i].position, several.fits[i].position);
+    }
+  }
+}
