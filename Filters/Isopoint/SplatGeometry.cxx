@@ -24,13 +24,17 @@ constexpr std::size_t mostNeighbors = 160;
 /// The distance of this one of the nearest positions tells how dense they are.
 constexpr std::size_t densityNeighbors = 12;
 
-/// A splat's size beside its cell's, since the surface bends where the cell is flat.
-constexpr double overlap = 1.1;
-constexpr double unknownOverlap = 1.2; // where no fit tells how it bends
+/// A splat's size beside its cell's, since the surface bends where the cell is flat: that where it
+/// bends little, what is added for the square of the angle it turns by within the cell, and the
+/// most, which is also that where no fit tells how it bends.
+constexpr double leastOverlap = 1.1;
+constexpr double overlapOfBend = 0.5;
+constexpr double mostOverlap = 1.2;
 
-/// How far a cell may reach, in spacings of the samples, where other points bound it on all
-/// sides and where they do not.
+/// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
+/// where those do around a gap in a smooth surface; and where none do.
 constexpr double closedReach = 2.5;
+constexpr double gapReach = 5.0;
 constexpr double openReach = 1.0;
 
 /// Shapes splats whose normals are known, one at a time.
@@ -52,7 +56,7 @@ public:
     TangentCell cell(splat.normal);
     splat.clip = { 0.0, 0.0, 0.0, 0.0 };
     this->cutOut(point, closedReach * spacing, cell, splat);
-    if (cell.isOpen())
+    if (cell.isOpen() && !this->reachesAcrossGap(point, cell, splat))
     {
       this->cutOut(point, openReach * spacing, cell, splat);
     }
@@ -60,13 +64,45 @@ public:
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
     const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
-    const double share = isBendKnown(fit.hessian) ? overlap : unknownOverlap;
-    splat.axis1 = scaled(share, ellipse.axis1);
-    splat.axis2 = scaled(share, ellipse.axis2);
+    const double overlap = overlapAt(cell, fit);
+    splat.axis1 = scaled(overlap, ellipse.axis1);
+    splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
   }
 
 private:
+  /// Whether a fit tells that the surface is smooth there.
+  bool isSmooth(std::size_t point) const
+  {
+    const FitOrder order =
+      this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
+    return order == FitOrder::Quadratic || order == FitOrder::Cubic;
+  }
+
+  /// Cuts the cell of a point beside a gap of the isopoints, as between samples that stand in
+  /// lines. @returns whether others stand all around the gap, as they do not at a border
+  bool reachesAcrossGap(std::size_t point, TangentCell& cell, Splat& splat)
+  {
+    if (!this->isSmooth(point))
+    {
+      return false;
+    }
+    this->cutOut(point, gapReach * this->Points.fits[point].spacing, cell, splat);
+    return !cell.isOpen() && cell.isRound();
+  }
+
+  static double overlapAt(const TangentCell& cell, const LocalFit& fit)
+  {
+    if (!isBendKnown(fit.hessian))
+    {
+      return mostOverlap;
+    }
+    const std::array<Curvature, 2> curvatures =
+      principalCurvatures(cell, fit.hessian, lengthOf(fit.gradient));
+    const double turn = cell.reach() * std::max(curvatures[0].value, curvatures[1].value);
+    return std::min(mostOverlap, leastOverlap + overlapOfBend * turn * turn);
+  }
+
   void list(std::size_t point, std::size_t count)
   {
     this->Wanted = count;
@@ -156,12 +192,7 @@ private:
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(outward, normal);
     const double squaredCosine = 1.0 - height * height;
-    const auto isSmooth = [this](std::size_t index)
-    {
-      const FitOrder order = this->Points.fits[index].order;
-      return order == FitOrder::Quadratic || order == FitOrder::Cubic;
-    };
-    if (!this->Points.fits.empty() && !(isSmooth(point) && isSmooth(other)))
+    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other)))
     {
       return false;
     }

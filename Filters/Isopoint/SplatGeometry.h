@@ -52,13 +52,14 @@ struct SplatOptions
 ///
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
 /// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
-/// bend. A cell reaches no farther than two and a half spacings of the samples around the edge (its
-/// length where no fits are given), and one where no points bound it, as at a
-/// border: an isolated point does not become a plate. Where points are dense, that spacing is at
-/// most 0.8 times the distance of the 12th nearest point. Nor does it reach farther than the radius
-/// of the surface's curvature, so that splats of a small blob do not stick out of it. Across a
-/// crease that a fit found cells do not end halfway but at the other side's plane, and so are their
-/// splats to be clipped.
+/// bend, up to a fifth where they bend much or no fit tells how they do. A cell reaches no farther
+/// than two and a half spacings of the samples around the edge (half its length where no fits are
+/// given; at most 0.8 times the distance of the 12th nearest point). Where fewer points bound it,
+/// it may reach five spacings if a fit tells of a smooth surface and points stand all around, as
+/// between samples in lines, or else one, as at a border: an isolated point does not become a
+/// plate. Nor does it reach farther than the radius of the surface's curvature, so that
+/// splats of a small blob do not stick out of it. Across a crease that a fit found cells do not end
+/// halfway but at the other side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
 std::vector<Splat> computeSplats(

@@ -102,6 +102,27 @@ public:
       [](const Corner& corner) { return corner.isLimit; });
   }
 
+  /// Whether the sides turn by no more than 120 degrees at any corner, so that none is much farther
+  /// off than the points across its sides.
+  bool isRound() const
+  {
+    constexpr double leastCosine = -0.5;
+    const std::size_t count = this->Corners.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Corner& corner = this->Corners[(i + 1) % count];
+      const double x = corner.x - this->Corners[i].x;
+      const double y = corner.y - this->Corners[i].y;
+      const double nextX = this->Corners[(i + 2) % count].x - corner.x;
+      const double nextY = this->Corners[(i + 2) % count].y - corner.y;
+      if (x * nextX + y * nextY < leastCosine * std::hypot(x, y) * std::hypot(nextX, nextY))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   const std::vector<Corner>& corners() const { return this->Corners; }
   const Vector& first() const { return this->First; }
   const Vector& second() const { return this->Second; }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <map>
 
 namespace
 {
@@ -135,4 +136,31 @@ TEST(Detail, DoesNotDependOnThreads)
       ASSERT_EQ(one.fits[i].position, several.fits[i].position);
     }
   }
+}
+
+TEST(Detail, DoesNotDependOnTheOrderOfSamples)
+{
+  clouds::Random random(9);
+  const Field field = [&](const Vector& p)
+  { return lengthOf(p) + std::sin(p[0]) + (p[1] > 0.0 ? 0.4 : 0.0) * (random() - 0.5); };
+  const clouds::Cloud cloud = cloudOf(field, 50000, 36.8);
+  clouds::Cloud reversed;
+  for (std::size_t i = cloud.size(); i-- > 0;)
+  {
+    reversed.add(cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2],
+      cloud.values[i]);
+  }
+  const auto ordersOf = [](const clouds::Cloud& samples)
+  {
+    std::map<FitOrder, std::size_t> counts;
+    for (const LocalFit& at : extractFitted(samples, 12.0, true).fits)
+    {
+      ++counts[at.order];
+    }
+    return counts;
+  };
+  const std::map<FitOrder, std::size_t> expected = ordersOf(cloud);
+  EXPECT_GT(expected.at(FitOrder::None), 500u);
+  EXPECT_GT(expected.at(FitOrder::Cubic), 500u);
+  EXPECT_EQ(ordersOf(reversed), expected);
 }
