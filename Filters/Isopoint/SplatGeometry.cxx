@@ -34,7 +34,7 @@ constexpr double mostOverlap = 1.2;
 /// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
 /// where those do around a gap in a smooth surface; and where none do.
 constexpr double closedReach = 2.5;
-constexpr double gapReach = 5.0;
+constexpr double gapReach = 3.5;
 constexpr double openReach = 1.0;
 
 /// Shapes splats whose normals are known, one at a time.
