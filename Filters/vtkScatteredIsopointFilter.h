@@ -155,9 +155,8 @@ public:
    * where the samples tell of a crease two or three affine functions that meet there; for bodies
    * with sharp edges: where there are none it takes longer, and may see some that are not). No point
    * moves farther than half its edge's length; where no fit describes the samples, as in noise, it
-   * stays, and is counted (GetNumberOfUnprojectedPoints): to tell that, cubic fits take several
-   * times as long as the extraction. Default:
-   * CUBIC_FIT.
+   * stays, and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to three times as
+   * long as the extraction, with creases up to twelve times. Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);

@@ -124,11 +124,11 @@ TEST(Detail, DoesNotDependOnThreads)
   clouds::Random random(8);
   const Field field = [&](const Vector& p)
   { return lengthOf(p) + std::sin(p[0]) + 0.2 * (random() - 0.5); };
-  const clouds::Cloud cloud = cloudOf(field, 50000, 36.8);
-  const isopoint::Isosurface one = extractFitted(cloud, 12.0, true, 1);
-  for (const std::size_t threads : { 2, 3, 5 })
+  const clouds::Cloud cloud = cloudOf(field, 15000, 24.6);
+  const isopoint::Isosurface one = extractFitted(cloud, 8.0, true, 1);
+  for (const std::size_t threads : { 2, 3 })
   {
-    const isopoint::Isosurface several = extractFitted(cloud, 12.0, true, threads);
+    const isopoint::Isosurface several = extractFitted(cloud, 8.0, true, threads);
     ASSERT_EQ(one.fits.size(), several.fits.size());
     for (std::size_t i = 0; i < one.fits.size(); ++i)
     {
@@ -143,7 +143,7 @@ TEST(Detail, DoesNotDependOnTheOrderOfSamples)
   clouds::Random random(9);
   const Field field = [&](const Vector& p)
   { return lengthOf(p) + std::sin(p[0]) + (p[1] > 0.0 ? 0.4 : 0.0) * (random() - 0.5); };
-  const clouds::Cloud cloud = cloudOf(field, 50000, 36.8);
+  const clouds::Cloud cloud = cloudOf(field, 15000, 24.6);
   clouds::Cloud reversed;
   for (std::size_t i = cloud.size(); i-- > 0;)
   {
@@ -153,14 +153,14 @@ TEST(Detail, DoesNotDependOnTheOrderOfSamples)
   const auto ordersOf = [](const clouds::Cloud& samples)
   {
     std::map<FitOrder, std::size_t> counts;
-    for (const LocalFit& at : extractFitted(samples, 12.0, true).fits)
+    for (const LocalFit& at : extractFitted(samples, 8.0, true).fits)
     {
       ++counts[at.order];
     }
     return counts;
   };
   const std::map<FitOrder, std::size_t> expected = ordersOf(cloud);
-  EXPECT_GT(expected.at(FitOrder::None), 500u);
-  EXPECT_GT(expected.at(FitOrder::Cubic), 500u);
+  EXPECT_GT(expected.at(FitOrder::None), 200u);
+  EXPECT_GT(expected.at(FitOrder::Cubic), 200u);
   EXPECT_EQ(ordersOf(reversed), expected);
 }
