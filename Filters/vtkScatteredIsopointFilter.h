@@ -156,7 +156,9 @@ public:
    * with sharp edges: where there are none it takes longer, and may see some that are not). No point
    * moves farther than half its edge's length; where no fit describes the samples, as in noise, it
    * stays, and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to three times as
-   * long as the extraction, with creases up to twelve times. Default: CUBIC_FIT.
+   * long as the extraction, with creases up to twelve times. Whether residuals are noise is decided
+   * together with up to 255 isopoints around: where some of these are dropped, others may move.
+   * Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);

@@ -11,8 +11,14 @@ namespace isopoint
 class DetailTally
 {
 public:
-  /// Whether next to none of those asked told of detail, if there were enough of them.
-  bool isRare() const { return this->Asked >= fewestAsked && this->Told < rareShare * this->Asked; }
+  /// Whether to ask the next isopoint: where next to none of those asked told of detail, if there
+  /// were enough of them, only one in eight is.
+  bool isToBeAsked()
+  {
+    const bool isRare = this->Asked >= fewestAsked && this->Told < rareShare * this->Asked;
+    this->Skipped = isRare ? (this->Skipped + 1) % rareStride : 0;
+    return this->Skipped == 0;
+  }
 
   /// Whether many of those asked told of detail, if there were enough of them.
   bool isCommon() const
@@ -31,9 +37,11 @@ private:
   static constexpr double fewestAsked = 16.0;
   static constexpr double rareShare = 0.1;
   static constexpr double commonShare = 0.3;
+  static constexpr int rareStride = 8;
 
   double Asked = 0.0;
   double Told = 0.0;
+  int Skipped = 0; // lately
 };
 
 } // namespace isopoint

@@ -38,7 +38,7 @@ public:
   FitNeighborhood(
     const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples, double spacing);
 
-  /// Whether lengths and values are finite in the frame; nothing else may be asked otherwise.
+  /// Whether lengths and values are finite in the frame; otherwise nothing can be fitted.
   bool isUsable() const;
 
   /// Whether the edge may cross a gap of the samples, so that those around it stand far apart.

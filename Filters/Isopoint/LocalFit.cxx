@@ -71,7 +71,7 @@ void fitBest(FitNeighborhood& neighborhood, const std::function<FitNeighborhood(
     wider().apply(best, fit);
     return;
   }
-  const bool mayBeDetail = triesCubic && !neighborhood.mayCrossGap() && !tally.isRare();
+  const bool mayBeDetail = triesCubic && !neighborhood.mayCrossGap() && tally.isToBeAsked();
   if (mayBeDetail && tellsOfDetail(wider(), tally) && wider().apply(cubic(), fit))
   {
     return;

@@ -77,7 +77,7 @@ struct LocalFit
 /// 1989) tells detail from the rest: there a polynomial of degree three is better than those of a
 /// lower degree, by more than noise would let it, and than two or three affine functions that meet
 /// at creases. Where this is common among the isopoints around, one of degree two is enough to
-/// tell of detail; where next to none do, the others are not asked. Where samples are too few for
+/// tell of detail; where next to none do, few others are asked. Where samples are too few for
 /// all that, a polynomial of degree two may leave residuals three times as large.
 ///
 /// A fit does not hold if the samples do not determine it, if it falls where the edge rises, or if

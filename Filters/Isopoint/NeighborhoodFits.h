@@ -361,7 +361,8 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 /// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
 /// of the cells that touch one of them. Where one of the two touches more than 256, its own are
 /// left out; where both do, those that are small as seen from it are represented by one. The tree
-/// is to be refined for the isovalue.
+/// is to be refined for the isovalue. Isopoints are fitted in groups of 256 that follow each other
+/// in the tree: what the others tell of detail decides on doubtful ones (see DetailTally).
 /// @param points whose parameters are set to where moved isopoints stand
 template <class TSample>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,

@@ -55,10 +55,10 @@ public:
     const double spacing = this->spacingAt(point);
     TangentCell cell(splat.normal);
     splat.clip = { 0.0, 0.0, 0.0, 0.0 };
-    this->cutOut(point, closedReach * spacing, cell, splat);
+    this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell, splat);
     if (cell.isOpen() && !this->reachesAcrossGap(point, cell, splat))
     {
-      this->cutOut(point, openReach * spacing, cell, splat);
+      this->cutOut(point, openReach * spacing, Bound::AllPoints, cell, splat);
     }
     this->cutWhereSurfaceTurns(point, cell);
     const LocalFit none{};
@@ -79,16 +79,30 @@ private:
     return order == FitOrder::Quadratic || order == FitOrder::Cubic;
   }
 
+  /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
+  enum class Bound
+  {
+    AllPoints,
+    Sheet
+  };
+
   /// Cuts the cell of a point beside a gap of the isopoints, as between samples that stand in
-  /// lines. @returns whether others stand all around the gap, as they do not at a border
+  /// lines. @returns whether points of its own sheet stand all around the gap, as they do not at a
+  /// border; the cell is of no use otherwise
   bool reachesAcrossGap(std::size_t point, TangentCell& cell, Splat& splat)
   {
     if (!this->isSmooth(point))
     {
       return false;
     }
-    this->cutOut(point, gapReach * this->Points.fits[point].spacing, cell, splat);
-    return !cell.isOpen() && cell.isRound();
+    const double reach = gapReach * this->Points.fits[point].spacing;
+    this->cutOut(point, reach, Bound::Sheet, cell, splat);
+    if (!std::isfinite(reach) || cell.isOpen() || !cell.isRound())
+    {
+      return false;
+    }
+    this->cutOut(point, reach, Bound::AllPoints, cell, splat);
+    return true;
   }
 
   static double overlapAt(const TangentCell& cell, const LocalFit& fit)
@@ -146,7 +160,8 @@ private:
 
   /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
   /// farther than twice its reach do not touch it.
-  void cutOut(std::size_t point, double limit, TangentCell& cell, Splat& splat)
+  /// @param splat whose clip is set where a crease lies nearer
+  void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell, Splat& splat)
   {
     for (;; this->list(point, 2 * this->Wanted))
     {
@@ -165,10 +180,15 @@ private:
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
           const Vector outward = scaled(1.0 / neighbor.distance, offset);
-          cell.cut(this->bendsTowards(point, other, outward)
-                     ? directionOf(sum(outward, -dot(outward, splat.normal), splat.normal))
-                     : outward,
-            0.5 * neighbor.distance);
+          const double half = 0.5 * neighbor.distance;
+          if (this->bendsTowards(point, other, outward))
+          {
+            cell.cut(directionOf(sum(outward, -dot(outward, splat.normal), splat.normal)), half);
+          }
+          else if (bound == Bound::AllPoints)
+          {
+            cell.cut(outward, half);
+          }
         }
         else
         {

@@ -107,20 +107,25 @@ public:
   bool isRound() const
   {
     constexpr double leastCosine = -0.5;
-    const std::size_t count = this->Corners.size();
-    for (std::size_t i = 0; i < count; ++i)
+    // Cuts through a corner leave it twice.
+    std::vector<Corner> sides;
+    for (std::size_t i = 0; i < this->Corners.size(); ++i)
     {
-      const Corner& corner = this->Corners[(i + 1) % count];
-      const double x = corner.x - this->Corners[i].x;
-      const double y = corner.y - this->Corners[i].y;
-      const double nextX = this->Corners[(i + 2) % count].x - corner.x;
-      const double nextY = this->Corners[(i + 2) % count].y - corner.y;
-      if (x * nextX + y * nextY < leastCosine * std::hypot(x, y) * std::hypot(nextX, nextY))
+      const Corner& corner = this->Corners[i];
+      const Corner& next = this->Corners[(i + 1) % this->Corners.size()];
+      const double length = std::hypot(next.x - corner.x, next.y - corner.y);
+      if (length > 0.0)
       {
-        return false;
+        sides.push_back({ (next.x - corner.x) / length, (next.y - corner.y) / length, false });
       }
     }
-    return true;
+    bool isRound = sides.size() > 2;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      const Corner& next = sides[(i + 1) % sides.size()];
+      isRound = isRound && sides[i].x * next.x + sides[i].y * next.y >= leastCosine;
+    }
+    return isRound;
   }
 
   const std::vector<Corner>& corners() const { return this->Corners; }

@@ -200,3 +200,43 @@ TEST(Coverage, SamplesInLinesCoverASphere)
       << seed;
   }
 }
+
+// At the border of a ball of samples, one in each unit of volume, the sheets next to a splat's own
+// do not make it reach out.
+TEST(Coverage, SplatsDoNotReachOverABorderBesideOtherSheets)
+{
+  constexpr double ball = 14.0;
+  clouds::Random random(5);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> waves;
+  while (points->GetNumberOfPoints() < 11494)
+  {
+    const Vector place = analytic::scaled(randomVector(random), ball);
+    if (length(place) < ball)
+    {
+      points->InsertNextPoint(place.data());
+      waves->InsertNextValue(static_cast<float>(std::sin(0.25 * 3.14159265358979 * place[2])));
+    }
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  cloud->GetPointData()->SetScalars(waves);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.0);
+  filter->ComputeSplatAxesOn();
+  filter->Update();
+  double farthest = 0.0;
+  for (const Splat& splat : accuracy::splatsOf(filter->GetOutput()))
+  {
+    for (int i = 0; i < 32; ++i)
+    {
+      const double angle = 2.0 * 3.14159265358979 * i / 32.0;
+      const Vector across = analytic::sum(analytic::scaled(splat.axis1, std::cos(angle)),
+        analytic::scaled(splat.axis2, std::sin(angle)));
+      farthest = std::max(farthest, length(analytic::sum(splat.center, across)) - ball);
+    }
+  }
+  EXPECT_GT(farthest, 0.0);
+  EXPECT_LT(farthest, 4.5);
+}
