@@ -91,13 +91,13 @@ private:
   /// border; the cell is of no use otherwise
   bool reachesAcrossGap(std::size_t point, TangentCell& cell, Splat& splat)
   {
-    if (!this->isSmooth(point))
+    if (!this->isSmooth(point) || !std::isfinite(this->Points.fits[point].spacing))
     {
       return false;
     }
     const double reach = gapReach * this->Points.fits[point].spacing;
     this->cutOut(point, reach, Bound::Sheet, cell, splat);
-    if (!std::isfinite(reach) || cell.isOpen() || !cell.isRound())
+    if (cell.isOpen() || !cell.isRound())
     {
       return false;
     }
