@@ -60,11 +60,13 @@ public:
     {
       this->cutOut(point, openReach * spacing, Bound::AllPoints, cell, splat);
     }
-    this->cutWhereSurfaceTurns(point, cell);
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
-    const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, lengthOf(fit.gradient));
-    const double overlap = overlapAt(cell, fit);
+    const double slope = lengthOf(fit.gradient);
+    const std::array<Curvature, 2> curvatures = principalCurvatures(cell, fit.hessian, slope);
+    cutWhereSurfaceTurns(curvatures, cell);
+    const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, slope);
+    const double overlap = isBendKnown(fit.hessian) ? overlapAt(curvatures, cell) : mostOverlap;
     splat.axis1 = scaled(overlap, ellipse.axis1);
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
@@ -105,14 +107,8 @@ private:
     return true;
   }
 
-  static double overlapAt(const TangentCell& cell, const LocalFit& fit)
+  static double overlapAt(const std::array<Curvature, 2>& curvatures, const TangentCell& cell)
   {
-    if (!isBendKnown(fit.hessian))
-    {
-      return mostOverlap;
-    }
-    const std::array<Curvature, 2> curvatures =
-      principalCurvatures(cell, fit.hessian, lengthOf(fit.gradient));
     const double turn = cell.reach() * std::max(curvatures[0].value, curvatures[1].value);
     return std::min(mostOverlap, leastOverlap + overlapOfBend * turn * turn);
   }
@@ -139,15 +135,9 @@ private:
   }
 
   /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
-  void cutWhereSurfaceTurns(std::size_t point, TangentCell& cell) const
+  static void cutWhereSurfaceTurns(const std::array<Curvature, 2>& curvatures, TangentCell& cell)
   {
-    if (this->Points.fits.empty())
-    {
-      return;
-    }
-    const LocalFit& fit = this->Points.fits[point];
-    for (const Curvature& curvature :
-      principalCurvatures(cell, fit.hessian, lengthOf(fit.gradient)))
+    for (const Curvature& curvature : curvatures)
     {
       const double radius = 1.0 / curvature.value;
       if (radius < cell.reach())
