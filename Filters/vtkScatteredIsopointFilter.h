@@ -27,8 +27,9 @@
  * simulated volumes, of which it saw a quarter of the voxels, points came 2 to 53 % nearer to the
  * surface of all voxels than linear interpolation puts them, normals as near or nearer: that is why
  * CUBIC_FIT is the default. LINEAR_FIT, which smooths everything, is not safe so. CREASE_FIT also
- * fits two or three affine functions, of which the largest or the smallest counts, and points go to
- * the nearer sheet.
+ * fits two to four functions of degree one or two, of which the largest or the smallest counts, and
+ * points go to the nearer sheet: of random samples of a cube, 0.2 % of the normals are then off by
+ * more than five degrees instead of 20 %, and 0.1 % instead of 4 % of two balls joined.
  *
  * What is promised:
  * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
@@ -152,11 +153,11 @@ public:
    * interpolation puts them), LINEAR_FIT (an affine function, which smooths noise but flattens what
    * is curved), QUADRATIC_FIT (degree two), CUBIC_FIT (degree two, and three where that leaves
    * residuals of more than a five hundredth of the samples' distances) or CREASE_FIT (the same, and
-   * where the samples tell of a crease two or three affine functions that meet there; for bodies
-   * with sharp edges: where there are none it takes longer, and may see some that are not). No
+   * where the samples tell of a crease two to four functions that meet there; for bodies with sharp
+   * edges: where there are none it takes longer, and may see some that are not). No
    * point moves farther than half its edge's length; where no fit describes the samples, as in
    * noise, it stays, and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to three
-   * times as long as the extraction, with creases up to twelve times. Whether residuals are noise
+   * times as long as the extraction, with creases up to seven times. Whether residuals are noise
    * is decided together with up to 255 isopoints around: where some of these are dropped, others
    * may move. Default: CUBIC_FIT.
    */
@@ -196,7 +197,7 @@ public:
   /**
    * Whether to compute the array "ProjectionOrder" (one unsigned char), which tells what moved each
    * point: 0 nothing, 1 an affine function, 2 a polynomial of degree two, 3 one of degree
-   * three, 4 affine functions that meet at a crease. Default: off.
+   * three, 4 functions that meet at a crease. Default: off.
    */
   vtkSetMacro(ComputeProjectionOrders, vtkTypeBool);
   vtkGetMacro(ComputeProjectionOrders, vtkTypeBool);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "CreaseFit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace isopoint
@@ -15,28 +16,23 @@ namespace isopoint
 namespace
 {
 
-/// One more than a piece has coefficients.
-constexpr std::size_t leastSamples = 5;
-
-/// As in polynomial fits; pieces of few samples are worse off.
-constexpr double leastCondition = 1e-9;
-
 /// Fits pieces to samples that are known to belong to them.
 class Alternation
 {
 public:
   Alternation(const std::vector<FrameSample>& samples, double sense)
-    : Samples(samples)
+    : Samples(&samples)
     , Labels(samples.size(), 0)
   {
     this->Fit.sense = sense;
+    this->Fit.sampleCount = samples.size();
   }
 
   /// Starts with a single piece. @returns whether the samples determine it
   bool start()
   {
     this->Fit.pieces.resize(1);
-    return this->refit();
+    return this->refit(1);
   }
 
   /// Parts the piece of the largest residuals in two, `share` of its samples staying.
@@ -51,36 +47,40 @@ public:
       this->Labels[along[i].second] = this->Fit.pieces.size();
     }
     this->Fit.pieces.emplace_back();
-    return this->refit() && this->settle();
+    return this->settle(1);
+  }
+
+  /// Lets pieces bend. @returns whether one does
+  bool bend()
+  {
+    return this->settle(2) && std::any_of(this->Fit.pieces.begin(), this->Fit.pieces.end(),
+                                [](const Polynomial& piece) { return piece.degree > 1; });
   }
 
   const CreaseFit& result() const { return this->Fit; }
 
 private:
-  /// Alternates until no sample changes its piece.
-  bool settle()
+  /// Fits pieces of at most a degree, and alternates until no sample changes its piece.
+  bool settle(int degree)
   {
     constexpr int mostRounds = 6;
-    for (int round = 0; round < mostRounds; ++round)
+    bool changed = true;
+    for (int round = 0; round <= mostRounds && changed; ++round)
     {
-      bool changed = false;
-      for (std::size_t i = 0; i < this->Samples.size(); ++i)
-      {
-        const std::size_t piece = this->pieceAt(this->Samples[i].position);
-        changed = changed || piece != this->Labels[i];
-        this->Labels[i] = piece;
-      }
-      if (!changed)
-      {
-        break;
-      }
-      if (!this->refit())
+      if (!this->refit(degree))
       {
         return false;
       }
+      changed = false;
+      for (std::size_t i = 0; i < this->Samples->size(); ++i)
+      {
+        const std::size_t piece = this->pieceAt((*this->Samples)[i].position);
+        changed = changed || piece != this->Labels[i];
+        this->Labels[i] = piece;
+      }
     }
     this->Fit.meanSquare = meanSquaredResidual(
-      this->Samples, [this](const Eigen::Vector3d& p) { return this->Fit.value(p); });
+      *this->Samples, [this](const Eigen::Vector3d& p) { return this->Fit.value(p); });
     return true;
   }
 
@@ -89,8 +89,8 @@ private:
     std::size_t best = 0;
     for (std::size_t piece = 1; piece < this->Fit.pieces.size(); ++piece)
     {
-      if (this->Fit.sense * this->Fit.pieceValue(piece, p) >
-          this->Fit.sense * this->Fit.pieceValue(best, p))
+      if (this->Fit.sense * this->Fit.pieces[piece].value(p) >
+          this->Fit.sense * this->Fit.pieces[best].value(p))
       {
         best = piece;
       }
@@ -98,47 +98,45 @@ private:
     return best;
   }
 
-  bool refit()
+  /// Fits each piece to its samples. @returns whether they determine all
+  bool refit(int degree)
   {
     for (std::size_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
     {
-      Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-      Eigen::Vector4d rightSide = Eigen::Vector4d::Zero();
-      std::size_t count = 0;
-      for (std::size_t i = 0; i < this->Samples.size(); ++i)
+      this->SamplesOfPiece.clear();
+      for (std::size_t i = 0; i < this->Samples->size(); ++i)
       {
         if (this->Labels[i] == piece)
         {
-          Eigen::Vector4d basis;
-          basis << 1.0, this->Samples[i].position;
-          matrix += this->Samples[i].weight * basis * basis.transpose();
-          rightSide += this->Samples[i].weight * this->Samples[i].value * basis;
-          ++count;
+          this->SamplesOfPiece.push_back((*this->Samples)[i]);
         }
       }
-      const Eigen::LDLT<Eigen::Matrix4d> factors(matrix);
-      if (count < leastSamples || !(factors.vectorD().minCoeff() > 0.0) ||
-          !(factors.rcond() > leastCondition))
+      std::optional<Polynomial> polynomial;
+      for (int tried = degree; tried > 0 && !polynomial; --tried)
+      {
+        polynomial = fitPolynomial(this->SamplesOfPiece, tried);
+      }
+      if (!polynomial)
       {
         return false;
       }
-      this->Fit.pieces[piece] = factors.solve(rightSide);
+      this->Fit.pieces[piece] = *polynomial;
     }
     return true;
   }
 
   double residual(std::size_t sample) const
   {
-    return this->Samples[sample].value -
-           this->Fit.pieceValue(this->Labels[sample], this->Samples[sample].position);
+    return (*this->Samples)[sample].value -
+           this->Fit.pieces[this->Labels[sample]].value((*this->Samples)[sample].position);
   }
 
   std::size_t worstPiece() const
   {
     std::vector<double> sums(this->Fit.pieces.size(), 0.0);
-    for (std::size_t i = 0; i < this->Samples.size(); ++i)
+    for (std::size_t i = 0; i < this->Samples->size(); ++i)
     {
-      sums[this->Labels[i]] += this->Samples[i].weight * this->residual(i) * this->residual(i);
+      sums[this->Labels[i]] += (*this->Samples)[i].weight * this->residual(i) * this->residual(i);
     }
     return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   }
@@ -149,22 +147,22 @@ private:
   {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     double weights = 0.0;
-    for (std::size_t i = 0; i < this->Samples.size(); ++i)
+    for (std::size_t i = 0; i < this->Samples->size(); ++i)
     {
       if (this->Labels[i] == piece)
       {
-        center += this->Samples[i].weight * this->Samples[i].position;
-        weights += this->Samples[i].weight;
+        center += (*this->Samples)[i].weight * (*this->Samples)[i].position;
+        weights += (*this->Samples)[i].weight;
       }
     }
     center /= weights;
     Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < this->Samples.size(); ++i)
+    for (std::size_t i = 0; i < this->Samples->size(); ++i)
     {
       if (this->Labels[i] == piece)
       {
-        const Eigen::Vector3d offset = this->Samples[i].position - center;
-        bend += this->Fit.sense * this->Samples[i].weight * this->residual(i) * offset *
+        const Eigen::Vector3d offset = (*this->Samples)[i].position - center;
+        bend += this->Fit.sense * (*this->Samples)[i].weight * this->residual(i) * offset *
                 offset.transpose();
       }
     }
@@ -172,48 +170,95 @@ private:
     solver.computeDirect(bend);
     const Eigen::Vector3d direction = solver.eigenvectors().col(2);
     std::vector<std::pair<double, std::size_t>> along;
-    for (std::size_t i = 0; i < this->Samples.size(); ++i)
+    for (std::size_t i = 0; i < this->Samples->size(); ++i)
     {
       if (this->Labels[i] == piece)
       {
-        along.emplace_back(direction.dot(this->Samples[i].position), i);
+        along.emplace_back(direction.dot((*this->Samples)[i].position), i);
       }
     }
     return along;
   }
 
-  const std::vector<FrameSample>& Samples;
-  std::vector<std::size_t> Labels; // the piece of each sample
+  const std::vector<FrameSample>* Samples;
+  std::vector<FrameSample> SamplesOfPiece; // scratch
+  std::vector<std::size_t> Labels;         // the piece of each sample
   CreaseFit Fit;
 };
+
+bool isBetter(const Alternation& a, const Alternation& b)
+{
+  return a.result().meanSquare < b.result().meanSquare;
+}
+
+/// Fits of two affine pieces, from several starts; none where there is no crease to be found.
+std::vector<Alternation> startAlternations(
+  const std::vector<FrameSample>& samples, const CreaseSearch& search)
+{
+  std::vector<Alternation> starts;
+  const auto start = [&](double sense, double share)
+  {
+    Alternation parts(samples, sense);
+    if (parts.start() && parts.split(share))
+    {
+      starts.push_back(parts);
+    }
+  };
+  start(1.0, 0.5);
+  start(-1.0, 0.5);
+  if (starts.empty())
+  {
+    return {};
+  }
+  starts = { *std::min_element(starts.begin(), starts.end(), isBetter) };
+  const CreaseFit& two = starts.front().result();
+  if (two.relativeResidual() > search.mostRelativeResidualOfTwo ||
+      two.meanSquare > search.mostMeanSquareOfTwo)
+  {
+    return {};
+  }
+  const double sense = two.sense;
+  start(sense, 0.3);
+  start(sense, 0.7);
+  return starts;
+}
 
 } // namespace
 
 double CreaseFit::value(const Eigen::Vector3d& p) const
 {
-  double best = this->sense * this->pieceValue(0, p);
+  double best = this->sense * this->pieces[0].value(p);
   for (std::size_t piece = 1; piece < this->pieces.size(); ++piece)
   {
-    best = std::max(best, this->sense * this->pieceValue(piece, p));
+    best = std::max(best, this->sense * this->pieces[piece].value(p));
   }
   return this->sense * best;
+}
+
+std::size_t CreaseFit::coefficients() const
+{
+  return std::accumulate(this->pieces.begin(), this->pieces.end(), std::size_t{ 0 },
+    [](std::size_t sum, const Polynomial& piece)
+    { return sum + static_cast<std::size_t>(coefficientCount(piece.degree)); });
 }
 
 double CreaseFit::relativeResidual() const
 {
   double gentlest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector4d& piece : this->pieces)
+  for (const Polynomial& piece : this->pieces)
   {
-    gentlest = std::min(gentlest, piece.tail<3>().norm());
+    gentlest = std::min(gentlest, piece.gradient(Eigen::Vector3d::Zero()).norm());
   }
-  return std::sqrt(this->meanSquare) / gentlest;
+  const auto count = static_cast<double>(this->sampleCount);
+  const double freedom = count / (count - static_cast<double>(this->coefficients()));
+  return std::sqrt(freedom * this->meanSquare) / gentlest;
 }
 
 bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const
 {
   for (std::size_t other = 0; other < this->pieces.size(); ++other)
   {
-    if (other != piece && this->sense * this->pieceValue(other, p) > tolerance)
+    if (other != piece && this->sense * this->pieces[other].value(p) > tolerance)
     {
       return false;
     }
@@ -222,61 +267,35 @@ bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double 
 }
 
 std::vector<CreaseFit> fitCreases(
-  const std::vector<FrameSample>& samples, double mostRelativeResidual, double rivalMeanSquare)
+  const std::vector<FrameSample>& samples, const CreaseSearch& search)
 {
-  const auto better = [](const CreaseFit& a, const CreaseFit& b)
-  { return b.pieces.empty() || (!a.pieces.empty() && a.meanSquare < b.meanSquare); };
   std::vector<CreaseFit> results;
-  std::vector<Alternation> starts;
-  CreaseFit two;
-  double sense = 1.0;
-  for (const double tried : { 1.0, -1.0 })
+  const auto take = [&](const CreaseFit& fit)
   {
-    Alternation halves(samples, tried);
-    if (halves.start() && halves.split(0.5) && better(halves.result(), two))
+    if (fit.relativeResidual() <= search.mostRelativeResidual)
     {
-      two = halves.result();
-      sense = tried;
-      starts.clear();
-      starts.push_back(halves);
+      results.push_back(fit);
     }
-  }
-  // Halves of the start still have samples of the other side, and of a third piece.
-  constexpr double promising = 6.0;
-  if (two.pieces.empty() || two.relativeResidual() > promising * mostRelativeResidual ||
-      two.meanSquare > rivalMeanSquare)
-  {
-    return results;
-  }
-  for (const double share : { 0.3, 0.7 })
-  {
-    Alternation parts(samples, sense);
-    if (parts.start() && parts.split(share))
-    {
-      starts.push_back(parts);
-      two = better(parts.result(), two) ? parts.result() : two;
-    }
-  }
-  results.push_back(two);
+  };
+  std::vector<Alternation> starts = startAlternations(samples, search);
+  constexpr std::size_t mostPieces = 4;
   constexpr double exact = 1e-6;
-  if (two.relativeResidual() < exact)
+  while (!starts.empty())
   {
-    return results;
-  }
-  CreaseFit three;
-  for (Alternation& start : starts)
-  {
-    if (start.split(0.5) && better(start.result(), three))
+    Alternation best = *std::min_element(starts.begin(), starts.end(), isBetter);
+    take(best.result());
+    if (best.result().pieces.size() == mostPieces || best.result().relativeResidual() < exact)
     {
-      three = start.result();
+      break;
     }
+    if (search.mayBeCurved && best.bend())
+    {
+      take(best.result());
+    }
+    starts.erase(std::remove_if(starts.begin(), starts.end(),
+                   [](Alternation& start) { return !start.split(0.5); }),
+      starts.end());
   }
-  results.push_back(three);
-  results.erase(std::remove_if(results.begin(), results.end(),
-                  [=](const CreaseFit& fit) {
-                    return fit.pieces.empty() || !(fit.relativeResidual() <= mostRelativeResidual);
-                  }),
-    results.end());
   return results;
 }
 

@@ -6,43 +6,56 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
 
-/// The largest (`sense` 1) or the smallest (`sense` -1) of affine functions: a field with a crease
-/// where two of them are equal, or a corner where three are.
+/// The largest (`sense` 1) or the smallest (`sense` -1) of polynomials of degree one or two: a
+/// field with a crease where two of them are equal, or a corner where three are.
 struct CreaseFit
 {
   double sense = 1.0;
-  std::vector<Eigen::Vector4d> pieces; // value at the origin, gradient
-  double meanSquare = 0.0;             // of the residuals, weighted
+  std::vector<Polynomial> pieces;
+  std::size_t sampleCount = 0;
+  double meanSquare = 0.0; // of the residuals, weighted
 
-  double pieceValue(std::size_t piece, const Eigen::Vector3d& p) const
-  {
-    return this->pieces[piece][0] + this->pieces[piece].tail<3>().dot(p);
-  }
   double value(const Eigen::Vector3d& p) const;
 
-  /// The root of the mean square of the residuals, over the gentlest gradient.
+  /// How many coefficients all pieces have.
+  std::size_t coefficients() const;
+
+  /// The root of the mean square of the residuals, were there no fewer of them than samples, over
+  /// the gentlest gradient at the origin.
   double relativeResidual() const;
 
-  /// Whether a point on the zero plane of a piece is one of the whole function's, up to a tolerance
+  /// Whether a point on the zero surface of a piece is one of the whole function's, up to a
+  /// tolerance
   bool isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const;
 };
 
-/// Fits two, and three, affine functions by alternating between which sample belongs to which and
-/// least squares (Magnani, Boyd, "Convex piecewise-linear fitting", Optimization and Engineering
-/// 10, 2009). The pieces of the start are halves of a single fit's samples, cut across the
-/// direction in which its residuals bend most.
-/// @param mostRelativeResidual of those wanted
-/// @param rivalMeanSquare of the residuals of a smooth fit: where halves are far worse there is no
-/// crease
-/// @returns those of smallest residuals, of two and of three pieces; without those in which a piece
-/// has too few samples
+/// Which fits with creases are wanted.
+struct CreaseSearch
+{
+  double mostRelativeResidual;
+  /// Where two affine functions leave more, relative or as a mean square, none is looked for.
+  double mostRelativeResidualOfTwo;
+  double mostMeanSquareOfTwo;
+  bool mayBeCurved; // or are pieces affine
+};
+
+/// Fits two, three and four affine functions by alternating between which sample belongs to which
+/// and least squares (Magnani, Boyd, "Convex piecewise-linear fitting", Optimization and
+/// Engineering 10, 2009). Two start as parts of a single fit's samples, cut across the direction in
+/// which its residuals bend most, then that of the largest residuals is cut so again. Where pieces
+/// may be curved, polynomials of degree two follow, by further alternation, for those of up to
+/// three pieces whose samples determine them.
+/// @returns those of smallest residuals for each number of pieces, affine and curved; without those
+/// in which a piece has too few samples
+/// Complexity: O(samples.size())
 std::vector<CreaseFit> fitCreases(
-  const std::vector<FrameSample>& samples, double mostRelativeResidual, double rivalMeanSquare);
+  const std::vector<FrameSample>& samples, const CreaseSearch& search);
 
 } // namespace isopoint
 

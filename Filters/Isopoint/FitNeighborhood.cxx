@@ -23,6 +23,11 @@ constexpr double mostResidual = 0.6;
 /// tell of noise alone: a crease leaves less than a fifth, since it bends one way.
 constexpr double noiseShare = 0.3;
 
+/// How alike residuals close to each other are, at least, where more than noise leaves them: of
+/// noise nine places in ten fall short of it, since the fit takes its mean away, beside creases one
+/// in fifty.
+constexpr double leastCoherence = 0.05;
+
 /// Where an affine function leaves more than this share of the variance, its gradient tells less
 /// of the surface than the isopoints around do: so it does where sheets are close by.
 constexpr double mostUnexplained = 0.2;
@@ -113,6 +118,41 @@ bool FitNeighborhood::tellsOfNoise()
   return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
 }
 
+// By Moran's I ("Notes on continuous stochastic phenomena", Biometrika 37, 1950): the mean product
+// of the residuals of two samples, by how close they are, over the mean square of one.
+bool FitNeighborhood::leavesPattern()
+{
+  this->weigh(mildWeight);
+  std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, 2);
+  if (!polynomial && !(polynomial = fitPolynomial(this->Samples, 1)))
+  {
+    return false;
+  }
+  constexpr double squaredReach = 0.6;
+  std::vector<double> residuals; // by the roots of their weights
+  double squares = 0.0;
+  double weights = 0.0;
+  double products = 0.0;
+  double productWeights = 0.0;
+  for (const FrameSample& sample : this->Samples)
+  {
+    const double weight = std::sqrt(sample.weight);
+    const double residual = weight * (sample.value - polynomial->value(sample.position));
+    for (std::size_t i = 0; i < residuals.size(); ++i)
+    {
+      const FrameSample& other = this->Samples[i];
+      const double closeness =
+        std::max(0.0, squaredReach - (sample.position - other.position).squaredNorm());
+      products += closeness * residual * residuals[i];
+      productWeights += closeness * weight * std::sqrt(other.weight);
+    }
+    residuals.push_back(residual);
+    squares += residual * residual;
+    weights += sample.weight;
+  }
+  return products * weights > leastCoherence * productWeights * squares;
+}
+
 int FitNeighborhood::bestDegree()
 {
   constexpr int none = 1;
@@ -140,8 +180,8 @@ int FitNeighborhood::bestDegree()
   {
     return none;
   }
-  const std::vector<CreaseFit> creases =
-    fitCreases(this->Samples, mostBentCreaseResidual, quadraticMeanSquare);
+  const std::vector<CreaseFit> creases = fitCreases(this->Samples,
+    { mostBentCreaseResidual, 6.0 * mostBentCreaseResidual, quadraticMeanSquare, false });
   const bool isCrease = std::any_of(creases.begin(), creases.end(),
     [&](const CreaseFit& crease) { return this->criterionOf(crease) < least; });
   return isCrease ? none : best;
@@ -164,19 +204,22 @@ CandidateFit FitNeighborhood::best(FitOrder highest)
     }
   };
   std::optional<Polynomial> rival;
-  for (int degree = 1; degree <= (highest == FitOrder::Linear ? 1 : 2); ++degree)
+  const int highestDegree = std::min(static_cast<int>(highest), Polynomial::highestDegree);
+  for (int degree = 1; degree <= highestDegree; ++degree)
   {
     const std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, degree);
     if (polynomial)
     {
       consider(this->tryPolynomial(*polynomial));
-      rival = polynomial;
+      rival = degree <= 2 ? polynomial : rival;
     }
   }
   if (highest == FitOrder::Crease && rival)
   {
-    for (const CreaseFit& crease :
-      fitCreases(this->Samples, mostCreaseResidual, this->meanSquareOf(*rival)))
+    // Two pieces may be far worse than a quadratic where there are three.
+    const double mostMeanSquareOfTwo = 4.0 * this->meanSquareOf(*rival);
+    for (const CreaseFit& crease : fitCreases(this->Samples,
+           { mostCreaseResidual, 15.0 * mostCreaseResidual, mostMeanSquareOfTwo, true }))
     {
       consider(this->tryCrease(crease));
     }
@@ -268,7 +311,7 @@ double FitNeighborhood::criterionOf(int degree, double meanSquare) const
 
 double FitNeighborhood::criterionOf(const CreaseFit& crease) const
 {
-  return akaikeCriterion(this->Samples.size(), 4 * crease.pieces.size(), crease.meanSquare);
+  return akaikeCriterion(this->Samples.size(), crease.coefficients(), crease.meanSquare);
 }
 
 /// What mean squares are to be multiplied by: a fit of as many coefficients as samples leaves no
@@ -296,48 +339,40 @@ CandidateFit FitNeighborhood::tryPolynomial(const Polynomial& polynomial) const
   CandidateFit candidate;
   candidate.isDetermined = true;
   const double meanSquare = this->meanSquareOf(polynomial);
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gradient = polynomial.gradient(position);
+  Eigen::Vector3d gradient = polynomial.gradient(Eigen::Vector3d::Zero());
   candidate.residual = std::sqrt(meanSquare * this->freedom(polynomial.degree)) / gradient.norm();
   if (!std::isfinite(candidate.residual) || !this->risesAlong(gradient))
   {
     return candidate;
   }
-  constexpr int mostSteps = 8;
-  constexpr double accuracy = 1e-12;
-  bool converged = false;
-  for (int step = 0; step < mostSteps && !converged; ++step)
+  const std::optional<Eigen::Vector3d> position = this->zeroOf(polynomial);
+  if (!position)
   {
-    const Eigen::Vector3d move = -polynomial.value(position) / gradient.squaredNorm() * gradient;
-    position += move;
-    if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
-    {
-      return candidate;
-    }
-    gradient = polynomial.gradient(position);
-    converged = move.norm() <= accuracy;
+    return candidate;
   }
-  if (!converged || !this->risesAlong(gradient))
+  gradient = polynomial.gradient(*position);
+  if (!this->risesAlong(gradient))
   {
     return candidate;
   }
   candidate.order = static_cast<FitOrder>(polynomial.degree);
   candidate.criterion = this->criterionOf(polynomial.degree, meanSquare);
-  candidate.position = position;
+  candidate.position = *position;
   candidate.gradient = gradient;
-  candidate.hessian = polynomial.hessian(position);
+  candidate.hessian = polynomial.hessian(*position);
   return candidate;
 }
 
 CandidateFit FitNeighborhood::tryCrease(const CreaseFit& fit) const
 {
   CandidateFit candidate;
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
   {
-    const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
+    const Eigen::Vector3d gradient = fit.pieces[piece].gradient(origin);
     for (std::size_t other = 0; other < piece; ++other)
     {
-      const Eigen::Vector3d otherGradient = fit.pieces[other].tail<3>();
+      const Eigen::Vector3d otherGradient = fit.pieces[other].gradient(origin);
       if (gradient.dot(otherGradient) > mostCreaseCosine * gradient.norm() * otherGradient.norm())
       {
         return candidate;
@@ -350,41 +385,83 @@ CandidateFit FitNeighborhood::tryCrease(const CreaseFit& fit) const
   return candidate;
 }
 
-/// Moves to the nearest point of the zero plane of one piece that belongs to the surface, or else
+/// Moves to the nearest point of the zero surface of one piece that belongs to the surface, or else
 /// to the crease between two.
 void FitNeighborhood::moveToNearestSheet(const CreaseFit& fit, CandidateFit& candidate) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  const auto consider = [&](std::size_t piece, const Eigen::Vector3d& position)
+  const auto consider = [&](std::size_t piece, const std::optional<Eigen::Vector3d>& position)
   {
     constexpr double tolerance = 1e-9;
-    if (position.norm() < nearest && this->mayMoveTo(position) &&
-        fit.isOnSurface(piece, position, tolerance))
+    if (position && position->norm() < nearest && fit.isOnSurface(piece, *position, tolerance))
     {
-      nearest = position.norm();
+      nearest = position->norm();
       candidate.order = FitOrder::Crease;
-      candidate.position = position;
-      candidate.gradient = fit.pieces[piece].tail<3>();
+      candidate.position = *position;
+      candidate.gradient = fit.pieces[piece].gradient(*position);
+      candidate.hessian = fit.pieces[piece].hessian(*position);
     }
   };
   for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
   {
-    const Eigen::Vector3d gradient = fit.pieces[piece].tail<3>();
-    consider(piece, -fit.pieces[piece][0] / gradient.squaredNorm() * gradient);
+    consider(piece, this->zeroOf(fit.pieces[piece]));
   }
   for (std::size_t piece = 0; piece < fit.pieces.size() && !candidate.holds(); ++piece)
   {
     for (std::size_t other = 0; other < piece; ++other)
     {
-      // The point of the line that is nearest to the origin is a sum of the gradients.
-      Eigen::Matrix<double, 2, 3> gradients;
-      gradients << fit.pieces[piece].tail<3>().transpose(), fit.pieces[other].tail<3>().transpose();
-      const Eigen::Matrix2d products = gradients * gradients.transpose();
-      const Eigen::Vector2d values(-fit.pieces[piece][0], -fit.pieces[other][0]);
-      const Eigen::Vector3d onCrease = gradients.transpose() * (products.inverse() * values);
-      consider(piece, onCrease);
+      consider(piece, this->commonZeroOf(fit.pieces[piece], fit.pieces[other]));
     }
   }
+}
+
+/// Steps from the origin until they vanish. @returns where, unless that is too far
+template <class Step>
+std::optional<Eigen::Vector3d> FitNeighborhood::follow(const Step& stepAt) const
+{
+  constexpr int mostSteps = 8;
+  constexpr double accuracy = 1e-12;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int i = 0; i < mostSteps; ++i)
+  {
+    const Eigen::Vector3d step = stepAt(position);
+    position += step;
+    if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
+    {
+      return std::nullopt;
+    }
+    if (step.norm() <= accuracy)
+    {
+      return position;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The zero of a polynomial that Newton's method along gradients leads to.
+std::optional<Eigen::Vector3d> FitNeighborhood::zeroOf(const Polynomial& polynomial) const
+{
+  return this->follow(
+    [&](const Eigen::Vector3d& p) -> Eigen::Vector3d
+    {
+      const Eigen::Vector3d gradient = polynomial.gradient(p);
+      return -polynomial.value(p) / gradient.squaredNorm() * gradient;
+    });
+}
+
+/// The same of two polynomials: each step is the shortest to the line where both tangents are zero.
+std::optional<Eigen::Vector3d> FitNeighborhood::commonZeroOf(
+  const Polynomial& first, const Polynomial& second) const
+{
+  return this->follow(
+    [&](const Eigen::Vector3d& p) -> Eigen::Vector3d
+    {
+      Eigen::Matrix<double, 2, 3> gradients;
+      gradients << first.gradient(p).transpose(), second.gradient(p).transpose();
+      const Eigen::Matrix2d products = gradients * gradients.transpose();
+      const Eigen::Vector2d values(first.value(p), second.value(p));
+      return -gradients.transpose() * (products.inverse() * values);
+    });
 }
 
 } // namespace isopoint

@@ -51,6 +51,10 @@ public:
   /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
   bool tellsOfNoise();
 
+  /// Whether a polynomial of degree two leaves residuals that are alike among samples close to each
+  /// other, as beside a crease, rather than independent, as in noise.
+  bool leavesPattern();
+
   /// The degree of the polynomial, of degree one to three, that the criterion tells to be best; 1
   /// where creases are better, or where samples do not determine all of them.
   int bestDegree();
@@ -80,6 +84,11 @@ private:
   bool mayMoveTo(const Eigen::Vector3d& position) const;
   CandidateFit tryPolynomial(const Polynomial& polynomial) const;
   CandidateFit tryCrease(const CreaseFit& fit) const;
+  template <class Step>
+  std::optional<Eigen::Vector3d> follow(const Step& stepAt) const;
+  std::optional<Eigen::Vector3d> zeroOf(const Polynomial& polynomial) const;
+  std::optional<Eigen::Vector3d> commonZeroOf(
+    const Polynomial& first, const Polynomial& second) const;
   void moveToNearestSheet(const CreaseFit& fit, CandidateFit& candidate) const;
 
   double Scale;

@@ -24,77 +24,126 @@ constexpr double smoothResidual = 0.03;
 /// quadratic, and no crease was found.
 constexpr double roughResidual = 0.1;
 
-/// Whether detail that the samples resolve thinly leaves the residuals, not noise or creases.
-bool tellsOfDetail(FitNeighborhood& wider, DetailTally& tally)
+/// The fits around an isopoint, tried in turn.
+class FitAttempts
 {
-  const int degree = wider.bestDegree();
-  tally.add(degree == 3);
-  return degree == 3 || (degree == 2 && tally.isCommon());
-}
+public:
+  /// @param fit that is taken over into
+  FitAttempts(FitNeighborhood& neighborhood, const std::function<FitNeighborhood()>& gatherWider,
+    FitOrder highest, DetailTally& tally, LocalFit& fit)
+    : Neighborhood(neighborhood)
+    , GatherWider(gatherWider)
+    , Highest(highest)
+    , Tally(tally)
+    , Fit(fit)
+  {
+  }
 
-/// Takes over the best fit that holds, if one does.
-void fitBest(FitNeighborhood& neighborhood, const std::function<FitNeighborhood()>& gatherWider,
-  FitOrder highest, DetailTally& tally, LocalFit& fit)
-{
-  std::optional<FitNeighborhood> known;
-  const auto wider = [&]() -> FitNeighborhood&
-  { return known ? *known : known.emplace(gatherWider()); };
-  if (highest == FitOrder::Linear)
+  /// Takes over the best fit that holds, if one does.
+  void run()
   {
-    wider().apply(wider().best(highest), fit);
-    return;
-  }
-  const CandidateFit quadratic = neighborhood.smooth(2);
-  const auto applyQuadratic = [&](double most)
-  { return quadratic.residual <= most && neighborhood.apply(quadratic, fit); };
-  if (applyQuadratic(highest == FitOrder::Quadratic ? smoothResidual : fineResidual))
-  {
-    return;
-  }
-  const bool triesCubic = highest != FitOrder::Quadratic;
-  std::optional<CandidateFit> knownCubic;
-  const auto cubic = [&]() -> const CandidateFit&
-  { return knownCubic ? *knownCubic : knownCubic.emplace(wider().smooth(3)); };
-  if (triesCubic && quadratic.residual <= roughResidual && cubic().residual <= smoothResidual &&
-      wider().apply(cubic(), fit))
-  {
-    return;
-  }
-  if (applyQuadratic(smoothResidual))
-  {
-    return;
-  }
-  const bool seeksCreases = highest == FitOrder::Crease && !neighborhood.tellsOfNoise();
-  CandidateFit best = seeksCreases ? wider().best(highest) : CandidateFit();
-  if (best.order == FitOrder::Crease)
-  {
-    wider().apply(best, fit);
-    return;
-  }
-  const bool mayBeDetail = triesCubic && !neighborhood.mayCrossGap() && tally.isToBeAsked();
-  if (mayBeDetail && tellsOfDetail(wider(), tally) && wider().apply(cubic(), fit))
-  {
-    return;
-  }
-  // A quadratic that the samples determine is judged by them alone, except beside creases.
-  if (!seeksCreases)
-  {
-    if (highest == FitOrder::Crease || quadratic.isDetermined)
+    if (this->Highest == FitOrder::Linear)
     {
+      this->wider().apply(this->wider().best(this->Highest), this->Fit);
       return;
     }
-    best = wider().best(highest);
+    this->Quadratic = this->Neighborhood.smooth(2);
+    const bool isDone = this->takeQuadratic(fineResidual) || this->takeCrease() ||
+                        this->takeCubic(smoothResidual) || this->takeQuadratic(smoothResidual) ||
+                        this->takeDetail();
+    // A quadratic that the samples determine is judged by them alone.
+    if (!isDone && !this->Quadratic.isDetermined)
+    {
+      this->takeRough();
+    }
   }
-  if (!(best.residual <= roughResidual) || applyQuadratic(roughResidual))
+
+private:
+  bool takeQuadratic(double mostResidual)
   {
-    return;
+    return this->Quadratic.residual <= mostResidual &&
+           this->Neighborhood.apply(this->Quadratic, this->Fit);
   }
-  const CandidateFit wide = wider().smooth(2);
-  if (wide.residual <= roughResidual)
+
+  bool takeCubic(double mostResidual)
   {
-    wider().apply(wide, fit);
+    return this->Highest >= FitOrder::Cubic && this->Quadratic.residual <= roughResidual &&
+           this->cubic().residual <= mostResidual && this->wider().apply(this->cubic(), this->Fit);
   }
-}
+
+  bool takeCrease()
+  {
+    if (this->Highest != FitOrder::Crease)
+    {
+      return false;
+    }
+    // A steeply weighted fit leaves small residuals beside a crease, too.
+    if (this->takeCubic(fineResidual))
+    {
+      return true;
+    }
+    if (this->Neighborhood.tellsOfNoise() || !this->wider().leavesPattern())
+    {
+      return false;
+    }
+    // Close to a corner, a few samples of a third piece do not determine it.
+    for (FitNeighborhood* const samples : { &this->wider(), &this->Neighborhood })
+    {
+      const CandidateFit best = samples->best(FitOrder::Crease);
+      if (best.order == FitOrder::Crease && samples->apply(best, this->Fit))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// A cubic that leaves residuals, where detail that the samples resolve thinly is what leaves
+  /// them, not noise or creases.
+  bool takeDetail()
+  {
+    if (this->Highest < FitOrder::Cubic || this->Neighborhood.mayCrossGap() ||
+        !this->Tally.isToBeAsked())
+    {
+      return false;
+    }
+    const int degree = this->wider().bestDegree();
+    this->Tally.add(degree == 3);
+    const bool isDetail = degree == 3 || (degree == 2 && this->Tally.isCommon());
+    return isDetail && this->wider().apply(this->cubic(), this->Fit);
+  }
+
+  void takeRough()
+  {
+    if (this->wider().best(FitOrder::Quadratic).residual <= roughResidual)
+    {
+      const CandidateFit quadratic = this->wider().smooth(2);
+      if (quadratic.residual <= roughResidual)
+      {
+        this->wider().apply(quadratic, this->Fit);
+      }
+    }
+  }
+
+  FitNeighborhood& wider()
+  {
+    return this->Wider ? *this->Wider : this->Wider.emplace(this->GatherWider());
+  }
+
+  const CandidateFit& cubic()
+  {
+    return this->Cubic ? *this->Cubic : this->Cubic.emplace(this->wider().smooth(3));
+  }
+
+  FitNeighborhood& Neighborhood;
+  const std::function<FitNeighborhood()>& GatherWider;
+  FitOrder Highest;
+  DetailTally& Tally;
+  LocalFit& Fit;
+  CandidateFit Quadratic;
+  std::optional<FitNeighborhood> Wider;
+  std::optional<CandidateFit> Cubic;
+};
 
 } // namespace
 
@@ -121,9 +170,9 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   {
     return fit;
   }
-  fitBest(
-    neighborhood, [&]() { return FitNeighborhood(edge, isovalue, widerSamples(), spacing); },
-    highest, tally, fit);
+  const std::function<FitNeighborhood()> gatherWider = [&]()
+  { return FitNeighborhood(edge, isovalue, widerSamples(), spacing); };
+  FitAttempts(neighborhood, gatherWider, highest, tally, fit).run();
   if (fit.order == FitOrder::None)
   {
     if (const std::optional<Vector> gradient = neighborhood.affineGradient())

@@ -20,7 +20,7 @@ enum class FitOrder : std::uint8_t
   Linear = 1,    // an affine function
   Quadratic = 2, // a polynomial of degree two
   Cubic = 3,     // and of degree three
-  Crease = 4     // the largest, or the smallest, of two or three affine functions
+  Crease = 4     // the largest, or the smallest, of two to four of degree one or two
 };
 
 /// The largest cosine between the normals on either side of a crease, that of 25 degrees.
@@ -58,7 +58,7 @@ struct LocalFit
   /// edge alone.
   Vector gradient;
   bool isGradientFitted; // to the samples, not the slope along the edge
-  /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 unless the order is Quadratic or Cubic.
+  /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 where what was fitted is affine.
   std::array<double, 6> hessian;
   double spacing; // of the samples there: see NeighborhoodFitter
   FitOrder order; // that held
@@ -71,12 +71,14 @@ struct LocalFit
 /// once, then one of degree three through the wider neighbourhood, then one of degree two, if they
 /// leave but small ones.
 ///
-/// Larger residuals come from noise, from creases, or from detail that the samples resolve thinly.
-/// Creases are looked for first, where they are asked for. Otherwise the corrected Akaike criterion
-/// (Hurvich, Tsai, "Regression and time series model selection in small samples", Biometrika 76,
-/// 1989) tells detail from the rest: there a polynomial of degree three is better than those of a
-/// lower degree, by more than noise would let it, and than two or three affine functions that meet
-/// at creases. Where this is common among the isopoints around, one of degree two is enough to
+/// Larger residuals come from noise, from creases, or from detail that the samples resolve thinly,
+/// told apart by the corrected Akaike criterion (Hurvich, Tsai, "Regression and time series model
+/// selection in small samples", Biometrika 76, 1989). Creases are looked for first, where they are
+/// asked for and where residuals of samples close to each other are alike: in the wider
+/// neighbourhood and, since a few samples of one more piece do not determine it, in the narrow one.
+/// There is one where polynomials that meet at it are better than a single one and leave but small
+/// residuals. There is detail where a polynomial of degree three is better than those of a
+/// lower degree, by more than noise would let it, and than affine functions that meet at creases. Where this is common among the isopoints around, one of degree two is enough to
 /// tell of detail; where next to none do, few others are asked. Where samples are too few for
 /// all that, a polynomial of degree two may leave residuals three times as large.
 ///

@@ -15,16 +15,24 @@
 namespace fittesting
 {
 
+using isopoint::cross;
 using isopoint::difference;
+using isopoint::dot;
 using isopoint::FitEdge;
 using isopoint::FitOrder;
 using isopoint::FitRequest;
 using isopoint::FitSample;
 using isopoint::lengthOf;
 using isopoint::LocalFit;
+using isopoint::scaled;
 using isopoint::Vector;
 
 using Field = std::function<double(const Vector&)>;
+
+inline double degreesBetween(const Vector& a, const Vector& b)
+{
+  return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
+}
 
 inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, double noise = 0.0)
 {

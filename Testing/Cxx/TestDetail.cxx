@@ -12,22 +12,11 @@
 #include <map>
 #include <utility>
 
+using namespace fittesting;
+using isopoint::DetailTally;
+
 namespace
 {
-
-using fittesting::cloudOf;
-using fittesting::extractFitted;
-using fittesting::Field;
-using fittesting::fit;
-using fittesting::meanDistanceFromGyroid;
-using fittesting::samplesOf;
-using fittesting::upwards;
-using isopoint::DetailTally;
-using isopoint::FitEdge;
-using isopoint::FitOrder;
-using isopoint::lengthOf;
-using isopoint::LocalFit;
-using isopoint::Vector;
 
 DetailTally tallyOf(int told, int asked)
 {

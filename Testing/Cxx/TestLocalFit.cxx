@@ -9,35 +9,7 @@
 #include <functional>
 #include <limits>
 
-namespace
-{
-
-using isopoint::cross;
-using isopoint::difference;
-using isopoint::dot;
-using isopoint::FitEdge;
-using isopoint::FitOrder;
-using isopoint::FitRequest;
-using isopoint::FitSample;
-using isopoint::lengthOf;
-using isopoint::LocalFit;
-using isopoint::scaled;
-using isopoint::Vector;
-
-using fittesting::cloudOf;
-using fittesting::extractFitted;
-using fittesting::Field;
-using fittesting::fit;
-using fittesting::meanDistanceFromGyroid;
-using fittesting::samplesOf;
-using fittesting::upwards;
-
-double degreesBetween(const Vector& a, const Vector& b)
-{
-  return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
-}
-
-} // namespace
+using namespace fittesting;
 
 TEST(LocalFit, ReproducesPolynomialsOfDegreeTwo)
 {
@@ -212,15 +184,6 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
   EXPECT_TRUE(asksForMore(FitOrder::Cubic, fold, 0.0));
 }
 
-TEST(LocalFit, FindsTheNearerSheetOfACrease)
-{
-  const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const LocalFit found = fit(samplesOf(field, 50), upwards(), FitOrder::Crease);
-  ASSERT_EQ(found.order, FitOrder::Crease);
-  EXPECT_NEAR(field(found.position), 0.0, 1e-9);
-  EXPECT_NEAR(std::max(std::abs(found.gradient[0]), std::abs(found.gradient[2])), 1.0, 1e-9);
-}
-
 TEST(LocalFit, MovesASpheresPointsOntoIt)
 {
   const Field field = [](const Vector& p) { return lengthOf(p); };
@@ -262,25 +225,6 @@ TEST(LocalFit, PointsAtTheEndOfTheRangeStayInIt)
     const Vector found = fit(samples, edge, FitOrder::Cubic).position;
     ASSERT_TRUE(std::isfinite(found[0]) && std::isfinite(found[1]) && std::isfinite(found[2]));
   }
-}
-
-TEST(LocalFit, ACubesPointsLieOnItsFaces)
-{
-  const Field field = [](const Vector& p)
-  {
-    const double x = 0.8 * p[0] - 0.6 * p[1];
-    const double y = 0.6 * p[0] + 0.8 * p[1];
-    return std::max(
-      { std::abs(x), std::abs(0.8 * y - 0.6 * p[2]), std::abs(0.6 * y + 0.8 * p[2]) });
-  };
-  const isopoint::Isosurface surface =
-    extractFitted(cloudOf(field, 100000, 46.4), 12.0, true, 2, FitOrder::Crease);
-  std::size_t far = 0;
-  for (const LocalFit& at : surface.fits)
-  {
-    far += std::abs(field(at.position) - 12.0) > 0.1 ? 1 : 0;
-  }
-  EXPECT_LT(far, surface.fits.size() / 100);
 }
 
 TEST(LocalFit, LeavesTheExtractionAsItIs)
