@@ -28,7 +28,7 @@
  * surface of all voxels than linear interpolation puts them, normals as near or nearer: that is why
  * CUBIC_FIT is the default. LINEAR_FIT, which smooths everything, is not safe so. CREASE_FIT also
  * fits two to four functions of degree one or two, of which the largest or the smallest counts, and
- * points go to the nearer sheet: of random samples of a cube, 0.2 % of the normals are then off by
+ * points go to the nearer sheet: of random samples of a cube, 0.3 % of the normals are then off by
  * more than five degrees instead of 20 %, and 0.1 % instead of 4 % of two balls joined.
  *
  * What is promised:

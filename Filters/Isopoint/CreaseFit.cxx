@@ -87,12 +87,14 @@ private:
   std::size_t pieceAt(const Eigen::Vector3d& p) const
   {
     std::size_t best = 0;
+    double bestValue = this->Fit.sense * this->Fit.pieces[best].value(p);
     for (std::size_t piece = 1; piece < this->Fit.pieces.size(); ++piece)
     {
-      if (this->Fit.sense * this->Fit.pieces[piece].value(p) >
-          this->Fit.sense * this->Fit.pieces[best].value(p))
+      const double value = this->Fit.sense * this->Fit.pieces[piece].value(p);
+      if (value > bestValue)
       {
         best = piece;
+        bestValue = value;
       }
     }
     return best;

@@ -77,10 +77,11 @@ struct LocalFit
 /// asked for and where residuals of samples close to each other are alike: in the wider
 /// neighbourhood and, since a few samples of one more piece do not determine it, in the narrow one.
 /// There is one where polynomials that meet at it are better than a single one and leave but small
-/// residuals. There is detail where a polynomial of degree three is better than those of a
-/// lower degree, by more than noise would let it, and than affine functions that meet at creases. Where this is common among the isopoints around, one of degree two is enough to
-/// tell of detail; where next to none do, few others are asked. Where samples are too few for
-/// all that, a polynomial of degree two may leave residuals three times as large.
+/// residuals. There is detail where a polynomial of degree three is better than those of a lower
+/// degree, by more than noise would let it, and than affine functions that meet at creases. Where
+/// this is common among the isopoints around, one of degree two is enough to tell of detail; where
+/// next to none do, few others are asked. Where samples are too few for all that, a polynomial of
+/// degree two may leave residuals three times as large.
 ///
 /// A fit does not hold if the samples do not determine it, if it falls where the edge rises, or if
 /// the isopoint would move farther than half its edge's length; nor is detail looked for on edges

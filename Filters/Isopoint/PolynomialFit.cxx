@@ -70,20 +70,6 @@ std::optional<Polynomial> fit(const std::vector<FrameSample>& samples)
 
 } // namespace
 
-double Polynomial::value(const Eigen::Vector3d& p) const
-{
-  const auto& c = this->coefficients;
-  switch (this->degree)
-  {
-    case 1:
-      return c.head<4>().dot(basisAt<1>(p));
-    case 2:
-      return c.head<10>().dot(basisAt<2>(p));
-    default:
-      return c.dot(basisAt<3>(p));
-  }
-}
-
 Eigen::Vector3d Polynomial::gradient(const Eigen::Vector3d& p) const
 {
   const auto& c = this->coefficients;

@@ -36,7 +36,26 @@ struct Polynomial
   Eigen::Matrix<double, coefficientCount(highestDegree), 1> coefficients =
     Eigen::Matrix<double, coefficientCount(highestDegree), 1>::Zero();
 
-  double value(const Eigen::Vector3d& p) const;
+  double value(const Eigen::Vector3d& p) const
+  {
+    const auto& c = this->coefficients;
+    const double x = p.x();
+    const double y = p.y();
+    const double z = p.z();
+    double value = c[0] + c[1] * x + c[2] * y + c[3] * z;
+    if (this->degree > 1)
+    {
+      value += x * (c[4] * x + c[7] * y + c[8] * z) + y * (c[5] * y + c[9] * z) + c[6] * z * z;
+    }
+    if (this->degree > 2)
+    {
+      value += x * x * (c[10] * x + c[13] * y + c[14] * z) +
+               y * y * (c[11] * y + c[15] * x + c[16] * z) +
+               z * z * (c[12] * z + c[17] * x + c[18] * y) + c[19] * x * y * z;
+    }
+    return value;
+  }
+
   Eigen::Vector3d gradient(const Eigen::Vector3d& p) const;
 
   /// The second derivatives xx, yy, zz, xy, xz, yz.
