@@ -54,7 +54,6 @@ public:
     this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
     TangentCell cell(splat.normal);
-    splat.clip = { 0.0, 0.0, 0.0, 0.0 };
     this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell, splat);
     if (cell.isOpen() && !this->reachesAcrossGap(point, cell, splat))
     {
@@ -78,7 +77,7 @@ private:
   {
     const FitOrder order =
       this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
-    return order == FitOrder::Quadratic || order == FitOrder::Cubic;
+    return order >= FitOrder::Quadratic;
   }
 
   /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
@@ -156,7 +155,7 @@ private:
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
-      double nearestCrease = limit;
+      this->Creases.clear();
       bool isComplete = this->Nearest.size() < this->Wanted;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
@@ -165,7 +164,9 @@ private:
           difference(this->Points.positions[other], this->Points.positions[point]);
         if (this->meetAtCrease(point, other, offset))
         {
-          this->cutAtCrease(other, offset, cell, splat, nearestCrease);
+          const Crease crease = this->creaseTowards(other, offset, splat.normal);
+          cell.cut(scaled(-1.0, crease.inward), crease.height);
+          this->Creases.push_back(crease);
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
@@ -187,6 +188,7 @@ private:
       }
       if (isComplete || this->Wanted >= mostNeighbors)
       {
+        splat.clip = this->clipAtNearestCrease(limit);
         return;
       }
     }
@@ -223,8 +225,7 @@ private:
     }
     const FitOrder order = this->Points.fits[point].order;
     const FitOrder otherOrder = this->Points.fits[other].order;
-    const bool isTold = order != FitOrder::None && otherOrder != FitOrder::None &&
-                        (order == FitOrder::Crease || otherOrder == FitOrder::Crease);
+    const bool isTold = order != FitOrder::None && otherOrder == FitOrder::Crease;
     const Vector& normal = this->Splats[point].normal;
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(normal, offset);
@@ -234,33 +235,57 @@ private:
            (height < tolerance) == (otherHeight < tolerance);
   }
 
-  /// Cuts off what lies beyond the plane of a point across a crease.
-  void cutAtCrease(std::size_t other, const Vector& offset, TangentCell& cell, Splat& splat,
-    double& nearestCrease) const
+  /// The plane of a point across a crease, as seen from a splat's centre.
+  struct Crease
+  {
+    Vector inward;   // normal to it, to the splat's side
+    double height;   // of the centre over it
+    double distance; // of the centre from the crease, along the splat
+  };
+
+  Crease creaseTowards(std::size_t other, const Vector& offset, const Vector& normal) const
   {
     const Vector& otherNormal = this->Splats[other].normal;
-    const double cosine = dot(splat.normal, otherNormal);
+    const double cosine = dot(normal, otherNormal);
     // At a convex crease each point lies behind the other's plane, at a concave one before it.
-    const double height = dot(splat.normal, offset);
+    const double height = dot(normal, offset);
     const double otherHeight = -dot(otherNormal, offset);
     const double side =
-      (std::abs(height) > std::abs(otherHeight) ? height : otherHeight) < 0.0 ? 1.0 : -1.0;
-    const double inside = std::max(0.0, -side * otherHeight);
-    cell.cut(scaled(side, otherNormal), inside);
-    const double distance = inside / std::sqrt(1.0 - cosine * cosine);
-    if (distance < nearestCrease)
+      (std::abs(height) > std::abs(otherHeight) ? height : otherHeight) < 0.0 ? -1.0 : 1.0;
+    const double inside = std::max(0.0, side * otherHeight);
+    return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
+  }
+
+  /// What clips the splat: the middle one of the planes of the nearest points across the nearest
+  /// crease, since one of them may be a little off.
+  std::array<double, 4> clipAtNearestCrease(double limit)
+  {
+    const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
+    const auto nearest = std::min_element(this->Creases.begin(), this->Creases.end(), isNearer);
+    if (nearest == this->Creases.end() || !(nearest->distance < limit))
     {
-      nearestCrease = distance;
-      splat.clip = { -side * otherNormal[0], -side * otherNormal[1], -side * otherNormal[2],
-        inside };
+      return { 0.0, 0.0, 0.0, 0.0 };
     }
+    constexpr std::size_t most = 5;
+    std::vector<Crease> planes;
+    for (const Crease& crease : this->Creases)
+    {
+      if (planes.size() < most && dot(crease.inward, nearest->inward) > mostCreaseCosine)
+      {
+        planes.push_back(crease);
+      }
+    }
+    const auto middle = planes.begin() + static_cast<std::ptrdiff_t>(planes.size() / 2);
+    std::nth_element(planes.begin(), middle, planes.end(), isNearer);
+    return { middle->inward[0], middle->inward[1], middle->inward[2], middle->height };
   }
 
   const NearestPositions& Finder;
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // normals at least
   std::vector<NearestPositions::Neighbor> Nearest;
-  std::size_t Wanted = 0; // of the nearest; there may be fewer
+  std::size_t Wanted = 0;      // of the nearest; there may be fewer
+  std::vector<Crease> Creases; // by the distance of the points across
 };
 
 /// Takes normals from the fits' gradients. @returns the points that have none

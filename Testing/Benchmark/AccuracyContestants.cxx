@@ -96,8 +96,13 @@ std::vector<Contestant> scatteredContestants()
         filter->SetNormalMethod(Filter::NORMALS_FROM_PLANES);
       }),
     ours("isopoints", [](Filter* filter) { filter->ComputeSplatAxesOn(); }),
-    ours(
-      "isopoints, with creases", [](Filter* filter) { filter->SetProjection(Filter::CREASE_FIT); }),
+    ours("isopoints, with creases",
+      [](Filter* filter)
+      {
+        filter->SetProjection(Filter::CREASE_FIT);
+        filter->ComputeSplatAxesOn();
+        filter->ComputeSplatClipsOn();
+      }),
     { "CGAL Delaunay + marching tetrahedra", marchingTetrahedra },
     { "VTK resampling (8 closest) + Flying Edges", resample },
   };

@@ -100,11 +100,8 @@ double rimDistance(const std::vector<Splat>& splats, const Surface& surface, dou
   {
     if (isWithin(splat.center, halfSide))
     {
-      for (const Vector& axis : { splat.axis1, splat.axis2 })
-      {
-        ends.push_back(analytic::sum(splat.center, axis));
-        ends.push_back(analytic::difference(splat.center, axis));
-      }
+      const std::array<Vector, 4> ofSplat = splat.ends();
+      ends.insert(ends.end(), ofSplat.begin(), ofSplat.end());
     }
   }
   std::vector<double> distances(ends.size());

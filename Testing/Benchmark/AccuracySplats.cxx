@@ -50,6 +50,24 @@ double Splat::radius() const
   return std::max(length(this->axis1), length(this->axis2));
 }
 
+bool Splat::isClippedAt(const Vector& offset) const
+{
+  return dot({ this->clip[0], this->clip[1], this->clip[2] }, offset) + this->clip[3] < 0.0;
+}
+
+std::array<Vector, 4> Splat::ends() const
+{
+  std::array<Vector, 4> result{ this->axis1, analytic::scaled(this->axis1, -1.0), this->axis2,
+    analytic::scaled(this->axis2, -1.0) };
+  for (Vector& end : result)
+  {
+    const double towardsPlane = -dot({ this->clip[0], this->clip[1], this->clip[2] }, end);
+    const double share = this->isClippedAt(end) ? this->clip[3] / towardsPlane : 1.0;
+    end = analytic::sum(this->center, analytic::scaled(end, share));
+  }
+  return result;
+}
+
 std::vector<Splat> splatsOf(vtkPolyData* points)
 {
   vtkPointData* const data = points->GetPointData();
@@ -57,6 +75,7 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
   vtkDataArray* const radii = data->GetArray("Radius");
   vtkDataArray* const axes1 = data->GetArray("SplatAxis1");
   vtkDataArray* const axes2 = data->GetArray("SplatAxis2");
+  vtkDataArray* const clips = data->GetArray("SplatClip");
   std::vector<Splat> splats;
   if (!normals || !(radii || (axes1 && axes2)))
   {
@@ -72,6 +91,10 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
                      : axesAcross(splat.normal, radii->GetComponent(i, 0));
     splat.axis1 = axes[0];
     splat.axis2 = axes[1];
+    if (clips)
+    {
+      clips->GetTuple(i, splat.clip.data());
+    }
     splats.push_back(splat);
   }
   return splats;
@@ -108,7 +131,7 @@ bool Coverage::isCoveredBy(const Splat& splat, const Vector& place) const
 {
   const Vector way = difference(place, splat.center);
   const double height = std::abs(dot(way, splat.normal));
-  if (height > std::max(this->LeastTolerance, 0.5 * splat.radius()))
+  if (height > std::max(this->LeastTolerance, 0.5 * splat.radius()) || splat.isClippedAt(way))
   {
     return false;
   }

@@ -17,22 +17,29 @@ class vtkPolyData;
 namespace accuracy
 {
 
-/// An ellipse in space.
+/// An ellipse in space, or what a plane leaves of it.
 struct Splat
 {
   analytic::Vector center;
   analytic::Vector normal; // of length 1
   analytic::Vector axis1;  // half-axes, across the normal
   analytic::Vector axis2;
+  /// a, b, c, d: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
+  std::array<double, 4> clip{};
 
   double radius() const; // half the major axis
+
+  bool isClippedAt(const analytic::Vector& offset) const; // from the centre
+
+  /// The ends of both axes, or where they meet the clipping plane.
+  std::array<analytic::Vector, 4> ends() const;
 };
 
 /// An array's tuple of three components.
 analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
 /// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
-/// "SplatAxis2"; none where there is neither.
+/// "SplatAxis2", none where there is neither; clipped as an array "SplatClip" tells.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Answers which places splats cover.

@@ -158,6 +158,23 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   EXPECT_EQ(ellipse.axis1, (Vector{ 0.0, 2.0, 0.0 }));
   EXPECT_EQ(ellipse.axis2, (Vector{ 0.25, 0.0, 0.0 }));
   EXPECT_EQ(ellipse.radius(), 2.0);
+
+  vtkNew<vtkFloatArray> clip;
+  clip->SetName("SplatClip");
+  clip->SetNumberOfComponents(4);
+  clip->InsertNextTuple4(0.0, -1.0, 0.0, 0.5);
+  cloud->GetPointData()->AddArray(clip);
+  const std::vector<Splat> clipped = accuracy::splatsOf(cloud);
+  const Vector center = clipped.at(0).center;
+  const auto beside = [&](double x, double y) {
+    return analytic::sum(center, Vector{ x, y, 0.0 });
+  };
+  EXPECT_EQ(clipped[0].ends(), (std::array<Vector, 4>{ beside(0.0, 0.5), beside(0.0, -2.0),
+                                 beside(0.25, 0.0), beside(-0.25, 0.0) }));
+  const Coverage coverage(clipped, 0.1);
+  EXPECT_TRUE(coverage.covers(beside(0.0, 0.49)));
+  EXPECT_FALSE(coverage.covers(beside(0.0, 0.51)));
+  EXPECT_TRUE(coverage.covers(beside(0.0, -1.9)));
 }
 
 TEST(Coverage, ThinnedPointsStillCoverASphere)
