@@ -54,10 +54,10 @@ public:
     this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
     TangentCell cell(splat.normal);
-    this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell, splat);
-    if (cell.isOpen() && !this->reachesAcrossGap(point, cell, splat))
+    this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell);
+    if (cell.isOpen() && !this->reachesAcrossGap(point, cell))
     {
-      this->cutOut(point, openReach * spacing, Bound::AllPoints, cell, splat);
+      this->cutOut(point, openReach * spacing, Bound::AllPoints, cell);
     }
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
@@ -69,6 +69,7 @@ public:
     splat.axis1 = scaled(overlap, ellipse.axis1);
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
+    splat.clip = this->clipAtNearestCrease(splat.radius);
   }
 
 private:
@@ -90,19 +91,19 @@ private:
   /// Cuts the cell of a point beside a gap of the isopoints, as between samples that stand in
   /// lines. @returns whether points of its own sheet stand all around the gap, as they do not at a
   /// border; the cell is of no use otherwise
-  bool reachesAcrossGap(std::size_t point, TangentCell& cell, Splat& splat)
+  bool reachesAcrossGap(std::size_t point, TangentCell& cell)
   {
     if (!this->isSmooth(point) || !std::isfinite(this->Points.fits[point].spacing))
     {
       return false;
     }
     const double reach = gapReach * this->Points.fits[point].spacing;
-    this->cutOut(point, reach, Bound::Sheet, cell, splat);
+    this->cutOut(point, reach, Bound::Sheet, cell);
     if (cell.isOpen() || !cell.isRound())
     {
       return false;
     }
-    this->cutOut(point, reach, Bound::AllPoints, cell, splat);
+    this->cutOut(point, reach, Bound::AllPoints, cell);
     return true;
   }
 
@@ -149,9 +150,9 @@ private:
 
   /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
   /// farther than twice its reach do not touch it.
-  /// @param splat whose clip is set where a crease lies nearer
-  void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell, Splat& splat)
+  void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
   {
+    const Vector& normal = this->Splats[point].normal;
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
@@ -164,7 +165,7 @@ private:
           difference(this->Points.positions[other], this->Points.positions[point]);
         if (this->meetAtCrease(point, other, offset))
         {
-          const Crease crease = this->creaseTowards(other, offset, splat.normal);
+          const Crease crease = this->creaseTowards(other, offset, normal);
           cell.cut(scaled(-1.0, crease.inward), crease.height);
           this->Creases.push_back(crease);
         }
@@ -174,7 +175,7 @@ private:
           const double half = 0.5 * neighbor.distance;
           if (this->bendsTowards(point, other, outward))
           {
-            cell.cut(directionOf(sum(outward, -dot(outward, splat.normal), splat.normal)), half);
+            cell.cut(directionOf(sum(outward, -dot(outward, normal), normal)), half);
           }
           else if (bound == Bound::AllPoints)
           {
@@ -188,7 +189,6 @@ private:
       }
       if (isComplete || this->Wanted >= mostNeighbors)
       {
-        splat.clip = this->clipAtNearestCrease(limit);
         return;
       }
     }
@@ -256,13 +256,13 @@ private:
     return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
   }
 
-  /// What clips the splat: the middle one of the planes of the nearest points across the nearest
-  /// crease, since one of them may be a little off.
-  std::array<double, 4> clipAtNearestCrease(double limit)
+  /// What clips a splat that reaches so far: the middle one of the planes of the nearest points
+  /// across the nearest crease, since one of them may be a little off.
+  std::array<double, 4> clipAtNearestCrease(double reach) const
   {
     const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
     const auto nearest = std::min_element(this->Creases.begin(), this->Creases.end(), isNearer);
-    if (nearest == this->Creases.end() || !(nearest->distance < limit))
+    if (nearest == this->Creases.end() || !(nearest->distance < reach))
     {
       return { 0.0, 0.0, 0.0, 0.0 };
     }
