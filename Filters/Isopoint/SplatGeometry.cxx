@@ -69,7 +69,8 @@ public:
     splat.axis1 = scaled(overlap, ellipse.axis1);
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
-    splat.clip = this->clipAtNearestCrease(splat.radius);
+    // Blended with others, a splat that ends before a crease still belongs to one side of it.
+    splat.clip = this->clipAtNearestCrease(std::max(closedReach * spacing, splat.radius));
   }
 
 private:
@@ -256,13 +257,13 @@ private:
     return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
   }
 
-  /// What clips a splat that reaches so far: the middle one of the planes of the nearest points
-  /// across the nearest crease, since one of them may be a little off.
-  std::array<double, 4> clipAtNearestCrease(double reach) const
+  /// What clips a splat unless the nearest crease is farther than a limit: the middle one of the
+  /// planes of the nearest points across the nearest crease, since one of them may be a little off.
+  std::array<double, 4> clipAtNearestCrease(double limit) const
   {
     const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
     const auto nearest = std::min_element(this->Creases.begin(), this->Creases.end(), isNearer);
-    if (nearest == this->Creases.end() || !(nearest->distance < reach))
+    if (nearest == this->Creases.end() || !(nearest->distance < limit))
     {
       return { 0.0, 0.0, 0.0, 0.0 };
     }
