@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "FitNeighborhood.h"
 
-#include <Eigen/LU>
+#include "PolynomialZero.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,39 +118,15 @@ bool FitNeighborhood::tellsOfNoise()
   return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
 }
 
-// By Moran's I ("Notes on continuous stochastic phenomena", Biometrika 37, 1950): the mean product
-// of the residuals of two samples, by how close they are, over the mean square of one.
 bool FitNeighborhood::leavesPattern()
 {
   this->weigh(mildWeight);
   std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, 2);
-  if (!polynomial && !(polynomial = fitPolynomial(this->Samples, 1)))
+  if (!polynomial)
   {
-    return false;
+    polynomial = fitPolynomial(this->Samples, 1);
   }
-  constexpr double squaredReach = 0.6;
-  std::vector<double> residuals; // by the roots of their weights
-  double squares = 0.0;
-  double weights = 0.0;
-  double products = 0.0;
-  double productWeights = 0.0;
-  for (const FrameSample& sample : this->Samples)
-  {
-    const double weight = std::sqrt(sample.weight);
-    const double residual = weight * (sample.value - polynomial->value(sample.position));
-    for (std::size_t i = 0; i < residuals.size(); ++i)
-    {
-      const FrameSample& other = this->Samples[i];
-      const double closeness =
-        std::max(0.0, squaredReach - (sample.position - other.position).squaredNorm());
-      products += closeness * residual * residuals[i];
-      productWeights += closeness * weight * std::sqrt(other.weight);
-    }
-    residuals.push_back(residual);
-    squares += residual * residual;
-    weights += sample.weight;
-  }
-  return products * weights > leastCoherence * productWeights * squares;
+  return polynomial && residualCoherence(this->Samples, *polynomial) > leastCoherence;
 }
 
 int FitNeighborhood::bestDegree()
@@ -329,9 +305,9 @@ bool FitNeighborhood::risesAlong(const Eigen::Vector3d& gradient) const
   return gradient.dot(this->Rising) > leastCosine * gradient.norm() * this->Rising.norm();
 }
 
-bool FitNeighborhood::mayMoveTo(const Eigen::Vector3d& position) const
+double FitNeighborhood::farthestMove() const
 {
-  return position.norm() <= mostMove * this->Rising.norm();
+  return mostMove * this->Rising.norm();
 }
 
 CandidateFit FitNeighborhood::tryPolynomial(const Polynomial& polynomial) const
@@ -345,7 +321,7 @@ CandidateFit FitNeighborhood::tryPolynomial(const Polynomial& polynomial) const
   {
     return candidate;
   }
-  const std::optional<Eigen::Vector3d> position = this->zeroOf(polynomial);
+  const std::optional<Eigen::Vector3d> position = zeroNear(polynomial, this->farthestMove());
   if (!position)
   {
     return candidate;
@@ -404,64 +380,15 @@ void FitNeighborhood::moveToNearestSheet(const CreaseFit& fit, CandidateFit& can
   };
   for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
   {
-    consider(piece, this->zeroOf(fit.pieces[piece]));
+    consider(piece, zeroNear(fit.pieces[piece], this->farthestMove()));
   }
   for (std::size_t piece = 0; piece < fit.pieces.size() && !candidate.holds(); ++piece)
   {
     for (std::size_t other = 0; other < piece; ++other)
     {
-      consider(piece, this->commonZeroOf(fit.pieces[piece], fit.pieces[other]));
+      consider(piece, commonZeroNear(fit.pieces[piece], fit.pieces[other], this->farthestMove()));
     }
   }
-}
-
-/// Steps from the origin until they vanish. @returns where, unless that is too far
-template <class Step>
-std::optional<Eigen::Vector3d> FitNeighborhood::follow(const Step& stepAt) const
-{
-  constexpr int mostSteps = 8;
-  constexpr double accuracy = 1e-12;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  for (int i = 0; i < mostSteps; ++i)
-  {
-    const Eigen::Vector3d step = stepAt(position);
-    position += step;
-    if (!this->mayMoveTo(position)) // nor is it a number, where the gradient vanishes
-    {
-      return std::nullopt;
-    }
-    if (step.norm() <= accuracy)
-    {
-      return position;
-    }
-  }
-  return std::nullopt;
-}
-
-/// The zero of a polynomial that Newton's method along gradients leads to.
-std::optional<Eigen::Vector3d> FitNeighborhood::zeroOf(const Polynomial& polynomial) const
-{
-  return this->follow(
-    [&](const Eigen::Vector3d& p) -> Eigen::Vector3d
-    {
-      const Eigen::Vector3d gradient = polynomial.gradient(p);
-      return -polynomial.value(p) / gradient.squaredNorm() * gradient;
-    });
-}
-
-/// The same of two polynomials: each step is the shortest to the line where both tangents are zero.
-std::optional<Eigen::Vector3d> FitNeighborhood::commonZeroOf(
-  const Polynomial& first, const Polynomial& second) const
-{
-  return this->follow(
-    [&](const Eigen::Vector3d& p) -> Eigen::Vector3d
-    {
-      Eigen::Matrix<double, 2, 3> gradients;
-      gradients << first.gradient(p).transpose(), second.gradient(p).transpose();
-      const Eigen::Matrix2d products = gradients * gradients.transpose();
-      const Eigen::Vector2d values(first.value(p), second.value(p));
-      return -gradients.transpose() * (products.inverse() * values);
-    });
 }
 
 } // namespace isopoint

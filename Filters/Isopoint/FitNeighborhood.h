@@ -81,14 +81,9 @@ private:
   double criterionOf(const CreaseFit& crease) const;
   double freedom(int degree) const;
   bool risesAlong(const Eigen::Vector3d& gradient) const;
-  bool mayMoveTo(const Eigen::Vector3d& position) const;
+  double farthestMove() const;
   CandidateFit tryPolynomial(const Polynomial& polynomial) const;
   CandidateFit tryCrease(const CreaseFit& fit) const;
-  template <class Step>
-  std::optional<Eigen::Vector3d> follow(const Step& stepAt) const;
-  std::optional<Eigen::Vector3d> zeroOf(const Polynomial& polynomial) const;
-  std::optional<Eigen::Vector3d> commonZeroOf(
-    const Polynomial& first, const Polynomial& second) const;
   void moveToNearestSheet(const CreaseFit& fit, CandidateFit& candidate) const;
 
   double Scale;

@@ -3,6 +3,9 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
+#include <cmath>
+
 namespace isopoint
 {
 namespace
@@ -115,6 +118,32 @@ std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
     default:
       return fit<3>(samples);
   }
+}
+
+double residualCoherence(const std::vector<FrameSample>& samples, const Polynomial& polynomial)
+{
+  constexpr double squaredReach = 0.6;
+  std::vector<double> residuals; // by the roots of their weights
+  double squares = 0.0;
+  double weights = 0.0;
+  double products = 0.0;
+  double productWeights = 0.0;
+  for (const FrameSample& sample : samples)
+  {
+    const double weight = std::sqrt(sample.weight);
+    const double residual = weight * (sample.value - polynomial.value(sample.position));
+    for (std::size_t i = 0; i < residuals.size(); ++i)
+    {
+      const double closeness =
+        std::max(0.0, squaredReach - (sample.position - samples[i].position).squaredNorm());
+      products += closeness * residual * residuals[i];
+      productWeights += closeness * weight * std::sqrt(samples[i].weight);
+    }
+    residuals.push_back(residual);
+    squares += residual * residual;
+    weights += sample.weight;
+  }
+  return products / productWeights / (squares / weights);
 }
 
 } // namespace isopoint

@@ -81,6 +81,12 @@ double meanSquaredResidual(const std::vector<FrameSample>& samples, const Functi
   return sum / weights;
 }
 
+/// How alike the residuals of samples close to each other are: Moran's I ("Notes on continuous
+/// stochastic phenomena", Biometrika 37, 1950), the weighted mean product of two, by how close they
+/// are, over the mean square of one. Noise leaves about 0 or less, what is no polynomial of the
+/// degree more. Complexity: O(samples.size()^2)
+double residualCoherence(const std::vector<FrameSample>& samples, const Polynomial& polynomial);
+
 } // namespace isopoint
 
 #endif
