@@ -154,12 +154,12 @@ public:
    * is curved), QUADRATIC_FIT (degree two), CUBIC_FIT (degree two, and three where that leaves
    * residuals of more than a five hundredth of the samples' distances) or CREASE_FIT (the same, and
    * where the samples tell of a crease two to four functions that meet there; for bodies with sharp
-   * edges: where there are none it takes longer, and may see some that are not). No
-   * point moves farther than half its edge's length; where no fit describes the samples, as in
-   * noise, it stays, and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to three
-   * times as long as the extraction, with creases up to seven times. Whether residuals are noise
-   * is decided together with up to 255 isopoints around: where some of these are dropped, others
-   * may move. Default: CUBIC_FIT.
+   * edges: where there are none it takes longer, and may see some that are not). No point moves
+   * farther than half its edge's length; where no fit describes the samples, as in noise, it stays,
+   * and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to five times as long as
+   * the extraction, with creases up to nine times, and more where there are many. What residuals
+   * tell of is decided together with up to 255 isopoints around: where some of these are dropped,
+   * others may move. Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);

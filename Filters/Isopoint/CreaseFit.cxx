@@ -294,9 +294,15 @@ std::vector<CreaseFit> fitCreases(
     {
       take(best.result());
     }
-    starts.erase(std::remove_if(starts.begin(), starts.end(),
-                   [](Alternation& start) { return !start.split(0.5); }),
-      starts.end());
+    std::vector<Alternation> split;
+    for (Alternation& start : starts)
+    {
+      if (start.split(0.5))
+      {
+        split.push_back(std::move(start));
+      }
+    }
+    starts = std::move(split);
   }
   return results;
 }

@@ -51,8 +51,8 @@ struct CreaseSearch
 /// which its residuals bend most, then that of the largest residuals is cut so again. Where pieces
 /// may be curved, polynomials of degree two follow, by further alternation, for those of up to
 /// three pieces whose samples determine them.
-/// @returns those of smallest residuals for each number of pieces, affine and curved; without those
-/// in which a piece has too few samples
+/// @returns the affine ones of smallest residuals for each number of pieces, and the curved ones
+/// that follow from them; without those in which a piece has too few samples
 /// Complexity: O(samples.size())
 std::vector<CreaseFit> fitCreases(
   const std::vector<FrameSample>& samples, const CreaseSearch& search);

@@ -30,11 +30,11 @@ class FitAttempts
 public:
   /// @param fit that is taken over into
   FitAttempts(FitNeighborhood& neighborhood, const std::function<FitNeighborhood()>& gatherWider,
-    FitOrder highest, DetailTally& tally, LocalFit& fit)
+    FitOrder highest, FitTallies& tallies, LocalFit& fit)
     : Neighborhood(neighborhood)
     , GatherWider(gatherWider)
     , Highest(highest)
-    , Tally(tally)
+    , Tallies(tallies)
     , Fit(fit)
   {
   }
@@ -82,20 +82,22 @@ private:
     {
       return true;
     }
-    if (this->Neighborhood.tellsOfNoise() || !this->wider().leavesPattern())
+    if (this->Neighborhood.tellsOfNoise() || !this->wider().leavesPattern() ||
+        !this->Tallies.creases.isToBeAsked())
     {
       return false;
     }
     // Close to a corner, a few samples of a third piece do not determine it.
-    for (FitNeighborhood* const samples : { &this->wider(), &this->Neighborhood })
-    {
-      const CandidateFit best = samples->best(FitOrder::Crease);
-      if (best.order == FitOrder::Crease && samples->apply(best, this->Fit))
-      {
-        return true;
-      }
-    }
-    return false;
+    const bool isFound =
+      this->takeCreaseThrough(this->wider()) || this->takeCreaseThrough(this->Neighborhood);
+    this->Tallies.creases.add(isFound);
+    return isFound;
+  }
+
+  bool takeCreaseThrough(FitNeighborhood& samples)
+  {
+    const CandidateFit best = samples.best(FitOrder::Crease);
+    return best.order == FitOrder::Crease && samples.apply(best, this->Fit);
   }
 
   /// A cubic that leaves residuals, where detail that the samples resolve thinly is what leaves
@@ -103,13 +105,13 @@ private:
   bool takeDetail()
   {
     if (this->Highest < FitOrder::Cubic || this->Neighborhood.mayCrossGap() ||
-        !this->Tally.isToBeAsked())
+        !this->Tallies.detail.isToBeAsked())
     {
       return false;
     }
     const int degree = this->wider().bestDegree();
-    this->Tally.add(degree == 3);
-    const bool isDetail = degree == 3 || (degree == 2 && this->Tally.isCommon());
+    this->Tallies.detail.add(degree == 3);
+    const bool isDetail = degree == 3 || (degree == 2 && this->Tallies.detail.isCommon());
     return isDetail && this->wider().apply(this->cubic(), this->Fit);
   }
 
@@ -138,7 +140,7 @@ private:
   FitNeighborhood& Neighborhood;
   const std::function<FitNeighborhood()>& GatherWider;
   FitOrder Highest;
-  DetailTally& Tally;
+  FitTallies& Tallies;
   LocalFit& Fit;
   CandidateFit Quadratic;
   std::optional<FitNeighborhood> Wider;
@@ -149,7 +151,7 @@ private:
 
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
   const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest,
-  DetailTally& tally)
+  FitTallies& tallies)
 {
   LocalFit fit{};
   fit.position = edge.position;
@@ -172,7 +174,7 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   }
   const std::function<FitNeighborhood()> gatherWider = [&]()
   { return FitNeighborhood(edge, isovalue, widerSamples(), spacing); };
-  FitAttempts(neighborhood, gatherWider, highest, tally, fit).run();
+  FitAttempts(neighborhood, gatherWider, highest, tallies, fit).run();
   if (fit.order == FitOrder::None)
   {
     if (const std::optional<Vector> gradient = neighborhood.affineGradient())

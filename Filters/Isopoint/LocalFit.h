@@ -2,7 +2,7 @@
 #ifndef isopoint_LocalFit_h
 #define isopoint_LocalFit_h
 
-#include "DetailTally.h"
+#include "FindingTally.h"
 #include "Vector.h"
 
 #include <cstdint>
@@ -91,14 +91,14 @@ struct LocalFit
 ///
 /// @param highest order to try: None, Linear (also in noise, with the milder weights), Quadratic,
 /// Cubic, or Crease
-/// @param tally of the isopoints around that were fitted before
+/// @param tallies of the isopoints around that were fitted before
 /// @param widerSamples gives more of them, if there are; asked only where those do not suffice
 /// @param samples of the neighbourhood, the edge's ends among them, at least two, in an order that
 /// does not depend on how they were found: sums are taken in it
-/// Complexity: O(samples.size())
+/// Complexity: O(samples.size()), with creases O(samples.size()^2)
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
   const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest,
-  DetailTally& tally);
+  FitTallies& tallies);
 
 } // namespace isopoint
 

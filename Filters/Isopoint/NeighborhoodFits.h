@@ -2,8 +2,8 @@
 #ifndef isopoint_NeighborhoodFits_h
 #define isopoint_NeighborhoodFits_h
 
-#include "DetailTally.h"
 #include "Execution.h"
+#include "FindingTally.h"
 #include "Interpolation.h"
 #include "Isopoint.h"
 #include "LargeNeighborhood.h"
@@ -49,7 +49,7 @@ public:
   {
   }
 
-  LocalFit fit(const LocatedIsopoint<TSample>& point, DetailTally& tally)
+  LocalFit fit(const LocatedIsopoint<TSample>& point, FitTallies& tallies)
   {
     this->gather(point);
     const FitSample first = this->sampleAt(point.firstSlot);
@@ -76,7 +76,7 @@ public:
         this->gatherWider(point);
         return this->WiderSamples;
       },
-      this->Highest, tally);
+      this->Highest, tallies);
     fit.spacing = edge.spacing;
     return fit;
   }
@@ -362,7 +362,8 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 /// of the cells that touch one of them. Where one of the two touches more than 256, its own are
 /// left out; where both do, those that are small as seen from it are represented by one. The tree
 /// is to be refined for the isovalue. Isopoints are fitted in groups of 256 that follow each other
-/// in the tree: what the others tell of detail decides on doubtful ones (see DetailTally).
+/// in the tree: what the others tell of detail and creases decides on doubtful ones (see
+/// FindingTally).
 /// @param points whose parameters are set to where moved isopoints stand
 template <class TSample>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
@@ -371,7 +372,7 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
 {
   std::vector<LocalFit> fits(points.size());
   const std::vector<TreePlace> places = placesOf(execution, tree, points);
-  // So many isopoints share a tally. Batches are of few groups: where cells touch hundreds of
+  // So many isopoints share tallies. Batches are of few groups: where cells touch hundreds of
   // others, a point takes long.
   constexpr std::size_t groupSize = 256;
   constexpr std::size_t batch = 4;
@@ -381,12 +382,12 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleT
       NeighborhoodFitter<TSample> fitter(tree, isovalue, request.highest, shared);
       for (std::size_t group = begin; group < end; ++group)
       {
-        DetailTally tally;
+        FitTallies tallies;
         const std::size_t groupEnd = std::min((group + 1) * groupSize, places.size());
         for (std::size_t i = group * groupSize; i < groupEnd; ++i)
         {
           const std::size_t point = places[i].point;
-          fits[point] = fitter.fit(points[point], tally);
+          fits[point] = fitter.fit(points[point], tallies);
           fitter.settle(points[point], fits[point], request.move);
         }
       }

@@ -268,10 +268,11 @@ private:
       return { 0.0, 0.0, 0.0, 0.0 };
     }
     constexpr std::size_t most = 5;
-    std::vector<Crease> planes;
+    std::vector<Crease> planes{ *nearest };
     for (const Crease& crease : this->Creases)
     {
-      if (planes.size() < most && dot(crease.inward, nearest->inward) > mostCreaseCosine)
+      if (&crease != &*nearest && planes.size() < most &&
+          dot(crease.inward, nearest->inward) > mostCreaseCosine)
       {
         planes.push_back(crease);
       }

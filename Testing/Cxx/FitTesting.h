@@ -47,11 +47,11 @@ inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, d
 }
 
 inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
-  double isovalue = 0.0, isopoint::DetailTally tally = {})
+  double isovalue = 0.0, isopoint::FitTallies tallies = {})
 {
   return isopoint::fitAround(
     edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest,
-    tally);
+    tallies);
 }
 
 /// A vertical edge of length 2 on which linear interpolation is at the origin.

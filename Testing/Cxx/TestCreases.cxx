@@ -199,6 +199,43 @@ TEST(Creases, AreNotFoundInNoise)
   EXPECT_LT(creases, surface.fits.size() / 100);
 }
 
+// Detail that is resolved thinly leaves patterns, too.
+TEST(Creases, AreRareWhereThereIsDetail)
+{
+  const Field field = [](const Vector& p)
+  {
+    const Vector q = scaled(0.6, p);
+    return std::sin(q[0]) * std::cos(q[1]) + std::sin(q[1]) * std::cos(q[2]) +
+           std::sin(q[2]) * std::cos(q[0]);
+  };
+  const isopoint::Isosurface surface =
+    extractFitted(cloudOf(field, 20000, 27.0), 0.3, true, 2, FitOrder::Crease);
+  std::size_t creases = 0;
+  for (const LocalFit& at : surface.fits)
+  {
+    creases += at.order == FitOrder::Crease ? 1 : 0;
+  }
+  ASSERT_GT(surface.fits.size(), 5000u);
+  EXPECT_LT(creases, surface.fits.size() / 500);
+}
+
+// Where next to none are found the search takes many times as long as the extraction.
+TEST(Creases, AreNotLookedForWhereTheyAreRare)
+{
+  const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
+  const auto orderAfter = [&](int found)
+  {
+    isopoint::FitTallies tallies;
+    for (int i = 0; i < 16; ++i)
+    {
+      tallies.creases.add(i < found);
+    }
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, tallies).order;
+  };
+  EXPECT_EQ(orderAfter(2), FitOrder::Crease);
+  EXPECT_NE(orderAfter(1), FitOrder::Crease);
+}
+
 TEST(Creases, LeaveAPatternOfResidualsAndNoiseDoesNot)
 {
   const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };

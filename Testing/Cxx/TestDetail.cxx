@@ -2,7 +2,7 @@
 // Detail that samples resolve thinly, told from noise and from steps.
 #include "FitTesting.h"
 
-#include "Isopoint/DetailTally.h"
+#include "Isopoint/FindingTally.h"
 
 #include <gtest/gtest.h>
 
@@ -13,14 +13,14 @@
 #include <utility>
 
 using namespace fittesting;
-using isopoint::DetailTally;
+using isopoint::FindingTally;
 
 namespace
 {
 
-DetailTally tallyOf(int told, int asked)
+FindingTally tallyOf(int told, int asked)
 {
-  DetailTally tally;
+  FindingTally tally;
   for (int i = 0; i < asked; ++i)
   {
     tally.add(i < told);
@@ -39,7 +39,7 @@ TEST(Detail, TalliesTellWhetherItIsCommon)
 
 TEST(Detail, FewAreAskedWhereItIsRare)
 {
-  const auto asked = [](DetailTally tally)
+  const auto asked = [](FindingTally tally)
   {
     int count = 0;
     for (int i = 0; i < 80; ++i)
@@ -107,8 +107,9 @@ TEST(Detail, NoiseMovesFewPoints)
 TEST(Detail, IsNotLookedForWhereItIsRare)
 {
   const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
-  const auto orderAfter = [&](const DetailTally& tally)
-  { return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, tally).order; };
+  const auto orderAfter = [&](const FindingTally& tally) {
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
+  };
   EXPECT_EQ(orderAfter(tallyOf(2, 16)), FitOrder::Cubic);
   EXPECT_EQ(orderAfter(tallyOf(1, 16)), FitOrder::None);
 }
@@ -117,8 +118,9 @@ TEST(Detail, IsNotLookedForWhereItIsRare)
 TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
 {
   const Field field = [](const Vector& p) { return p[2] + 0.2 * p[0] * p[0]; };
-  const auto orderAfter = [&](const DetailTally& tally)
-  { return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, tally).order; };
+  const auto orderAfter = [&](const FindingTally& tally) {
+    return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
+  };
   EXPECT_EQ(orderAfter(tallyOf(4, 16)), FitOrder::None);
   EXPECT_EQ(orderAfter(tallyOf(8, 16)), FitOrder::Cubic);
 }

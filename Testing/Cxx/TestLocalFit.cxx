@@ -163,7 +163,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
   {
     bool asked = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
-    isopoint::DetailTally tally;
+    isopoint::FitTallies tallies;
     isopoint::fitAround(
       upwards(), 0.0, samples,
       [&]() -> const std::vector<FitSample>&
@@ -171,7 +171,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
         asked = true;
         return samples;
       },
-      highest, tally);
+      highest, tallies);
     return asked;
   };
   const Field plane = [](const Vector& p) { return p[2]; };

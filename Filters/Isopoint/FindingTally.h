@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_DetailTally_h
-#define isopoint_DetailTally_h
+#ifndef isopoint_FindingTally_h
+#define isopoint_FindingTally_h
 
 namespace isopoint
 {
 
-/// Counts how often samples tell of detail among isopoints that lie close together. In noise, next
-/// to none do, and those by chance: there the question is not worth its time. Where many do, weaker
-/// evidence of the others is to be believed.
-class DetailTally
+/// Counts how often samples tell of what is looked for, detail or creases, among isopoints that lie
+/// close together. In noise, next to none do, and those by chance: there the question is not worth
+/// its time. Where many do, weaker evidence of the others is to be believed.
+class FindingTally
 {
 public:
-  /// Whether to ask the next isopoint: where next to none of those asked told of detail, if there
-  /// were enough of them, only one in eight is.
+  /// Whether to ask the next isopoint: where next to none of those asked told of it, if there were
+  /// enough of them, only one in eight is.
   bool isToBeAsked()
   {
     const bool isRare = this->Asked >= fewestAsked && this->Told < rareShare * this->Asked;
@@ -20,7 +20,7 @@ public:
     return this->Skipped == 0;
   }
 
-  /// Whether many of those asked told of detail, if there were enough of them.
+  /// Whether many of those asked told of it, if there were enough of them.
   bool isCommon() const
   {
     return this->Asked >= fewestAsked && this->Told >= commonShare * this->Asked;
@@ -42,6 +42,13 @@ private:
   double Asked = 0.0;
   double Told = 0.0;
   int Skipped = 0; // lately
+};
+
+/// What is looked for where residuals are large.
+struct FitTallies
+{
+  FindingTally detail;
+  FindingTally creases;
 };
 
 } // namespace isopoint
