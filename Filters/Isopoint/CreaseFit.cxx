@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -20,11 +21,10 @@ namespace
 class Alternation
 {
 public:
-  Alternation(const std::vector<FrameSample>& samples, double sense)
+  explicit Alternation(const std::vector<FrameSample>& samples)
     : Samples(&samples)
     , Labels(samples.size(), 0)
   {
-    this->Fit.sense = sense;
     this->Fit.sampleCount = samples.size();
   }
 
@@ -33,6 +33,14 @@ public:
   {
     this->Fit.pieces.resize(1);
     return this->refit(1);
+  }
+
+  /// The same, whose pieces are to be the largest (1) or the smallest (-1) of functions.
+  Alternation withSense(double sense) const
+  {
+    Alternation other = *this;
+    other.Fit.sense = sense;
+    return other;
   }
 
   /// Parts the piece of the largest residuals in two, `share` of its samples staying.
@@ -44,7 +52,7 @@ public:
     const auto kept = static_cast<std::size_t>(share * static_cast<double>(along.size()));
     for (std::size_t i = kept; i < along.size(); ++i)
     {
-      this->Labels[along[i].second] = this->Fit.pieces.size();
+      this->Labels[along[i].second] = static_cast<std::uint8_t>(this->Fit.pieces.size());
     }
     this->Fit.pieces.emplace_back();
     return this->settle(1);
@@ -74,7 +82,7 @@ private:
       changed = false;
       for (std::size_t i = 0; i < this->Samples->size(); ++i)
       {
-        const std::size_t piece = this->pieceAt((*this->Samples)[i].position);
+        const std::uint8_t piece = this->pieceAt((*this->Samples)[i].position);
         changed = changed || piece != this->Labels[i];
         this->Labels[i] = piece;
       }
@@ -84,11 +92,11 @@ private:
     return true;
   }
 
-  std::size_t pieceAt(const Eigen::Vector3d& p) const
+  std::uint8_t pieceAt(const Eigen::Vector3d& p) const
   {
-    std::size_t best = 0;
+    std::uint8_t best = 0;
     double bestValue = this->Fit.sense * this->Fit.pieces[best].value(p);
-    for (std::size_t piece = 1; piece < this->Fit.pieces.size(); ++piece)
+    for (std::uint8_t piece = 1; piece < this->Fit.pieces.size(); ++piece)
     {
       const double value = this->Fit.sense * this->Fit.pieces[piece].value(p);
       if (value > bestValue)
@@ -103,20 +111,12 @@ private:
   /// Fits each piece to its samples. @returns whether they determine all
   bool refit(int degree)
   {
-    for (std::size_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
+    for (std::uint8_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
     {
-      this->SamplesOfPiece.clear();
-      for (std::size_t i = 0; i < this->Samples->size(); ++i)
-      {
-        if (this->Labels[i] == piece)
-        {
-          this->SamplesOfPiece.push_back((*this->Samples)[i]);
-        }
-      }
       std::optional<Polynomial> polynomial;
       for (int tried = degree; tried > 0 && !polynomial; --tried)
       {
-        polynomial = fitPolynomial(this->SamplesOfPiece, tried);
+        polynomial = fitPolynomial(*this->Samples, this->Labels, piece, tried);
       }
       if (!polynomial)
       {
@@ -183,8 +183,7 @@ private:
   }
 
   const std::vector<FrameSample>* Samples;
-  std::vector<FrameSample> SamplesOfPiece; // scratch
-  std::vector<std::size_t> Labels;         // the piece of each sample
+  std::vector<std::uint8_t> Labels; // the piece of each sample
   CreaseFit Fit;
 };
 
@@ -197,13 +196,18 @@ bool isBetter(const Alternation& a, const Alternation& b)
 std::vector<Alternation> startAlternations(
   const std::vector<FrameSample>& samples, const CreaseSearch& search)
 {
+  Alternation single(samples);
+  if (!single.start())
+  {
+    return {};
+  }
   std::vector<Alternation> starts;
   const auto start = [&](double sense, double share)
   {
-    Alternation parts(samples, sense);
-    if (parts.start() && parts.split(share))
+    Alternation parts = single.withSense(sense);
+    if (parts.split(share))
     {
-      starts.push_back(parts);
+      starts.push_back(std::move(parts));
     }
   };
   start(1.0, 0.5);
@@ -240,8 +244,7 @@ double CreaseFit::value(const Eigen::Vector3d& p) const
 std::size_t CreaseFit::coefficients() const
 {
   return std::accumulate(this->pieces.begin(), this->pieces.end(), std::size_t{ 0 },
-    [](std::size_t sum, const Polynomial& piece)
-    { return sum + static_cast<std::size_t>(coefficientCount(piece.degree)); });
+    [](std::size_t sum, const Polynomial& piece) { return sum + coefficientCount(piece.degree); });
 }
 
 double CreaseFit::relativeResidual() const
@@ -251,9 +254,8 @@ double CreaseFit::relativeResidual() const
   {
     gentlest = std::min(gentlest, piece.gradient(Eigen::Vector3d::Zero()).norm());
   }
-  const auto count = static_cast<double>(this->sampleCount);
-  const double freedom = count / (count - static_cast<double>(this->coefficients()));
-  return std::sqrt(freedom * this->meanSquare) / gentlest;
+  return std::sqrt(residualFreedom(this->sampleCount, this->coefficients()) * this->meanSquare) /
+         gentlest;
 }
 
 bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const

@@ -79,7 +79,8 @@ FitNeighborhood::FitNeighborhood(
   {
     const Eigen::Vector3d offset =
       toEigen(difference(sample.position, edge.position)) / this->Scale;
-    this->Samples.push_back({ offset, (sample.value - isovalue) / this->ValueScale, 1.0 });
+    const double weight = mildWeight(offset.squaredNorm());
+    this->Samples.push_back({ offset, (sample.value - isovalue) / this->ValueScale, weight });
   }
 }
 
@@ -111,16 +112,14 @@ CandidateFit FitNeighborhood::smooth(int degree)
   return polynomial ? this->tryPolynomial(*polynomial) : CandidateFit();
 }
 
-bool FitNeighborhood::tellsOfNoise()
+bool FitNeighborhood::tellsOfNoise() const
 {
-  this->weigh(mildWeight);
   const std::optional<Polynomial> quadratic = fitPolynomial(this->Samples, 2);
   return quadratic && this->unexplainedShare(*quadratic) > noiseShare;
 }
 
-bool FitNeighborhood::leavesPattern()
+bool FitNeighborhood::leavesPattern() const
 {
-  this->weigh(mildWeight);
   std::optional<Polynomial> polynomial = fitPolynomial(this->Samples, 2);
   if (!polynomial)
   {
@@ -129,10 +128,9 @@ bool FitNeighborhood::leavesPattern()
   return polynomial && residualCoherence(this->Samples, *polynomial) > leastCoherence;
 }
 
-int FitNeighborhood::bestDegree()
+int FitNeighborhood::bestDegree() const
 {
   constexpr int none = 1;
-  this->weigh(mildWeight);
   double least = std::numeric_limits<double>::infinity();
   int best = none;
   double quadraticMeanSquare = 0.0;
@@ -163,13 +161,12 @@ int FitNeighborhood::bestDegree()
   return isCrease ? none : best;
 }
 
-CandidateFit FitNeighborhood::best(FitOrder highest)
+CandidateFit FitNeighborhood::best(FitOrder highest) const
 {
   if (!this->isUsable())
   {
     return {};
   }
-  this->weigh(mildWeight);
   CandidateFit chosen;
   const auto consider = [&chosen](const CandidateFit& candidate)
   {
@@ -203,9 +200,8 @@ CandidateFit FitNeighborhood::best(FitOrder highest)
   return chosen;
 }
 
-std::optional<Vector> FitNeighborhood::affineGradient()
+std::optional<Vector> FitNeighborhood::affineGradient() const
 {
-  this->weigh(mildWeight);
   const std::optional<Polynomial> affine = fitPolynomial(this->Samples, 1);
   if (!affine)
   {
@@ -270,7 +266,8 @@ double FitNeighborhood::unexplainedShare(const Polynomial& polynomial) const
   mean /= weights;
   const double variance =
     meanSquaredResidual(this->Samples, [mean](const Eigen::Vector3d&) { return mean; });
-  return this->freedom(polynomial.degree) * this->meanSquareOf(polynomial) / variance;
+  return residualFreedom(this->Samples.size(), coefficientCount(polynomial.degree)) *
+         this->meanSquareOf(polynomial) / variance;
 }
 
 double FitNeighborhood::meanSquareOf(const Polynomial& polynomial) const
@@ -281,21 +278,12 @@ double FitNeighborhood::meanSquareOf(const Polynomial& polynomial) const
 
 double FitNeighborhood::criterionOf(int degree, double meanSquare) const
 {
-  return akaikeCriterion(
-    this->Samples.size(), static_cast<std::size_t>(coefficientCount(degree)), meanSquare);
+  return akaikeCriterion(this->Samples.size(), coefficientCount(degree), meanSquare);
 }
 
 double FitNeighborhood::criterionOf(const CreaseFit& crease) const
 {
   return akaikeCriterion(this->Samples.size(), crease.coefficients(), crease.meanSquare);
-}
-
-/// What mean squares are to be multiplied by: a fit of as many coefficients as samples leaves no
-/// residuals.
-double FitNeighborhood::freedom(int degree) const
-{
-  const auto count = static_cast<double>(this->Samples.size());
-  return count / (count - coefficientCount(degree));
 }
 
 /// Whether a gradient does not contradict the edge, which may run along a surface that bends.
@@ -316,7 +304,8 @@ CandidateFit FitNeighborhood::tryPolynomial(const Polynomial& polynomial) const
   candidate.isDetermined = true;
   const double meanSquare = this->meanSquareOf(polynomial);
   Eigen::Vector3d gradient = polynomial.gradient(Eigen::Vector3d::Zero());
-  candidate.residual = std::sqrt(meanSquare * this->freedom(polynomial.degree)) / gradient.norm();
+  const double freedom = residualFreedom(this->Samples.size(), coefficientCount(polynomial.degree));
+  candidate.residual = std::sqrt(freedom * meanSquare) / gradient.norm();
   if (!std::isfinite(candidate.residual) || !this->risesAlong(gradient))
   {
     return candidate;

@@ -49,22 +49,22 @@ public:
   CandidateFit smooth(int degree);
 
   /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
-  bool tellsOfNoise();
+  bool tellsOfNoise() const;
 
   /// Whether a polynomial of degree two leaves residuals that are alike among samples close to each
   /// other, as beside a crease, rather than independent, as in noise.
-  bool leavesPattern();
+  bool leavesPattern() const;
 
   /// The degree of the polynomial, of degree one to three, that the criterion tells to be best; 1
   /// where creases are better, or where samples do not determine all of them.
-  int bestDegree();
+  int bestDegree() const;
 
   /// The fit that the criterion tells to be best.
-  CandidateFit best(FitOrder highest);
+  CandidateFit best(FitOrder highest) const;
 
   /// The gradient of the affine function through the samples, in the units of the field, unless it
   /// tells of too little or contradicts the edge.
-  std::optional<Vector> affineGradient();
+  std::optional<Vector> affineGradient() const;
 
   /// Takes a fit over where it holds. @returns whether it does
   bool apply(const CandidateFit& candidate, LocalFit& fit) const;
@@ -79,7 +79,6 @@ private:
   double meanSquareOf(const Polynomial& polynomial) const;
   double criterionOf(int degree, double meanSquare) const;
   double criterionOf(const CreaseFit& crease) const;
-  double freedom(int degree) const;
   bool risesAlong(const Eigen::Vector3d& gradient) const;
   double farthestMove() const;
   CandidateFit tryPolynomial(const Polynomial& polynomial) const;
@@ -88,7 +87,7 @@ private:
 
   double Scale;
   double ValueScale = 0.0;
-  std::vector<FrameSample> Samples;
+  std::vector<FrameSample> Samples; // mildly weighted
   Eigen::Vector3d Rising;
   double EndSpacing;
 };

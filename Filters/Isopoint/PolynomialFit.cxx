@@ -37,26 +37,32 @@ Eigen::Matrix<double, coefficientCount(Degree), 1> basisAt(const Eigen::Vector3d
 }
 
 /// See fitPolynomial().
-template <int Degree>
-std::optional<Polynomial> fit(const std::vector<FrameSample>& samples)
+/// @param isTaken of the number of a sample, whether to fit to it
+template <int Degree, class IsTaken>
+std::optional<Polynomial> fit(const std::vector<FrameSample>& samples, const IsTaken& isTaken)
 {
   constexpr int count = coefficientCount(Degree);
-  // Residuals are to remain, or nothing tells whether the fit describes the samples.
-  constexpr std::size_t fewestSamples = count + 1 + count / 5;
-  if (samples.size() < fewestSamples)
-  {
-    return std::nullopt;
-  }
   using Matrix = Eigen::Matrix<double, count, count>;
   using Vector = Eigen::Matrix<double, count, 1>;
   Matrix matrix = Matrix::Zero();
   Vector rightSide = Vector::Zero();
-  for (const FrameSample& sample : samples)
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    const Vector basis = basisAt<Degree>(sample.position);
-    const Vector weighted = sample.weight * basis;
-    matrix.noalias() += weighted * basis.transpose();
-    rightSide += sample.value * weighted;
+    if (isTaken(i))
+    {
+      const Vector basis = basisAt<Degree>(samples[i].position);
+      const Vector weighted = samples[i].weight * basis;
+      matrix.noalias() += weighted * basis.transpose();
+      rightSide += samples[i].value * weighted;
+      ++taken;
+    }
+  }
+  // Residuals are to remain, or nothing tells whether the fit describes the samples.
+  constexpr std::size_t fewestSamples = count + 1 + count / 5;
+  if (taken < fewestSamples)
+  {
+    return std::nullopt;
   }
   const Eigen::LDLT<Matrix> factors(matrix);
   // The estimate of the condition passes over pivots of 0.
@@ -69,6 +75,21 @@ std::optional<Polynomial> fit(const std::vector<FrameSample>& samples)
   polynomial.degree = Degree;
   polynomial.coefficients.template head<count>() = factors.solve(rightSide);
   return polynomial.coefficients.allFinite() ? std::optional<Polynomial>(polynomial) : std::nullopt;
+}
+
+template <class IsTaken>
+std::optional<Polynomial> fit(
+  const std::vector<FrameSample>& samples, int degree, const IsTaken& isTaken)
+{
+  switch (degree)
+  {
+    case 1:
+      return fit<1>(samples, isTaken);
+    case 2:
+      return fit<2>(samples, isTaken);
+    default:
+      return fit<3>(samples, isTaken);
+  }
 }
 
 } // namespace
@@ -109,15 +130,13 @@ std::array<double, 6> Polynomial::hessian(const Eigen::Vector3d& p) const
 
 std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree)
 {
-  switch (degree)
-  {
-    case 1:
-      return fit<1>(samples);
-    case 2:
-      return fit<2>(samples);
-    default:
-      return fit<3>(samples);
-  }
+  return fit(samples, degree, [](std::size_t) { return true; });
+}
+
+std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
+  const std::vector<std::uint8_t>& labels, std::uint8_t label, int degree)
+{
+  return fit(samples, degree, [&](std::size_t i) { return labels[i] == label; });
 }
 
 double residualCoherence(const std::vector<FrameSample>& samples, const Polynomial& polynomial)

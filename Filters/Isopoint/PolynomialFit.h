@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,9 +22,9 @@ struct FrameSample
 };
 
 /// How many coefficients a polynomial of three variables has.
-constexpr int coefficientCount(int degree)
+constexpr std::size_t coefficientCount(int degree)
 {
-  return (degree + 1) * (degree + 2) * (degree + 3) / 6;
+  return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
 /// A polynomial of degree one to three. Coefficients are those of 1; x, y, z; x^2, y^2, z^2, x y,
@@ -65,6 +66,19 @@ struct Polynomial
 /// The least-squares polynomial of a degree, unless the samples do not determine it or leave too
 /// few residuals to tell how well it describes them. Complexity: O(samples.size())
 std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree);
+
+/// The same through those samples alone that have a label.
+/// @param labels one of each sample
+std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
+  const std::vector<std::uint8_t>& labels, std::uint8_t label, int degree);
+
+/// What a mean square of residuals is to be multiplied by to tell that of the values' errors: as
+/// many coefficients as samples leave no residuals.
+inline double residualFreedom(std::size_t sampleCount, std::size_t coefficientCount)
+{
+  const auto count = static_cast<double>(sampleCount);
+  return count / (count - static_cast<double>(coefficientCount));
+}
 
 /// The weighted mean of squared residuals.
 template <class Function>

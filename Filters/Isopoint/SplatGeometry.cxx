@@ -220,19 +220,18 @@ private:
   /// the same side of the other's.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    if (this->Points.fits.empty())
+    const std::vector<LocalFit>& fits = this->Points.fits;
+    if (fits.empty() || fits[point].order == FitOrder::None ||
+        fits[other].order != FitOrder::Crease)
     {
       return false;
     }
-    const FitOrder order = this->Points.fits[point].order;
-    const FitOrder otherOrder = this->Points.fits[other].order;
-    const bool isTold = order != FitOrder::None && otherOrder == FitOrder::Crease;
     const Vector& normal = this->Splats[point].normal;
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(normal, offset);
     const double otherHeight = -dot(otherNormal, offset);
     const double tolerance = 0.02 * lengthOf(offset);
-    return isTold && std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
+    return std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
            (height < tolerance) == (otherHeight < tolerance);
   }
 

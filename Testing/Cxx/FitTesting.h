@@ -81,15 +81,30 @@ inline clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
   return cloud;
 }
 
-/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
-/// border. There is one sample in each unit of volume.
-inline double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
+inline Field gyroid(double waveNumber)
 {
-  const Field field = [k = waveNumber](const Vector& p)
+  return [k = waveNumber](const Vector& p)
   {
     return std::sin(k * p[0]) * std::cos(k * p[1]) + std::sin(k * p[1]) * std::cos(k * p[2]) +
            std::sin(k * p[2]) * std::cos(k * p[0]);
   };
+}
+
+/// The gradient of a field, by differences.
+inline Vector slopeOf(const Field& field, const Vector& p)
+{
+  constexpr double step = 1e-5;
+  const double value = field(p);
+  return scaled(1.0 / step,
+    Vector{ field({ p[0] + step, p[1], p[2] }) - value, field({ p[0], p[1] + step, p[2] }) - value,
+      field({ p[0], p[1], p[2] + step }) - value });
+}
+
+/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
+/// border. There is one sample in each unit of volume.
+inline double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
+{
+  const Field field = gyroid(waveNumber);
   constexpr double isovalue = 0.3;
   const isopoint::Isosurface surface =
     extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
@@ -100,11 +115,7 @@ inline double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
     const Vector& p = at.position;
     if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
     {
-      constexpr double step = 1e-4;
-      const Vector slope{ field({ p[0] + step, p[1], p[2] }) - field(p),
-        field({ p[0], p[1] + step, p[2] }) - field(p),
-        field({ p[0], p[1], p[2] + step }) - field(p) };
-      sum += step * std::abs(field(p) - isovalue) / lengthOf(slope);
+      sum += std::abs(field(p) - isovalue) / lengthOf(slopeOf(field, p));
       ++count;
     }
   }

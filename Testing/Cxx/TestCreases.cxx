@@ -43,11 +43,7 @@ struct Body
     {
       if (std::abs(side(p) - this->value(p)) < there)
       {
-        constexpr double step = 1e-6;
-        const Vector slope{ side({ p[0] + step, p[1], p[2] }) - side(p),
-          side({ p[0], p[1] + step, p[2] }) - side(p),
-          side({ p[0], p[1], p[2] + step }) - side(p) };
-        least = std::min(least, degreesBetween(gradient, slope));
+        least = std::min(least, degreesBetween(gradient, slopeOf(side, p)));
       }
     }
     return least;
@@ -105,6 +101,12 @@ Body box(double x, double y, double z)
     body.sides.insert(body.sides.end(), sides.begin(), sides.end());
   }
   return body;
+}
+
+std::size_t countCreases(const isopoint::Isosurface& surface)
+{
+  return static_cast<std::size_t>(std::count_if(surface.fits.begin(), surface.fits.end(),
+    [](const LocalFit& at) { return at.order == FitOrder::Crease; }));
 }
 
 /// The share of places at which residuals of random samples of a field have a pattern.
@@ -190,33 +192,17 @@ TEST(Creases, AreNotFoundInNoise)
   const Field field = [&](const Vector& p) { return lengthOf(p) - 12.0 + 0.2 * (random() - 0.5); };
   const isopoint::Isosurface surface =
     extractFitted(cloudOf(field, 50000, 36.8), 0.0, true, 2, FitOrder::Crease);
-  std::size_t creases = 0;
-  for (const LocalFit& at : surface.fits)
-  {
-    creases += at.order == FitOrder::Crease ? 1 : 0;
-  }
   ASSERT_GT(surface.fits.size(), 2000u);
-  EXPECT_LT(creases, surface.fits.size() / 100);
+  EXPECT_LT(countCreases(surface), surface.fits.size() / 100);
 }
 
 // Detail that is resolved thinly leaves patterns, too.
 TEST(Creases, AreRareWhereThereIsDetail)
 {
-  const Field field = [](const Vector& p)
-  {
-    const Vector q = scaled(0.6, p);
-    return std::sin(q[0]) * std::cos(q[1]) + std::sin(q[1]) * std::cos(q[2]) +
-           std::sin(q[2]) * std::cos(q[0]);
-  };
   const isopoint::Isosurface surface =
-    extractFitted(cloudOf(field, 20000, 27.0), 0.3, true, 2, FitOrder::Crease);
-  std::size_t creases = 0;
-  for (const LocalFit& at : surface.fits)
-  {
-    creases += at.order == FitOrder::Crease ? 1 : 0;
-  }
+    extractFitted(cloudOf(gyroid(0.6), 20000, 27.0), 0.3, true, 2, FitOrder::Crease);
   ASSERT_GT(surface.fits.size(), 5000u);
-  EXPECT_LT(creases, surface.fits.size() / 500);
+  EXPECT_LT(countCreases(surface), surface.fits.size() / 500);
 }
 
 // Where next to none are found the search takes many times as long as the extraction.
