@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -62,6 +64,7 @@ public:
   {
     this->Droppers.clear();
     this->Queue.clear();
+    this->Next.reset();
     this->addNearDroppers();
     const auto add = [&](std::size_t slot)
     {
@@ -76,12 +79,11 @@ public:
       }
     };
     std::for_each(this->Tops.begin(), this->Tops.end(), add);
-    while (!this->Queue.empty())
+    while (const std::optional<Found> found = this->pop())
     {
-      const Found found = this->pop();
-      const Node<TSample>& node = this->Tree.nodes[found.slot];
-      if (found.checked < this->Droppers.size() &&
-          this->areDropped(criterion, this->Bounds.offsets(this->Center, node), found.checked))
+      const Node<TSample>& node = this->Tree.nodes[found->slot];
+      if (found->checked < this->Droppers.size() &&
+          this->areDropped(criterion, this->Bounds.offsets(this->Center, node), found->checked))
       {
         continue;
       }
@@ -89,12 +91,12 @@ public:
       {
         this->forEachChild(node, add);
       }
-      else if (isWanted(found.slot))
+      else if (isWanted(found->slot))
       {
-        const Offset y = this->offsetTo(found.slot);
+        const Offset y = this->offsetTo(found->slot);
         if (!this->isDropped(criterion, y))
         {
-          visit(found.slot);
+          visit(found->slot);
         }
         this->Droppers.push_back(y);
       }
@@ -124,6 +126,7 @@ private:
     std::size_t slot;
     std::size_t checked; // droppers that do not drop all of it
 
+    /// Whether it is farther: heaps have the greatest on top.
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
 
@@ -141,14 +144,29 @@ private:
     }
   }
 
-  void push(const Found& found)
+  void push(Found found)
   {
+    if (!this->Next)
+    {
+      this->Next = found;
+      return;
+    }
+    if (*this->Next < found)
+    {
+      std::swap(*this->Next, found);
+    }
     this->Queue.push_back(found);
     std::push_heap(this->Queue.begin(), this->Queue.end());
   }
 
-  Found pop()
+  /// Takes out the nearest of those pushed, if there is one.
+  std::optional<Found> pop()
   {
+    const bool isNext = this->Next && (this->Queue.empty() || !(*this->Next < this->Queue.front()));
+    if (isNext || this->Queue.empty())
+    {
+      return std::exchange(this->Next, std::nullopt);
+    }
     std::pop_heap(this->Queue.begin(), this->Queue.end());
     const Found found = this->Queue.back();
     this->Queue.pop_back();
@@ -269,8 +287,9 @@ private:
   isopoint::Region Region{};
   double Center[3]{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
-  std::vector<Found> Queue;
-  std::vector<Offset> Droppers; // neighbours known so far: near ones, and those of interest
+  std::optional<Found> Next;     // often the nearest of all, kept out of the heap
+  std::vector<Found> Queue;      // of the others
+  std::vector<Offset> Droppers;  // neighbours known so far: near ones, and those of interest
 };
 
 } // namespace isopoint

@@ -69,14 +69,11 @@ public:
     for (int depth = 0; !front.empty();)
     {
       const int bottom = treeletBottom(depth, root.count());
-      if (bottom > maximumDepth)
-      {
-        throw std::length_error("too many heaps of samples at one position inside each other");
-      }
-      this->splitFront(front, bottom - depth);
+      this->splitFront(front, depth, bottom);
       this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
-      if (this->isComplete(front))
+      if (this->isNearlyFinished(front, bottom - depth))
       {
+        this->finish(front, bottom);
         break;
       }
       this->mark(front, bottom);
@@ -108,8 +105,14 @@ private:
     std::size_t firstPair;
   };
 
-  void splitFront(const std::vector<BandNode>& front, int levels)
+  /// Splits the nodes of one depth down to another.
+  void splitFront(const std::vector<BandNode>& front, int depth, int bottom)
   {
+    if (bottom > maximumDepth)
+    {
+      throw std::length_error("too many heaps of samples at one position inside each other");
+    }
+    const int levels = bottom - depth;
     // Nodes are split together while there are too few of them to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const bool together = front.size() < 4 * this->Run.threads;
@@ -170,33 +173,59 @@ private:
       });
   }
 
-  /// Whether everything in the front is split down to leaves.
-  bool isComplete(const std::vector<BandNode>& front)
+  /// Whether so few samples are in nodes so many levels below the front that are no leaves that to
+  /// split these all the way takes less time than to tell which of them are needed.
+  bool isNearlyFinished(const std::vector<BandNode>& front, int levels)
   {
-    std::atomic<bool> complete{ true };
-    constexpr std::size_t grain = 1024;
-    forRanges(this->Run, front.size(), grain,
+    const std::size_t few = front.size() / 4;
+    std::atomic<std::size_t> samples{ 0 };
+    forRanges(this->Run, front.size(), searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end && complete; ++i)
+        for (std::size_t i = begin; i < end && samples <= few; ++i)
         {
-          if (!this->hasOnlyLeaves(this->Tree.nodes[front[i].slot], treeletLevels))
-          {
-            complete = false;
-          }
+          samples += this->unfinishedSamples(this->Tree.nodes[front[i].slot], levels);
         }
       });
-    return complete;
+    return samples <= few;
   }
 
-  bool hasOnlyLeaves(const NodeType& node, int levels) const
+  std::size_t unfinishedSamples(const NodeType& node, int levels) const
   {
     if (!node.isSplit() || levels == 0)
     {
-      return node.isLeaf;
+      return node.isLeaf ? 0 : node.count();
     }
-    return this->hasOnlyLeaves(this->Tree.nodes[node.lowerSlot()], levels - 1) &&
-           this->hasOnlyLeaves(this->Tree.nodes[node.upperSlot()], levels - 1);
+    return this->unfinishedSamples(this->Tree.nodes[node.lowerSlot()], levels - 1) +
+           this->unfinishedSamples(this->Tree.nodes[node.upperSlot()], levels - 1);
+  }
+
+  /// Splits everything below the front down to leaves, whether the surface is near or not.
+  /// @param depth that it is split to already
+  void finish(const std::vector<BandNode>& front, int depth)
+  {
+    for (std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
+         !unfinished.empty();)
+    {
+      throwIfAborted(this->Run);
+      const int bottom = depth + treeletLevels;
+      this->splitFront(unfinished, depth, bottom);
+      unfinished = this->unfinishedBelow(unfinished, bottom);
+      depth = bottom;
+    }
+  }
+
+  /// The nodes of a depth that are no leaves.
+  std::vector<BandNode> unfinishedBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth,
+      [this](const Path& below, std::vector<BandNode>& unfinished)
+      {
+        if (!this->Tree.nodes[below.slot()].isLeaf)
+        {
+          unfinished.push_back({ below.index, below.slot(), true });
+        }
+      });
   }
 
   /// Marks the crossing nodes of a depth and all that touch one. Only below crossing nodes can
@@ -250,6 +279,11 @@ private:
     this->Limit.listed(count);
   }
 
+  bool isMarked(std::size_t slot) const
+  {
+    return this->Marks[slot].load(std::memory_order_relaxed) != Mark::None;
+  }
+
   void markNeeded(std::size_t slot)
   {
     Mark none = Mark::None;
@@ -263,7 +297,7 @@ private:
   /// @returns whether all are marked
   bool markBelow(FoundNode top, int depth, const Region& region)
   {
-    if (this->Marks[top.slot].load(std::memory_order_relaxed) != Mark::None)
+    if (this->isMarked(top.slot))
     {
       return true;
     }
@@ -273,9 +307,11 @@ private:
     {
       const FoundNode lower{ node.lowerSlot(), top.depth + 1 };
       const FoundNode upper{ node.upperSlot(), top.depth + 1 };
-      areAll = node.plane >= region.lower[node.axis] && this->markBelow(lower, depth, region);
-      areAll =
-        node.plane <= region.upper[node.axis] && this->markBelow(upper, depth, region) && areAll;
+      areAll = node.plane >= region.lower[node.axis] ? this->markBelow(lower, depth, region)
+                                                     : this->isMarked(lower.slot);
+      areAll = (node.plane <= region.upper[node.axis] ? this->markBelow(upper, depth, region)
+                                                      : this->isMarked(upper.slot)) &&
+               areAll;
     }
     if (areAll)
     {
@@ -287,7 +323,23 @@ private:
   /// The marked nodes of a depth.
   std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
   {
-    std::vector<BandNode> needed;
+    return this->collectBelow(front, depth,
+      [this](const Path& below, std::vector<BandNode>& needed)
+      {
+        const Mark mark = this->Marks[below.slot()].load(std::memory_order_relaxed);
+        if (mark != Mark::None)
+        {
+          needed.push_back({ below.index, below.slot(), mark == Mark::Crossing });
+        }
+      });
+  }
+
+  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, to a list or not
+  template <class Collect>
+  std::vector<BandNode> collectBelow(
+    const std::vector<BandNode>& front, int depth, const Collect& collect)
+  {
+    std::vector<BandNode> collected;
     std::mutex mutex;
     forRanges(this->Run, front.size(), searchGrain,
       [&](std::size_t begin, std::size_t end)
@@ -296,20 +348,12 @@ private:
         for (std::size_t i = begin; i < end; ++i)
         {
           Path path = pathTo(this->Tree, front[i].index);
-          forEachBelow(this->Tree, path, depth,
-            [&](const Path& below)
-            {
-              const Mark mark = this->Marks[below.slot()].load(std::memory_order_relaxed);
-              if (mark != Mark::None)
-              {
-                found.push_back({ below.index, below.slot(), mark == Mark::Crossing });
-              }
-            });
+          forEachBelow(this->Tree, path, depth, [&](const Path& below) { collect(below, found); });
         }
         const std::lock_guard<std::mutex> lock(mutex);
-        needed.insert(needed.end(), found.begin(), found.end());
+        collected.insert(collected.end(), found.begin(), found.end());
       });
-    return needed;
+    return collected;
   }
 
   enum class Mark : std::uint8_t
