@@ -34,7 +34,7 @@ constexpr double mostOverlap = 1.2;
 /// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
 /// where those do around a gap in a smooth surface; and where none do.
 constexpr double closedReach = 2.5;
-constexpr double gapReach = 3.5;
+constexpr double gapReach = 4.5;
 constexpr double openReach = 1.0;
 
 /// Shapes splats whose normals are known, one at a time.
@@ -172,6 +172,10 @@ private:
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
+          if (this->isAcrossKnownCrease(other, offset))
+          {
+            continue;
+          }
           const Vector outward = scaled(1.0 / neighbor.distance, offset);
           const double half = 0.5 * neighbor.distance;
           if (this->bendsTowards(point, other, outward))
@@ -235,6 +239,20 @@ private:
            (height < tolerance) == (otherHeight < tolerance);
   }
 
+  /// Whether a point lies in a plane that has cut the cell at a crease already, farther along it
+  /// than those whose fits tell of the crease.
+  bool isAcrossKnownCrease(std::size_t other, const Vector& offset) const
+  {
+    constexpr double tolerance = 0.05;
+    return std::any_of(this->Creases.begin(), this->Creases.end(),
+      [&](const Crease& crease)
+      {
+        return std::abs(dot(offset, crease.inward) + crease.height) <
+                 tolerance * lengthOf(offset) &&
+               std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
+      });
+  }
+
   /// The plane of a point across a crease, as seen from a splat's centre.
   struct Crease
   {
@@ -276,9 +294,10 @@ private:
         planes.push_back(crease);
       }
     }
-    const auto middle = planes.begin() + static_cast<std::ptrdiff_t>(planes.size() / 2);
-    std::nth_element(planes.begin(), middle, planes.end(), isNearer);
-    return { middle->inward[0], middle->inward[1], middle->inward[2], middle->height };
+    const std::size_t rank = std::min(planes.size() / 2 + 1, planes.size() - 1);
+    const auto chosen = planes.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(planes.begin(), chosen, planes.end(), isNearer);
+    return { chosen->inward[0], chosen->inward[1], chosen->inward[2], chosen->height };
   }
 
   const NearestPositions& Finder;
