@@ -37,6 +37,10 @@ constexpr double closedReach = 2.5;
 constexpr double gapReach = 4.5;
 constexpr double openReach = 1.0;
 
+/// How far splats reach over the plane that clips them, in the same unit: planes of both sides meet
+/// up to errors of the fits.
+constexpr double clipOverlap = 0.01;
+
 /// Shapes splats whose normals are known, one at a time.
 class SplatShaper
 {
@@ -70,7 +74,8 @@ public:
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
     // Blended with others, a splat that ends before a crease still belongs to one side of it.
-    splat.clip = this->clipAtNearestCrease(std::max(closedReach * spacing, splat.radius));
+    splat.clip =
+      this->clipAtNearestCrease(point, spacing, std::max(closedReach * spacing, splat.radius));
   }
 
 private:
@@ -274,9 +279,10 @@ private:
     return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
   }
 
-  /// What clips a splat unless the nearest crease is farther than a limit: the middle one of the
-  /// planes of the nearest points across the nearest crease, since one of them may be a little off.
-  std::array<double, 4> clipAtNearestCrease(double limit) const
+  /// What clips a splat unless the nearest crease is farther than a limit: one of the middle ones
+  /// of the planes of the nearest points across the nearest crease, since some may be a little off.
+  /// That there is one takes two of them, unless the splat's own fit tells so.
+  std::array<double, 4> clipAtNearestCrease(std::size_t point, double spacing, double limit) const
   {
     const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
     const auto nearest = std::min_element(this->Creases.begin(), this->Creases.end(), isNearer);
@@ -294,10 +300,15 @@ private:
         planes.push_back(crease);
       }
     }
+    if (planes.size() < 2 && this->Points.fits[point].order != FitOrder::Crease)
+    {
+      return { 0.0, 0.0, 0.0, 0.0 };
+    }
     const std::size_t rank = std::min(planes.size() / 2 + 1, planes.size() - 1);
     const auto chosen = planes.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(planes.begin(), chosen, planes.end(), isNearer);
-    return { chosen->inward[0], chosen->inward[1], chosen->inward[2], chosen->height };
+    return { chosen->inward[0], chosen->inward[1], chosen->inward[2],
+      chosen->height + clipOverlap * spacing };
   }
 
   const NearestPositions& Finder;

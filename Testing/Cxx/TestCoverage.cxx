@@ -2,6 +2,7 @@
 // The accuracy benchmark's coverage: reading splats, and the search against all splats. What the
 // filter's splats cover where isopoints are thinned out, and where samples stand in lines.
 #include "AccuracySplats.h"
+#include "AnalyticFields.h"
 #include "FilterTesting.h"
 
 #include "vtkFloatArray.h"
@@ -61,26 +62,23 @@ bool covers(const Splat& splat, const Vector& place)
          std::hypot(u, v) <= 1.0;
 }
 
-constexpr double sphereRadius = 0.7;
-
-/// How many of random points of the sphere around the origin no splat covers.
-int countUncovered(vtkPolyData* isopoints, double meanSpacing)
+/// How many of the nearest points of a surface to random places no splat covers.
+int countUncovered(
+  vtkPolyData* isopoints, double meanSpacing, const analytic::Surface& surface, int places = 50000)
 {
   const std::vector<Splat> splats = accuracy::splatsOf(isopoints);
   const Coverage coverage(splats, 0.25 * meanSpacing);
   clouds::Random random(3);
   int uncovered = 0;
-  for (int i = 0; i < 50000; ++i)
+  for (int i = 0; i < places; ++i)
   {
-    const Vector place =
-      analytic::scaled(analytic::directionOf(randomVector(random)), sphereRadius);
-    uncovered += coverage.covers(place) ? 0 : 1;
+    uncovered += coverage.covers(surface.footOf(randomVector(random)).point) ? 0 : 1;
   }
   return uncovered;
 }
 
-/// Samples on vertical lines, several times as far apart as samples on them; "distance" from the
-/// origin.
+/// Samples on vertical lines, several times as far apart as samples on them, with "distance" from
+/// the origin.
 vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
 {
   clouds::Random random(static_cast<std::uint64_t>(seed));
@@ -179,10 +177,11 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
 
 TEST(Coverage, ThinnedPointsStillCoverASphere)
 {
+  const analytic::Surface sphere = analytic::sphere();
   constexpr vtkIdType samples = 50000;
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(filtertesting::newCloud(samples));
-  filter->SetValue(0, sphereRadius);
+  filter->SetValue(0, sphere.isovalue);
   filter->ComputeSplatAxesOn();
   filter->Update();
   const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
@@ -197,7 +196,8 @@ TEST(Coverage, ThinnedPointsStillCoverASphere)
       filter->Update();
       EXPECT_LT(filter->GetOutput()->GetNumberOfPoints(), 0.75 * all);
       EXPECT_EQ(
-        countUncovered(filter->GetOutput(), 2.0 / std::cbrt(static_cast<double>(samples))), 0);
+        countUncovered(filter->GetOutput(), 2.0 / std::cbrt(static_cast<double>(samples)), sphere),
+        0);
     }
   }
 }
@@ -206,15 +206,48 @@ TEST(Coverage, SamplesInLinesCoverASphere)
 {
   constexpr int lines = 640;
   constexpr int samplesOnEach = 100;
+  const analytic::Surface sphere = analytic::sphere();
   vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetValue(0, sphereRadius);
+  filter->SetValue(0, sphere.isovalue);
   filter->ComputeSplatAxesOn();
   for (int seed = 1; seed <= 6; ++seed)
   {
     filter->SetInputData(newLines(lines, samplesOnEach, seed));
     filter->Update();
-    EXPECT_EQ(countUncovered(filter->GetOutput(), 2.0 / std::cbrt(lines * samplesOnEach)), 0)
+    EXPECT_EQ(
+      countUncovered(filter->GetOutput(), 2.0 / std::cbrt(lines * samplesOnEach), sphere), 0)
       << seed;
+  }
+}
+
+// Places outside the cube have their nearest points at its edges and corners, one in five.
+TEST(Coverage, ClippedSplatsMeetAtACubesEdges)
+{
+  constexpr int places = 400000;
+  const analytic::Surface cube = analytic::cube();
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetValue(0, cube.isovalue);
+  filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
+  filter->ComputeSplatAxesOn();
+  filter->ComputeSplatClipsOn();
+  const auto uncoveredOf = [&](vtkPolyData* cloud)
+  {
+    vtkNew<vtkFloatArray> values;
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      Vector place;
+      cloud->GetPoint(i, place.data());
+      values->InsertNextValue(static_cast<float>(cube.value(place)));
+    }
+    cloud->GetPointData()->SetScalars(values);
+    filter->SetInputData(cloud);
+    filter->Update();
+    return countUncovered(filter->GetOutput(), 0.05, cube, places);
+  };
+  EXPECT_EQ(uncoveredOf(filtertesting::newCloud(64000)), 0);
+  for (int seed = 1; seed <= 2; ++seed)
+  {
+    EXPECT_LT(uncoveredOf(newLines(640, 100, seed)), places / 1000) << seed;
   }
 }
 

@@ -165,8 +165,8 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
   }
 }
 
-// Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's,
-// though a fit here and there is off.
+// Two planes at a right angle, as fits with a crease tell of them: each splat ends just behind the
+// other's, though a fit here and there is off.
 TEST(Splats, AreClippedAtACrease)
 {
   isopoint::SurfacePoints points;
@@ -199,15 +199,17 @@ TEST(Splats, AreClippedAtACrease)
     }
     const bool top = i % 2 == 0;
     const double toCrease = -(top ? points.positions[i][0] : points.positions[i][2]);
-    const std::array<double, 4> expected = top ? std::array<double, 4>{ -1.0, 0.0, 0.0, toCrease }
-                                               : std::array<double, 4>{ 0.0, 0.0, -1.0, toCrease };
+    const double overlap = splats[i].clip[3] - toCrease;
+    const Vector expected = top ? Vector{ -1.0, 0.0, 0.0 } : Vector{ 0.0, 0.0, -1.0 };
     if (splats[i].clip != (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }))
     {
       ++clipped;
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < 3; ++k)
       {
         ASSERT_NEAR(splats[i].clip[k], expected[k], 1e-12);
       }
+      ASSERT_GT(overlap, 0.0);
+      ASSERT_LE(overlap, 0.01 + 1e-12);
     }
     else
     {
@@ -217,6 +219,33 @@ TEST(Splats, AreClippedAtACrease)
     }
   }
   EXPECT_GT(clipped, 50);
+}
+
+// A single fit that sees a crease in a plane clips none of those around it.
+TEST(Splats, AreNotClippedByASingleFit)
+{
+  isopoint::SurfacePoints points;
+  clouds::Random random(4);
+  for (int i = 0; i < 500; ++i)
+  {
+    points.positions.push_back({ 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 });
+    points.fallingEdges.push_back({ 0.0, 0.0, 1.0 });
+    isopoint::LocalFit fit{};
+    fit.order = isopoint::FitOrder::Quadratic;
+    fit.isGradientFitted = true;
+    fit.gradient = { 0.0, 0.0, -1.0 };
+    fit.spacing = 1.0;
+    points.fits.push_back(fit);
+  }
+  points.positions[0] = { 0.0, 0.0, 0.0 };
+  points.fits[0].order = isopoint::FitOrder::Crease;
+  points.fits[0].gradient = { -1.0, 0.0, -1.0 };
+  const std::vector<Splat> splats =
+    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  for (std::size_t i = 1; i < splats.size(); ++i)
+  {
+    ASSERT_EQ(splats[i].clip, (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 })) << i;
+  }
 }
 
 // Samples that have the isovalue exactly put many isopoints at their own position.
