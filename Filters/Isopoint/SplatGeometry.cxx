@@ -37,9 +37,9 @@ constexpr double closedReach = 2.5;
 constexpr double gapReach = 4.5;
 constexpr double openReach = 1.0;
 
-/// How far splats reach over the plane that clips them, in the same unit: planes of both sides meet
-/// up to errors of the fits.
-constexpr double clipOverlap = 0.01;
+/// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
+/// to be one, but for errors of the fits.
+constexpr double agreement = 0.01;
 
 /// Shapes splats whose normals are known, one at a time.
 class SplatShaper
@@ -177,7 +177,7 @@ private:
         }
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
-          if (this->isAcrossKnownCrease(other, offset))
+          if (this->isAcrossKnownCrease(point, other, offset))
           {
             continue;
           }
@@ -225,16 +225,17 @@ private:
            std::abs(dot(normal, otherNormal) - turn) < tolerance;
   }
 
-  /// Whether fits tell that the planes of two points meet between them at a crease: each lies on
-  /// the same side of the other's.
+  /// Whether fits tell that the planes of two points meet between them at a crease.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
     const std::vector<LocalFit>& fits = this->Points.fits;
-    if (fits.empty() || fits[point].order == FitOrder::None ||
-        fits[other].order != FitOrder::Crease)
-    {
-      return false;
-    }
+    return !fits.empty() && fits[point].order != FitOrder::None &&
+           fits[other].order == FitOrder::Crease && this->doPlanesMeet(point, other, offset);
+  }
+
+  /// Whether the planes of two points meet between them: each lies on the same side of the other's.
+  bool doPlanesMeet(std::size_t point, std::size_t other, const Vector& offset) const
+  {
     const Vector& normal = this->Splats[point].normal;
     const Vector& otherNormal = this->Splats[other].normal;
     const double height = dot(normal, offset);
@@ -244,18 +245,19 @@ private:
            (height < tolerance) == (otherHeight < tolerance);
   }
 
-  /// Whether a point lies in a plane that has cut the cell at a crease already, farther along it
-  /// than those whose fits tell of the crease.
-  bool isAcrossKnownCrease(std::size_t other, const Vector& offset) const
+  /// Whether a point beside a crease meets there with another that lies farther off in a plane
+  /// which has cut its cell already.
+  bool isAcrossKnownCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
     constexpr double tolerance = 0.05;
-    return std::any_of(this->Creases.begin(), this->Creases.end(),
-      [&](const Crease& crease)
-      {
-        return std::abs(dot(offset, crease.inward) + crease.height) <
-                 tolerance * lengthOf(offset) &&
-               std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
-      });
+    const auto holdsOther = [&](const Crease& crease)
+    {
+      return std::abs(dot(offset, crease.inward) + crease.height) < tolerance * lengthOf(offset) &&
+             std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
+    };
+    return std::any_of(this->Creases.begin(), this->Creases.end(), holdsOther) &&
+           this->Points.fits[point].order == FitOrder::Crease &&
+           this->doPlanesMeet(point, other, offset);
   }
 
   /// The plane of a point across a crease, as seen from a splat's centre.
@@ -279,9 +281,10 @@ private:
     return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
   }
 
-  /// What clips a splat unless the nearest crease is farther than a limit: one of the middle ones
-  /// of the planes of the nearest points across the nearest crease, since some may be a little off.
-  /// That there is one takes two of them, unless the splat's own fit tells so.
+  /// What clips a splat unless the nearest crease is farther than a limit: the middle one of the
+  /// planes of the nearest points across the nearest crease, since one of them may be a little off,
+  /// or the farthest of those that agree with it, so that no gap is left between both sides. That
+  /// there is a crease takes two of them, unless the splat's own fit tells so.
   std::array<double, 4> clipAtNearestCrease(std::size_t point, double spacing, double limit) const
   {
     const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
@@ -304,11 +307,12 @@ private:
     {
       return { 0.0, 0.0, 0.0, 0.0 };
     }
-    const std::size_t rank = std::min(planes.size() / 2 + 1, planes.size() - 1);
-    const auto chosen = planes.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(planes.begin(), chosen, planes.end(), isNearer);
-    return { chosen->inward[0], chosen->inward[1], chosen->inward[2],
-      chosen->height + clipOverlap * spacing };
+    std::sort(planes.begin(), planes.end(), isNearer);
+    const Crease& middle = planes[planes.size() / 2];
+    const auto farthest = std::find_if(planes.rbegin(), planes.rend(),
+      [&](const Crease& crease)
+      { return crease.distance <= middle.distance + agreement * spacing; });
+    return { farthest->inward[0], farthest->inward[1], farthest->inward[2], farthest->height };
   }
 
   const NearestPositions& Finder;
