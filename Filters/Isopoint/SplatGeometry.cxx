@@ -34,7 +34,7 @@ constexpr double mostOverlap = 1.2;
 /// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
 /// where those do around a gap in a smooth surface; and where none do.
 constexpr double closedReach = 2.5;
-constexpr double gapReach = 4.5;
+constexpr double gapReach = 3.5;
 constexpr double openReach = 1.0;
 
 /// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
@@ -281,10 +281,10 @@ private:
     return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
   }
 
-  /// What clips a splat unless the nearest crease is farther than a limit: the middle one of the
-  /// planes of the nearest points across the nearest crease, since one of them may be a little off,
-  /// or the farthest of those that agree with it, so that no gap is left between both sides. That
-  /// there is a crease takes two of them, unless the splat's own fit tells so.
+  /// What clips a splat, unless the nearest crease is farther than a limit, or a single point
+  /// across it tells of it and the splat's own fit does not: the middle one of the planes of the
+  /// nearest points across, since one of them may be a little off, or the farthest of those that
+  /// agree with it, so that no gap is left between both sides.
   std::array<double, 4> clipAtNearestCrease(std::size_t point, double spacing, double limit) const
   {
     const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };

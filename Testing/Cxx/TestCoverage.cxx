@@ -79,6 +79,24 @@ int countUncovered(
   return uncovered;
 }
 
+/// The largest distance of a place on a splat's rim.
+template <class Distance>
+double farthestRim(vtkPolyData* isopoints, const Distance& distanceOf)
+{
+  double farthest = 0.0;
+  for (const Splat& splat : accuracy::splatsOf(isopoints))
+  {
+    for (int i = 0; i < 32; ++i)
+    {
+      const double angle = 2.0 * analytic::pi * i / 32.0;
+      const Vector across = analytic::sum(analytic::scaled(splat.axis1, std::cos(angle)),
+        analytic::scaled(splat.axis2, std::sin(angle)));
+      farthest = std::max(farthest, distanceOf(analytic::sum(splat.center, across)));
+    }
+  }
+  return farthest;
+}
+
 /// Samples on vertical lines, several times as far apart as samples on them, with "distance" from
 /// the origin.
 vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
@@ -278,17 +296,37 @@ TEST(Coverage, SplatsDoNotReachOverABorderBesideOtherSheets)
   filter->SetValue(0, 0.0);
   filter->ComputeSplatAxesOn();
   filter->Update();
-  double farthest = 0.0;
-  for (const Splat& splat : accuracy::splatsOf(filter->GetOutput()))
-  {
-    for (int i = 0; i < 32; ++i)
-    {
-      const double angle = 2.0 * 3.14159265358979 * i / 32.0;
-      const Vector across = analytic::sum(analytic::scaled(splat.axis1, std::cos(angle)),
-        analytic::scaled(splat.axis2, std::sin(angle)));
-      farthest = std::max(farthest, length(analytic::sum(splat.center, across)) - ball);
-    }
-  }
+  const double farthest =
+    farthestRim(filter->GetOutput(), [](const Vector& place) { return length(place) - ball; });
   EXPECT_GT(farthest, 0.0);
   EXPECT_LT(farthest, 4.5);
+}
+
+// A gyroid leaves the samples' cube all around: beside gaps between the points at its border cells
+// are open, and splats are not to grow into them.
+TEST(Coverage, SplatsDoNotReachFarOutOfTheSamples)
+{
+  constexpr vtkIdType samples = 20000;
+  const auto cloud = filtertesting::newCloud(samples);
+  vtkNew<vtkFloatArray> values;
+  for (vtkIdType i = 0; i < samples; ++i)
+  {
+    Vector p;
+    cloud->GetPoint(i, p.data());
+    values->InsertNextValue(static_cast<float>(std::sin(5.0 * p[0]) * std::cos(5.0 * p[1]) +
+                                               std::sin(5.0 * p[1]) * std::cos(5.0 * p[2]) +
+                                               std::sin(5.0 * p[2]) * std::cos(5.0 * p[0])));
+  }
+  cloud->GetPointData()->SetScalars(values);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.0);
+  filter->ComputeSplatAxesOn();
+  filter->Update();
+  const double spacing = 2.0 / std::cbrt(static_cast<double>(samples));
+  EXPECT_LT(farthestRim(filter->GetOutput(),
+              [](const Vector& p) {
+                return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 1.0;
+              }),
+    5.0 * spacing);
 }
