@@ -71,9 +71,15 @@ public:
       const int bottom = treeletBottom(depth, root.count());
       this->splitFront(front, depth, bottom);
       this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
-      if (this->isNearlyFinished(front, bottom - depth))
+      // To split so few samples all the way takes less time than to tell which are needed.
+      const std::size_t few = front.size() / 4;
+      const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
+      if (unfinished <= few)
       {
-        this->finish(front, bottom);
+        if (unfinished > 0)
+        {
+          this->finish(front, bottom);
+        }
         break;
       }
       this->mark(front, bottom);
@@ -173,21 +179,23 @@ private:
       });
   }
 
-  /// Whether so few samples are in nodes so many levels below the front that are no leaves that to
-  /// split these all the way takes less time than to tell which of them are needed.
-  bool isNearlyFinished(const std::vector<BandNode>& front, int levels)
+  /// How many samples are in nodes so many levels below the front that are no leaves; counting
+  /// ends above a limit.
+  std::size_t unfinishedSamples(
+    const std::vector<BandNode>& front, int levels, std::size_t limit) const
   {
-    const std::size_t few = front.size() / 4;
     std::atomic<std::size_t> samples{ 0 };
     forRanges(this->Run, front.size(), searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end && samples <= few; ++i)
+        std::size_t found = 0;
+        for (std::size_t i = begin; i < end && samples <= limit; ++i)
         {
-          samples += this->unfinishedSamples(this->Tree.nodes[front[i].slot], levels);
+          found += this->unfinishedSamples(this->Tree.nodes[front[i].slot], levels);
         }
+        samples += found;
       });
-    return samples <= few;
+    return samples;
   }
 
   std::size_t unfinishedSamples(const NodeType& node, int levels) const
@@ -204,8 +212,8 @@ private:
   /// @param depth that it is split to already
   void finish(const std::vector<BandNode>& front, int depth)
   {
-    for (std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
-         !unfinished.empty();)
+    std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
+    while (!unfinished.empty())
     {
       throwIfAborted(this->Run);
       const int bottom = depth + treeletLevels;
@@ -307,11 +315,10 @@ private:
     {
       const FoundNode lower{ node.lowerSlot(), top.depth + 1 };
       const FoundNode upper{ node.upperSlot(), top.depth + 1 };
-      areAll = node.plane >= region.lower[node.axis] ? this->markBelow(lower, depth, region)
-                                                     : this->isMarked(lower.slot);
-      areAll = (node.plane <= region.upper[node.axis] ? this->markBelow(upper, depth, region)
-                                                      : this->isMarked(upper.slot)) &&
-               areAll;
+      const auto areAllIn = [&](const FoundNode& child, bool touches)
+      { return touches ? this->markBelow(child, depth, region) : this->isMarked(child.slot); };
+      areAll = areAllIn(lower, node.plane >= region.lower[node.axis]);
+      areAll = areAllIn(upper, node.plane <= region.upper[node.axis]) && areAll;
     }
     if (areAll)
     {

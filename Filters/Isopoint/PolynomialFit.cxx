@@ -42,11 +42,21 @@ template <int Degree, class IsTaken>
 std::optional<Polynomial> fit(const std::vector<FrameSample>& samples, const IsTaken& isTaken)
 {
   constexpr int count = coefficientCount(Degree);
+  // Residuals are to remain, or nothing tells whether the fit describes the samples.
+  constexpr std::size_t fewestSamples = count + 1 + count / 5;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    taken += isTaken(i) ? 1 : 0;
+  }
+  if (taken < fewestSamples)
+  {
+    return std::nullopt;
+  }
   using Matrix = Eigen::Matrix<double, count, count>;
   using Vector = Eigen::Matrix<double, count, 1>;
   Matrix matrix = Matrix::Zero();
   Vector rightSide = Vector::Zero();
-  std::size_t taken = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     if (isTaken(i))
@@ -55,14 +65,7 @@ std::optional<Polynomial> fit(const std::vector<FrameSample>& samples, const IsT
       const Vector weighted = samples[i].weight * basis;
       matrix.noalias() += weighted * basis.transpose();
       rightSide += samples[i].value * weighted;
-      ++taken;
     }
-  }
-  // Residuals are to remain, or nothing tells whether the fit describes the samples.
-  constexpr std::size_t fewestSamples = count + 1 + count / 5;
-  if (taken < fewestSamples)
-  {
-    return std::nullopt;
   }
   const Eigen::LDLT<Matrix> factors(matrix);
   // The estimate of the condition passes over pivots of 0.

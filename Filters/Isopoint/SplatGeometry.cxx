@@ -249,15 +249,19 @@ private:
   /// which has cut its cell already.
   bool isAcrossKnownCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    constexpr double tolerance = 0.05;
-    const auto holdsOther = [&](const Crease& crease)
+    if (this->Creases.empty() || this->Points.fits[point].order != FitOrder::Crease ||
+        !this->doPlanesMeet(point, other, offset))
     {
-      return std::abs(dot(offset, crease.inward) + crease.height) < tolerance * lengthOf(offset) &&
-             std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
-    };
-    return std::any_of(this->Creases.begin(), this->Creases.end(), holdsOther) &&
-           this->Points.fits[point].order == FitOrder::Crease &&
-           this->doPlanesMeet(point, other, offset);
+      return false;
+    }
+    constexpr double tolerance = 0.05;
+    return std::any_of(this->Creases.begin(), this->Creases.end(),
+      [&](const Crease& crease)
+      {
+        return std::abs(dot(offset, crease.inward) + crease.height) <
+                 tolerance * lengthOf(offset) &&
+               std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
+      });
   }
 
   /// The plane of a point across a crease, as seen from a splat's centre.

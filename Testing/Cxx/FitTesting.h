@@ -54,6 +54,17 @@ inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, 
     tallies);
 }
 
+/// A tally of so many that were asked, of whom some told of what is looked for.
+inline isopoint::FindingTally tallyOf(int told, int asked)
+{
+  isopoint::FindingTally tally;
+  for (int i = 0; i < asked; ++i)
+  {
+    tally.add(i < told);
+  }
+  return tally;
+}
+
 /// A vertical edge of length 2 on which linear interpolation is at the origin.
 inline FitEdge upwards(double rise = 2.0)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The accuracy benchmark's coverage: reading splats, and the search against all splats. What the
-// filter's splats cover where isopoints are thinned out, and where samples stand in lines.
+// filter's splats cover where isopoints are thinned out, where samples stand in lines and at edges,
+// and how far they reach at borders.
 #include "AccuracySplats.h"
 #include "AnalyticFields.h"
 #include "FilterTesting.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace
 {
@@ -121,6 +123,19 @@ vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
   cloud->SetPoints(points);
   cloud->GetPointData()->SetScalars(distances);
   return cloud;
+}
+
+/// Gives each point the value of a field there.
+void setValues(vtkPolyData* cloud, const std::function<double(const Vector&)>& field)
+{
+  vtkNew<vtkFloatArray> values;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    Vector place;
+    cloud->GetPoint(i, place.data());
+    values->InsertNextValue(static_cast<float>(field(place)));
+  }
+  cloud->GetPointData()->SetScalars(values);
 }
 
 } // namespace
@@ -251,14 +266,7 @@ TEST(Coverage, ClippedSplatsMeetAtACubesEdges)
   filter->ComputeSplatClipsOn();
   const auto uncoveredOf = [&](vtkPolyData* cloud)
   {
-    vtkNew<vtkFloatArray> values;
-    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-    {
-      Vector place;
-      cloud->GetPoint(i, place.data());
-      values->InsertNextValue(static_cast<float>(cube.value(place)));
-    }
-    cloud->GetPointData()->SetScalars(values);
+    setValues(cloud, cube.value);
     filter->SetInputData(cloud);
     filter->Update();
     return countUncovered(filter->GetOutput(), 0.05, cube, places);
@@ -307,16 +315,13 @@ TEST(Coverage, SplatsDoNotReachFarOutOfTheSamples)
 {
   constexpr vtkIdType samples = 20000;
   const auto cloud = filtertesting::newCloud(samples);
-  vtkNew<vtkFloatArray> values;
-  for (vtkIdType i = 0; i < samples; ++i)
-  {
-    Vector p;
-    cloud->GetPoint(i, p.data());
-    values->InsertNextValue(static_cast<float>(std::sin(5.0 * p[0]) * std::cos(5.0 * p[1]) +
-                                               std::sin(5.0 * p[1]) * std::cos(5.0 * p[2]) +
-                                               std::sin(5.0 * p[2]) * std::cos(5.0 * p[0])));
-  }
-  cloud->GetPointData()->SetScalars(values);
+  setValues(cloud,
+    [](const Vector& p)
+    {
+      return std::sin(5.0 * p[0]) * std::cos(5.0 * p[1]) +
+             std::sin(5.0 * p[1]) * std::cos(5.0 * p[2]) +
+             std::sin(5.0 * p[2]) * std::cos(5.0 * p[0]);
+    });
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(cloud);
   filter->SetValue(0, 0.0);

@@ -211,12 +211,8 @@ TEST(Creases, AreNotLookedForWhereTheyAreRare)
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
   const auto orderAfter = [&](int found)
   {
-    isopoint::FitTallies tallies;
-    for (int i = 0; i < 16; ++i)
-    {
-      tallies.creases.add(i < found);
-    }
-    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, tallies).order;
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, tallyOf(found, 16) })
+      .order;
   };
   EXPECT_EQ(orderAfter(2), FitOrder::Crease);
   EXPECT_NE(orderAfter(1), FitOrder::Crease);

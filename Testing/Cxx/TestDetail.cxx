@@ -15,21 +15,6 @@
 using namespace fittesting;
 using isopoint::FindingTally;
 
-namespace
-{
-
-FindingTally tallyOf(int told, int asked)
-{
-  FindingTally tally;
-  for (int i = 0; i < asked; ++i)
-  {
-    tally.add(i < told);
-  }
-  return tally;
-}
-
-} // namespace
-
 TEST(Detail, TalliesTellWhetherItIsCommon)
 {
   EXPECT_FALSE(tallyOf(15, 15).isCommon());

@@ -51,6 +51,20 @@ struct Sphere
   }
 };
 
+/// Adds a point with a fit that held, among samples of spacing 1.
+void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint::FitOrder order,
+  const Vector& gradient)
+{
+  points.positions.push_back(position);
+  points.fallingEdges.push_back(isopoint::scaled(-1.0, gradient));
+  isopoint::LocalFit fit{};
+  fit.order = order;
+  fit.isGradientFitted = true;
+  fit.gradient = gradient;
+  fit.spacing = 1.0;
+  points.fits.push_back(fit);
+}
+
 } // namespace
 
 TEST(Splats, NormalsOfASphereFallOutwards)
@@ -178,15 +192,9 @@ TEST(Splats, AreClippedAtACrease)
     const bool top = i % 2 == 0;
     const double along = 10.0 * random();
     const double off = -3.0 * random();
-    points.positions.push_back(top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off });
-    points.fallingEdges.push_back({ 1.0, 0.0, 1.0 });
-    isopoint::LocalFit fit{};
-    fit.order = isopoint::FitOrder::Crease;
-    fit.isGradientFitted = true;
-    fit.gradient = top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 };
-    fit.gradient[1] = isOff(i) ? 0.1 : 0.0;
-    fit.spacing = 1.0;
-    points.fits.push_back(fit);
+    const double tilt = isOff(i) ? 0.1 : 0.0;
+    addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off },
+      isopoint::FitOrder::Crease, top ? Vector{ 0.0, tilt, -1.0 } : Vector{ -1.0, tilt, 0.0 });
   }
   const std::vector<Splat> splats =
     isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
@@ -224,20 +232,12 @@ TEST(Splats, AreNotClippedByASingleFit)
 {
   isopoint::SurfacePoints points;
   clouds::Random random(4);
-  for (int i = 0; i < 500; ++i)
+  addFitted(points, { 0.0, 0.0, 0.0 }, isopoint::FitOrder::Crease, { -1.0, 0.0, -1.0 });
+  for (int i = 1; i < 500; ++i)
   {
-    points.positions.push_back({ 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 });
-    points.fallingEdges.push_back({ 0.0, 0.0, 1.0 });
-    isopoint::LocalFit fit{};
-    fit.order = isopoint::FitOrder::Quadratic;
-    fit.isGradientFitted = true;
-    fit.gradient = { 0.0, 0.0, -1.0 };
-    fit.spacing = 1.0;
-    points.fits.push_back(fit);
+    addFitted(points, { 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 },
+      isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
   }
-  points.positions[0] = { 0.0, 0.0, 0.0 };
-  points.fits[0].order = isopoint::FitOrder::Crease;
-  points.fits[0].gradient = { -1.0, 0.0, -1.0 };
   const std::vector<Splat> splats =
     isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
   for (std::size_t i = 1; i < splats.size(); ++i)
