@@ -3,6 +3,7 @@
 #define isopoint_LocalFit_h
 
 #include "FindingTally.h"
+#include "TangentFrame.h"
 #include "Vector.h"
 
 #include <cstdint>
@@ -60,7 +61,9 @@ struct LocalFit
   bool isGradientFitted; // to the samples, not the slope along the edge
   /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 where what was fitted is affine.
   std::array<double, 6> hessian;
-  double spacing; // of the samples there: see NeighborhoodFitter
+  double spacing; // of the samples there: see SampleGatherer
+  /// How far samples stand from it in each of extentDirections(), of the direction of `gradient`.
+  std::array<double, extentCount> extents;
   FitOrder order; // that held
 };
 

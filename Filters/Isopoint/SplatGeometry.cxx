@@ -2,6 +2,7 @@
 #include "SplatGeometry.h"
 
 #include "NearestPositions.h"
+#include "SplatCrease.h"
 #include "SplatNormals.h"
 #include "SplatShape.h"
 #include "TangentCell.h"
@@ -34,8 +35,12 @@ constexpr double mostOverlap = 1.2;
 /// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
 /// where those do around a gap in a smooth surface; and where none do.
 constexpr double closedReach = 2.5;
-constexpr double gapReach = 3.5;
+constexpr double gapReach = 4.5;
 constexpr double openReach = 1.0;
+
+/// How far out of the samples around it a cell may reach, in the same unit: each stands for what is
+/// around it.
+constexpr double outerReach = 0.7;
 
 /// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
 /// to be one, but for errors of the fits.
@@ -74,8 +79,9 @@ public:
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
     // Blended with others, a splat that ends before a crease still belongs to one side of it.
-    splat.clip =
-      this->clipAtNearestCrease(point, spacing, std::max(closedReach * spacing, splat.radius));
+    const bool isBesideCrease = fit.order == FitOrder::Crease;
+    splat.clip = clipAtNearest(this->Creases, isBesideCrease ? 1 : 2, agreement * spacing,
+      std::max(closedReach * spacing, splat.radius));
   }
 
 private:
@@ -154,6 +160,22 @@ private:
     }
   }
 
+  /// Cuts off what is out of the samples: where the surface ends, a cell may be bounded by points
+  /// along its border alone, far outside.
+  void cutAtBorder(std::size_t point, TangentCell& cell) const
+  {
+    if (this->Points.fits.empty() || !(this->Points.fits[point].spacing > 0.0))
+    {
+      return; // of a sample alone with another one nothing tells of a border
+    }
+    const LocalFit& fit = this->Points.fits[point];
+    const auto directions = extentDirections(directionOf(fit.gradient));
+    for (std::size_t i = 0; i < directions.size(); ++i)
+    {
+      cell.cut(directions[i], fit.extents[i] + outerReach * fit.spacing, true);
+    }
+  }
+
   /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
   /// farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
@@ -162,6 +184,7 @@ private:
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
+      this->cutAtBorder(point, cell);
       this->Creases.clear();
       bool isComplete = this->Nearest.size() < this->Wanted;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
@@ -171,7 +194,7 @@ private:
           difference(this->Points.positions[other], this->Points.positions[point]);
         if (this->meetAtCrease(point, other, offset))
         {
-          const Crease crease = this->creaseTowards(other, offset, normal);
+          const SplatCrease crease = creaseTowards(offset, normal, this->Splats[other].normal);
           cell.cut(scaled(-1.0, crease.inward), crease.height);
           this->Creases.push_back(crease);
         }
@@ -256,7 +279,7 @@ private:
     }
     constexpr double tolerance = 0.05;
     return std::any_of(this->Creases.begin(), this->Creases.end(),
-      [&](const Crease& crease)
+      [&](const SplatCrease& crease)
       {
         return std::abs(dot(offset, crease.inward) + crease.height) <
                  tolerance * lengthOf(offset) &&
@@ -264,67 +287,12 @@ private:
       });
   }
 
-  /// The plane of a point across a crease, as seen from a splat's centre.
-  struct Crease
-  {
-    Vector inward;   // normal to it, to the splat's side
-    double height;   // of the centre over it
-    double distance; // of the centre from the crease, along the splat
-  };
-
-  Crease creaseTowards(std::size_t other, const Vector& offset, const Vector& normal) const
-  {
-    const Vector& otherNormal = this->Splats[other].normal;
-    const double cosine = dot(normal, otherNormal);
-    // At a convex crease each point lies behind the other's plane, at a concave one before it.
-    const double height = dot(normal, offset);
-    const double otherHeight = -dot(otherNormal, offset);
-    const double side =
-      (std::abs(height) > std::abs(otherHeight) ? height : otherHeight) < 0.0 ? -1.0 : 1.0;
-    const double inside = std::max(0.0, side * otherHeight);
-    return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
-  }
-
-  /// What clips a splat, unless the nearest crease is farther than a limit, or a single point
-  /// across it tells of it and the splat's own fit does not: the middle one of the planes of the
-  /// nearest points across, since one of them may be a little off, or the farthest of those that
-  /// agree with it, so that no gap is left between both sides.
-  std::array<double, 4> clipAtNearestCrease(std::size_t point, double spacing, double limit) const
-  {
-    const auto isNearer = [](const Crease& a, const Crease& b) { return a.distance < b.distance; };
-    const auto nearest = std::min_element(this->Creases.begin(), this->Creases.end(), isNearer);
-    if (nearest == this->Creases.end() || !(nearest->distance < limit))
-    {
-      return { 0.0, 0.0, 0.0, 0.0 };
-    }
-    constexpr std::size_t most = 5;
-    std::vector<Crease> planes{ *nearest };
-    for (const Crease& crease : this->Creases)
-    {
-      if (&crease != &*nearest && planes.size() < most &&
-          dot(crease.inward, nearest->inward) > mostCreaseCosine)
-      {
-        planes.push_back(crease);
-      }
-    }
-    if (planes.size() < 2 && this->Points.fits[point].order != FitOrder::Crease)
-    {
-      return { 0.0, 0.0, 0.0, 0.0 };
-    }
-    std::sort(planes.begin(), planes.end(), isNearer);
-    const Crease& middle = planes[planes.size() / 2];
-    const auto farthest = std::find_if(planes.rbegin(), planes.rend(),
-      [&](const Crease& crease)
-      { return crease.distance <= middle.distance + agreement * spacing; });
-    return { farthest->inward[0], farthest->inward[1], farthest->inward[2], farthest->height };
-  }
-
   const NearestPositions& Finder;
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // normals at least
   std::vector<NearestPositions::Neighbor> Nearest;
-  std::size_t Wanted = 0;      // of the nearest; there may be fewer
-  std::vector<Crease> Creases; // by the distance of the points across
+  std::size_t Wanted = 0;           // of the nearest; there may be fewer
+  std::vector<SplatCrease> Creases; // by the distance of the points across
 };
 
 /// Takes normals from the fits' gradients. @returns the points that have none

@@ -2,6 +2,7 @@
 #ifndef isopoint_TangentCell_h
 #define isopoint_TangentCell_h
 
+#include "TangentFrame.h"
 #include "Vector.h"
 
 #include <algorithm>
@@ -22,21 +23,12 @@ public:
   {
     double x;
     double y;
-    bool isLimit; // whether the side that begins here is one of the disk's
+    bool isLimit; // whether the side that begins here is one of the disk's, or counts as one
   };
 
-  /// Any frame in the plane would do; this one depends on nothing but the normal.
   explicit TangentCell(const Vector& normal)
+    : Frame(normal)
   {
-    std::size_t flattest = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-    {
-      flattest = std::abs(normal[axis]) < std::abs(normal[flattest]) ? axis : flattest;
-    }
-    Vector unit{ 0.0, 0.0, 0.0 };
-    unit[flattest] = 1.0;
-    this->First = directionOf(cross(normal, unit));
-    this->Second = cross(normal, this->First);
   }
 
   /// Starts again with a disk.
@@ -56,10 +48,11 @@ public:
   }
 
   /// Keeps the places whose offset o from the point has outward . o <= distance.
-  void cut(const Vector& outward, double distance)
+  /// @param isLimit whether the cut is to count as one of the disk's sides
+  void cut(const Vector& outward, double distance, bool isLimit = false)
   {
-    const double a = dot(outward, this->First);
-    const double b = dot(outward, this->Second);
+    const double a = dot(outward, this->Frame.first);
+    const double b = dot(outward, this->Frame.second);
     const auto excess = [=](const Corner& corner)
     { return a * corner.x + b * corner.y - distance; };
     if (distance >= 0.0 && distance * distance >= (a * a + b * b) * this->SquaredReach)
@@ -81,7 +74,7 @@ public:
       {
         const double t = here / (here - there);
         this->Cut.push_back({ corner.x + t * (next.x - corner.x),
-          corner.y + t * (next.y - corner.y), here > 0.0 && corner.isLimit });
+          corner.y + t * (next.y - corner.y), here > 0.0 ? corner.isLimit : isLimit });
       }
     }
     this->Corners.swap(this->Cut);
@@ -129,12 +122,11 @@ public:
   }
 
   const std::vector<Corner>& corners() const { return this->Corners; }
-  const Vector& first() const { return this->First; }
-  const Vector& second() const { return this->Second; }
+  const Vector& first() const { return this->Frame.first; }
+  const Vector& second() const { return this->Frame.second; }
 
 private:
-  Vector First;
-  Vector Second;
+  TangentFrame Frame;
   std::vector<Corner> Corners;
   std::vector<Corner> Cut;
   double SquaredReach = 0.0; // of the farthest corner

@@ -51,18 +51,25 @@ struct Sphere
   }
 };
 
+/// A fit among samples of a spacing that stand all around.
+isopoint::LocalFit fitAmong(double spacing, isopoint::FitOrder order, const Vector& gradient)
+{
+  isopoint::LocalFit fit{};
+  fit.order = order;
+  fit.isGradientFitted = true;
+  fit.gradient = gradient;
+  fit.spacing = spacing;
+  fit.extents.fill(5.0 * spacing);
+  return fit;
+}
+
 /// Adds a point with a fit that held, among samples of spacing 1.
 void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint::FitOrder order,
   const Vector& gradient)
 {
   points.positions.push_back(position);
   points.fallingEdges.push_back(isopoint::scaled(-1.0, gradient));
-  isopoint::LocalFit fit{};
-  fit.order = order;
-  fit.isGradientFitted = true;
-  fit.gradient = gradient;
-  fit.spacing = 1.0;
-  points.fits.push_back(fit);
+  points.fits.push_back(fitAmong(1.0, order, gradient));
 }
 
 } // namespace
@@ -130,12 +137,8 @@ TEST(Splats, RowsAreJoined)
   isopoint::SurfacePoints points;
   points.positions = positions;
   points.fallingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
-  isopoint::LocalFit fit{};
-  fit.order = isopoint::FitOrder::Linear;
-  fit.isGradientFitted = true;
-  fit.gradient = { 0.0, 0.0, -1.0 };
-  fit.spacing = 1.0;
-  points.fits.assign(positions.size(), fit);
+  points.fits.assign(
+    positions.size(), fitAmong(1.0, isopoint::FitOrder::Linear, { 0.0, 0.0, -1.0 }));
   const std::vector<Splat> splats =
     isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
   const auto& inside = splats[10 * 200 + 100];
@@ -163,13 +166,9 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
     points.fallingEdges = sphere.edges;
     for (const Vector& p : sphere.positions)
     {
-      isopoint::LocalFit fit{};
-      fit.order = isopoint::FitOrder::Quadratic;
-      fit.isGradientFitted = true;
-      fit.gradient = isopoint::scaled(-1.0, p);
-      fit.hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
-      fit.spacing = 2.0;
-      points.fits.push_back(fit);
+      points.fits.push_back(
+        fitAmong(2.0, isopoint::FitOrder::Quadratic, isopoint::scaled(-1.0, p)));
+      points.fits.back().hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
     }
     for (const Splat& splat :
       isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()))
@@ -181,6 +180,37 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
 
 // Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's,
 // though a fit here and there is off.
+// Beside the border of a sheet cells are bounded by the points along it alone, far outside.
+TEST(Splats, EndSoonOutOfTheSamples)
+{
+  const Vector gradient{ 0.0, 0.0, -1.0 };
+  const auto directions = isopoint::extentDirections(gradient);
+  isopoint::SurfacePoints points;
+  clouds::Random random(5);
+  for (int i = 0; i < 1000; ++i)
+  {
+    addFitted(
+      points, { -10.0 * random(), 40.0 * random(), 0.0 }, isopoint::FitOrder::Quadratic, gradient);
+    for (std::size_t k = 0; k < directions.size(); ++k)
+    {
+      if (directions[k][0] > 0.99) // the samples end at the plane x = 0
+      {
+        points.fits.back().extents[k] = -points.positions.back()[0];
+      }
+    }
+  }
+  const std::vector<Splat> splats =
+    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    farthest = std::max(
+      farthest, points.positions[i][0] + std::hypot(splats[i].axis1[0], splats[i].axis2[0]));
+  }
+  EXPECT_GT(farthest, 0.1);
+  EXPECT_LT(farthest, 1.2);
+}
+
 TEST(Splats, AreClippedAtACrease)
 {
   isopoint::SurfacePoints points;
