@@ -138,27 +138,28 @@ public:
   static std::optional<isopoint::FitRequest> FitRequestOf(const vtkScatteredIsopointFilter& filter)
   {
     using isopoint::FitOrder;
-    const bool needsSplats = filter.ComputeNormals || filter.ComputeRadii ||
-                             filter.ComputeSplatAxes || filter.ComputeSplatClips;
+    const bool needsShapes =
+      filter.ComputeRadii || filter.ComputeSplatAxes || filter.ComputeSplatClips;
+    const bool needsSplats = filter.ComputeNormals || needsShapes;
     const bool needsGradients =
       filter.ComputeGradients || (needsSplats && filter.NormalMethod == NORMALS_FROM_FIELD);
     switch (filter.Projection)
     {
       case LINEAR_FIT:
-        return isopoint::FitRequest{ FitOrder::Linear, true };
+        return isopoint::FitRequest{ FitOrder::Linear, true, needsShapes };
       case QUADRATIC_FIT:
-        return isopoint::FitRequest{ FitOrder::Quadratic, true };
+        return isopoint::FitRequest{ FitOrder::Quadratic, true, needsShapes };
       case CUBIC_FIT:
-        return isopoint::FitRequest{ FitOrder::Cubic, true };
+        return isopoint::FitRequest{ FitOrder::Cubic, true, needsShapes };
       case CREASE_FIT:
-        return isopoint::FitRequest{ FitOrder::Crease, true };
+        return isopoint::FitRequest{ FitOrder::Crease, true, needsShapes };
       default:
         if (needsGradients || filter.MinimumSpacing > 0.0)
         {
-          return isopoint::FitRequest{ FitOrder::Cubic, false };
+          return isopoint::FitRequest{ FitOrder::Cubic, false, needsShapes };
         }
         return needsSplats || filter.ComputeProjectionOrders
-                 ? std::optional<isopoint::FitRequest>({ FitOrder::None, false })
+                 ? std::optional<isopoint::FitRequest>({ FitOrder::None, false, needsShapes })
                  : std::nullopt;
     }
   }

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace isopoint
@@ -73,7 +74,11 @@ public:
         dot(difference(fit.position, first.position), directionOf(along)) / lengthOf(along);
       point.parameter = std::min(std::max(parameter, 0.0), 1.0);
     }
-    this->measureExtents(fit);
+    fit.extents.fill(std::numeric_limits<double>::infinity());
+    if (this->Request.extents)
+    {
+      this->measureExtents(fit);
+    }
     return fit;
   }
 
@@ -93,6 +98,7 @@ private:
         }
       }
     };
+    fit.extents.fill(0.0);
     include(this->Gatherer.samples());
     if (*std::min_element(fit.extents.begin(), fit.extents.end()) < fit.spacing)
     {

@@ -164,11 +164,16 @@ private:
   /// along its border alone, far outside.
   void cutAtBorder(std::size_t point, TangentCell& cell) const
   {
-    if (this->Points.fits.empty() || !(this->Points.fits[point].spacing > 0.0))
+    if (this->Points.fits.empty())
     {
-      return; // of a sample alone with another one nothing tells of a border
+      return;
     }
+    // Of a sample alone with another one nothing tells of a border.
     const LocalFit& fit = this->Points.fits[point];
+    if (!(fit.spacing > 0.0) || !std::isfinite(lengthOf(fit.gradient)))
+    {
+      return;
+    }
     const auto directions = extentDirections(directionOf(fit.gradient));
     for (std::size_t i = 0; i < directions.size(); ++i)
     {

@@ -57,11 +57,11 @@ struct SplatOptions
 /// given; at most 0.8 times the distance of the 12th nearest point). Where those do not bound it,
 /// it may reach four and a half, and those are not limited by the 12th, if a fit tells of a smooth
 /// surface and points of its own sheet stand all around, as between samples in lines; or else one,
-/// as at a border: an isolated point does not become a plate. What is more than 0.7 of a spacing
-/// out of the samples around bounds it as nothing does. Nor does it reach farther than the radius
-/// of the surface's curvature, so that splats of a small blob do not stick out of it. Across a
-/// crease that a fit found cells do not end halfway but at the other side's plane, and so are their
-/// splats to be clipped.
+/// as at a border: an isolated point does not become a plate. A cell that reaches more than 0.7 of
+/// a spacing out of the samples around is cut there and counts as one that nothing bounds. Nor does
+/// it reach farther than the radius of the surface's curvature, so that splats of a small blob do
+/// not stick out of it. Across a crease that a fit found cells do not end halfway but at the other
+/// side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
 std::vector<Splat> computeSplats(

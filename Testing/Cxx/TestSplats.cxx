@@ -178,8 +178,6 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
   }
 }
 
-// Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's,
-// though a fit here and there is off.
 // Beside the border of a sheet cells are bounded by the points along it alone, far outside.
 TEST(Splats, EndSoonOutOfTheSamples)
 {
@@ -211,6 +209,8 @@ TEST(Splats, EndSoonOutOfTheSamples)
   EXPECT_LT(farthest, 1.2);
 }
 
+// Two planes at a right angle, as fits with a crease tell of them: each splat ends at the other's,
+// though a fit here and there is off.
 TEST(Splats, AreClippedAtACrease)
 {
   isopoint::SurfacePoints points;
