@@ -61,16 +61,6 @@ vtkIsopointGeometry::vtkIsopointGeometry(const Arrays& wanted, vtkIdType count)
 {
 }
 
-bool vtkIsopointGeometry::NeedsSplats() const
-{
-  return this->Wanted.Normals || this->NeedsShapes();
-}
-
-bool vtkIsopointGeometry::NeedsShapes() const
-{
-  return this->Wanted.Radius || this->Wanted.SplatAxes || this->Wanted.SplatClip;
-}
-
 void vtkIsopointGeometry::Append(const isopoint::SurfacePoints& surface,
   const std::vector<isopoint::Splat>& splats, vtkPoints* points)
 {

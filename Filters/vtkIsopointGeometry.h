@@ -29,17 +29,13 @@ public:
     bool Gradients = false;
     bool ProjectionOrder = false;
     bool IsProjected = false; // whether fits moved the points
+
+    /// Whether any array is of splats, and whether one is of more than their normals.
+    bool NeedsSplats() const { return this->Normals || this->NeedsShapes(); }
+    bool NeedsShapes() const { return this->Radius || this->SplatAxes || this->SplatClip; }
   };
 
   vtkIsopointGeometry(const Arrays& wanted, vtkIdType count);
-
-  ///@{
-  /**
-   * Whether any array is of splats, and whether one is of more than their normals.
-   */
-  bool NeedsSplats() const;
-  bool NeedsShapes() const;
-  ///@}
 
   /**
    * Writes the next surface's positions to the points, and its arrays. Splats may be empty where

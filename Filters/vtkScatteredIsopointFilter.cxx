@@ -138,28 +138,29 @@ public:
   static std::optional<isopoint::FitRequest> FitRequestOf(const vtkScatteredIsopointFilter& filter)
   {
     using isopoint::FitOrder;
-    const bool needsShapes =
-      filter.ComputeRadii || filter.ComputeSplatAxes || filter.ComputeSplatClips;
-    const bool needsSplats = filter.ComputeNormals || needsShapes;
-    const bool needsGradients =
-      filter.ComputeGradients || (needsSplats && filter.NormalMethod == NORMALS_FROM_FIELD);
+    using isopoint::FitRequest;
+    const vtkIsopointGeometry::Arrays wanted = WantedGeometry(filter);
+    const auto request = [&](FitOrder highest) {
+      return FitRequest{ highest, wanted.IsProjected, wanted.NeedsShapes() };
+    };
     switch (filter.Projection)
     {
       case LINEAR_FIT:
-        return isopoint::FitRequest{ FitOrder::Linear, true, needsShapes };
+        return request(FitOrder::Linear);
       case QUADRATIC_FIT:
-        return isopoint::FitRequest{ FitOrder::Quadratic, true, needsShapes };
+        return request(FitOrder::Quadratic);
       case CUBIC_FIT:
-        return isopoint::FitRequest{ FitOrder::Cubic, true, needsShapes };
+        return request(FitOrder::Cubic);
       case CREASE_FIT:
-        return isopoint::FitRequest{ FitOrder::Crease, true, needsShapes };
+        return request(FitOrder::Crease);
       default:
-        if (needsGradients || filter.MinimumSpacing > 0.0)
+        if (wanted.Gradients || filter.MinimumSpacing > 0.0 ||
+            (wanted.NeedsSplats() && filter.NormalMethod == NORMALS_FROM_FIELD))
         {
-          return isopoint::FitRequest{ FitOrder::Cubic, false, needsShapes };
+          return request(FitOrder::Cubic);
         }
-        return needsSplats || filter.ComputeProjectionOrders
-                 ? std::optional<isopoint::FitRequest>({ FitOrder::None, false, needsShapes })
+        return wanted.NeedsSplats() || wanted.ProjectionOrder
+                 ? std::optional<FitRequest>(request(FitOrder::None))
                  : std::nullopt;
     }
   }
@@ -427,7 +428,8 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   const auto count = static_cast<vtkIdType>(pointCount);
   const vtkSmartPointer<vtkPoints> points =
     newOutputPoints(input, this->OutputPointsPrecision, count);
-  vtkIsopointGeometry geometry(Internals::WantedGeometry(*this), count);
+  const vtkIsopointGeometry::Arrays wanted = Internals::WantedGeometry(*this);
+  vtkIsopointGeometry geometry(wanted, count);
   vtkIdType point = 0;
   for (vtkContouredIsosurface& surface : surfaces)
   {
@@ -441,11 +443,11 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
       execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
     const isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
     std::vector<isopoint::Splat> splats;
-    if (geometry.NeedsSplats())
+    if (wanted.NeedsSplats())
     {
       splats = isopoint::computeSplats(step, placed,
         { this->NumberOfNeighbors, this->NormalMethod == NORMALS_FROM_FIELD,
-          geometry.NeedsShapes() });
+          wanted.NeedsShapes() });
     }
     geometry.Append(placed, splats, points);
     point += static_cast<vtkIdType>(placed.positions.size());

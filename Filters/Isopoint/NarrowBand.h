@@ -189,7 +189,7 @@ private:
       [&](std::size_t begin, std::size_t end)
       {
         std::size_t found = 0;
-        for (std::size_t i = begin; i < end && samples <= limit; ++i)
+        for (std::size_t i = begin; i < end && samples + found <= limit; ++i)
         {
           found += this->unfinishedSamples(this->Tree.nodes[front[i].slot], levels);
         }

@@ -74,18 +74,20 @@ public:
         dot(difference(fit.position, first.position), directionOf(along)) / lengthOf(along);
       point.parameter = std::min(std::max(parameter, 0.0), 1.0);
     }
-    fit.extents.fill(std::numeric_limits<double>::infinity());
-    if (this->Request.extents)
-    {
-      this->measureExtents(fit);
-    }
+    this->measureExtents(fit);
     return fit;
   }
 
 private:
-  /// Those of the neighbourhood, and of the wider one where they may be those of a border.
+  /// Those of the neighbourhood, and of the wider one where they may be those of a border; infinite
+  /// where none are asked for.
   void measureExtents(LocalFit& fit)
   {
+    if (!this->Request.extents)
+    {
+      fit.extents.fill(std::numeric_limits<double>::infinity());
+      return;
+    }
     const auto directions = extentDirections(directionOf(fit.gradient));
     const auto include = [&](const std::vector<FitSample>& samples)
     {
@@ -100,7 +102,8 @@ private:
     };
     fit.extents.fill(0.0);
     include(this->Gatherer.samples());
-    if (*std::min_element(fit.extents.begin(), fit.extents.end()) < fit.spacing)
+    if (this->Gatherer.hasWiderSamples() &&
+        *std::min_element(fit.extents.begin(), fit.extents.end()) < fit.spacing)
     {
       include(this->Gatherer.widerSamples());
     }

@@ -71,10 +71,13 @@ public:
   /// Of the edge at hand, by id.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
+  /// Whether those are few, so that widerSamples() are more.
+  bool hasWiderSamples() const { return this->Samples.size() <= enoughSamples; }
+
   /// More of them, if those are few: the neighbourhoods of some of them as well.
   const std::vector<FitSample>& widerSamples()
   {
-    if (this->Samples.size() > enoughSamples)
+    if (!this->hasWiderSamples())
     {
       return this->Samples;
     }

@@ -62,6 +62,7 @@ public:
   {
     this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
+    this->findBorder(point);
     TangentCell cell(splat.normal);
     this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell);
     if (cell.isOpen() && !this->reachesAcrossGap(point, cell))
@@ -92,6 +93,13 @@ private:
       this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
     return order >= FitOrder::Quadratic;
   }
+
+  /// A plane out of the samples around a point.
+  struct BorderPlane
+  {
+    Vector outward;
+    double distance; // from the point
+  };
 
   /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
   enum class Bound
@@ -160,10 +168,11 @@ private:
     }
   }
 
-  /// Cuts off what is out of the samples: where the surface ends, a cell may be bounded by points
-  /// along its border alone, far outside.
-  void cutAtBorder(std::size_t point, TangentCell& cell) const
+  /// Finds what bounds the samples around a point: where the surface ends, a cell may be bounded by
+  /// points along its border alone, far outside.
+  void findBorder(std::size_t point)
   {
+    this->Border.clear();
     if (this->Points.fits.empty())
     {
       return;
@@ -177,7 +186,7 @@ private:
     const auto directions = extentDirections(directionOf(fit.gradient));
     for (std::size_t i = 0; i < directions.size(); ++i)
     {
-      cell.cut(directions[i], fit.extents[i] + outerReach * fit.spacing, true);
+      this->Border.push_back({ directions[i], fit.extents[i] + outerReach * fit.spacing });
     }
   }
 
@@ -189,7 +198,10 @@ private:
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
-      this->cutAtBorder(point, cell);
+      for (const BorderPlane& plane : this->Border)
+      {
+        cell.cut(plane.outward, plane.distance, true);
+      }
       this->Creases.clear();
       bool isComplete = this->Nearest.size() < this->Wanted;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
@@ -296,7 +308,8 @@ private:
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // normals at least
   std::vector<NearestPositions::Neighbor> Nearest;
-  std::size_t Wanted = 0;           // of the nearest; there may be fewer
+  std::size_t Wanted = 0; // of the nearest; there may be fewer
+  std::vector<BorderPlane> Border;
   std::vector<SplatCrease> Creases; // by the distance of the points across
 };
 

@@ -271,11 +271,12 @@ TEST(Coverage, ClippedSplatsMeetAtACubesEdges)
     filter->Update();
     return countUncovered(filter->GetOutput(), 0.05, cube, places);
   };
-  for (const vtkIdType samples : { 150000, 200000 })
+  for (const vtkIdType samples : { 100000, 150000, 200000 })
   {
     EXPECT_EQ(uncoveredOf(filtertesting::newCloud(samples)), 0) << samples;
   }
   EXPECT_LT(uncoveredOf(newLines(640, 100, 1)), places / 10000);
+  EXPECT_LT(uncoveredOf(newLines(640, 100, 2)), places / 10000);
 }
 
 // At the border of a ball of samples, one in each unit of volume, the sheets next to a splat's own
