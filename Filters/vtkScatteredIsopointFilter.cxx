@@ -141,7 +141,7 @@ public:
     using isopoint::FitRequest;
     const vtkIsopointGeometry::Arrays wanted = WantedGeometry(filter);
     const auto request = [&](FitOrder highest) {
-      return FitRequest{ highest, wanted.IsProjected, wanted.NeedsShapes() };
+      return FitRequest{ highest, wanted.IsProjected };
     };
     switch (filter.Projection)
     {
@@ -441,7 +441,9 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
     const auto before = static_cast<std::size_t>(point);
     const Execution step = vtkMakeIsopointStep(
       execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
-    const isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
+    isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
+    placed.extents = [&kept](const isopoint::ExtentQuery& query)
+    { return kept.Extractor.extentOfSamples(query); };
     std::vector<isopoint::Splat> splats;
     if (wanted.NeedsSplats())
     {

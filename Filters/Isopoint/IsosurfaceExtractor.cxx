@@ -2,6 +2,7 @@
 #include "IsosurfaceExtractor.h"
 
 #include "Extraction.h"
+#include "SampleExtent.h"
 
 namespace isopoint
 {
@@ -31,6 +32,13 @@ Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isova
       return extractIsosurface(
         execution, tree, isovalue, angle, gapFactor, this->ItemCount, fitRequest);
     },
+    this->Tree);
+}
+
+double IsosurfaceExtractor::extentOfSamples(const ExtentQuery& query) const
+{
+  return std::visit([&](const auto& tree)
+    { return tree.isEmpty() ? 0.0 : isopoint::extentOfSamples(tree, query); },
     this->Tree);
 }
 

@@ -3,6 +3,7 @@
 #define isopoint_IsosurfaceExtractor_h
 
 #include "Execution.h"
+#include "ExtentQuery.h"
 #include "Isopoint.h"
 #include "Loading.h"
 #include "SampleTree.h"
@@ -78,6 +79,10 @@ public:
   /// if this one had not been
   Isosurface extract(const Execution& execution, double isovalue, double angle,
     double gapFactor = 0.0, std::optional<FitRequest> fitRequest = std::nullopt);
+
+  /// How far samples stand ahead of a place: see isopoint::extentOfSamples. From any thread, as
+  /// long as nothing else of this is called.
+  double extentOfSamples(const ExtentQuery& query) const;
 
 private:
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }

@@ -3,7 +3,6 @@
 #define isopoint_LocalFit_h
 
 #include "FindingTally.h"
-#include "TangentFrame.h"
 #include "Vector.h"
 
 #include <cstdint>
@@ -31,8 +30,7 @@ constexpr double mostCreaseCosine = 0.906;
 struct FitRequest
 {
   FitOrder highest;
-  bool move;            // isopoints to the zero of the fit, or leave them on their edges
-  bool extents = false; // also measure how far samples stand around
+  bool move; // isopoints to the zero of the fit, or leave them on their edges
 };
 
 /// A sample of a neighbourhood. Those at one position are one, with the mean of their values.
@@ -63,9 +61,6 @@ struct LocalFit
   /// Second derivatives xx, yy, zz, xy, xz, yz, all 0 where what was fitted is affine.
   std::array<double, 6> hessian;
   double spacing; // of the samples there: see SampleGatherer
-  /// How far samples stand at most from `position` in each of extentDirections() around the
-  /// gradient's direction, at least 0; infinite where it was not asked for.
-  std::array<double, extentCount> extents;
   FitOrder order; // that held
 };
 

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace isopoint
@@ -74,41 +73,10 @@ public:
         dot(difference(fit.position, first.position), directionOf(along)) / lengthOf(along);
       point.parameter = std::min(std::max(parameter, 0.0), 1.0);
     }
-    this->measureExtents(fit);
     return fit;
   }
 
 private:
-  /// Those of the neighbourhood, and of the wider one where they may be those of a border; infinite
-  /// where none are asked for.
-  void measureExtents(LocalFit& fit)
-  {
-    if (!this->Request.extents)
-    {
-      fit.extents.fill(std::numeric_limits<double>::infinity());
-      return;
-    }
-    const auto directions = extentDirections(directionOf(fit.gradient));
-    const auto include = [&](const std::vector<FitSample>& samples)
-    {
-      for (const FitSample& sample : samples)
-      {
-        const Vector offset = difference(sample.position, fit.position);
-        for (std::size_t i = 0; i < directions.size(); ++i)
-        {
-          fit.extents[i] = std::max(fit.extents[i], dot(offset, directions[i]));
-        }
-      }
-    };
-    fit.extents.fill(0.0);
-    include(this->Gatherer.samples());
-    if (this->Gatherer.hasWiderSamples() &&
-        *std::min_element(fit.extents.begin(), fit.extents.end()) < fit.spacing)
-    {
-      include(this->Gatherer.widerSamples());
-    }
-  }
-
   const double Isovalue;
   const FitRequest Request;
   SampleGatherer<TSample> Gatherer;

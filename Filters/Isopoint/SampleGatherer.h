@@ -71,13 +71,10 @@ public:
   /// Of the edge at hand, by id.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
-  /// Whether those are few, so that widerSamples() are more.
-  bool hasWiderSamples() const { return this->Samples.size() <= enoughSamples; }
-
   /// More of them, if those are few: the neighbourhoods of some of them as well.
   const std::vector<FitSample>& widerSamples()
   {
-    if (!this->hasWiderSamples())
+    if (this->Samples.size() > enoughSamples)
     {
       return this->Samples;
     }

@@ -2,6 +2,7 @@
 #include "SplatGeometry.h"
 
 #include "NearestPositions.h"
+#include "SplatBorder.h"
 #include "SplatCrease.h"
 #include "SplatNormals.h"
 #include "SplatShape.h"
@@ -33,14 +34,12 @@ constexpr double overlapOfBend = 0.5;
 constexpr double mostOverlap = 1.2;
 
 /// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
-/// where those do around a gap in a smooth surface; and where none do.
+/// where those do around a gap in a smooth surface; where none do, beside a smooth surface's
+/// border; and where no fit tells of a surface either.
 constexpr double closedReach = 2.5;
 constexpr double gapReach = 4.5;
-constexpr double openReach = 1.0;
-
-/// How far out of the samples around it a cell may reach, in the same unit: each stands for what is
-/// around it.
-constexpr double outerReach = 0.7;
+constexpr double borderReach = 1.2;
+constexpr double loneReach = 1.0;
 
 /// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
 /// to be one, but for errors of the fits.
@@ -55,6 +54,7 @@ public:
     : Finder(nearest)
     , Points(points)
     , Splats(splats)
+    , Border(points.extents)
   {
   }
 
@@ -62,12 +62,13 @@ public:
   {
     this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
-    this->findBorder(point);
+    this->Border.moveTo(this->Points.positions[point], splat.normal, this->fitSpacingAt(point));
     TangentCell cell(splat.normal);
     this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell);
     if (cell.isOpen() && !this->reachesAcrossGap(point, cell))
     {
-      this->cutOut(point, openReach * spacing, Bound::AllPoints, cell);
+      const double reach = this->isSmooth(point) ? borderReach : loneReach;
+      this->cutOut(point, reach * spacing, Bound::AllPoints, cell);
     }
     const LocalFit none{};
     const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
@@ -94,13 +95,6 @@ private:
     return order >= FitOrder::Quadratic;
   }
 
-  /// A plane out of the samples around a point.
-  struct BorderPlane
-  {
-    Vector outward;
-    double distance; // from the point
-  };
-
   /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
   enum class Bound
   {
@@ -113,18 +107,19 @@ private:
   /// border; the cell is of no use otherwise
   bool reachesAcrossGap(std::size_t point, TangentCell& cell)
   {
-    if (!this->isSmooth(point) || !std::isfinite(this->Points.fits[point].spacing))
+    const double reach = gapReach * this->fitSpacingAt(point);
+    if (!this->isSmooth(point) || !std::isfinite(reach))
     {
       return false;
     }
-    const double reach = gapReach * this->Points.fits[point].spacing;
     this->cutOut(point, reach, Bound::Sheet, cell);
-    if (cell.isOpen() || !cell.isRound())
+    if (cell.isOpen())
     {
       return false;
     }
+    const bool isRound = cell.isRound();
     this->cutOut(point, reach, Bound::AllPoints, cell);
-    return true;
+    return isRound || cell.isRound();
   }
 
   static double overlapAt(const std::array<Curvature, 2>& curvatures, const TangentCell& cell)
@@ -139,12 +134,18 @@ private:
     this->Finder.find(point, count, this->Nearest);
   }
 
+  /// As the fits tell, or 0: of a sample alone with another one there is no other measure than
+  /// their edge.
+  double fitSpacingAt(std::size_t point) const
+  {
+    return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+  }
+
   /// The spacing of the samples at a point, or that of the points around where these are denser:
   /// the samples' neighbourhood may reach across a void, as it does about thin shells.
   double spacingAt(std::size_t point) const
   {
-    // Of a sample alone with another one there is no other measure than their edge.
-    const double fitted = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    const double fitted = this->fitSpacingAt(point);
     const double spacing = fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.fallingEdges[point]);
     if (this->Nearest.size() < densityNeighbors)
     {
@@ -168,28 +169,6 @@ private:
     }
   }
 
-  /// Finds what bounds the samples around a point: where the surface ends, a cell may be bounded by
-  /// points along its border alone, far outside.
-  void findBorder(std::size_t point)
-  {
-    this->Border.clear();
-    if (this->Points.fits.empty())
-    {
-      return;
-    }
-    // Of a sample alone with another one nothing tells of a border.
-    const LocalFit& fit = this->Points.fits[point];
-    if (!(fit.spacing > 0.0) || !std::isfinite(lengthOf(fit.gradient)))
-    {
-      return;
-    }
-    const auto directions = extentDirections(directionOf(fit.gradient));
-    for (std::size_t i = 0; i < directions.size(); ++i)
-    {
-      this->Border.push_back({ directions[i], fit.extents[i] + outerReach * fit.spacing });
-    }
-  }
-
   /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
   /// farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
@@ -198,12 +177,8 @@ private:
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
-      for (const BorderPlane& plane : this->Border)
-      {
-        cell.cut(plane.outward, plane.distance, true);
-      }
+      this->Border.cutWhereKnown(cell);
       this->Creases.clear();
-      bool isComplete = this->Nearest.size() < this->Wanted;
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
         const std::size_t other = neighbor.point;
@@ -232,11 +207,10 @@ private:
             cell.cut(outward, half);
           }
         }
-        else
-        {
-          isComplete = true; // but creases a little farther off may cut the splat's rim
-        }
       }
+      this->Border.cut(cell);
+      const bool isComplete =
+        this->Nearest.size() < this->Wanted || this->Nearest.back().distance > 2.0 * cell.reach();
       if (isComplete || this->Wanted >= mostNeighbors)
       {
         return;
@@ -309,7 +283,7 @@ private:
   const std::vector<Splat>& Splats; // normals at least
   std::vector<NearestPositions::Neighbor> Nearest;
   std::size_t Wanted = 0; // of the nearest; there may be fewer
-  std::vector<BorderPlane> Border;
+  SplatBorder Border;
   std::vector<SplatCrease> Creases; // by the distance of the points across
 };
 

@@ -3,6 +3,7 @@
 #define isopoint_SplatGeometry_h
 
 #include "Execution.h"
+#include "ExtentQuery.h"
 #include "LocalFit.h"
 #include "Vector.h"
 
@@ -34,6 +35,7 @@ struct SurfacePoints
   /// length.
   std::vector<Vector> fallingEdges;
   std::vector<LocalFit> fits; // or none
+  SampleExtents extents;      // of the samples, or none: then no border is known
 };
 
 /// How normals are found, and whether more is wanted.
@@ -56,12 +58,12 @@ struct SplatOptions
 /// than two and a half spacings of the samples around the edge (half its length where no fits are
 /// given; at most 0.8 times the distance of the 12th nearest point). Where those do not bound it,
 /// it may reach four and a half, and those are not limited by the 12th, if a fit tells of a smooth
-/// surface and points of its own sheet stand all around, as between samples in lines; or else one,
-/// as at a border: an isolated point does not become a plate. A cell that reaches more than 0.7 of
-/// a spacing out of the samples around is cut there and counts as one that nothing bounds. Nor does
-/// it reach farther than the radius of the surface's curvature, so that splats of a small blob do
-/// not stick out of it. Across a crease that a fit found cells do not end halfway but at the other
-/// side's plane, and so are their splats to be clipped.
+/// surface and points of its own sheet stand all around, as between samples in lines; or else 1.2,
+/// as at a border, and one where no fit tells of a surface: an isolated point does not become a
+/// plate. A cell that reaches out of the samples (see SplatBorder) is cut there and counts as one
+/// that nothing bounds. Nor does it reach farther than the radius of the surface's curvature, so
+/// that splats of a small blob do not stick out of it. Across a crease that a fit found cells do
+/// not end halfway but at the other side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
 std::vector<Splat> computeSplats(

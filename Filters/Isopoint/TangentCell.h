@@ -85,6 +85,19 @@ public:
     }
   }
 
+  /// How far the cell reaches in a direction.
+  double reachTowards(const Vector& direction) const
+  {
+    const double a = dot(direction, this->Frame.first);
+    const double b = dot(direction, this->Frame.second);
+    double reach = 0.0;
+    for (const Corner& corner : this->Corners)
+    {
+      reach = std::max(reach, a * corner.x + b * corner.y);
+    }
+    return reach;
+  }
+
   /// The distance of the farthest corner.
   double reach() const { return std::sqrt(this->SquaredReach); }
 

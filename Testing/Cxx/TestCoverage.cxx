@@ -333,5 +333,5 @@ TEST(Coverage, SplatsDoNotReachFarOutOfTheSamples)
               [](const Vector& p) {
                 return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 1.0;
               }),
-    2.5 * spacing);
+    2.3 * spacing);
 }

@@ -268,34 +268,3 @@ TEST(LocalFit, IsTheSameForAnyThreadsAndAnyTree)
     ASSERT_EQ(later.fits[i].order, expected.fits[i].order);
   }
 }
-
-// Of samples that are there, and far enough not to end splats inside the cloud.
-TEST(LocalFit, TellsHowFarSamplesStandAround)
-{
-  constexpr double side = 2.0;
-  const clouds::Cloud cloud = cloudOf([](const Vector& p) { return p[2]; }, 8000, side);
-  isopoint::IsosurfaceExtractor extractor;
-  const isopoint::Execution execution = clouds::executionOn(2);
-  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  const isopoint::Isosurface surface =
-    extractor.extract(execution, 0.0, 54.7, 0.0, FitRequest{ FitOrder::Quadratic, true, true });
-  ASSERT_GT(surface.fits.size(), 500u);
-  for (const LocalFit& found : surface.fits)
-  {
-    const auto directions = isopoint::extentDirections(isopoint::directionOf(found.gradient));
-    for (std::size_t k = 0; k < directions.size(); ++k)
-    {
-      double toBorder = side; // along the direction
-      double largest = 0.0;   // that a sample in the cube can have
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double along = directions[k][axis] < 0.0 ? -1.0 : 1.0;
-        const double way = 0.5 * side - along * found.position[axis];
-        toBorder = std::min(toBorder, way / std::max(1e-9, std::abs(directions[k][axis])));
-        largest += std::abs(directions[k][axis]) * way;
-      }
-      EXPECT_LE(found.extents[k], largest + 1e-9);
-      EXPECT_TRUE(toBorder < 2.0 * found.spacing || found.extents[k] > 0.3 * found.spacing);
-    }
-  }
-}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Clouds.h"
+
+#include "Isopoint/TangentFrame.h"
+#include "Isopoint/Vector.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+using isopoint::ExtentQuery;
+using isopoint::IsosurfaceExtractor;
+using isopoint::Vector;
+
+namespace
+{
+
+IsosurfaceExtractor loaded(const clouds::Cloud& cloud)
+{
+  IsosurfaceExtractor extractor;
+  extractor.load<double, double>(clouds::executionOn(2), cloud.size(), clouds::readerOf(cloud));
+  return extractor;
+}
+
+/// The definition, written down as plainly as possible.
+double extentByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& query)
+{
+  double above = 0.0;
+  double below = 0.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = &cloud.positions[3 * i];
+    const Vector offset = isopoint::difference({ p[0], p[1], p[2] }, query.place);
+    const double length = isopoint::lengthOf(offset);
+    const double ahead = isopoint::dot(offset, query.direction);
+    if (length <= query.reach && ahead * std::sqrt(2.0) >= length)
+    {
+      const double height = isopoint::dot(offset, query.normal);
+      above = height >= 0.0 ? std::max(above, ahead) : above;
+      below = height <= 0.0 ? std::max(below, ahead) : below;
+    }
+  }
+  return std::min({ above, below, query.enough });
+}
+
+std::vector<ExtentQuery> randomQueries(const clouds::Cloud& cloud, int count)
+{
+  clouds::Random random(11);
+  const auto direction = [&random]() {
+    return isopoint::directionOf({ random() - 0.5, random() - 0.5, random() - 0.5 });
+  };
+  std::vector<ExtentQuery> queries;
+  for (int i = 0; i < count; ++i)
+  {
+    const auto sample = static_cast<std::size_t>(random() * static_cast<double>(cloud.size()));
+    const double* const p = &cloud.positions[3 * sample];
+    const double reach = 0.01 + 0.5 * random();
+    const Vector normal = direction();
+    const auto across = isopoint::extentDirections(normal);
+    queries.push_back({ { p[0], p[1], p[2] }, normal, across[static_cast<std::size_t>(i) % 8],
+      reach * (0.05 + 0.9 * random()), reach });
+  }
+  return queries;
+}
+
+} // namespace
+
+TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
+{
+  int cutShort = 0;
+  for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
+         clouds::heaped(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
+  {
+    IsosurfaceExtractor extractor = loaded(cloud);
+    const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);
+    // No isosurface refines the tree, then one, then one elsewhere.
+    for (const double isovalue : { 1e9, 0.5, -0.4 })
+    {
+      extractor.extract(clouds::executionOn(2), isovalue, 54.7);
+      for (const ExtentQuery& query : queries)
+      {
+        const double expected = extentByBruteForce(cloud, query);
+        EXPECT_DOUBLE_EQ(extractor.extentOfSamples(query), expected);
+        cutShort += expected > 0.0 && expected < query.enough ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(cutShort, 300);
+}
+
+// Where a surface leaves the samples at a grazing angle, they stand ahead on one side of it alone.
+TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
+{
+  clouds::Cloud cloud;
+  for (int x = -5; x <= 5; ++x)
+  {
+    for (int y = -5; y <= 5; ++y)
+    {
+      for (int z = -5; z <= (x <= 1 ? 5 : 0); ++z)
+      {
+        cloud.add(x, y, z, z);
+      }
+    }
+  }
+  const IsosurfaceExtractor extractor = loaded(cloud);
+  const auto extentTowards = [&](const Vector& direction)
+  {
+    return extractor.extentOfSamples({ { 0.0, 0.0, 0.5 }, { 0.0, 0.0, 1.0 }, direction, 3.5, 5.0 });
+  };
+  EXPECT_DOUBLE_EQ(extentTowards({ 1.0, 0.0, 0.0 }), 1.0);
+  EXPECT_DOUBLE_EQ(extentTowards({ -1.0, 0.0, 0.0 }), 3.5);
+}
+
+TEST(SampleExtent, OfNoSamplesIsNone)
+{
+  EXPECT_EQ(IsosurfaceExtractor().extentOfSamples(
+              { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 }),
+    0.0);
+}
