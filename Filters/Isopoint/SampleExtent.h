@@ -3,7 +3,6 @@
 #define isopoint_SampleExtent_h
 
 #include "ExtentQuery.h"
-#include "NeighborSearch.h"
 #include "SampleTree.h"
 #include "Vector.h"
 
@@ -13,13 +12,91 @@
 namespace isopoint
 {
 
-/// The samples ahead of a place, as they are met.
-class SamplesAhead
+/// Looks for the samples ahead of a place, the farthest of them first. Those of a subtree whose
+/// region tells that they make no difference are left out.
+template <class TSample>
+class SampleExtentSearch
 {
 public:
-  explicit SamplesAhead(const ExtentQuery& query)
-    : Query(query)
+  SampleExtentSearch(const SampleTree<TSample>& tree, const ExtentQuery& query)
+    : Tree(tree)
+    , Query(query)
   {
+  }
+
+  /// Takes in the samples in a box around a place ahead.
+  void search(double ahead, double half)
+  {
+    const Vector center = sum(this->Query.place, ahead, this->Query.direction);
+    Region box;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.lower[axis] = std::max(this->Tree.region.lower[axis], center[axis] - half);
+      box.upper[axis] = std::min(this->Tree.region.upper[axis], center[axis] + half);
+    }
+    this->visit(SampleTree<TSample>::rootSlot, box);
+  }
+
+  double extent() const { return std::min({ this->Above, this->Below, this->Query.enough }); }
+  bool isEnough() const { return this->extent() >= this->Query.enough; }
+
+private:
+  /// @param box what the search's has in common with the node's region
+  void visit(std::size_t slot, const Region& box)
+  {
+    if (!this->mayMatter(box))
+    {
+      return;
+    }
+    const Node<TSample>& node = this->Tree.nodes[slot];
+    if (!node.isSplit())
+    {
+      this->addSamples(node);
+      return;
+    }
+    const bool isUpperFirst = this->Query.direction[node.axis] > 0.0;
+    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+    {
+      Region part = box;
+      double& bound = isUpper ? part.lower[node.axis] : part.upper[node.axis];
+      bound = isUpper ? std::max(bound, node.plane) : std::min(bound, node.plane);
+      this->visit(this->Tree.child(node, isUpper), part);
+    }
+  }
+
+  /// Whether a sample in a box may stand farther ahead, on a side of the plane, than those found.
+  /// Rounding is monotonic: what is computed for a sample does not exceed what is for its box.
+  bool mayMatter(const Region& box) const
+  {
+    double ahead = 0.0; // the largest, as all that follow
+    double height = 0.0;
+    double depth = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = box.lower[axis] - this->Query.place[axis];
+      const double upper = box.upper[axis] - this->Query.place[axis];
+      if (!(lower <= upper))
+      {
+        return false;
+      }
+      const double direction = this->Query.direction[axis];
+      const double normal = this->Query.normal[axis];
+      ahead += std::max(direction * lower, direction * upper);
+      height += std::max(normal * lower, normal * upper);
+      depth += std::max(-normal * lower, -normal * upper);
+    }
+    ahead = std::min(ahead, this->Query.enough);
+    return (height >= 0.0 && ahead > this->Above) || (depth >= 0.0 && ahead > this->Below);
+  }
+
+  void addSamples(const Node<TSample>& node)
+  {
+    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+    for (std::size_t i = node.begin; i < end; ++i)
+    {
+      const auto* const position = this->Tree.samples[i].position;
+      this->add({ position[0], position[1], position[2] });
+    }
   }
 
   void add(const Vector& position)
@@ -43,12 +120,9 @@ public:
     }
   }
 
-  double extent() const { return std::min({ this->Above, this->Below, this->Query.enough }); }
-  bool isEnough() const { return this->extent() >= this->Query.enough; }
-
-private:
+  const SampleTree<TSample>& Tree;
   const ExtentQuery& Query;
-  double Above = 0.0;
+  double Above = 0.0; // how far samples stand ahead on this side of the plane
   double Below = 0.0;
 };
 
@@ -61,40 +135,17 @@ private:
 template <class TSample>
 double extentOfSamples(const SampleTree<TSample>& tree, const ExtentQuery& query)
 {
-  SamplesAhead found(query);
-  const auto visit = [&](std::size_t slot)
-  {
-    const Node<TSample>& node = tree.nodes[slot];
-    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
-    for (std::size_t i = node.begin; i < end && !found.isEnough(); ++i)
-    {
-      const auto* const position = tree.samples[i].position;
-      found.add({ position[0], position[1], position[2] });
-    }
-    return found.isEnough();
-  };
-  const auto search = [&](double ahead, double half)
-  {
-    const Vector center = sum(query.place, ahead, query.direction);
-    Region box;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      box.lower[axis] = center[axis] - half;
-      box.upper[axis] = center[axis] + half;
-    }
-    return visitTouchingInSubtree(
-      tree, FoundNode{ SampleTree<TSample>::rootSlot, 0 }, maximumDepth, box,
-      [](const Node<TSample>&) { return true; }, visit);
-  };
-  // Mostly the first few samples will do; all that count lie in a ball that touches the place.
+  SampleExtentSearch<TSample> search(tree, query);
+  // Mostly the first few samples will do.
   constexpr double share = 0.2;
   const double beyond = query.reach - query.enough;
-  if (!search(query.enough + 0.5 * beyond, share * beyond))
+  search.search(query.enough + 0.5 * beyond, share * beyond);
+  if (!search.isEnough())
   {
-    constexpr double radius = 0.70710678118654752; // of the ball around the cone of 45 degrees
-    search(radius * query.reach, radius * query.reach);
+    // All that count lie in a ball that touches the place, of 1 / sqrt 2 of the reach.
+    search.search(0.707 * query.reach, 0.72 * query.reach);
   }
-  return found.extent();
+  return search.extent();
 }
 
 } // namespace isopoint

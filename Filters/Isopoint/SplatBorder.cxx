@@ -8,19 +8,18 @@ namespace isopoint
 namespace
 {
 
-/// In spacings of the samples: how far out of the samples a cell may reach, and how far off they
-/// count.
+/// How far out of the samples a cell may reach, in spacings of theirs.
 constexpr double outerReach = 0.9;
-constexpr double sampleReach = 9.0;
 
 } // namespace
 
-void SplatBorder::moveTo(const Vector& place, const Vector& normal, double spacing)
+void SplatBorder::moveTo(const Vector& place, const Vector& normal, double spacing, double reach)
 {
   this->Place = place;
   this->Normal = normal;
-  this->Spacing = spacing;
-  this->IsAsked = this->Extents && spacing > 0.0 && std::isfinite(sampleReach * spacing);
+  this->Outer = outerReach * spacing;
+  this->Reach = reach;
+  this->IsAsked = this->Extents && spacing > 0.0 && std::isfinite(reach);
   const std::array<Vector, extentCount> directions = extentDirections(normal);
   for (std::size_t i = 0; i < extentCount; ++i)
   {
@@ -34,7 +33,7 @@ void SplatBorder::cutWhereKnown(TangentCell& cell) const
   {
     if (way.isEnd)
     {
-      cell.cut(way.direction, way.extent + outerReach * this->Spacing, true);
+      cell.cut(way.direction, way.extent + this->Outer, true);
     }
   }
 }
@@ -45,19 +44,17 @@ void SplatBorder::cut(TangentCell& cell)
   {
     return;
   }
-  const double outer = outerReach * this->Spacing;
   for (Way& way : this->Ways)
   {
-    const double wanted = cell.reachTowards(way.direction) - outer;
+    const double wanted = cell.reachTowards(way.direction) - this->Outer;
     if (wanted > way.extent && !way.isEnd)
     {
-      way.extent = this->Extents(
-        { this->Place, this->Normal, way.direction, wanted, sampleReach * this->Spacing });
+      way.extent = this->Extents({ this->Place, this->Normal, way.direction, wanted, this->Reach });
       way.isEnd = way.extent < wanted;
     }
     if (way.isEnd)
     {
-      cell.cut(way.direction, way.extent + outer, true);
+      cell.cut(way.direction, way.extent + this->Outer, true);
     }
   }
 }

@@ -16,7 +16,6 @@ namespace isopoint
 /// Cuts cells off that reach out of the samples: where the surface ends, one may be bounded by
 /// points along its border alone, far outside. In each of extentDirections() a cell may reach 0.9
 /// spacings farther than samples stand ahead of its point: each stands for what is around it.
-/// Those up to nine spacings off count, so that a cell may reach into a gap of the cloud.
 /// Samples are asked for only where a cell reaches out; what they tell is remembered.
 class SplatBorder
 {
@@ -29,9 +28,10 @@ public:
 
   /// Goes to a point.
   /// @param normal of its splat, of length 1
-  /// @param spacing of the samples there; where it is not positive and finite, nothing tells of a
-  /// border
-  void moveTo(const Vector& place, const Vector& normal, double spacing);
+  /// @param spacing of the samples there; where it is not positive, nothing tells of a border
+  /// @param reach of the samples that count, which may stand across a gap of the cloud; if it is
+  /// not finite, nothing tells of a border
+  void moveTo(const Vector& place, const Vector& normal, double spacing, double reach);
 
   /// Cuts the point's cell in the directions that are known to lead out.
   void cutWhereKnown(TangentCell& cell) const;
@@ -50,7 +50,8 @@ private:
   const SampleExtents& Extents;
   Vector Place{};
   Vector Normal{};
-  double Spacing = 0.0;
+  double Outer = 0.0; // how far out of the samples a cell may reach
+  double Reach = 0.0; // of the samples that count
   std::array<Way, extentCount> Ways{};
   bool IsAsked = false; // whether there is anything to ask
 };

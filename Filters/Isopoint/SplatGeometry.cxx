@@ -62,7 +62,11 @@ public:
   {
     this->list(point, firstNeighbors);
     const double spacing = this->spacingAt(point);
-    this->Border.moveTo(this->Points.positions[point], splat.normal, this->fitSpacingAt(point));
+    // A cell is as far from what is across a gap as it may reach into it.
+    const double mostReach = this->isSmooth(point) ? gapReach : closedReach;
+    const double fitSpacing = this->fitSpacingAt(point);
+    this->Border.moveTo(
+      this->Points.positions[point], splat.normal, fitSpacing, 2.0 * mostReach * fitSpacing);
     TangentCell cell(splat.normal);
     this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell);
     if (cell.isOpen() && !this->reachesAcrossGap(point, cell))
