@@ -429,6 +429,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   const vtkSmartPointer<vtkPoints> points =
     newOutputPoints(input, this->OutputPointsPrecision, count);
   const vtkIsopointGeometry::Arrays wanted = Internals::WantedGeometry(*this);
+  const isopoint::SampleExtents extents = kept.Extractor.sampleExtents();
   vtkIsopointGeometry geometry(wanted, count);
   vtkIdType point = 0;
   for (vtkContouredIsosurface& surface : surfaces)
@@ -442,8 +443,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
     const Execution step = vtkMakeIsopointStep(
       execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
     isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
-    placed.extents = [&kept](const isopoint::ExtentQuery& query)
-    { return kept.Extractor.extentOfSamples(query); };
+    placed.extents = extents;
     std::vector<isopoint::Splat> splats;
     if (wanted.NeedsSplats())
     {

@@ -35,11 +35,9 @@ Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isova
     this->Tree);
 }
 
-double IsosurfaceExtractor::extentOfSamples(const ExtentQuery& query) const
+SampleExtents IsosurfaceExtractor::sampleExtents() const
 {
-  return std::visit([&](const auto& tree)
-    { return tree.isEmpty() ? 0.0 : isopoint::extentOfSamples(tree, query); },
-    this->Tree);
+  return std::visit([](const auto& tree) { return extentsOf(tree); }, this->Tree);
 }
 
 } // namespace isopoint

@@ -80,9 +80,10 @@ public:
   Isosurface extract(const Execution& execution, double isovalue, double angle,
     double gapFactor = 0.0, std::optional<FitRequest> fitRequest = std::nullopt);
 
-  /// How far samples stand ahead of a place: see isopoint::extentOfSamples. From any thread, as
-  /// long as nothing else of this is called.
-  double extentOfSamples(const ExtentQuery& query) const;
+  /// What tells how far samples stand ahead of a place (see extentOfSamples), as long as nothing
+  /// else of this is called.
+  /// @throws std::bad_alloc
+  SampleExtents sampleExtents() const;
 
 private:
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }

@@ -3,14 +3,71 @@
 #define isopoint_SampleExtent_h
 
 #include "ExtentQuery.h"
+#include "Region.h"
 #include "SampleTree.h"
 #include "Vector.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
 
 namespace isopoint
 {
+
+/// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
+/// their regions. Each is computed when it is first asked for; from any thread.
+template <class TSample>
+class UnsplitBounds
+{
+public:
+  explicit UnsplitBounds(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// O(1), but for the first time O(samples of the node).
+  /// @throws std::bad_alloc
+  Region at(std::size_t slot)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const auto found = this->Boxes.find(slot);
+      if (found != this->Boxes.end())
+      {
+        return found->second;
+      }
+    }
+    const Region box = this->boxOf(this->Tree.nodes[slot]);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Boxes.emplace(slot, box).first->second;
+  }
+
+private:
+  Region boxOf(const Node<TSample>& node) const
+  {
+    Region box;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.lower[axis] = box.upper[axis] = this->Tree.samples[node.begin].position[axis];
+    }
+    for (std::size_t i = node.begin; i < node.end; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double coordinate = this->Tree.samples[i].position[axis];
+        box.lower[axis] = std::min(box.lower[axis], coordinate);
+        box.upper[axis] = std::max(box.upper[axis], coordinate);
+      }
+    }
+    return box;
+  }
+
+  const SampleTree<TSample>& Tree;
+  std::mutex Mutex;
+  std::unordered_map<std::size_t, Region> Boxes; // by slot
+};
 
 /// Looks for the samples ahead of a place, the farthest of them first. Those of a subtree whose
 /// region tells that they make no difference are left out.
@@ -18,8 +75,10 @@ template <class TSample>
 class SampleExtentSearch
 {
 public:
-  SampleExtentSearch(const SampleTree<TSample>& tree, const ExtentQuery& query)
+  SampleExtentSearch(
+    const SampleTree<TSample>& tree, UnsplitBounds<TSample>& bounds, const ExtentQuery& query)
     : Tree(tree)
+    , Bounds(bounds)
     , Query(query)
   {
   }
@@ -41,6 +100,8 @@ public:
   bool isEnough() const { return this->extent() >= this->Query.enough; }
 
 private:
+  static constexpr double leastCosine = 0.7071; // of 45 degrees, but for rounding
+
   /// @param box what the search's has in common with the node's region
   void visit(std::size_t slot, const Region& box)
   {
@@ -51,7 +112,7 @@ private:
     const Node<TSample>& node = this->Tree.nodes[slot];
     if (!node.isSplit())
     {
-      this->addSamples(node);
+      this->addSamples(slot);
       return;
     }
     const bool isUpperFirst = this->Query.direction[node.axis] > 0.0;
@@ -71,6 +132,7 @@ private:
     double ahead = 0.0; // the largest, as all that follow
     double height = 0.0;
     double depth = 0.0;
+    Vector gap{}; // from the place to the box
     for (int axis = 0; axis < 3; ++axis)
     {
       const double lower = box.lower[axis] - this->Query.place[axis];
@@ -79,21 +141,39 @@ private:
       {
         return false;
       }
+      gap[axis] = std::max({ lower, -upper, 0.0 });
       const double direction = this->Query.direction[axis];
       const double normal = this->Query.normal[axis];
       ahead += std::max(direction * lower, direction * upper);
       height += std::max(normal * lower, normal * upper);
       depth += std::max(-normal * lower, -normal * upper);
     }
-    ahead = std::min(ahead, this->Query.enough);
-    return (height >= 0.0 && ahead > this->Above) || (depth >= 0.0 && ahead > this->Below);
+    const double useful = std::min(ahead, this->Query.enough);
+    if (!(height >= 0.0 && useful > this->Above) && !(depth >= 0.0 && useful > this->Below))
+    {
+      return false;
+    }
+    // Lengths are rounded either way.
+    constexpr double slack = 0.999;
+    const double least = slack * lengthOf(gap);
+    return least <= this->Query.reach && ahead >= leastCosine * least;
   }
 
-  void addSamples(const Node<TSample>& node)
+  /// Of a node that is not split. Where it has many, they are looked at only as long as one of them
+  /// may matter.
+  void addSamples(std::size_t slot)
   {
+    constexpr std::size_t many = 64;
+    const Node<TSample>& node = this->Tree.nodes[slot];
     const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+    const bool areMany = end - node.begin > many;
+    const Region box = areMany ? this->Bounds.at(slot) : Region{};
     for (std::size_t i = node.begin; i < end; ++i)
     {
+      if (areMany && (i - node.begin) % many == 0 && !this->mayMatter(box))
+      {
+        return;
+      }
       const auto* const position = this->Tree.samples[i].position;
       this->add({ position[0], position[1], position[2] });
     }
@@ -105,7 +185,6 @@ private:
     const double height = dot(offset, this->Query.normal);
     const double ahead = dot(offset, this->Query.direction);
     const double length = lengthOf(offset);
-    constexpr double leastCosine = 0.70710678118654752; // 1 / sqrt 2
     if (ahead < leastCosine * length || length > this->Query.reach)
     {
       return;
@@ -121,6 +200,7 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
+  UnsplitBounds<TSample>& Bounds;
   const ExtentQuery& Query;
   double Above = 0.0; // how far samples stand ahead on this side of the plane
   double Below = 0.0;
@@ -130,12 +210,15 @@ private:
 /// the surface: the largest component along the direction that the offset of one has, of those
 /// within 45 degrees of it and within reach, on the side where they stand less far; at most what is
 /// enough, and 0 where there is none. The same however much of the tree is refined.
-/// Complexity: O(log n) where samples are far enough off, O(log n + samples within reach) where
-/// none are.
+/// Complexity: O(log n) where samples are far enough off; where none are, O(log n) and the nodes
+/// within reach, and the samples of those not split whose bounding box reaches farther than any
+/// sample found.
+/// @throws std::bad_alloc
 template <class TSample>
-double extentOfSamples(const SampleTree<TSample>& tree, const ExtentQuery& query)
+double extentOfSamples(
+  const SampleTree<TSample>& tree, UnsplitBounds<TSample>& bounds, const ExtentQuery& query)
 {
-  SampleExtentSearch<TSample> search(tree, query);
+  SampleExtentSearch<TSample> search(tree, bounds, query);
   // Mostly the first few samples will do.
   constexpr double share = 0.2;
   const double beyond = query.reach - query.enough;
@@ -146,6 +229,19 @@ double extentOfSamples(const SampleTree<TSample>& tree, const ExtentQuery& query
     search.search(0.707 * query.reach, 0.72 * query.reach);
   }
   return search.extent();
+}
+
+/// What answers queries of a tree's samples, as long as it is not changed.
+template <class TSample>
+SampleExtents extentsOf(const SampleTree<TSample>& tree)
+{
+  if (tree.isEmpty())
+  {
+    return [](const ExtentQuery&) { return 0.0; };
+  }
+  const auto bounds = std::make_shared<UnsplitBounds<TSample>>(tree);
+  return [&tree, bounds](const ExtentQuery& query)
+  { return extentOfSamples(tree, *bounds, query); };
 }
 
 } // namespace isopoint

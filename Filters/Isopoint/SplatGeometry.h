@@ -65,7 +65,8 @@ struct SplatOptions
 /// that splats of a small blob do not stick out of it. Across a crease that a fit found cells do
 /// not end halfway but at the other side's plane, and so are their splats to be clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
-/// Complexity: O(n log n) in all, and for each point O(neighborCount log n).
+/// Complexity: O(n log n) in all, and for each point O(neighborCount log n) and what its few
+/// queries of the samples take.
 std::vector<Splat> computeSplats(
   const Execution& execution, const SurfacePoints& points, const SplatOptions& options);
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -36,7 +35,7 @@ double extentByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& query)
     const Vector offset = isopoint::difference({ p[0], p[1], p[2] }, query.place);
     const double length = isopoint::lengthOf(offset);
     const double ahead = isopoint::dot(offset, query.direction);
-    if (length <= query.reach && ahead * std::sqrt(2.0) >= length)
+    if (length <= query.reach && ahead >= 0.7071 * length)
     {
       const double height = isopoint::dot(offset, query.normal);
       above = height >= 0.0 ? std::max(above, ahead) : above;
@@ -80,10 +79,11 @@ TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
       extractor.extract(clouds::executionOn(2), isovalue, 54.7);
+      const isopoint::SampleExtents extents = extractor.sampleExtents();
       for (const ExtentQuery& query : queries)
       {
         const double expected = extentByBruteForce(cloud, query);
-        EXPECT_DOUBLE_EQ(extractor.extentOfSamples(query), expected);
+        EXPECT_DOUBLE_EQ(extents(query), expected);
         cutShort += expected > 0.0 && expected < query.enough ? 1 : 0;
       }
     }
@@ -108,7 +108,7 @@ TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
   const IsosurfaceExtractor extractor = loaded(cloud);
   const auto extentTowards = [&](const Vector& direction)
   {
-    return extractor.extentOfSamples({ { 0.0, 0.0, 0.5 }, { 0.0, 0.0, 1.0 }, direction, 3.5, 5.0 });
+    return extractor.sampleExtents()({ { 0.0, 0.0, 0.5 }, { 0.0, 0.0, 1.0 }, direction, 3.5, 5.0 });
   };
   EXPECT_DOUBLE_EQ(extentTowards({ 1.0, 0.0, 0.0 }), 1.0);
   EXPECT_DOUBLE_EQ(extentTowards({ -1.0, 0.0, 0.0 }), 3.5);
@@ -116,7 +116,7 @@ TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
 
 TEST(SampleExtent, OfNoSamplesIsNone)
 {
-  EXPECT_EQ(IsosurfaceExtractor().extentOfSamples(
+  EXPECT_EQ(IsosurfaceExtractor().sampleExtents()(
               { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 }),
     0.0);
 }
