@@ -4,9 +4,9 @@
 
 #include "Isopoint.h"
 #include "SampleTree.h"
+#include "SlotMemory.h"
 
 #include <cstddef>
-#include <mutex>
 #include <unordered_map>
 
 namespace isopoint
@@ -40,23 +40,12 @@ public:
     {
       return meanOfLeaf(this->Tree, leaf);
     }
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      const auto found = this->Means.find(slot);
-      if (found != this->Means.end())
-      {
-        return found->second;
-      }
-    }
-    const double mean = meanOfLeaf(this->Tree, leaf);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Means.emplace(slot, mean).first->second;
+    return this->Means.at(slot, [&]() { return meanOfLeaf(this->Tree, leaf); });
   }
 
 private:
   const SampleTree<TSample>& Tree;
-  std::mutex Mutex;
-  std::unordered_map<std::size_t, double> Means; // by slot
+  SlotMemory<double> Means;
 };
 
 /// The values of leaves: the means of their samples, which count as one. Those of heaps are

@@ -4,11 +4,10 @@
 
 #include "Offset.h"
 #include "RawArray.h"
+#include "SampleBox.h"
 #include "SampleTree.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <mutex>
 
 namespace isopoint
@@ -51,41 +50,16 @@ public:
   }
 
 private:
-  using Coordinate = typename TSample::Coordinate;
-
-  struct Box
-  {
-    Coordinate lower[3];
-    Coordinate upper[3];
-
-    void add(const Coordinate otherLower[3], const Coordinate otherUpper[3])
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->lower[axis] = std::min(this->lower[axis], otherLower[axis]);
-        this->upper[axis] = std::max(this->upper[axis], otherUpper[axis]);
-      }
-    }
-  };
+  using Box = SampleBox<TSample>;
 
   Box boxOf(const Node<TSample>& node)
   {
-    constexpr Coordinate infinity = std::numeric_limits<Coordinate>::infinity();
-    Box box{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
     if (!node.isSplit())
     {
-      const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
-      for (std::size_t i = node.begin; i < end; ++i)
-      {
-        box.add(this->Tree.samples[i].position, this->Tree.samples[i].position);
-      }
-      return box;
+      return boxOfSamples(this->Tree, node);
     }
-    for (const std::size_t child : { node.lowerSlot(), node.upperSlot() })
-    {
-      const Box part = this->boxOf(this->Tree.nodes[child]);
-      box.add(part.lower, part.upper);
-    }
+    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerSlot()]),
+      this->boxOf(this->Tree.nodes[node.upperSlot()]));
     this->Boxes[static_cast<std::size_t>(node.childPair)] = box;
     return box;
   }

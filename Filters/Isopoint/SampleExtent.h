@@ -4,14 +4,14 @@
 
 #include "ExtentQuery.h"
 #include "Region.h"
+#include "SampleBox.h"
 #include "SampleTree.h"
+#include "SlotMemory.h"
 #include "Vector.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <mutex>
-#include <unordered_map>
 
 namespace isopoint
 {
@@ -29,44 +29,14 @@ public:
 
   /// O(1), but for the first time O(samples of the node).
   /// @throws std::bad_alloc
-  Region at(std::size_t slot)
+  SampleBox<TSample> at(std::size_t slot)
   {
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      const auto found = this->Boxes.find(slot);
-      if (found != this->Boxes.end())
-      {
-        return found->second;
-      }
-    }
-    const Region box = this->boxOf(this->Tree.nodes[slot]);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Boxes.emplace(slot, box).first->second;
+    return this->Boxes.at(slot, [&]() { return boxOfSamples(this->Tree, this->Tree.nodes[slot]); });
   }
 
 private:
-  Region boxOf(const Node<TSample>& node) const
-  {
-    Region box;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      box.lower[axis] = box.upper[axis] = this->Tree.samples[node.begin].position[axis];
-    }
-    for (std::size_t i = node.begin; i < node.end; ++i)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double coordinate = this->Tree.samples[i].position[axis];
-        box.lower[axis] = std::min(box.lower[axis], coordinate);
-        box.upper[axis] = std::max(box.upper[axis], coordinate);
-      }
-    }
-    return box;
-  }
-
   const SampleTree<TSample>& Tree;
-  std::mutex Mutex;
-  std::unordered_map<std::size_t, Region> Boxes; // by slot
+  SlotMemory<SampleBox<TSample>> Boxes;
 };
 
 /// Looks for the samples ahead of a place, the farthest of them first. Those of a subtree whose
@@ -127,7 +97,8 @@ private:
 
   /// Whether a sample in a box may stand farther ahead, on a side of the plane, than those found.
   /// Rounding is monotonic: what is computed for a sample does not exceed what is for its box.
-  bool mayMatter(const Region& box) const
+  template <class TBox>
+  bool mayMatter(const TBox& box) const
   {
     double ahead = 0.0; // the largest, as all that follow
     double height = 0.0;
@@ -167,7 +138,7 @@ private:
     const Node<TSample>& node = this->Tree.nodes[slot];
     const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
     const bool areMany = end - node.begin > many;
-    const Region box = areMany ? this->Bounds.at(slot) : Region{};
+    const SampleBox<TSample> box = areMany ? this->Bounds.at(slot) : SampleBox<TSample>{};
     for (std::size_t i = node.begin; i < end; ++i)
     {
       if (areMany && (i - node.begin) % many == 0 && !this->mayMatter(box))

@@ -194,6 +194,7 @@ private:
           cell.cut(scaled(-1.0, crease.inward), crease.height);
           this->Creases.push_back(crease);
         }
+        // Those farther off do not, but creases a little farther may cut the splat's rim.
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
           if (this->isAcrossKnownCrease(point, other, offset))
