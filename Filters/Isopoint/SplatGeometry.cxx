@@ -41,6 +41,11 @@ constexpr double gapReach = 4.5;
 constexpr double borderReach = 1.2;
 constexpr double loneReach = 1.0;
 
+/// Points that no smooth fit holds bound the cell of one whose fit does from this distance on, in
+/// the same unit: nearer ones need not cover what lies beyond them, since their normals are but
+/// estimates.
+constexpr double unfittedDistance = 0.5;
+
 /// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
 /// to be one, but for errors of the fits.
 constexpr double agreement = 0.01;
@@ -197,7 +202,8 @@ private:
         // Those farther off do not, but creases a little farther may cut the splat's rim.
         else if (neighbor.distance <= 2.0 * cell.reach())
         {
-          if (this->isAcrossKnownCrease(point, other, offset))
+          if (this->isAcrossKnownCrease(point, other, offset) ||
+              this->isUnfittedBeside(point, neighbor))
           {
             continue;
           }
@@ -244,6 +250,13 @@ private:
            std::abs(dot(normal, otherNormal) - turn) < tolerance;
   }
 
+  /// Whether no smooth fit held at one of the nearest, close to a point of which it did.
+  bool isUnfittedBeside(std::size_t point, const NearestPositions::Neighbor& neighbor) const
+  {
+    return this->isSmooth(point) && !this->isSmooth(neighbor.point) &&
+           neighbor.distance < unfittedDistance * this->fitSpacingAt(point);
+  }
+
   /// Whether fits tell that the planes of two points meet between them at a crease.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
@@ -252,7 +265,8 @@ private:
            fits[other].order == FitOrder::Crease && this->doPlanesMeet(point, other, offset);
   }
 
-  /// Whether the planes of two points meet between them: each lies on the same side of the other's.
+  /// Whether the planes of two points meet between them: each point lies on the same side of the
+  /// other's plane.
   bool doPlanesMeet(std::size_t point, std::size_t other, const Vector& offset) const
   {
     const Vector& normal = this->Splats[point].normal;
@@ -261,7 +275,8 @@ private:
     const double otherHeight = -dot(otherNormal, offset);
     const double tolerance = 0.02 * lengthOf(offset);
     return std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
-           (height < tolerance) == (otherHeight < tolerance);
+           (std::min(height, otherHeight) >= -tolerance ||
+             std::max(height, otherHeight) <= tolerance);
   }
 
   /// Whether a point beside a crease meets there with another that lies farther off in a plane

@@ -53,17 +53,19 @@ struct SplatOptions
 /// for, that of PlaneNormals. Points at one position count as one among the nearest.
 ///
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
-/// other points. Together the cells leave no gap on a flat surface; a tenth is added for those that
+/// other points, those without a smooth fit left out that stand within half a spacing of one with
+/// such a fit. Together the cells leave no gap on a flat surface; a tenth is added for those that
 /// bend, up to a fifth where they bend much or no fit tells how they do. A cell reaches no farther
 /// than two and a half spacings of the samples around the edge (half its length where no fits are
-/// given; at most 0.8 times the distance of the 12th nearest point). Where those do not bound it,
-/// it may reach four and a half, and those are not limited by the 12th, if a fit tells of a smooth
-/// surface and points of its own sheet stand all around, as between samples in lines; or else 1.2,
-/// as at a border, and one where no fit tells of a surface: an isolated point does not become a
-/// plate. A cell that reaches out of the samples (see SplatBorder) is cut there and counts as one
-/// that nothing bounds. Nor does it reach farther than the radius of the surface's curvature, so
-/// that splats of a small blob do not stick out of it. Across a crease that a fit found cells do
-/// not end halfway but at the other side's plane, and so are their splats to be clipped.
+/// given; at most 0.8 times the distance of the 12th nearest point). Where other points do not
+/// bound it, it may reach four and a half, and those are not limited by the 12th, if a fit tells of
+/// a smooth surface and points of its own sheet stand all around, as between samples in lines; or
+/// else 1.2, as at a border, and one where no fit tells of a surface: an isolated point does not
+/// become a plate. A cell that reaches out of the samples (see SplatBorder) is cut there and counts
+/// as one that nothing bounds. Nor does it reach farther than the radius of the surface's
+/// curvature, so that splats of a small blob do not stick out of it. Across a crease that a fit
+/// found cells do not end halfway but at the other side's plane, and so are their splats to be
+/// clipped.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n) and what its few
 /// queries of the samples take.

@@ -252,6 +252,71 @@ TEST(Splats, AreClippedAtACrease)
   EXPECT_GT(clipped, 50);
 }
 
+// A field and its negative have the same surface, whose splats differ by their normals' sides.
+TEST(Splats, AreAlikeWhicheverSideFalls)
+{
+  isopoint::SurfacePoints points;
+  clouds::Random random(6);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const bool top = i % 2 == 0;
+    const double along = 10.0 * random();
+    const double off = -3.0 * random();
+    const double tilt = 0.05 * (random() - 0.5);
+    addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off },
+      isopoint::FitOrder::Crease, top ? Vector{ tilt, 0.0, -1.0 } : Vector{ -1.0, 0.0, tilt });
+  }
+  const auto splatsOfPoints = [&]()
+  { return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()); };
+  const std::vector<Splat> splats = splatsOfPoints();
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    points.fallingEdges[i] = isopoint::scaled(-1.0, points.fallingEdges[i]);
+    points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
+  }
+  const std::vector<Splat> turned = splatsOfPoints();
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    ASSERT_EQ(turned[i].normal, isopoint::scaled(-1.0, splats[i].normal));
+    for (std::size_t k = 0; k < splats[i].clip.size(); ++k)
+    {
+      ASSERT_NEAR(turned[i].clip[k], splats[i].clip[k], 1e-9) << i;
+    }
+    ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
+  }
+}
+
+// A point without a fit may have any normal: what lies beyond it is its fitted neighbour's to
+// cover.
+TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
+{
+  const Vector gradient{ 0.0, 0.0, -1.0 };
+  isopoint::SurfacePoints points;
+  for (int i = -5; i <= 5; ++i)
+  {
+    for (int k = -5; k <= 5; ++k)
+    {
+      addFitted(points, { 1.0 * i, 1.0 * k, 0.0 }, isopoint::FitOrder::Quadratic, gradient);
+    }
+  }
+  const std::size_t middle = points.positions.size() / 2;
+  const auto axesOfMiddle = [&]()
+  {
+    const Splat splat =
+      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions())[middle];
+    return std::array<double, 2>{ lengthOf(splat.axis1), lengthOf(splat.axis2) };
+  };
+  const std::array<double, 2> alone = axesOfMiddle();
+  for (const Vector& beside : { Vector{ 0.02, 0.01, 0.0 }, Vector{ -0.3, 0.2, 0.0 },
+         Vector{ -0.1, -0.3, 0.0 }, Vector{ 0.2, 0.3, 0.0 } })
+  {
+    addFitted(points, beside, isopoint::FitOrder::None, { -1.0, 0.0, -0.2 });
+  }
+  const std::array<double, 2> accompanied = axesOfMiddle();
+  EXPECT_NEAR(accompanied[0], alone[0], 1e-12);
+  EXPECT_NEAR(accompanied[1], alone[1], 1e-12);
+}
+
 // A single fit that sees a crease in a plane clips none of those around it.
 TEST(Splats, AreNotClippedByASingleFit)
 {
