@@ -90,9 +90,8 @@ public:
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
     // Blended with others, a splat that ends before a crease still belongs to one side of it.
-    const bool isBesideCrease = fit.order == FitOrder::Crease;
-    splat.clip = clipAtNearest(this->Creases, isBesideCrease ? 1 : 2, agreement * spacing,
-      std::max(closedReach * spacing, splat.radius));
+    splat.clip = clipAtNearest(this->Creases, this->isBesideCrease(point) ? 1 : 2,
+      agreement * spacing, std::max(closedReach * spacing, splat.radius));
   }
 
 private:
@@ -102,6 +101,12 @@ private:
     const FitOrder order =
       this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
     return order >= FitOrder::Quadratic;
+  }
+
+  /// Whether a fit tells of a crease beside it.
+  bool isBesideCrease(std::size_t point) const
+  {
+    return !this->Points.fits.empty() && this->Points.fits[point].order == FitOrder::Crease;
   }
 
   /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
@@ -182,7 +187,6 @@ private:
   /// farther than twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
   {
-    const Vector& normal = this->Splats[point].normal;
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
@@ -190,34 +194,7 @@ private:
       this->Creases.clear();
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
-        const std::size_t other = neighbor.point;
-        const Vector offset =
-          difference(this->Points.positions[other], this->Points.positions[point]);
-        if (this->meetAtCrease(point, other, offset))
-        {
-          const SplatCrease crease = creaseTowards(offset, normal, this->Splats[other].normal);
-          cell.cut(scaled(-1.0, crease.inward), crease.height);
-          this->Creases.push_back(crease);
-        }
-        // Those farther off do not, but creases a little farther may cut the splat's rim.
-        else if (neighbor.distance <= 2.0 * cell.reach())
-        {
-          if (this->isAcrossKnownCrease(point, other, offset) ||
-              this->isUnfittedBeside(point, neighbor))
-          {
-            continue;
-          }
-          const Vector outward = scaled(1.0 / neighbor.distance, offset);
-          const double half = 0.5 * neighbor.distance;
-          if (this->bendsTowards(point, other, outward))
-          {
-            cell.cut(directionOf(sum(outward, -dot(outward, normal), normal)), half);
-          }
-          else if (bound == Bound::AllPoints)
-          {
-            cell.cut(outward, half);
-          }
-        }
+        this->cutTowards(point, neighbor, bound, cell);
       }
       this->Border.cut(cell);
       const bool isComplete =
@@ -226,6 +203,43 @@ private:
       {
         return;
       }
+    }
+  }
+
+  void cutTowards(
+    std::size_t point, const NearestPositions::Neighbor& neighbor, Bound bound, TangentCell& cell)
+  {
+    const Vector& normal = this->Splats[point].normal;
+    const std::size_t other = neighbor.point;
+    const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
+    // Those too far off to cut the cell may still cut the splat's rim.
+    if (this->meetAtCrease(point, other, offset))
+    {
+      SplatCrease crease = creaseTowards(offset, normal, this->Splats[other].normal);
+      if (this->isBesideCrease(point))
+      {
+        this->Creases.push_back(crease);
+        cell.cut(scaled(-1.0, crease.inward), crease.height);
+        return;
+      }
+      // What is on the other's plane is not to be lost for errors of a fit that is not.
+      crease.height += agreement * this->fitSpacingAt(point);
+      this->Creases.push_back(crease);
+    }
+    if (neighbor.distance > 2.0 * cell.reach() || this->isAcrossKnownCrease(point, other, offset) ||
+        this->isUnfittedBeside(point, neighbor))
+    {
+      return;
+    }
+    const Vector outward = scaled(1.0 / neighbor.distance, offset);
+    const double half = 0.5 * neighbor.distance;
+    if (this->bendsTowards(point, other, outward))
+    {
+      cell.cut(directionOf(sum(outward, -dot(outward, normal), normal)), half);
+    }
+    else if (bound == Bound::AllPoints)
+    {
+      cell.cut(outward, half);
     }
   }
 
@@ -261,8 +275,8 @@ private:
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
     const std::vector<LocalFit>& fits = this->Points.fits;
-    return !fits.empty() && fits[point].order != FitOrder::None &&
-           fits[other].order == FitOrder::Crease && this->doPlanesMeet(point, other, offset);
+    return !fits.empty() && fits[point].order != FitOrder::None && this->isBesideCrease(other) &&
+           this->doPlanesMeet(point, other, offset);
   }
 
   /// Whether the planes of two points meet between them: each point lies on the same side of the
@@ -283,7 +297,7 @@ private:
   /// which has cut its cell already.
   bool isAcrossKnownCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    if (this->Creases.empty() || this->Points.fits[point].order != FitOrder::Crease ||
+    if (this->Creases.empty() || !this->isBesideCrease(point) ||
         !this->doPlanesMeet(point, other, offset))
     {
       return false;

@@ -63,9 +63,10 @@ struct SplatOptions
 /// else 1.2, as at a border, and one where no fit tells of a surface: an isolated point does not
 /// become a plate. A cell that reaches out of the samples (see SplatBorder) is cut there and counts
 /// as one that nothing bounds. Nor does it reach farther than the radius of the surface's
-/// curvature, so that splats of a small blob do not stick out of it. Across a crease that a fit
-/// found cells do not end halfway but at the other side's plane, and so are their splats to be
-/// clipped.
+/// curvature, so that splats of a small blob do not stick out of it. Where the fits of two points
+/// tell of a crease between them, their cells do not end halfway but at the other side's plane, and
+/// so are their splats to be clipped. A splat of another fit is to be clipped where at least two
+/// points across such a crease agree on its plane.
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n) and what its few
 /// queries of the samples take.

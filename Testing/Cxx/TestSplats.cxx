@@ -317,22 +317,27 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   EXPECT_NEAR(accompanied[1], alone[1], 1e-12);
 }
 
-// A single fit that sees a crease in a plane clips none of those around it.
-TEST(Splats, AreNotClippedByASingleFit)
+// A single fit that sees a crease in a plane neither clips those around it nor makes them smaller.
+TEST(Splats, AreLeftWholeByASingleFit)
 {
-  isopoint::SurfacePoints points;
-  clouds::Random random(4);
-  addFitted(points, { 0.0, 0.0, 0.0 }, isopoint::FitOrder::Crease, { -1.0, 0.0, -1.0 });
-  for (int i = 1; i < 500; ++i)
+  const auto splatsAround = [](const Vector& gradient)
   {
-    addFitted(points, { 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 },
-      isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
-  }
-  const std::vector<Splat> splats =
-    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+    isopoint::SurfacePoints points;
+    clouds::Random random(4);
+    addFitted(points, { 0.0, 0.0, 0.0 }, isopoint::FitOrder::Crease, gradient);
+    for (int i = 1; i < 500; ++i)
+    {
+      addFitted(points, { 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 },
+        isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
+    }
+    return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  };
+  const std::vector<Splat> splats = splatsAround({ -1.0, 0.0, -1.0 });
+  const std::vector<Splat> expected = splatsAround({ 0.0, 0.0, -1.0 });
   for (std::size_t i = 1; i < splats.size(); ++i)
   {
     ASSERT_EQ(splats[i].clip, (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 })) << i;
+    ASSERT_NEAR(splats[i].radius, expected[i].radius, 1e-12) << i;
   }
 }
 
