@@ -54,7 +54,7 @@ vtkIsopointGeometry::vtkIsopointGeometry(const Arrays& wanted, vtkIdType count)
   , Radius(newArray<vtkFloatArray>(wanted.Radius, "Radius", 1, count))
   , SplatAxis1(newArray<vtkFloatArray>(wanted.SplatAxes, "SplatAxis1", 3, count))
   , SplatAxis2(newArray<vtkFloatArray>(wanted.SplatAxes, "SplatAxis2", 3, count))
-  , SplatClip(newArray<vtkFloatArray>(wanted.SplatClip, "SplatClip", 4, count))
+  , SplatClip(newArray<vtkFloatArray>(wanted.SplatClip, "SplatClip", 5, count))
   , Gradients(newArray<vtkFloatArray>(wanted.Gradients, "Gradients", 3, count))
   , ProjectionOrder(
       newArray<vtkUnsignedCharArray>(wanted.ProjectionOrder, "ProjectionOrder", 1, count))

@@ -218,11 +218,12 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "SplatClip" (four floats a, b, c, d): of a splat beside a crease,
-   * at the point q, only the places p with (a, b, c) . (p - q) + d >= 0 belong to the surface.
-   * (a, b, c) is of length 1; d, in the units of the points and not negative, is the distance of
-   * the point from the plane at which its splat ends. All are 0 where nothing is to be clipped.
-   * Default: off.
+   * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): of a splat beside a
+   * crease, at the point q, only the places p with (a, b, c) . (p - q) + d >= 0 belong to the
+   * surface. (a, b, c) is of length 1; d, in the units of the points and not negative, is the
+   * distance of the point from the plane at which its splat ends. There the surface turns to the
+   * side that the normal points to (e = 1), as in a groove, or to the other (e = -1). All are 0
+   * where nothing is to be clipped. Default: off.
    */
   vtkSetMacro(ComputeSplatClips, vtkTypeBool);
   vtkGetMacro(ComputeSplatClips, vtkTypeBool);

@@ -74,28 +74,28 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
   }
 }
 
-using Clip = std::array<float, 4>;
+struct Clip
+{
+  std::array<float, 4> Plane{};
+  float Turn = 0.0f;
+};
 
 /// A splat's plane: its normal over the radius and the centre's distance before it, in radii. Zeros
 /// for none, and for one that single precision does not hold.
-Clip clipOf(const double* plane, double radius)
+std::array<float, 4> planeOf(const double* clip, double radius)
 {
-  const double scale = std::hypot(plane[0], plane[1], plane[2]) * radius;
-  Clip clip = { 0.0f, 0.0f, 0.0f, 0.0f };
-  if (!(scale > 0.0))
+  const double scale = std::hypot(clip[0], clip[1], clip[2]) * radius;
+  std::array<float, 4> plane{};
+  for (std::size_t i = 0; i < plane.size() && scale > 0.0; ++i)
   {
-    return clip;
-  }
-  for (std::size_t i = 0; i < clip.size(); ++i)
-  {
-    const double value = plane[i] / scale;
+    const double value = clip[i] / scale;
     if (!(std::abs(value) <= std::numeric_limits<float>::max()))
     {
-      return Clip{};
+      return {};
     }
-    clip[i] = static_cast<float>(value);
+    plane[i] = static_cast<float>(value);
   }
-  return clip;
+  return plane;
 }
 
 template <class TElement>
@@ -191,15 +191,15 @@ void vtkIsopointSplatBuffers::SetClips(const Shape& shape)
       bool hasOne = false;
       for (vtkIdType i = begin; i < end; ++i)
       {
-        double plane[4];
+        double clip[5] = {};
         double radius = shape.Radius;
-        shape.Clips->GetTuple(i, plane);
+        shape.Clips->GetTuple(i, clip);
         if (shape.Radii)
         {
           shape.Radii->GetTuple(i, &radius);
         }
-        clips[i] = clipOf(plane, radius);
-        hasOne = hasOne || clips[i] != Clip{};
+        clips[i] = { planeOf(clip, radius), clip[4] > 0.0 ? 1.0f : -1.0f };
+        hasOne = hasOne || clips[i].Plane != std::array<float, 4>{};
       }
       if (hasOne)
       {
@@ -300,7 +300,8 @@ void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
   }
   if (this->Clipped)
   {
-    add(this->Clips, "clipMC", 0, sizeof(Clip), VTK_FLOAT, 4);
+    add(this->Clips, "clipMC", offsetof(Clip, Plane), sizeof(Clip), VTK_FLOAT, 4);
+    add(this->Clips, "clipTurn", offsetof(Clip, Turn), sizeof(Clip), VTK_FLOAT, 1);
   }
   if (this->ColorComponents == 4)
   {

@@ -129,7 +129,7 @@ vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
   vtkDataArray* const clips = arrayOf(data, mapper->SplatClipArrayName);
   if (clips && (clips->GetDataType() == VTK_FLOAT || clips->GetDataType() == VTK_DOUBLE))
   {
-    shape.Clips = usable(clips, 4);
+    shape.Clips = usable(clips, clips->GetNumberOfComponents() == 4 ? 4 : 5);
   }
   return shape;
 }

@@ -17,6 +17,7 @@ in vec3 axis2MC;
 #endif
 #ifdef SPLAT_CLIPS
 in vec4 clipMC; // a plane: its normal over the radius, the centre's distance before it, in radii
+in float clipTurn; // 1 where the surface turns to the normal's side there, or -1
 #endif
 #ifdef SPLAT_COLORS
 in vec4 color;
@@ -147,7 +148,8 @@ void main()
   // Planes take the transposed inverse, too.
   vec3 clip = normalMatrix * clipMC.xyz;
   clipVS = vec3(clipMC.w, dot(clip, axis1VS), dot(clip, axis2VS));
-  isBehindCreaseVS = !facesCamera && dot(clip, towardsCamera) < 0.0 ? 1 : 0;
+  bool turnsTowardsCamera = facesCamera == (clipTurn > 0.0);
+  isBehindCreaseVS = turnsTowardsCamera && dot(clip, towardsCamera) < 0.0 ? 1 : 0;
 #endif
 #ifdef SPLAT_COLORS
   colorVS = color;

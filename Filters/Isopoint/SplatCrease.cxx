@@ -18,10 +18,10 @@ SplatCrease creaseTowards(const Vector& offset, const Vector& normal, const Vect
   const double side =
     (std::abs(height) > std::abs(otherHeight) ? height : otherHeight) < 0.0 ? -1.0 : 1.0;
   const double inside = std::max(0.0, side * otherHeight);
-  return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine) };
+  return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine), side };
 }
 
-std::array<double, 4> clipAtNearest(
+std::array<double, 5> clipAtNearest(
   const std::vector<SplatCrease>& creases, std::size_t fewest, double agreement, double limit)
 {
   const auto isNearer = [](const SplatCrease& a, const SplatCrease& b)
@@ -29,7 +29,7 @@ std::array<double, 4> clipAtNearest(
   const auto nearest = std::min_element(creases.begin(), creases.end(), isNearer);
   if (nearest == creases.end() || !(nearest->distance < limit))
   {
-    return { 0.0, 0.0, 0.0, 0.0 };
+    return {};
   }
   constexpr std::size_t most = 5;
   std::vector<SplatCrease> planes{ *nearest };
@@ -43,13 +43,14 @@ std::array<double, 4> clipAtNearest(
   }
   if (planes.size() < fewest)
   {
-    return { 0.0, 0.0, 0.0, 0.0 };
+    return {};
   }
   std::sort(planes.begin(), planes.end(), isNearer);
   const SplatCrease& middle = planes[planes.size() / 2];
   const auto farthest = std::find_if(planes.rbegin(), planes.rend(),
     [&](const SplatCrease& crease) { return crease.distance <= middle.distance + agreement; });
-  return { farthest->inward[0], farthest->inward[1], farthest->inward[2], farthest->height };
+  return { farthest->inward[0], farthest->inward[1], farthest->inward[2], farthest->height,
+    farthest->turn };
 }
 
 } // namespace isopoint

@@ -17,6 +17,7 @@ struct SplatCrease
   Vector inward;   // normal to it, to the splat's side
   double height;   // of the centre over it
   double distance; // of the centre from the crease, along the splat
+  double turn;     // to which side of the splat the surface goes on there: 1 its normal's, or -1
 };
 
 /// @param offset of the point across from the centre
@@ -32,7 +33,7 @@ SplatCrease creaseTowards(const Vector& offset, const Vector& normal, const Vect
 /// @param agreement how much farther planes may be that are taken to be one but for errors
 /// @param limit of the distance of a crease that clips
 /// @returns Splat::clip, all 0 where nothing clips
-std::array<double, 4> clipAtNearest(
+std::array<double, 5> clipAtNearest(
   const std::vector<SplatCrease>& creases, std::size_t fewest, double agreement, double limit);
 
 } // namespace isopoint

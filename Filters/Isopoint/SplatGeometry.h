@@ -22,9 +22,10 @@ struct Splat
   double radius; // half the longer axis, positive
   Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
   Vector axis2;
-  /// a, b, c, d: of a splat at the point q only the places p with (a, b, c) . (p - q) + d >= 0 are
-  /// to be drawn, (a, b, c) of length 1, d >= 0; all 0 where nothing is to be cut
-  std::array<double, 4> clip;
+  /// a, b, c, d, e: of a splat at the point q only the places p with (a, b, c) . (p - q) + d >= 0
+  /// are to be drawn, (a, b, c) of length 1, d >= 0; beyond the surface turns to the normal's side
+  /// (e = 1) or to the other (e = -1); all 0 where nothing is to be cut
+  std::array<double, 5> clip;
 };
 
 /// The points of one surface, one entry each.

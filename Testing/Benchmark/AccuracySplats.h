@@ -25,7 +25,7 @@ struct Splat
   analytic::Vector axis1;  // half-axes, across the normal
   analytic::Vector axis2;
   /// a, b, c, d: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
-  std::array<double, 4> clip{};
+  std::array<double, 5> clip{};
 
   double radius() const; // half the major axis
 

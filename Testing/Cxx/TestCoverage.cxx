@@ -194,8 +194,9 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
 
   vtkNew<vtkFloatArray> clip;
   clip->SetName("SplatClip");
-  clip->SetNumberOfComponents(4);
-  clip->InsertNextTuple4(0.0, -1.0, 0.0, 0.5);
+  clip->SetNumberOfComponents(5);
+  const std::array<float, 5> before{ 0.0f, -1.0f, 0.0f, 0.5f, -1.0f };
+  clip->InsertNextTypedTuple(before.data());
   cloud->GetPointData()->AddArray(clip);
   const std::vector<Splat> clipped = accuracy::splatsOf(cloud);
   const Vector center = clipped.at(0).center;

@@ -229,18 +229,20 @@ TEST(Filter, SplatClipsAreRelativeToThePoints)
     int ending = 0;
     for (vtkIdType i = 0; i < clips->GetNumberOfTuples(); ++i)
     {
-      double clip[4];
+      double clip[5];
       clips->GetTuple(i, clip);
       ASSERT_GE(clip[3], 0.0);
       if (clip[0] != 0.0 || clip[1] != 0.0 || clip[2] != 0.0)
       {
         ASSERT_NEAR(std::hypot(clip[0], clip[1], clip[2]), 1.0, 1e-6);
+        ASSERT_EQ(clip[4], -1.0); // an edge
         ASSERT_TRUE(endsAtAnother(filter->GetOutput(), i, clip)) << i;
         ending += clip[3] > 0.0 ? 1 : 0;
       }
       else
       {
         ASSERT_EQ(clip[3], 0.0);
+        ASSERT_EQ(clip[4], 0.0);
       }
     }
     EXPECT_GT(ending, 500);

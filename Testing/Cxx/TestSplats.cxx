@@ -118,7 +118,7 @@ TEST(Splats, AxesSpanTheTangentPlane)
     ASSERT_NEAR(dot(splat.axis1, splat.axis2), 0.0, 1e-12);
     ASSERT_NEAR(dot(cross(splat.axis1, splat.axis2), splat.normal),
       lengthOf(splat.axis1) * lengthOf(splat.axis2), 1e-12);
-    ASSERT_EQ(splat.clip, (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }));
+    ASSERT_EQ(splat.clip, (std::array<double, 5>{}));
   }
 }
 
@@ -232,12 +232,13 @@ TEST(Splats, AreClippedAtACrease)
     }
     const bool top = i % 2 == 0;
     const double toCrease = -(top ? points.positions[i][0] : points.positions[i][2]);
-    const std::array<double, 4> expected = top ? std::array<double, 4>{ -1.0, 0.0, 0.0, toCrease }
-                                               : std::array<double, 4>{ 0.0, 0.0, -1.0, toCrease };
-    if (splats[i].clip != (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 }))
+    const std::array<double, 5> expected =
+      top ? std::array<double, 5>{ -1.0, 0.0, 0.0, toCrease, -1.0 }
+          : std::array<double, 5>{ 0.0, 0.0, -1.0, toCrease, -1.0 };
+    if (splats[i].clip != (std::array<double, 5>{}))
     {
       ++clipped;
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < 5; ++k)
       {
         ASSERT_NEAR(splats[i].clip[k], expected[k], 1e-12);
       }
@@ -278,10 +279,11 @@ TEST(Splats, AreAlikeWhicheverSideFalls)
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     ASSERT_EQ(turned[i].normal, isopoint::scaled(-1.0, splats[i].normal));
-    for (std::size_t k = 0; k < splats[i].clip.size(); ++k)
+    for (std::size_t k = 0; k < 4; ++k)
     {
       ASSERT_NEAR(turned[i].clip[k], splats[i].clip[k], 1e-9) << i;
     }
+    ASSERT_EQ(turned[i].clip[4], -splats[i].clip[4]) << i;
     ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
   }
 }
@@ -336,7 +338,7 @@ TEST(Splats, AreLeftWholeByASingleFit)
   const std::vector<Splat> expected = splatsAround({ 0.0, 0.0, -1.0 });
   for (std::size_t i = 1; i < splats.size(); ++i)
   {
-    ASSERT_EQ(splats[i].clip, (std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 })) << i;
+    ASSERT_EQ(splats[i].clip, (std::array<double, 5>{})) << i;
     ASSERT_NEAR(splats[i].radius, expected[i].radius, 1e-12) << i;
   }
 }

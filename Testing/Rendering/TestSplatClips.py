@@ -204,9 +204,9 @@ def far_from(corners, scene, pixels):
     return result
 
 
-def wedge(random, count=4000):
-    """Two square faces that meet at the y axis at a right angle, red and green; each splat near the
-    edge ends at the other face."""
+def wedge(random, side, count=4000):
+    """Two square faces that meet at the y axis at a right angle, red and green, with normals to one
+    side of them or the other (-1); each splat near the edge ends at the other face."""
     y, away = random.uniform(-1, 1, count), random.uniform(0, 1, count)
     first = np.arange(count) % 2 == 0
     zero = np.zeros(count)
@@ -214,20 +214,20 @@ def wedge(random, count=4000):
         first[:, None], np.column_stack([-away, y, zero]), np.column_stack([zero, y, -away])
     )
     normals = np.where(first[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
-    planes = np.column_stack([-1.0 * first, zero, -1.0 * ~first, away])
+    planes = np.column_stack([-1.0 * first, zero, -1.0 * ~first, away, zero - side])
     radius = np.sqrt(12 * 4 / (np.pi * count))
     planes[away > 2 * radius] = 0.0
     return polydata(
         points,
-        normals,
+        side * normals,
         Radius=np.full(count, radius),
         SplatClip=planes,
         face=np.where(first, 0.0, 1.0),
     )
 
 
-def does_not_blend_across_an_edge():
-    data = wedge(np.random.default_rng(5))
+def does_not_blend_across_an_edge(side):
+    data = wedge(np.random.default_rng(5), side)
     actor = actor_of(data)
     color_by(actor, "face", 0, 1)
     table = vtkLookupTable()
@@ -249,9 +249,14 @@ def does_not_blend_across_an_edge():
             colors = scene.image()
             along_edge = ~far_from([(0, y, 0) for y in np.linspace(-0.7, 0.7, 50)], scene, 40)
             mixed.append(np.count_nonzero(along_edge & (colors[..., :2].min(2) > 10)))
-        print(f"  {position}: {mixed[0]} pixels of both colors, {mixed[1]} with planes")
+        print(f"  {position}, {side}: {mixed[0]} pixels of both colors, {mixed[1]} with planes")
         check(mixed[0] > 1000, "both colors without planes")
         check(mixed[1] <= 5, "one color each with planes")
+
+
+def does_not_blend_across_an_edge_whichever_way_normals_point():
+    for side in (1, -1):
+        does_not_blend_across_an_edge(side)
 
 
 CUBE = 12.0  # half a side, of samples with a spacing of 1
@@ -304,10 +309,11 @@ def edges_of_translated_points():
         nearly_same(image, expected, f"translated by {shift}")
 
 
-def edges_of_a_cube():
-    """Against a mesh of the cube: far better with planes than without, and no hole along edges."""
+def edges_of_a_cube(side):
+    """Against a mesh of the cube, from a field that is larger inside (1) or outside (-1): far
+    better with planes than without, and no hole along edges."""
     points = isopoints(
-        lambda p: 1 - np.abs(p).max(1), [-1.7] * 3, [1.7] * 3, 500_000, creases=True
+        lambda p: side * (1 - np.abs(p).max(1)), [-1.7] * 3, [1.7] * 3, 500_000, creases=True
     )
     source = vtkCubeSource()
     for set_length in (source.SetXLength, source.SetYLength, source.SetZLength):
@@ -324,7 +330,7 @@ def edges_of_a_cube():
             scene.camera.SetViewUp(0, 0, 1)
             scene.renderer.ResetCameraClippingRange()
             image = scene.image()
-            scene.save(f"cube_{position[0]:g}_{name}.png")
+            scene.save(f"cube_{side}_{position[0]:g}_{name}.png")
             return image, scene
 
         mesh, scene = picture(actor_of(source.GetOutput(), splats=False), "mesh")
@@ -335,9 +341,14 @@ def edges_of_a_cube():
         noise = [psnr(image, mesh) for image in (whole, clipped)]
         inside = shrunk(differs(mesh, (0, 0, 1))) & far_from(corners, scene, 25)
         holes = np.count_nonzero(inside & ~differs(clipped, (0, 0, 1)))
-        print(f"  {position}: {noise[0]:.1f} dB, with planes {noise[1]:.1f} dB; {holes} holes")
+        print(f"  {position}, {side}: {noise[0]:.1f} dB, with planes {noise[1]:.1f} dB; {holes} holes")
         check(noise[1] > noise[0] + 6.0, "nearer to the mesh with planes")
         check(holes == 0, "holes along the edges")
+
+
+def edges_of_a_cube_whichever_way_normals_point():
+    for side in (1, -1):
+        edges_of_a_cube(side)
 
 
 if __name__ == "__main__":
@@ -351,8 +362,8 @@ if __name__ == "__main__":
         edges_far_from_the_origin,
         edges_of_translated_points,
         selects_what_is_seen,
-        does_not_blend_across_an_edge,
-        edges_of_a_cube,
+        does_not_blend_across_an_edge_whichever_way_normals_point,
+        edges_of_a_cube_whichever_way_normals_point,
     ):
         print(test.__name__, flush=True)
         test()
