@@ -77,7 +77,7 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 struct Clip
 {
   std::array<float, 4> Plane{};
-  float Turn = 0.0f;
+  float Turn = 0.0f; // 1 where the surface turns to the normal's side at the plane, or -1
 };
 
 /// A splat's plane: its normal over the radius and the centre's distance before it, in radii. Zeros

@@ -38,7 +38,7 @@ public:
     vtkDataArray* Radii = nullptr;   // of 1 component
     vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
     vtkDataArray* Axis2 = nullptr;
-    vtkDataArray* Clips = nullptr; // of 4 or 5 components: a plane relative to the point, or zeros
+    vtkDataArray* Clips = nullptr; // of 4 or 5: a plane relative to the point, what is beyond
     double Radius = 1.0;           // of all splats where Radii is null
   };
 

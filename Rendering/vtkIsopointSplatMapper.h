@@ -124,11 +124,11 @@ public:
    * for the sake of sharp edges: floating-point numbers a, b, c, d, e; of the splat of a point q
    * only the places p with (a, b, c) . (p - q) + d >= 0 are drawn, in the units of the points'
    * coordinates. A plane that the splat does not reach cuts nothing off, but still keeps it from
-   * blending with a face before it, on the plane's other side. That face goes on from the plane to
-   * the side that the splat's normal points to if e is positive, or to the other, also if an array
-   * of four components has no e. Splats of zeros and of
-   * what is not finite are drawn whole; where the input has no such array, and where the name is
-   * empty, all are. Default: "SplatClip".
+   * blending with a face before it, on the plane's other side. That face is on the side of the splat
+   * that its normal points to if e is positive, and on the other if it is not, or if the array has
+   * four components, without e. Splats whose a, b, c, d are zeros or not finite are drawn whole;
+   * where the input has no such array, and where the name is empty, all are.
+   * Default: "SplatClip".
    */
   vtkSetStringMacro(SplatClipArrayName);
   vtkGetStringMacro(SplatClipArrayName);

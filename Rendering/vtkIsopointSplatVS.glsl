@@ -89,7 +89,8 @@ void main()
   axis2 = mat3(MCVCMatrix) * (axis2 * r);
 #endif
   // Also where the transform is singular, or the normal has no length.
-  if (!(dot(normal, normal) > 0.0))
+  bool hasNormal = dot(normal, normal) > 0.0;
+  if (!hasNormal)
   {
     normal = towardsCamera;
     tangents(normal, axis1, axis2);
@@ -148,7 +149,7 @@ void main()
   // Planes take the transposed inverse, too.
   vec3 clip = normalMatrix * clipMC.xyz;
   clipVS = vec3(clipMC.w, dot(clip, axis1VS), dot(clip, axis2VS));
-  bool turnsTowardsCamera = facesCamera == (clipTurn > 0.0);
+  bool turnsTowardsCamera = hasNormal && facesCamera == (clipTurn > 0.0);
   isBehindCreaseVS = turnsTowardsCamera && dot(clip, towardsCamera) < 0.0 ? 1 : 0;
 #endif
 #ifdef SPLAT_COLORS

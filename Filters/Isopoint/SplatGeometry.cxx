@@ -41,13 +41,12 @@ constexpr double gapReach = 4.5;
 constexpr double borderReach = 1.2;
 constexpr double loneReach = 1.0;
 
-/// Points that no smooth fit holds bound the cell of one whose fit does from this distance on, in
-/// the same unit: nearer ones need not cover what lies beyond them, since their normals are but
-/// estimates.
+/// Points without a smooth fit do not bound the cell of a point with one if they are nearer, in the
+/// same unit: with normals that are but estimates, their own splats may miss what lies beyond.
 constexpr double unfittedDistance = 0.5;
 
-/// Planes across a crease whose distances differ by no more than this, in the same unit, are taken
-/// to be one, but for errors of the fits.
+/// Errors of fits at creases, in the same unit: planes across one whose distances differ by no more
+/// are taken to be the same.
 constexpr double agreement = 0.01;
 
 /// Shapes splats whose normals are known, one at a time.
@@ -89,9 +88,8 @@ public:
     splat.axis1 = scaled(overlap, ellipse.axis1);
     splat.axis2 = scaled(overlap, ellipse.axis2);
     splat.radius = lengthOf(splat.axis1);
-    // Blended with others, a splat that ends before a crease still belongs to one side of it.
-    splat.clip = clipAtNearest(this->Creases, this->isBesideCrease(point) ? 1 : 2,
-      agreement * spacing, std::max(closedReach * spacing, splat.radius));
+    splat.clip =
+      this->clipOf(point, agreement * spacing, std::max(closedReach * spacing, splat.radius));
   }
 
 private:
@@ -206,25 +204,25 @@ private:
     }
   }
 
+  /// Cuts a cell towards one of the nearest: at its plane if fits at both tell of a crease between
+  /// them, or else halfway. Keeps the planes across creases.
   void cutTowards(
     std::size_t point, const NearestPositions::Neighbor& neighbor, Bound bound, TangentCell& cell)
   {
     const Vector& normal = this->Splats[point].normal;
     const std::size_t other = neighbor.point;
     const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
-    // Those too far off to cut the cell may still cut the splat's rim.
-    if (this->meetAtCrease(point, other, offset))
+    // Planes too far off to cut the cell may still cut the splat's rim.
+    const bool isAcrossCrease = this->meetAtCrease(point, other, offset);
+    if (isAcrossCrease)
     {
-      SplatCrease crease = creaseTowards(offset, normal, this->Splats[other].normal);
-      if (this->isBesideCrease(point))
-      {
-        this->Creases.push_back(crease);
-        cell.cut(scaled(-1.0, crease.inward), crease.height);
-        return;
-      }
-      // What is on the other's plane is not to be lost for errors of a fit that is not.
-      crease.height += agreement * this->fitSpacingAt(point);
-      this->Creases.push_back(crease);
+      this->Creases.push_back(creaseTowards(offset, normal, this->Splats[other].normal));
+    }
+    if (isAcrossCrease && this->isBesideCrease(point))
+    {
+      const SplatCrease& crease = this->Creases.back();
+      cell.cut(scaled(-1.0, crease.inward), crease.height);
+      return;
     }
     if (neighbor.distance > 2.0 * cell.reach() || this->isAcrossKnownCrease(point, other, offset) ||
         this->isUnfittedBeside(point, neighbor))
@@ -232,15 +230,33 @@ private:
       return;
     }
     const Vector outward = scaled(1.0 / neighbor.distance, offset);
+    const Vector along = sum(outward, -dot(outward, normal), normal);
     const double half = 0.5 * neighbor.distance;
+    // What is before the crease is not the other's to cover.
+    if (isAcrossCrease && half < this->Creases.back().distance * lengthOf(along))
+    {
+      return;
+    }
     if (this->bendsTowards(point, other, outward))
     {
-      cell.cut(directionOf(sum(outward, -dot(outward, normal), normal)), half);
+      cell.cut(directionOf(along), half);
     }
     else if (bound == Bound::AllPoints)
     {
       cell.cut(outward, half);
     }
+  }
+
+  /// What clips a splat, by the planes across creases. That of a point whose own fit tells of none
+  /// still belongs to one side of a crease close by, of which two others are believed; it ends a
+  /// little beyond their planes, since what lies in those is not in its own.
+  std::array<double, 5> clipOf(std::size_t point, double error, double limit) const
+  {
+    const bool isBeside = this->isBesideCrease(point);
+    std::array<double, 5> clip = clipAtNearest(this->Creases, isBeside ? 1 : 2, error, limit);
+    const bool isClipped = clip != std::array<double, 5>{};
+    clip[3] += isClipped && !isBeside ? error : 0.0;
+    return clip;
   }
 
   /// Whether the surface bends from a point to another in a direction, as a sphere would, so that
@@ -280,17 +296,18 @@ private:
   }
 
   /// Whether the planes of two points meet between them: each point lies on the same side of the
-  /// other's plane.
+  /// other's plane. Points on both planes tell no side.
   bool doPlanesMeet(std::size_t point, std::size_t other, const Vector& offset) const
   {
     const Vector& normal = this->Splats[point].normal;
     const Vector& otherNormal = this->Splats[other].normal;
-    const double height = dot(normal, offset);
-    const double otherHeight = -dot(otherNormal, offset);
-    const double tolerance = 0.02 * lengthOf(offset);
+    const auto [lower, upper] = std::minmax({ dot(normal, offset), -dot(otherNormal, offset) });
+    const double distance = lengthOf(offset);
+    const double tolerance = this->isBesideCrease(point) ? 0.02 * distance : 0.0;
+    constexpr double rounding = 1e-6;
     return std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
-           (std::min(height, otherHeight) >= -tolerance ||
-             std::max(height, otherHeight) <= tolerance);
+           (lower >= -tolerance || upper <= tolerance) &&
+           std::max(-lower, upper) > rounding * distance;
   }
 
   /// Whether a point beside a crease meets there with another that lies farther off in a plane

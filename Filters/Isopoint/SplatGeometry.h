@@ -23,8 +23,8 @@ struct Splat
   Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
   Vector axis2;
   /// a, b, c, d, e: of a splat at the point q only the places p with (a, b, c) . (p - q) + d >= 0
-  /// are to be drawn, (a, b, c) of length 1, d >= 0; beyond the surface turns to the normal's side
-  /// (e = 1) or to the other (e = -1); all 0 where nothing is to be cut
+  /// are to be drawn, (a, b, c) of length 1, d >= 0; at that plane the surface turns to the
+  /// normal's side (e = 1) or to the other (e = -1); all 0 where nothing is to be cut
   std::array<double, 5> clip;
 };
 
@@ -54,20 +54,23 @@ struct SplatOptions
 /// for, that of PlaneNormals. Points at one position count as one among the nearest.
 ///
 /// A splat covers the point's cell: the part of its tangent plane that is nearer to it than to
-/// other points, those without a smooth fit left out that stand within half a spacing of one with
-/// such a fit. Together the cells leave no gap on a flat surface; a tenth is added for those that
-/// bend, up to a fifth where they bend much or no fit tells how they do. A cell reaches no farther
-/// than two and a half spacings of the samples around the edge (half its length where no fits are
-/// given; at most 0.8 times the distance of the 12th nearest point). Where other points do not
-/// bound it, it may reach four and a half, and those are not limited by the 12th, if a fit tells of
-/// a smooth surface and points of its own sheet stand all around, as between samples in lines; or
-/// else 1.2, as at a border, and one where no fit tells of a surface: an isolated point does not
-/// become a plate. A cell that reaches out of the samples (see SplatBorder) is cut there and counts
-/// as one that nothing bounds. Nor does it reach farther than the radius of the surface's
-/// curvature, so that splats of a small blob do not stick out of it. Where the fits of two points
-/// tell of a crease between them, their cells do not end halfway but at the other side's plane, and
-/// so are their splats to be clipped. A splat of another fit is to be clipped where at least two
-/// points across such a crease agree on its plane.
+/// other points. Those without a smooth fit are left out within half a spacing of a point with one.
+/// Together the cells leave no gap on a flat surface; a tenth is added for those that bend, up to a
+/// fifth where they bend much or no fit tells how they do. A cell reaches no farther than two and a
+/// half spacings of the samples around the edge (half its length where no fits are given; at most
+/// 0.8 times the distance of the 12th nearest point). Where other points do not bound it, it may
+/// reach four and a half, and those are not limited by the 12th, if a fit tells of a smooth surface
+/// and points of its own sheet stand all around, as between samples in lines; or else 1.2, as at a
+/// border, and one where no fit tells of a surface: an isolated point does not become a plate. A
+/// cell that reaches out of the samples (see SplatBorder) is cut there and counts as one that
+/// nothing bounds. Nor does it reach farther than the radius of the surface's curvature, so that
+/// splats of a small blob do not stick out of it.
+///
+/// Where the fits of two points tell of a crease between them, their cells do not end halfway but
+/// at the other side's plane, and so are their splats to be clipped. A cell of another fit ends
+/// halfway to a point of a crease's other side, but not before it; its splat is to be clipped where
+/// two points there agree on the plane.
+///
 /// @throws std::bad_alloc, Aborted; progress is told
 /// Complexity: O(n log n) in all, and for each point O(neighborCount log n) and what its few
 /// queries of the samples take.

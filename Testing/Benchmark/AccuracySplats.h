@@ -24,7 +24,7 @@ struct Splat
   analytic::Vector normal; // of length 1
   analytic::Vector axis1;  // half-axes, across the normal
   analytic::Vector axis2;
-  /// a, b, c, d: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
+  /// a, b, c, d, e: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
   std::array<double, 5> clip{};
 
   double radius() const; // half the major axis
@@ -39,7 +39,8 @@ struct Splat
 analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
 /// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
-/// "SplatAxis2", none where there is neither; clipped as an array "SplatClip" tells.
+/// "SplatAxis2", none where there is neither; clipped as an array "SplatClip" of five components
+/// tells.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Answers which places splats cover.

@@ -147,10 +147,20 @@ def whole_where_no_plane_is():
         check(np.array_equal(seen(disk(plane)), whole), what)
     for what, values in (
         ("three components", np.array([half[:3]])),
+        ("six components", np.array([np.append(half, (1.0, 1.0))])),
         ("integers", np.array([half], np.int32)),
     ):
         add_array(plain, "SplatClip", values)
         check(np.array_equal(seen(plain), whole), what)
+
+
+def ends_there_whichever_way_the_surface_turns():
+    """A fifth component changes nothing of a splat alone, whatever it is; four are as with -1."""
+    half = plane_through((0.0, 0.0, 0.0), RIGHT)
+    expected = parallel_scene(actor_of(disk(half))).image()
+    for turn in (1.0, 0.0, -1.0, 1e300, np.nan, -np.inf):
+        image = parallel_scene(actor_of(disk(np.append(half, turn)))).image()
+        check(np.array_equal(image, expected), f"turning to {turn}")
 
 
 def mixes_clipped_and_whole_splats():
@@ -238,7 +248,8 @@ def does_not_blend_across_an_edge(side):
     actor.GetProperty().LightingOff()
     scene = Scene(actor)
     scene.renderer.SetBackground(0, 0, 1)
-    for position in ((3, 0, 4), (-3, 0.5, 3), (-3, 0, 0.6)):  # the last two hide the green face
+    # The second and the third hide the green face, the last sees both from inside.
+    for position in ((3, 0, 4), (-3, 0.5, 3), (-3, 0, 0.6), (-3, 0.2, -2.5)):
         scene.camera.SetPosition(*position)
         scene.camera.SetFocalPoint(-0.4, 0, -0.4)
         scene.camera.SetViewUp(0, 1, 0)
@@ -357,6 +368,7 @@ if __name__ == "__main__":
         follows_the_actor,
         faces_the_camera_without_normals,
         whole_where_no_plane_is,
+        ends_there_whichever_way_the_surface_turns,
         mixes_clipped_and_whole_splats,
         far_from_the_origin,
         edges_far_from_the_origin,
