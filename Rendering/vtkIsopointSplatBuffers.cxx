@@ -119,7 +119,7 @@ vtkIsopointSplatBuffers::~vtkIsopointSplatBuffers() = default;
 void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shape)
 {
   vtkPoints* const points = polyData->GetPoints();
-  vtkUnsignedCharArray* ghosts = polyData->GetPointData()->GetGhostArray();
+  vtkUnsignedCharArray* ghosts = polyData->GetPointGhostArray();
   if (ghosts && ghosts->GetNumberOfTuples() < points->GetNumberOfPoints())
   {
     ghosts = nullptr;
