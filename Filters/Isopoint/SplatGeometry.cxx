@@ -93,19 +93,17 @@ public:
   }
 
 private:
-  /// Whether a fit tells that the surface is smooth there.
-  bool isSmooth(std::size_t point) const
+  /// Of the fit that held, if any.
+  FitOrder orderAt(std::size_t point) const
   {
-    const FitOrder order =
-      this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
-    return order >= FitOrder::Quadratic;
+    return this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
   }
 
+  /// Whether a fit tells that the surface is smooth there.
+  bool isSmooth(std::size_t point) const { return this->orderAt(point) >= FitOrder::Quadratic; }
+
   /// Whether a fit tells of a crease beside it.
-  bool isBesideCrease(std::size_t point) const
-  {
-    return !this->Points.fits.empty() && this->Points.fits[point].order == FitOrder::Crease;
-  }
+  bool isBesideCrease(std::size_t point) const { return this->orderAt(point) == FitOrder::Crease; }
 
   /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
   enum class Bound
@@ -230,16 +228,16 @@ private:
       return;
     }
     const Vector outward = scaled(1.0 / neighbor.distance, offset);
-    const Vector along = sum(outward, -dot(outward, normal), normal);
+    const auto along = [&]() { return sum(outward, -dot(outward, normal), normal); };
     const double half = 0.5 * neighbor.distance;
     // What is before the crease is not the other's to cover.
-    if (isAcrossCrease && half < this->Creases.back().distance * lengthOf(along))
+    if (isAcrossCrease && half < this->Creases.back().distance * lengthOf(along()))
     {
       return;
     }
     if (this->bendsTowards(point, other, outward))
     {
-      cell.cut(directionOf(along), half);
+      cell.cut(directionOf(along()), half);
     }
     else if (bound == Bound::AllPoints)
     {
@@ -290,8 +288,7 @@ private:
   /// Whether fits tell that the planes of two points meet between them at a crease.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    const std::vector<LocalFit>& fits = this->Points.fits;
-    return !fits.empty() && fits[point].order != FitOrder::None && this->isBesideCrease(other) &&
+    return this->orderAt(point) != FitOrder::None && this->isBesideCrease(other) &&
            this->doPlanesMeet(point, other, offset);
   }
 

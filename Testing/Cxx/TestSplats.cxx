@@ -15,12 +15,17 @@ using isopoint::lengthOf;
 using isopoint::Splat;
 using isopoint::Vector;
 
+std::vector<Splat> splatsOf(const isopoint::SurfacePoints& points)
+{
+  return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+}
+
 std::vector<Splat> splatsOf(const std::vector<Vector>& positions, const std::vector<Vector>& edges)
 {
   isopoint::SurfacePoints points;
   points.positions = positions;
   points.fallingEdges = edges;
-  return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  return splatsOf(points);
 }
 
 /// Random points of the unit sphere, moved and scaled, with edges that fall outwards, askew.
@@ -69,6 +74,27 @@ void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint
   points.positions.push_back(position);
   points.fallingEdges.push_back(isopoint::scaled(-1.0, gradient));
   points.fits.push_back(fitAmong(1.0, order, gradient));
+}
+
+/// Adds a point on one of two planes that meet at the y axis at a right angle.
+/// @param along the axis
+/// @param off the axis, at most 0
+/// @param tilt added to the fit's gradient
+void addOnWedge(isopoint::SurfacePoints& points, bool top, double along, double off,
+  isopoint::FitOrder order, const Vector& tilt)
+{
+  addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off }, order,
+    isopoint::sum(top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+}
+
+/// Turns the field to its negative.
+void negate(isopoint::SurfacePoints& points)
+{
+  for (std::size_t i = 0; i < points.positions.size(); ++i)
+  {
+    points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
+    points.fallingEdges[i] = isopoint::scaled(-1.0, points.fallingEdges[i]);
+  }
 }
 
 } // namespace
@@ -138,8 +164,7 @@ TEST(Splats, RowsAreJoined)
   points.fallingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
   points.fits.assign(
     positions.size(), fitAmong(1.0, isopoint::FitOrder::Linear, { 0.0, 0.0, -1.0 }));
-  const std::vector<Splat> splats =
-    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  const std::vector<Splat> splats = splatsOf(points);
   const auto& inside = splats[10 * 200 + 100];
   EXPECT_EQ(inside.normal, (Vector{ 0.0, 0.0, 1.0 }));
   EXPECT_GT(inside.radius, 0.5);
@@ -169,8 +194,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
         fitAmong(2.0, isopoint::FitOrder::Quadratic, isopoint::scaled(-1.0, p)));
       points.fits.back().hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
     }
-    for (const Splat& splat :
-      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()))
+    for (const Splat& splat : splatsOf(points))
     {
       EXPECT_LT(splat.radius, 1.8);
     }
@@ -192,8 +216,7 @@ TEST(Splats, EndSoonOutOfTheSamples)
     addFitted(
       points, { -10.0 * random(), 40.0 * random(), 0.0 }, isopoint::FitOrder::Quadratic, gradient);
   }
-  const std::vector<Splat> splats =
-    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  const std::vector<Splat> splats = splatsOf(points);
   double farthest = 0.0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
@@ -218,11 +241,9 @@ TEST(Splats, AreClippedAtACrease)
     const double along = 10.0 * random();
     const double off = -3.0 * random();
     const double tilt = isOff(i) ? 0.1 : 0.0;
-    addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off },
-      isopoint::FitOrder::Crease, top ? Vector{ 0.0, tilt, -1.0 } : Vector{ -1.0, tilt, 0.0 });
+    addOnWedge(points, top, along, off, isopoint::FitOrder::Crease, { 0.0, tilt, 0.0 });
   }
-  const std::vector<Splat> splats =
-    isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  const std::vector<Splat> splats = splatsOf(points);
   int clipped = 0;
   for (int i = 0; i < count; ++i)
   {
@@ -263,8 +284,7 @@ isopoint::SurfacePoints wedge(isopoint::FitOrder topOrder, isopoint::FitOrder si
     const bool top = i % 2 == 0;
     const double along = 10.0 * random();
     const double off = -4.0 * random();
-    addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off },
-      top ? topOrder : sideOrder, top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 });
+    addOnWedge(points, top, along, off, top ? topOrder : sideOrder, { 0.0, 0.0, 0.0 });
   }
   return points;
 }
@@ -276,8 +296,7 @@ TEST(Splats, CoverAFaceUpToItsCrease)
   for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
     const isopoint::SurfacePoints points = wedge(order, FitOrder::Crease);
-    const std::vector<Splat> splats =
-      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+    const std::vector<Splat> splats = splatsOf(points);
     const auto isCoveredBy = [&](const Vector& place, std::size_t i)
     {
       const Vector offset = difference(place, points.positions[i]);
@@ -311,13 +330,11 @@ TEST(Splats, OfPointsOnACreaseKeepTheirSide)
     {
       points.positions[i] = { 0.0, 0.25 * static_cast<double>(i), 0.0 };
     }
-    for (std::size_t i = 0; i < points.positions.size(); ++i)
+    if (sign < 0.0)
     {
-      points.fits[i].gradient = isopoint::scaled(sign, points.fits[i].gradient);
-      points.fallingEdges[i] = isopoint::scaled(sign, points.fallingEdges[i]);
+      negate(points);
     }
-    const std::vector<Splat> splats =
-      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+    const std::vector<Splat> splats = splatsOf(points);
     for (std::size_t i = 0; i < 40; ++i)
     {
       EXPECT_GT(splats[i].radius, 0.1) << i;
@@ -340,18 +357,12 @@ TEST(Splats, AreAlikeWhicheverSideFalls)
     const double along = 10.0 * random();
     const double off = -3.0 * random();
     const double tilt = 0.05 * (random() - 0.5);
-    addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off },
-      isopoint::FitOrder::Crease, top ? Vector{ tilt, 0.0, -1.0 } : Vector{ -1.0, 0.0, tilt });
+    addOnWedge(points, top, along, off, isopoint::FitOrder::Crease,
+      top ? Vector{ tilt, 0.0, 0.0 } : Vector{ 0.0, 0.0, tilt });
   }
-  const auto splatsOfPoints = [&]()
-  { return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions()); };
-  const std::vector<Splat> splats = splatsOfPoints();
-  for (std::size_t i = 0; i < splats.size(); ++i)
-  {
-    points.fallingEdges[i] = isopoint::scaled(-1.0, points.fallingEdges[i]);
-    points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
-  }
-  const std::vector<Splat> turned = splatsOfPoints();
+  const std::vector<Splat> splats = splatsOf(points);
+  negate(points);
+  const std::vector<Splat> turned = splatsOf(points);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     ASSERT_EQ(turned[i].normal, isopoint::scaled(-1.0, splats[i].normal));
@@ -380,8 +391,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   const std::size_t middle = points.positions.size() / 2;
   const auto axesOfMiddle = [&]()
   {
-    const Splat splat =
-      isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions())[middle];
+    const Splat splat = splatsOf(points)[middle];
     return std::array<double, 2>{ lengthOf(splat.axis1), lengthOf(splat.axis2) };
   };
   const std::array<double, 2> alone = axesOfMiddle();
@@ -408,7 +418,7 @@ TEST(Splats, AreLeftWholeByASingleFit)
       addFitted(points, { 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 },
         isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
     }
-    return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+    return splatsOf(points);
   };
   const std::vector<Splat> splats = splatsAround({ -1.0, 0.0, -1.0 });
   const std::vector<Splat> expected = splatsAround({ 0.0, 0.0, -1.0 });

@@ -352,7 +352,8 @@ def edges_of_a_cube(side):
         noise = [psnr(image, mesh) for image in (whole, clipped)]
         inside = shrunk(differs(mesh, (0, 0, 1))) & far_from(corners, scene, 25)
         holes = np.count_nonzero(inside & ~differs(clipped, (0, 0, 1)))
-        print(f"  {position}, {side}: {noise[0]:.1f} dB, with planes {noise[1]:.1f} dB; {holes} holes")
+        print(f"  {position}, {side}: {noise[0]:.1f} dB", end=", ")
+        print(f"with planes {noise[1]:.1f} dB; {holes} holes")
         check(noise[1] > noise[0] + 6.0, "nearer to the mesh with planes")
         check(holes == 0, "holes along the edges")
 
