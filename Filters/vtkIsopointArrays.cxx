@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointArrays.h"
 
-#include "Isopoint/Execution.h"
-#include "Isopoint/Interpolation.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Interpolation.h"
 #include "vtkIsopointAllocation.h"
 
 #include "vtkArrayDispatch.h"
@@ -54,7 +54,7 @@ void interpolateComponents(const isopoint::Execution& execution, const Isosurfac
   constexpr std::size_t grain = 4096;
   for (int component = 0; component < componentCount; ++component)
   {
-    const isopoint::MergedAttribute attribute(
+    const isopoint::CoincidentAttribute attribute(
       surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
     isopoint::forRanges(execution, surface.points.size(), grain,
       [&](std::size_t begin, std::size_t end)

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointArrays_h
 #define vtkIsopointArrays_h
 
-#include "Isopoint/Isopoint.h"
+#include "Isopoint/Extraction/Isosurface.h"
 
 #include <vector>
 

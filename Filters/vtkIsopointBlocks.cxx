@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointBlocks.h"
 
-#include "Isopoint/Execution.h"
+#include "Isopoint/Base/Execution.h"
 #include "vtkIsopointCellCenters.h"
 #include "vtkIsopointGhosts.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointCellCenters.h"
 
-#include "Isopoint/Execution.h"
+#include "Isopoint/Base/Execution.h"
 #include "vtkIsopointAllocation.h"
 #include "vtkIsopointBlock.h"
 #include "vtkIsopointGhosts.h"

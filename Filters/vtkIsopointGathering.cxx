@@ -19,7 +19,7 @@ namespace
 {
 
 using isopoint::Isopoint;
-using isopoint::MergedSamples;
+using isopoint::CoincidentSamples;
 
 std::vector<std::uint64_t> idsOf(const std::vector<vtkContouredIsosurface>& surfaces)
 {
@@ -30,7 +30,7 @@ std::vector<std::uint64_t> idsOf(const std::vector<vtkContouredIsosurface>& surf
     {
       ids.insert(ids.end(), { point.first, point.second });
     }
-    for (const MergedSamples& group : contoured.Surface.merged)
+    for (const CoincidentSamples& group : contoured.Surface.merged)
     {
       ids.insert(ids.end(), group.ids.begin(), group.ids.end());
     }
@@ -51,7 +51,7 @@ void renumber(std::vector<vtkContouredIsosurface>& surfaces, const std::vector<s
       renumberOne(point.first);
       renumberOne(point.second);
     }
-    for (MergedSamples& group : contoured.Surface.merged)
+    for (CoincidentSamples& group : contoured.Surface.merged)
     {
       std::for_each(group.ids.begin(), group.ids.end(), renumberOne);
     }

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointGeometry_h
 #define vtkIsopointGeometry_h
 
-#include "Isopoint/SplatGeometry.h"
+#include "Isopoint/Splat/SplatGeometry.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

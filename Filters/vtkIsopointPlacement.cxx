@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointPlacement.h"
 
-#include "Isopoint/Execution.h"
-#include "Isopoint/Interpolation.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Interpolation.h"
 #include "vtkIsopointInput.h"
 
 #include "vtkDataArray.h"
@@ -15,12 +15,12 @@ isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, 
 {
   const std::vector<isopoint::Isopoint>& points = contoured.Surface.points;
   const vtkIsopointPositions samplePositions(input);
-  const isopoint::MergedAttribute valueAt(contoured.Surface,
+  const isopoint::CoincidentAttribute valueAt(contoured.Surface,
     [scalars](std::uint64_t id) { return scalars->GetComponent(static_cast<vtkIdType>(id), 0); });
   isopoint::SurfacePoints placed;
   placed.fits = std::move(contoured.Surface.fits);
   placed.positions.resize(points.size());
-  placed.fallingEdges.resize(points.size());
+  placed.decreasingEdges.resize(points.size());
   constexpr std::size_t grain = 4096;
   isopoint::forRanges(execution, points.size(), grain,
     [&](std::size_t begin, std::size_t end)
@@ -38,7 +38,7 @@ isopoint::SurfacePoints vtkPlaceIsopoints(const isopoint::Execution& execution, 
                                                               second[axis], points[i].parameter)
                                                           : placed.fits[i].position[axis];
           const double edge = second[axis] - first[axis];
-          placed.fallingEdges[i][axis] = falls ? edge : -edge;
+          placed.decreasingEdges[i][axis] = falls ? edge : -edge;
         }
       }
     });

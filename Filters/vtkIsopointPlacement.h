@@ -2,7 +2,7 @@
 #ifndef vtkIsopointPlacement_h
 #define vtkIsopointPlacement_h
 
-#include "Isopoint/SplatGeometry.h"
+#include "Isopoint/Splat/SplatGeometry.h"
 #include "vtkIsopointArrays.h"
 
 class vtkDataSet;

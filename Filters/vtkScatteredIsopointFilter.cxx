@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsopointFilter.h"
 
-#include "Isopoint/AngleCriterion.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "Isopoint/SplatGeometry.h"
-#include "Isopoint/Thinning.h"
+#include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/Extraction/Thinning.h"
 #include "vtkIsopointAllocation.h"
 #include "vtkIsopointArrays.h"
 #include "vtkIsopointBlocks.h"

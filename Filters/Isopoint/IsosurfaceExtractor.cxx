@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "IsosurfaceExtractor.h"
+#include "Isopoint/IsosurfaceExtractor.h"
 
-#include "Extraction.h"
-#include "SampleExtent.h"
+#include "Isopoint/Extraction/ExtractIsosurface.h"
+#include "Isopoint/Neighbors/SampleExtent.h"
 
 namespace isopoint
 {

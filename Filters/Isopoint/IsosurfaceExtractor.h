@@ -2,11 +2,11 @@
 #ifndef isopoint_IsosurfaceExtractor_h
 #define isopoint_IsosurfaceExtractor_h
 
-#include "Execution.h"
-#include "ExtentQuery.h"
-#include "Isopoint.h"
-#include "Loading.h"
-#include "SampleTree.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Neighbors/ExtentQuery.h"
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
 #include <optional>

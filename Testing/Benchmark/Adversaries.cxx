@@ -101,7 +101,7 @@ Cloud flattened(std::size_t count, int dimensions)
 }
 
 /// A share of the samples at one position, their values spread over the field's range.
-Cloud heaped(std::size_t count, double share)
+Cloud coincident(std::size_t count, double share)
 {
   Cloud cloud = uniform(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -270,8 +270,8 @@ int main(int argumentCount, char** arguments)
     { "lattice", [&]() { return lattice(count); } },
     { "coplanar", [&]() { return flattened(count, 2); } },
     { "collinear", [&]() { return flattened(count, 1); } },
-    { "all at one position", [&]() { return heaped(count, 1.0); } },
-    { "90 % at one position", [&]() { return heaped(count, 0.9); } },
+    { "all at one position", [&]() { return coincident(count, 1.0); } },
+    { "90 % at one position", [&]() { return coincident(count, 0.9); } },
     { "each position twice", [&]() { return doubled(count); } },
     { "a cell that touches half of all", [&]() { return layerBeforeOne(count); } },
     { "a heap that touches half of all", [&]() { return layerBeforeHeap(count); } },

@@ -114,7 +114,7 @@ inline Cloud flattened(Cloud cloud, int dimensions)
 }
 
 /// Moves a share of the samples to one position.
-inline Cloud heaped(Cloud cloud, double share)
+inline Cloud coincident(Cloud cloud, double share)
 {
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
@@ -128,7 +128,7 @@ inline Cloud heaped(Cloud cloud, double share)
 
 /// Heaps at one position inside each other: each holds half of the samples that are left, and
 /// three more stand around it so that parting it off takes four levels of the tree.
-inline Cloud nestedHeaps(std::size_t count)
+inline Cloud nestedCoincident(std::size_t count)
 {
   Cloud cloud;
   double center = 0.0;

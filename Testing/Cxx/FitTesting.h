@@ -4,7 +4,7 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/LocalFit.h"
+#include "Isopoint/Fit/LocalFit.h"
 
 #include <cmath>
 #include <cstddef>
@@ -47,7 +47,7 @@ inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, d
 }
 
 inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
-  double isovalue = 0.0, isopoint::FitTallies tallies = {})
+  double isovalue = 0.0, isopoint::DetectionRates tallies = {})
 {
   return isopoint::fitAround(
     edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest,
@@ -55,9 +55,9 @@ inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, 
 }
 
 /// A tally of so many that were asked, of whom some told of what is looked for.
-inline isopoint::FindingTally tallyOf(int told, int asked)
+inline isopoint::DetectionRate tallyOf(int told, int asked)
 {
-  isopoint::FindingTally tally;
+  isopoint::DetectionRate tally;
   for (int i = 0; i < asked; ++i)
   {
     tally.add(i < told);

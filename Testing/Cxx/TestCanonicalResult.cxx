@@ -3,7 +3,7 @@
 #include "BruteForce.h"
 #include "Clouds.h"
 
-#include "Isopoint/AngleCriterion.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 
@@ -106,14 +106,14 @@ TEST(BruteForce, HeapsAtOnePosition)
 {
   for (const double share : { 0.3, 0.6, 0.9 })
   {
-    EXPECT_GT(compare(clouds::heaped(clouds::uniform(500, 10), share), { 0.3 }), 0u);
+    EXPECT_GT(compare(clouds::coincident(clouds::uniform(500, 10), share), { 0.3 }), 0u);
   }
-  EXPECT_EQ(compare(clouds::heaped(clouds::uniform(50, 10), 1.0), { 0.3 }), 0u);
+  EXPECT_EQ(compare(clouds::coincident(clouds::uniform(50, 10), 1.0), { 0.3 }), 0u);
 }
 
 TEST(BruteForce, HeapsNestedInHeaps)
 {
-  EXPECT_GT(compare(clouds::nestedHeaps(4096), { 2.0, 3.5 }), 0u);
+  EXPECT_GT(compare(clouds::nestedCoincident(4096), { 2.0, 3.5 }), 0u);
 }
 
 TEST(BruteForce, OneCellThatTouchesManyOthers)
@@ -127,7 +127,7 @@ TEST(BruteForce, OneCellThatTouchesManyOthers)
   }
   EXPECT_GT(largest, cloud.size() / 3);
   EXPECT_GT(compare(cloud, { 0.5 }), 0u);
-  EXPECT_GT(compare(clouds::heaped(cloud, 0.2), { 0.5 }), 0u);
+  EXPECT_GT(compare(clouds::coincident(cloud, 0.2), { 0.5 }), 0u);
 }
 
 TEST(BruteForce, CellsThatTouchManyEachAddUpToMoreThanCanBeListed)
@@ -150,7 +150,7 @@ TEST(BruteForce, CellsThatTouchManyEachAddUpToMoreThanCanBeListed)
   {
     EXPECT_GT(neighborsOf(cloud), 2 * cloud.size());
     EXPECT_GT(compare(cloud, isovalues, anyAngles()), 0u);
-    EXPECT_GT(compare(clouds::heaped(cloud, 0.2), isovalues, anyAngles()), 0u);
+    EXPECT_GT(compare(clouds::coincident(cloud, 0.2), isovalues, anyAngles()), 0u);
   };
   for (std::uint64_t seed = 0; seed < 6; ++seed)
   {

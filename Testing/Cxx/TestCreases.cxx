@@ -2,7 +2,7 @@
 // Fits beside the edges and corners of bodies whose sides are known.
 #include "FitTesting.h"
 
-#include "Isopoint/FitNeighborhood.h"
+#include "Isopoint/Fit/FitNeighborhood.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Detail that samples resolve thinly, told from noise and from steps.
 #include "FitTesting.h"
 
-#include "Isopoint/FindingTally.h"
+#include "Isopoint/Fit/DetectionRate.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <utility>
 
 using namespace fittesting;
-using isopoint::FindingTally;
+using isopoint::DetectionRate;
 
 TEST(Detail, TalliesTellWhetherItIsCommon)
 {
@@ -24,12 +24,12 @@ TEST(Detail, TalliesTellWhetherItIsCommon)
 
 TEST(Detail, FewAreAskedWhereItIsRare)
 {
-  const auto asked = [](FindingTally tally)
+  const auto asked = [](DetectionRate tally)
   {
     int count = 0;
     for (int i = 0; i < 80; ++i)
     {
-      count += tally.isToBeAsked() ? 1 : 0;
+      count += tally.isWorthTesting() ? 1 : 0;
     }
     return count;
   };
@@ -92,7 +92,7 @@ TEST(Detail, NoiseMovesFewPoints)
 TEST(Detail, IsNotLookedForWhereItIsRare)
 {
   const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
-  const auto orderAfter = [&](const FindingTally& tally) {
+  const auto orderAfter = [&](const DetectionRate& tally) {
     return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
   };
   EXPECT_EQ(orderAfter(tallyOf(2, 16)), FitOrder::Cubic);
@@ -103,7 +103,7 @@ TEST(Detail, IsNotLookedForWhereItIsRare)
 TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
 {
   const Field field = [](const Vector& p) { return p[2] + 0.2 * p[0] * p[0]; };
-  const auto orderAfter = [&](const FindingTally& tally) {
+  const auto orderAfter = [&](const DetectionRate& tally) {
     return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
   };
   EXPECT_EQ(orderAfter(tallyOf(4, 16)), FitOrder::None);

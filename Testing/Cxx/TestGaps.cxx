@@ -3,7 +3,7 @@
 #include "BruteForce.h"
 #include "Clouds.h"
 
-#include "Isopoint/AngleCriterion.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(Gaps, AreThoseOfTheDefinition)
     expectTheDefinition(clouds::clustered(900, 23), -4.0, angle);
     expectTheDefinition(clouds::lattice(9, 10, 11), 2.0, angle);
     expectTheDefinition(clouds::coarse(600, 5, 24), 4.5, angle);
-    expectTheDefinition(clouds::heaped(clouds::uniform(500, 25), 0.6), isovalue, angle);
+    expectTheDefinition(clouds::coincident(clouds::uniform(500, 25), 0.6), isovalue, angle);
     expectTheDefinition(clouds::flattened(clouds::uniform(500, 26), 2), 0.4, angle);
   }
   for (std::size_t count = 0; count <= 9; ++count)

@@ -163,7 +163,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
   {
     bool asked = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
-    isopoint::FitTallies tallies;
+    isopoint::DetectionRates tallies;
     isopoint::fitAround(
       upwards(), 0.0, samples,
       [&]() -> const std::vector<FitSample>&

@@ -2,8 +2,8 @@
 // What must not change the result: threads, the order of questions, a kept tree.
 #include "Clouds.h"
 
-#include "Isopoint/AngleCriterion.h"
-#include "Isopoint/NarrowBand.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Extraction/NarrowBand.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ constexpr std::size_t manySamples = 400000;
 TEST(SameResult, ForAnyNumberOfThreads)
 {
   for (const clouds::Cloud& cloud : { clouds::uniform(manySamples, 1),
-         clouds::heaped(clouds::clustered(manySamples, 2), 0.1), clouds::lattice(70, 71, 72) })
+         clouds::coincident(clouds::clustered(manySamples, 2), 0.1), clouds::lattice(70, 71, 72) })
   {
     const Isosurface expected = clouds::extract(cloud, 0.2, isopoint::defaultAngle, 1);
     EXPECT_FALSE(expected.points.empty());
@@ -105,7 +105,7 @@ TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
 
 TEST(SameResult, ForNewValuesAtKeptPositions)
 {
-  clouds::Cloud cloud = clouds::heaped(clouds::uniform(30000, 4), 0.05);
+  clouds::Cloud cloud = clouds::coincident(clouds::uniform(30000, 4), 0.05);
   const isopoint::Execution execution = clouds::executionOn(2);
   IsosurfaceExtractor kept = loaded(cloud);
   kept.extract(execution, 0.5, 54.7);
@@ -175,12 +175,12 @@ TEST(SameResult, WithSamplesLeftOut)
 // Deeper than the 64 levels that a machine word could name.
 TEST(SameResult, ForVeryDeepTrees)
 {
-  const clouds::Cloud cloud = clouds::nestedHeaps(std::size_t{ 1 } << 21);
+  const clouds::Cloud cloud = clouds::nestedCoincident(std::size_t{ 1 } << 21);
   const isopoint::Execution execution = clouds::executionOn(2);
   auto tree =
     isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
   int deepest = 0;
-  for (const isopoint::NodeIndex index :
+  for (const isopoint::BinaryIndex index :
     isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine())
   {
     deepest = std::max(deepest, isopoint::depthOf(index));

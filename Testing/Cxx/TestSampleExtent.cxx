@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Clouds.h"
 
-#include "Isopoint/TangentFrame.h"
-#include "Isopoint/Vector.h"
+#include "Isopoint/Base/TangentFrame.h"
+#include "Isopoint/Base/Vector.h"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
 {
   int cutShort = 0;
   for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
-         clouds::heaped(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
+         clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
   {
     IsosurfaceExtractor extractor = loaded(cloud);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);

@@ -2,7 +2,7 @@
 // The paper's sphere (section 9) in small, against the analytic surface.
 #include "Clouds.h"
 
-#include "Isopoint/Interpolation.h"
+#include "Isopoint/Base/Interpolation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Clouds.h"
 
-#include "Isopoint/SplatGeometry.h"
+#include "Isopoint/Splat/SplatGeometry.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<Splat> splatsOf(const std::vector<Vector>& positions, const std::vec
 {
   isopoint::SurfacePoints points;
   points.positions = positions;
-  points.fallingEdges = edges;
+  points.decreasingEdges = edges;
   return splatsOf(points);
 }
 
@@ -72,7 +72,7 @@ void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint
   const Vector& gradient)
 {
   points.positions.push_back(position);
-  points.fallingEdges.push_back(isopoint::scaled(-1.0, gradient));
+  points.decreasingEdges.push_back(isopoint::scaled(-1.0, gradient));
   points.fits.push_back(fitAmong(1.0, order, gradient));
 }
 
@@ -93,7 +93,7 @@ void negate(isopoint::SurfacePoints& points)
   for (std::size_t i = 0; i < points.positions.size(); ++i)
   {
     points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
-    points.fallingEdges[i] = isopoint::scaled(-1.0, points.fallingEdges[i]);
+    points.decreasingEdges[i] = isopoint::scaled(-1.0, points.decreasingEdges[i]);
   }
 }
 
@@ -161,7 +161,7 @@ TEST(Splats, RowsAreJoined)
   }
   isopoint::SurfacePoints points;
   points.positions = positions;
-  points.fallingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
+  points.decreasingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
   points.fits.assign(
     positions.size(), fitAmong(1.0, isopoint::FitOrder::Linear, { 0.0, 0.0, -1.0 }));
   const std::vector<Splat> splats = splatsOf(points);
@@ -187,7 +187,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
     const Sphere sphere(count, 1.0, 0.0);
     isopoint::SurfacePoints points;
     points.positions = sphere.positions;
-    points.fallingEdges = sphere.edges;
+    points.decreasingEdges = sphere.edges;
     for (const Vector& p : sphere.positions)
     {
       points.fits.push_back(

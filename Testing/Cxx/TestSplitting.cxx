@@ -2,7 +2,7 @@
 // The fast halving against the definition, in orders that selection algorithms dislike.
 #include "Clouds.h"
 
-#include "Isopoint/Splitting.h"
+#include "Isopoint/Tree/Splitting.h"
 
 #include <gtest/gtest.h>
 

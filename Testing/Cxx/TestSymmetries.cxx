@@ -3,7 +3,7 @@
 // multiples of 2^-20, so that moving and turning them is exact.
 #include "Clouds.h"
 
-#include "Isopoint/AngleCriterion.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Thinning: against the definition, and on sheets and creases of known shape.
 #include "Clouds.h"
 
-#include "Isopoint/AngleCriterion.h"
-#include "Isopoint/Thinning.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Extraction/Thinning.h"
 
 #include <gtest/gtest.h>
 
@@ -181,7 +181,7 @@ TEST(Thinning, IsThatOfTheDefinition)
     expectTheDefinition(extracted(clouds::clustered(count, 63), -4.0, order));
     expectTheDefinition(extracted(clouds::lattice(12, 13, 14), 2.0, order));
     expectTheDefinition(extracted(clouds::coarse(900, 6, 64), 4.5, order));
-    expectTheDefinition(extracted(clouds::heaped(clouds::uniform(count, 65), 0.3), 0.3, order));
+    expectTheDefinition(extracted(clouds::coincident(clouds::uniform(count, 65), 0.3), 0.3, order));
     expectTheDefinition(extracted(clouds::flattened(clouds::uniform(count, 66), 2), 0.4, order));
   }
   expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, 1, false));
@@ -301,7 +301,7 @@ TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
     ends.insert({ point.first, point.second });
   }
   std::vector<std::vector<std::uint64_t>> expected;
-  for (const isopoint::MergedSamples& group : surface.merged)
+  for (const isopoint::CoincidentSamples& group : surface.merged)
   {
     if (ends.count(group.ids.front()) > 0)
     {

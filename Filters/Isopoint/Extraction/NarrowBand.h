@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NarrowBand_h
+#define isopoint_NarrowBand_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Neighbors/NeighborListBudget.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tree/TreeletSplitting.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A node that the band needs, and whether the surface may pass between its samples and those of
+/// the nodes that touch it.
+struct BandNode
+{
+  BinaryIndex index;
+  std::size_t nodeIndex;
+  bool isCrossing;
+};
+
+/// Whether samples below the isovalue and others stand in the node or in it and one that touches
+/// it: then the surface may pass here.
+template <class TSample>
+bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
+{
+  const Node<TSample>& node = tree.nodes[path.nodeIndex()];
+  const bool hasBelow = node.minimum < isovalue;
+  const bool hasAbove = node.maximum >= isovalue;
+  return (hasBelow && hasAbove) || touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
+}
+
+/// Refines a tree around the isosurface of one isovalue (DESIGN section 2), treelet by treelet:
+/// only nodes that may hold a piece of the surface, and those that touch one, are split.
+template <class TSample>
+class NarrowBand
+{
+public:
+  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution)
+    : Tree(tree)
+    , Isovalue(isovalue)
+    , Run(execution)
+    , Limit(tree.samples.size())
+  {
+  }
+
+  /// @returns nodes below which every node is split down to leaves, and so is everything that
+  /// touches such a leaf: every leaf with a crossing edge is among those below them
+  /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
+  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
+  /// than 2^31 samples in nested heaps, or has more nodes than its ids can number
+  std::vector<BinaryIndex> refine()
+  {
+    std::vector<BandNode> front;
+    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue)
+    {
+      front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
+    }
+    const int expectedDepth = std::max(1, levelsToHalve(root.count()));
+    for (int depth = 0; !front.empty();)
+    {
+      const int bottom = treeletBottom(depth, root.count());
+      this->splitFront(front, depth, bottom);
+      this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
+      // To split so few samples all the way takes less time than to tell which are needed.
+      const std::size_t few = front.size() / 4;
+      const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
+      if (unfinished <= few)
+      {
+        if (unfinished > 0)
+        {
+          this->finish(front, bottom);
+        }
+        break;
+      }
+      this->mark(front, bottom);
+      front = this->neededBelow(front, bottom);
+      depth = bottom;
+      throwIfAborted(this->Run);
+    }
+    std::vector<BinaryIndex> crossing;
+    for (const BandNode& node : front)
+    {
+      if (node.isCrossing)
+      {
+        crossing.push_back(node.index);
+      }
+    }
+    return crossing;
+  }
+
+private:
+  using NodeType = Node<TSample>;
+
+  /// Nodes of the front that are searched below at a time.
+  static constexpr std::size_t searchGrain = 64;
+
+  /// A treelet to be split off a node.
+  struct Growth
+  {
+    BandNode node;
+    std::size_t firstPair;
+  };
+
+  /// Splits the nodes of one depth down to another.
+  void splitFront(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    if (bottom > maximumDepth)
+    {
+      throw std::length_error("too many heaps of samples at one position inside each other");
+    }
+    const int levels = bottom - depth;
+    // Nodes are split together while there are too few of them to keep every thread busy.
+    constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
+    const bool together = front.size() < 4 * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 19) * this->Run.threads;
+
+    std::size_t begin = 0;
+    while (begin < front.size())
+    {
+      std::vector<Growth> batch;
+      std::size_t pairs = 0;
+      std::size_t samples = 0;
+      for (; begin < front.size() && samples < batchSamples; ++begin)
+      {
+        const NodeType& node = this->Tree.nodes[front[begin].nodeIndex];
+        if (node.isSplit() || node.isLeaf)
+        {
+          continue;
+        }
+        batch.push_back({ front[begin], pairs });
+        pairs += maximumTreeletPairs(node.count(), levels);
+        samples += node.count();
+      }
+      const std::size_t firstPair = appendPairs(this->Tree, pairs);
+      for (Growth& growth : batch)
+      {
+        growth.firstPair += firstPair;
+      }
+      this->splitBatch(batch, levels, together ? togetherCount : samples + 1);
+      throwIfAborted(this->Run);
+    }
+  }
+
+  void splitBatch(const std::vector<Growth>& batch, int levels, std::size_t togetherCount)
+  {
+    std::vector<Growth> alone;
+    for (const Growth& growth : batch)
+    {
+      NodeType& node = this->Tree.nodes[growth.node.nodeIndex];
+      if (node.count() < togetherCount)
+      {
+        alone.push_back(growth);
+        continue;
+      }
+      TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
+      splitter.splitTogether(this->Run, node, pathTo(this->Tree, growth.node.index).region, levels);
+    }
+    const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
+    forRanges(this->Run, alone.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        TreeletSplitter<TSample> splitter(this->Tree, 0);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          splitter.moveTo(alone[i].firstPair);
+          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex],
+            pathTo(this->Tree, alone[i].node.index).region, levels);
+        }
+      });
+  }
+
+  /// How many samples are in nodes so many levels below the front that are no leaves; counting
+  /// ends above a limit.
+  std::size_t unfinishedSamples(
+    const std::vector<BandNode>& front, int levels, std::size_t limit) const
+  {
+    std::atomic<std::size_t> samples{ 0 };
+    forRanges(this->Run, front.size(), searchGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::size_t found = 0;
+        for (std::size_t i = begin; i < end && samples + found <= limit; ++i)
+        {
+          found += this->unfinishedSamples(this->Tree.nodes[front[i].nodeIndex], levels);
+        }
+        samples += found;
+      });
+    return samples;
+  }
+
+  std::size_t unfinishedSamples(const NodeType& node, int levels) const
+  {
+    if (!node.isSplit() || levels == 0)
+    {
+      return node.isLeaf ? 0 : node.count();
+    }
+    return this->unfinishedSamples(this->Tree.nodes[node.lowerNode()], levels - 1) +
+           this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
+  }
+
+  /// Splits everything below the front down to leaves, whether the surface is near or not.
+  /// @param depth that it is split to already
+  void finish(const std::vector<BandNode>& front, int depth)
+  {
+    std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
+    while (!unfinished.empty())
+    {
+      throwIfAborted(this->Run);
+      const int bottom = depth + treeletLevels;
+      this->splitFront(unfinished, depth, bottom);
+      unfinished = this->unfinishedBelow(unfinished, bottom);
+      depth = bottom;
+    }
+  }
+
+  /// The nodes of a depth that are no leaves.
+  std::vector<BandNode> unfinishedBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth,
+      [this](const Path& below, std::vector<BandNode>& unfinished)
+      {
+        if (!this->Tree.nodes[below.nodeIndex()].isLeaf)
+        {
+          unfinished.push_back({ below.index, below.nodeIndex(), true });
+        }
+      });
+  }
+
+  /// Marks the crossing nodes of a depth and all that touch one. Only below crossing nodes can
+  /// there be crossing ones.
+  void mark(const std::vector<BandNode>& front, int depth)
+  {
+    this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
+    forRanges(this->Run, front.size(), searchGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (!front[i].isCrossing)
+          {
+            continue;
+          }
+          Path path = pathTo(this->Tree, front[i].index);
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below)
+            {
+              if (isCrossing(this->Tree, below, depth, this->Isovalue))
+              {
+                this->markAround(below, depth);
+              }
+            });
+        }
+      });
+  }
+
+  void markAround(const Path& crossing, int depth)
+  {
+    this->Marks[crossing.nodeIndex()].store(Mark::Crossing, std::memory_order_relaxed);
+    if (this->Limit.isReached())
+    {
+      forEachAcross(crossing,
+        [&](FoundNode across)
+        {
+          this->markBelow(across, depth, crossing.region);
+          return false;
+        });
+      return;
+    }
+    std::size_t count = 0;
+    visitTouching(this->Tree, crossing, depth,
+      [this, &count](std::size_t nodeIndex)
+      {
+        this->markNeeded(nodeIndex);
+        ++count;
+        return false;
+      });
+    this->Limit.listed(count);
+  }
+
+  bool isMarked(std::size_t nodeIndex) const
+  {
+    return this->Marks[nodeIndex].load(std::memory_order_relaxed) != Mark::None;
+  }
+
+  void markNeeded(std::size_t nodeIndex)
+  {
+    Mark none = Mark::None;
+    this->Marks[nodeIndex].compare_exchange_strong(
+      none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
+  }
+
+  /// Marks the nodes of a depth in a subtree that touch the region, and with them those above that
+  /// depth below which all are marked. There the next search ends: where many crossing nodes touch
+  /// the same many others, it would mark them time and again.
+  /// @returns whether all are marked
+  bool markBelow(FoundNode top, int depth, const Region& region)
+  {
+    if (this->isMarked(top.nodeIndex))
+    {
+      return true;
+    }
+    const NodeType& node = this->Tree.nodes[top.nodeIndex];
+    bool areAll = true;
+    if (top.depth < depth && node.isSplit())
+    {
+      const FoundNode lower{ node.lowerNode(), top.depth + 1 };
+      const FoundNode upper{ node.upperNode(), top.depth + 1 };
+      const auto areAllIn = [&](const FoundNode& child, bool touches)
+      { return touches ? this->markBelow(child, depth, region) : this->isMarked(child.nodeIndex); };
+      areAll = areAllIn(lower, node.plane >= region.lower[node.axis]);
+      areAll = areAllIn(upper, node.plane <= region.upper[node.axis]) && areAll;
+    }
+    if (areAll)
+    {
+      this->markNeeded(top.nodeIndex);
+    }
+    return areAll;
+  }
+
+  /// The marked nodes of a depth.
+  std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth,
+      [this](const Path& below, std::vector<BandNode>& needed)
+      {
+        const Mark mark = this->Marks[below.nodeIndex()].load(std::memory_order_relaxed);
+        if (mark != Mark::None)
+        {
+          needed.push_back({ below.index, below.nodeIndex(), mark == Mark::Crossing });
+        }
+      });
+  }
+
+  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, to a list or not
+  template <class Collect>
+  std::vector<BandNode> collectBelow(
+    const std::vector<BandNode>& front, int depth, const Collect& collect)
+  {
+    std::vector<BandNode> collected;
+    std::mutex mutex;
+    forRanges(this->Run, front.size(), searchGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::vector<BandNode> found;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          Path path = pathTo(this->Tree, front[i].index);
+          forEachBelow(this->Tree, path, depth, [&](const Path& below) { collect(below, found); });
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        collected.insert(collected.end(), found.begin(), found.end());
+      });
+    return collected;
+  }
+
+  enum class Mark : std::uint8_t
+  {
+    None,
+    Needed,
+    Crossing
+  };
+
+  SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const Execution& Run;
+  NeighborListBudget Limit;
+  std::vector<std::atomic<Mark>> Marks; // by nodeIndex, of the depth at hand and above
+};
+
+} // namespace isopoint
+
+#endif

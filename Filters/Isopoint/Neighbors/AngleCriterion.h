@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_AngleCriterion_h
+#define isopoint_AngleCriterion_h
+
+#include "Isopoint/Base/Offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Just under arccos(1 / sqrt(3)) = 54.7356 degrees, the angle between an edge and a diagonal of
+/// a cube: on a regular lattice the diagonals survive rounding.
+constexpr double defaultAngle = 54.7;
+
+/// The order in which AngleCriterion::survivesAmongSorted() takes a neighbourhood.
+inline void nearestFirst(std::vector<Offset>& offsets)
+{
+  std::sort(offsets.begin(), offsets.end(),
+    [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
+}
+
+/// The angle criterion (section 6 of the paper): a neighbour is dropped if any strictly closer one,
+/// dropped itself or not, lies under a smaller angle than the given one.
+class AngleCriterion
+{
+public:
+  /// @param degrees 0 (nothing is dropped) up to 180 (the nearest neighbour remains, and what lies
+  /// exactly opposite)
+  explicit AngleCriterion(double degrees)
+    : DropsNothing(degrees <= 0.0)
+    , Cosine(std::cos(degrees * 3.14159265358979323846 / 180.0))
+  {
+  }
+
+  /// Whether `offsets[candidate]` survives among all `count` offsets of a neighbourhood. O(count)
+  bool survives(const Offset* offsets, std::size_t count, std::size_t candidate) const
+  {
+    if (this->DropsNothing)
+    {
+      return true;
+    }
+    const Offset& y = offsets[candidate];
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (offsets[i].squaredLength < y.squaredLength && this->drops(offsets[i], y))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The same of a neighbourhood sorted by nearestFirst(), for which the nearest ones, seen in many
+  /// directions, decide most often: far less than O(count) for all but the few that survive.
+  bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
+  {
+    for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)
+    {
+      if (this->drops(*offsets, y))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether z is closer than all y within the bounds and drops them. It may be told false where it
+  /// is true, never the other way round.
+  bool dropsAll(const Offset& z, const OffsetBounds& y) const
+  {
+    const double squaredLength =
+      this->Cosine > 0.0 ? y.greatestSquaredLength : y.leastSquaredLength;
+    return z.squaredLength < y.leastSquaredLength &&
+           leastProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
+  }
+
+  /// Whether a z within the bounds might be closer than y and drop it. It may be told true where it
+  /// is false, never the other way round.
+  bool mayDrop(const OffsetBounds& z, const Offset& y) const
+  {
+    const double squaredLength =
+      this->Cosine > 0.0 ? z.leastSquaredLength : z.greatestSquaredLength;
+    return z.leastSquaredLength < y.squaredLength &&
+           greatestProduct(y, z) > this->Cosine * (y.length * std::sqrt(squaredLength));
+  }
+
+  bool dropsNothing() const { return this->DropsNothing; }
+
+  /// Whether z is closer than y and lies under a smaller angle from it than the given one.
+  bool isDroppedBy(const Offset& y, const Offset& z) const
+  {
+    return z.squaredLength < y.squaredLength && this->drops(z, y);
+  }
+
+private:
+  /// Whether z lies under a smaller angle from y than the given one.
+  bool drops(const Offset& z, const Offset& y) const
+  {
+    const double product =
+      y.vector[0] * z.vector[0] + y.vector[1] * z.vector[1] + y.vector[2] * z.vector[2];
+    return product > this->Cosine * (y.length * z.length);
+  }
+
+  bool DropsNothing;
+  double Cosine;
+};
+
+} // namespace isopoint
+
+#endif

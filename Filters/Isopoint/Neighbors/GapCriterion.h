@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_GapCriterion_h
+#define isopoint_GapCriterion_h
+
+#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace isopoint
+{
+
+/// Tells edges across gaps in the cloud from others. The spacing behind the end x of an edge {x, y}
+/// is the distance from x to the 2nd nearest position of a sample within 54.7356 degrees of the
+/// direction from y to x (the angle's cosine is 1 / sqrt 3), infinite where there are fewer. An
+/// edge is dropped if it is longer than `factor` times the larger one of the spacings behind its
+/// ends. All samples count for that, in N(x) or not: cells at the brink of a void are as wide as it
+/// is deep, and so do not touch those of the nearest samples. Only those behind count, since on
+/// lines and in slices samples stand much closer in some directions than across to the next line or
+/// slice. Both ends have to agree, so that edges from a dense region to a sparse one stay.
+class GapCriterion
+{
+public:
+  /// @param factor 0: nothing is dropped; otherwise positive
+  explicit GapCriterion(double factor)
+    : Factor(factor)
+  {
+  }
+
+  /// Whether the edge between the positions of two samples is dropped, one of them a leaf's.
+  /// Symmetric in them, and the same whatever part of the tree is built.
+  /// Complexity: O(depth + samples closer than the edge's length / factor to an end)
+  template <class TSample>
+  bool drops(const SampleTree<TSample>& tree, const Path& leaf, const TSample& own,
+    const TSample& other) const
+  {
+    if (this->Factor <= 0.0)
+    {
+      return false;
+    }
+    const auto aroundLeaf = [&](const Region& box, const auto& visit)
+    { return visitAround(tree, leaf, box, visit); };
+    const auto fromRoot = [&](const Region& box, const auto& visit)
+    {
+      return visitTouchingInSubtree(
+        tree, { SampleTree<TSample>::rootNode, 0 }, maximumDepth, box,
+        [](const Node<TSample>&) { return true; }, visit);
+    };
+    return this->isCrowdedBehind(tree, own, other, aroundLeaf) &&
+           this->isCrowdedBehind(tree, other, own, fromRoot);
+  }
+
+private:
+  static constexpr std::size_t wantedCount = 2;
+  static constexpr double cosine = 1.0 / 1.7320508075688772; // 1 / sqrt 3
+
+  /// The positions found so far behind an end, each once.
+  template <class TSample>
+  struct Found
+  {
+    std::array<const TSample*, wantedCount> samples;
+    std::size_t count = 0;
+
+    void add(const TSample& sample)
+    {
+      for (std::size_t i = 0; i < this->count; ++i)
+      {
+        if (haveOnePosition(*this->samples[i], sample))
+        {
+          return;
+        }
+      }
+      this->samples[this->count++] = &sample;
+    }
+  };
+
+  /// Whether the edge is longer than `factor` times the spacing behind its end.
+  /// @param search(box, visit) visits the nodes that hold the samples in a box around the end
+  template <class TSample, class Search>
+  bool isCrowdedBehind(const SampleTree<TSample>& tree, const TSample& end, const TSample& other,
+    const Search& search) const
+  {
+    const std::array<double, 3> center = positionOf(end);
+    const Offset edge = offsetBetween(center.data(), positionOf(other).data());
+    const auto isBehind = [&](const TSample& sample)
+    {
+      const Offset offset = offsetBetween(center.data(), positionOf(sample).data());
+      const double product = offset.vector[0] * edge.vector[0] + offset.vector[1] * edge.vector[1] +
+                             offset.vector[2] * edge.vector[2];
+      return this->Factor * offset.length < edge.length &&
+             -product > cosine * (offset.length * edge.length);
+    };
+    Found<TSample> found;
+    return search(this->boxAround(center, edge.length),
+      [&](std::size_t nodeIndex)
+      {
+        const Node<TSample>& node = tree.nodes[nodeIndex];
+        const std::size_t nodeEnd = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+        for (std::size_t i = node.begin; i < nodeEnd && found.count < wantedCount; ++i)
+        {
+          if (isBehind(tree.samples[i]))
+          {
+            found.add(tree.samples[i]);
+          }
+        }
+        return found.count == wantedCount;
+      });
+  }
+
+  template <class TSample>
+  static std::array<double, 3> positionOf(const TSample& sample)
+  {
+    return { sample.position[0], sample.position[1], sample.position[2] };
+  }
+
+  /// A box that holds all that is close enough to matter, with room for rounding.
+  Region boxAround(const std::array<double, 3>& center, double length) const
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double reach = length / this->Factor * (1.0 + 1e-9);
+    Region box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      box.lower[axis] = std::nextafter(center[axis] - reach, -infinity);
+      box.upper[axis] = std::nextafter(center[axis] + reach, infinity);
+    }
+    return box;
+  }
+
+  double Factor;
+};
+
+} // namespace isopoint
+
+#endif

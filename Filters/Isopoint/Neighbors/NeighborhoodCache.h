@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NeighborhoodCache_h
+#define isopoint_NeighborhoodCache_h
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Neighbours of a leaf, as nodeIndices.
+template <class TId>
+struct NodeList
+{
+  const TId* first = nullptr;
+  std::size_t count = 0;
+
+  bool isEmpty() const { return this->count == 0; }
+  const TId* begin() const { return this->first; }
+  const TId* end() const { return this->first + this->count; }
+  std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
+};
+
+/// Remembers the neighbourhoods of leaves near surfaces extracted before. They do not depend on
+/// isovalues, angles or values, and finding them is most of the work of an extraction from a tree
+/// that is refined already. Takes one number for each neighbour and one for each node.
+template <class TId>
+class NeighborhoodCache
+{
+public:
+  /// What is known of a leaf, empty if nothing.
+  NodeList<TId> at(std::size_t nodeIndex) const
+  {
+    if (nodeIndex >= this->Offsets.size() || this->Offsets[nodeIndex] == 0)
+    {
+      return {};
+    }
+    const TId* const list = this->Lists.data() + this->Offsets[nodeIndex];
+    return { list + 1, static_cast<std::size_t>(list[0]) };
+  }
+
+  /// How many more numbers of neighbourhoods there is room for within a limit.
+  std::size_t room(std::size_t limit) const
+  {
+    const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
+    return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
+  }
+
+  /// Takes over neighbourhoods, one after the other as nodeIndex, count, neighbours.
+  /// @param nodeCount above every nodeIndex
+  /// @throws std::bad_alloc, the cache as before
+  void add(const std::vector<TId>& records, std::size_t nodeCount)
+  {
+    this->Offsets.resize(std::max(this->Offsets.size(), nodeCount), 0);
+    if (this->Lists.capacity() < this->Lists.size() + records.size())
+    {
+      this->Lists.reserve(std::max(2 * this->Lists.size(), this->Lists.size() + records.size()));
+    }
+    for (std::size_t i = 0; i < records.size(); i += 2 + static_cast<std::size_t>(records[i + 1]))
+    {
+      const auto record = records.begin() + static_cast<std::ptrdiff_t>(i);
+      this->Offsets[static_cast<std::size_t>(record[0])] = static_cast<TId>(this->Lists.size());
+      this->Lists.insert(
+        this->Lists.end(), record + 1, record + 2 + static_cast<std::ptrdiff_t>(record[1]));
+    }
+  }
+
+private:
+  std::vector<TId> Offsets;                     // by nodeIndex, into Lists; 0: not known
+  std::vector<TId> Lists = std::vector<TId>(1); // count, neighbours; the first number is unused
+};
+
+} // namespace isopoint
+
+#endif

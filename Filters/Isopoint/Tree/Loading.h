@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Loading_h
+#define isopoint_Loading_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace isopoint
+{
+
+template <class TSample>
+bool isFinite(const TSample& sample)
+{
+  return std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
+         std::isfinite(sample.position[2]) && std::isfinite(sample.value);
+}
+
+/// What a slice of the input held.
+template <class TSample>
+struct SliceSummary
+{
+  std::size_t kept = 0; // the numbers below are meaningless where this is 0
+  typename TSample::Coordinate lower[3];
+  typename TSample::Coordinate upper[3];
+  typename TSample::Value minimum;
+  typename TSample::Value maximum;
+
+  void add(const TSample& sample)
+  {
+    if (this->kept++ == 0)
+    {
+      std::copy_n(sample.position, 3, this->lower);
+      std::copy_n(sample.position, 3, this->upper);
+      this->minimum = this->maximum = sample.value;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->lower[axis] = std::min(this->lower[axis], sample.position[axis]);
+      this->upper[axis] = std::max(this->upper[axis], sample.position[axis]);
+    }
+    this->minimum = std::min(this->minimum, sample.value);
+    this->maximum = std::max(this->maximum, sample.value);
+  }
+};
+
+/// Reads the items [begin, end) to where they begin, packed.
+template <class TSample, class Reader>
+SliceSummary<TSample> loadSlice(
+  TSample* samples, std::size_t begin, std::size_t end, const Reader& read)
+{
+  SliceSummary<TSample> summary;
+  TSample* next = samples + begin;
+  for (std::size_t id = begin; id < end; ++id)
+  {
+    next->id = static_cast<typename TSample::Id>(id);
+    if (read(id, next->position, next->value) && isFinite(*next))
+    {
+      summary.add(*next++);
+    }
+  }
+  return summary;
+}
+
+/// Makes the root of a tree whose samples are loaded.
+template <class TSample>
+void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>>& slices)
+{
+  Node<TSample>& root = tree.nodes[SampleTree<TSample>::rootNode];
+  root = makeNode<TSample>(0, tree.samples.size());
+  bool first = true;
+  for (const SliceSummary<TSample>& slice : slices)
+  {
+    if (slice.kept == 0)
+    {
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = slice.lower[axis];
+      const double upper = slice.upper[axis];
+      tree.region.lower[axis] = first ? lower : std::min(tree.region.lower[axis], lower);
+      tree.region.upper[axis] = first ? upper : std::max(tree.region.upper[axis], upper);
+    }
+    root.minimum = first ? slice.minimum : std::min(root.minimum, slice.minimum);
+    root.maximum = first ? slice.maximum : std::max(root.maximum, slice.maximum);
+    first = false;
+  }
+}
+
+/// Makes a tree of nothing but a root from an input of `count` items, each read once.
+/// @param read(id, position, value) writes an item's coordinates and value and returns whether it
+/// takes part. Items with a non-finite coordinate or value are left out as well.
+/// @throws std::bad_alloc, Aborted
+template <class TSample, class Reader>
+SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, const Reader& read)
+{
+  SampleTree<TSample> tree;
+  tree.samples.resize(count);
+  tree.nodes.resize(2);
+  tree.usedPairs = 1;
+
+  // Each slice is packed where it begins; gaps are closed afterwards, if there are any.
+  const std::size_t sliceLength = std::max<std::size_t>(count / (16 * execution.threads), 1 << 16);
+  const std::size_t sliceCount = (count + sliceLength - 1) / sliceLength;
+  std::vector<SliceSummary<TSample>> slices(sliceCount);
+  forBatches(execution, sliceCount, 4, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t slice = begin; slice < end; ++slice)
+      {
+        slices[slice] = loadSlice(tree.samples.data(), slice * sliceLength,
+          std::min((slice + 1) * sliceLength, count), read);
+      }
+    });
+
+  std::size_t size = 0;
+  for (std::size_t slice = 0; slice < sliceCount; ++slice)
+  {
+    if (size != slice * sliceLength)
+    {
+      std::memmove(tree.samples.data() + size, tree.samples.data() + slice * sliceLength,
+        slices[slice].kept * sizeof(TSample));
+    }
+    size += slices[slice].kept;
+  }
+  tree.samples.resize(size);
+  tree.samples.shrinkToFit();
+  tree.skipped = count - size;
+  if (size > 0)
+  {
+    makeRoot(tree, slices);
+  }
+  return tree;
+}
+
+/// Computes the ranges of a node and of those up to so many levels below it from their samples,
+/// where nodes were not split, and from their children.
+template <class TSample>
+void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
+{
+  if (levels == 0)
+  {
+    return;
+  }
+  if (!node.isSplit())
+  {
+    computeRange(node, tree.samples.data());
+    return;
+  }
+  Node<TSample>& lower = tree.nodes[node.lowerNode()];
+  Node<TSample>& upper = tree.nodes[node.upperNode()];
+  recomputeRanges(tree, lower, levels - 1);
+  recomputeRanges(tree, upper, levels - 1);
+  uniteRanges(node, lower, upper);
+}
+
+/// Whether a tree holds just the items that take part, at their positions.
+/// @param count of the items, those left out included
+/// @param read as for loadSamples()
+template <class TSample, class Reader>
+bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree, std::size_t count,
+  const Reader& read)
+{
+  constexpr std::size_t grain = 1 << 14;
+  std::atomic<bool> same{ true };
+  forRanges(execution, tree.samples.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end && same; ++i)
+      {
+        TSample sample;
+        if (!read(tree.samples[i].id, sample.position, sample.value) || !isFinite(sample) ||
+            !haveOnePosition(sample, tree.samples[i]))
+        {
+          same = false;
+        }
+      }
+    });
+  throwIfAborted(execution);
+  if (!same || tree.skipped == 0)
+  {
+    return same;
+  }
+  std::atomic<std::size_t> taking{ 0 };
+  forRanges(execution, count, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t takingHere = 0;
+      for (std::size_t id = begin; id < end; ++id)
+      {
+        TSample sample;
+        takingHere += read(id, sample.position, sample.value) && isFinite(sample) ? 1 : 0;
+      }
+      taking += takingHere;
+    });
+  throwIfAborted(execution);
+  return taking == tree.samples.size();
+}
+
+/// Gives the samples of a tree new values and computes the ranges of its nodes anew; the tree
+/// keeps its shape, since it does not depend on values.
+/// @param read as for loadSamples(); holdsPositions() must be true of it
+template <class TSample, class Reader>
+void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
+{
+  constexpr std::size_t grain = 1 << 14;
+  forRanges(execution, tree.samples.size(), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        typename TSample::Coordinate position[3];
+        read(tree.samples[i].id, position, tree.samples[i].value);
+      }
+    });
+  if (tree.isEmpty())
+  {
+    return;
+  }
+  constexpr int topLevels = 8;
+  std::vector<std::size_t> tops;
+  Path path = pathToRoot(tree);
+  forEachBelow(tree, path, topLevels, [&tops](const Path& top) { tops.push_back(top.nodeIndex()); });
+  forRanges(execution, tops.size(), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        recomputeRanges(tree, tree.nodes[tops[i]], maximumDepth + 1);
+      }
+    });
+  recomputeRanges(tree, tree.nodes[SampleTree<TSample>::rootNode], topLevels);
+}
+
+} // namespace isopoint
+
+#endif

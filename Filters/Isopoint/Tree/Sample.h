@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Sample_h
+#define isopoint_Sample_h
+
+#include <cstdint>
+#include <type_traits>
+
+namespace isopoint
+{
+
+/// One sample as the tree holds it: everything that building and searching ask for, side by side
+/// in cache. Positions keep the input's type, so that no bit is lost and none is spent in vain.
+/// The id tells which sample of the input this is.
+template <class TCoordinate, class TValue, class TId>
+struct Sample
+{
+  using Coordinate = TCoordinate;
+  using Value = TValue;
+  using Id = TId;
+
+  TCoordinate position[3];
+  TId id;
+  TValue value;
+};
+
+/// The layouts in use. The 32-bit ones serve clouds of fewer than 2^30 samples: ids also number the
+/// tree's nodeIndices, two for each sample, and some that are set aside stay empty. Any cloud fits the
+/// wide one, since float converts to double exactly.
+using FloatSample = Sample<float, float, std::uint32_t>;
+using FloatSampleOfDouble = Sample<float, double, std::uint32_t>;
+using DoubleSampleOfFloat = Sample<double, float, std::uint32_t>;
+using WideSample = Sample<double, double, std::uint64_t>;
+
+static_assert(sizeof(FloatSample) == 20, "the commonest layout has no padding");
+
+template <class TSample>
+bool haveOnePosition(const TSample& a, const TSample& b)
+{
+  return a.position[0] == b.position[0] && a.position[1] == b.position[1] &&
+         a.position[2] == b.position[2];
+}
+
+/// The strict total order in which a node's samples are halved: by the coordinate on `axis`, then
+/// on the two axes that follow it cyclically, then by id.
+template <class TSample>
+struct SplittingOrder
+{
+  explicit SplittingOrder(int axis)
+    : First(axis)
+    , Second((axis + 1) % 3)
+    , Third((axis + 2) % 3)
+  {
+  }
+
+  bool operator()(const TSample& a, const TSample& b) const
+  {
+    if (a.position[this->First] != b.position[this->First])
+    {
+      return a.position[this->First] < b.position[this->First];
+    }
+    if (a.position[this->Second] != b.position[this->Second])
+    {
+      return a.position[this->Second] < b.position[this->Second];
+    }
+    if (a.position[this->Third] != b.position[this->Third])
+    {
+      return a.position[this->Third] < b.position[this->Third];
+    }
+    return a.id < b.id;
+  }
+
+  int First;
+  int Second;
+  int Third;
+};
+
+} // namespace isopoint
+
+#endif

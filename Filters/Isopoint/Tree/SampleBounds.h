@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SampleBounds_h
+#define isopoint_SampleBounds_h
+
+#include "Isopoint/Base/Offset.h"
+#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Tree/SampleBox.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <cstddef>
+#include <mutex>
+
+namespace isopoint
+{
+
+/// The bounding boxes of the samples below each split node, which can be far smaller than its
+/// region. They are there from the first call of compute() on and take six coordinates for each
+/// split node. The tree is not to be changed meanwhile.
+template <class TSample>
+class SampleBounds
+{
+public:
+  explicit SampleBounds(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// Computes them at its first call, from any thread: O(samples + nodes).
+  /// @throws std::bad_alloc; then the next call tries again
+  void compute()
+  {
+    std::call_once(this->Computed,
+      [this]()
+      {
+        this->Boxes.resize(this->Tree.usedPairs);
+        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode]);
+      });
+  }
+
+  /// What bounds the offsets from a position to the samples of a node, which is a leaf or split.
+  OffsetBounds offsets(const double from[3], const Node<TSample>& node) const
+  {
+    if (!node.isSplit())
+    {
+      const auto* const position = this->Tree.samples[node.begin].position;
+      return offsetsToBox(from, position, position);
+    }
+    const Box& box = this->Boxes[static_cast<std::size_t>(node.childPair)];
+    return offsetsToBox(from, box.lower, box.upper);
+  }
+
+private:
+  using Box = SampleBox<TSample>;
+
+  Box boxOf(const Node<TSample>& node)
+  {
+    if (!node.isSplit())
+    {
+      return boxOfSamples(this->Tree, node);
+    }
+    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()]),
+      this->boxOf(this->Tree.nodes[node.upperNode()]));
+    this->Boxes[static_cast<std::size_t>(node.childPair)] = box;
+    return box;
+  }
+
+  const SampleTree<TSample>& Tree;
+  RawArray<Box> Boxes; // by the number of the node's pair of children
+  std::once_flag Computed;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_TreeletSplitting_h
+#define isopoint_TreeletSplitting_h
+
+#include "Isopoint/Tree/SampleTree.h"
+#include "Isopoint/Tree/Splitting.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+
+namespace isopoint
+{
+
+/// The tree grows by treelets: the band decides after every third level which nodes to split
+/// next, and all work on a treelet is done while its samples are in cache.
+constexpr int treeletLevels = 3;
+
+/// The depth that treelets below nodes of the given depth reach. Treelets are aligned to the
+/// bottom of a tree without samples of one position: its last ones, by far the most, are then
+/// whole.
+inline int treeletBottom(int depth, std::size_t sampleCount)
+{
+  const int remaining = levelsToHalve(sampleCount) - depth;
+  return depth + (remaining > treeletLevels ? (remaining - 1) % treeletLevels + 1 : treeletLevels);
+}
+
+/// How many pairs of children a treelet below a node of that many samples takes at most.
+inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
+{
+  return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
+}
+
+/// Splits nodes by the definition of the canonical tree (DESIGN section 1; section 4 of the
+/// paper). The node itself becomes a parent last of all, so that an exception leaves it unsplit.
+template <class TSample>
+class TreeletSplitter
+{
+public:
+  /// @param firstPair where the treelet's nodes go: maximumTreeletPairs() are set aside there
+  TreeletSplitter(SampleTree<TSample>& tree, std::size_t firstPair)
+    : Tree(tree)
+    , NextPair(firstPair)
+  {
+  }
+
+  /// The splitter's next treelet goes there.
+  void moveTo(std::size_t firstPair) { this->NextPair = firstPair; }
+
+  /// Splits a node and what is below it, so many levels deep, in the calling thread, and computes
+  /// the value ranges of all new nodes.
+  void split(Node<TSample>& node, const Region& region, int levels)
+  {
+    const auto halveAlone = [this](TSample* samples, std::size_t count, int axis)
+    { return halve(samples, count, axis, this->Scratch); };
+    const auto rangeAlone = [this](Node<TSample>& bottom)
+    { computeRange(bottom, this->Tree.samples.data()); };
+    this->split(node, region, levels, halveAlone, rangeAlone);
+  }
+
+  /// The same with every thread at work on each node.
+  void splitTogether(
+    const Execution& execution, Node<TSample>& node, const Region& region, int levels)
+  {
+    const auto halveAll = [&execution](TSample* samples, std::size_t count, int axis)
+    {
+      throwIfAborted(execution);
+      return halveTogether(execution, samples, count, axis);
+    };
+    const auto rangeAll = [this, &execution](Node<TSample>& bottom)
+    { this->computeRangeTogether(execution, bottom); };
+    this->split(node, region, levels, halveAll, rangeAll);
+  }
+
+private:
+  template <class Halving, class Ranging>
+  void split(Node<TSample>& node, const Region& region, int levels, const Halving& halving,
+    const Ranging& ranging)
+  {
+    if (levels == 0 || node.isLeaf)
+    {
+      ranging(node);
+      return;
+    }
+    TSample* const samples = this->Tree.samples.data() + node.begin;
+    const int axis = region.longestSide();
+    const Halves halves = halving(samples, node.count(), axis);
+    if (halves.lowerCount == 0)
+    {
+      std::sort(samples, samples + node.count(),
+        [](const TSample& a, const TSample& b) { return a.id < b.id; });
+      ranging(node);
+      node.isLeaf = true;
+      return;
+    }
+    const std::size_t pair = this->NextPair++;
+    Node<TSample>& lower = this->Tree.nodes[2 * pair];
+    Node<TSample>& upper = this->Tree.nodes[2 * pair + 1];
+    const std::size_t middle = node.begin + halves.lowerCount;
+    lower = makeNode<TSample>(node.begin, middle);
+    upper = makeNode<TSample>(middle, node.end);
+    Region half = region;
+    half.upper[axis] = halves.plane;
+    this->split(lower, half, levels - 1, halving, ranging);
+    half.upper[axis] = region.upper[axis];
+    half.lower[axis] = halves.plane;
+    this->split(upper, half, levels - 1, halving, ranging);
+    uniteRanges(node, lower, upper);
+    node.plane = halves.plane;
+    node.axis = static_cast<std::uint8_t>(axis);
+    node.childPair = static_cast<typename TSample::Id>(pair);
+  }
+
+  void computeRangeTogether(const Execution& execution, Node<TSample>& node)
+  {
+    std::mutex mutex;
+    const TSample* const samples = this->Tree.samples.data();
+    node.minimum = node.maximum = samples[node.begin].value;
+    forRanges(execution, node.count(), node.count() / (4 * execution.threads) + 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        Node<TSample> part = makeNode<TSample>(node.begin + begin, node.begin + end);
+        computeRange(part, samples);
+        const std::lock_guard<std::mutex> lock(mutex);
+        uniteRanges(node, node, part);
+      });
+  }
+
+  SampleTree<TSample>& Tree;
+  std::size_t NextPair;
+  SelectionScratch<typename TSample::Coordinate> Scratch;
+};
+
+} // namespace isopoint
+
+#endif
