@@ -172,6 +172,40 @@ void loadOne(const isopoint::Execution& execution, const vtkIsopointBlock& block
     });
 }
 
+/// Positions of any kind.
+class AnyPositions
+{
+public:
+  explicit AnyPositions(vtkDataSet* input)
+    : Input(input)
+  {
+    vtkDataArray* const points = pointsOf(input);
+    this->Floats = points ? packedArray<float>(points) : nullptr;
+    this->Doubles = points ? packedArray<double>(points) : nullptr;
+  }
+
+  void operator()(std::size_t point, double position[3]) const
+  {
+    if (this->Floats)
+    {
+      PackedPositions<float>{ this->Floats }(point, position);
+    }
+    else if (this->Doubles)
+    {
+      PackedPositions<double>{ this->Doubles }(point, position);
+    }
+    else
+    {
+      ComputedPositions{ this->Input }(point, position);
+    }
+  }
+
+private:
+  vtkDataSet* Input;
+  const float* Floats;
+  const double* Doubles;
+};
+
 /// Values of any type.
 class AnyValues
 {
@@ -207,7 +241,7 @@ public:
       this->Firsts.push_back(this->Count);
       this->Count += static_cast<std::size_t>(block.GetNumberOfSamples());
       this->Parts.push_back(
-        { vtkIsopointPositions(block.Positions), AnyValues(block.Scalars), ghostsOf(block) });
+        { AnyPositions(block.Positions), AnyValues(block.Scalars), ghostsOf(block) });
     }
   }
 
@@ -225,7 +259,7 @@ public:
       return false;
     }
     double wide[3];
-    part.Positions.Get(static_cast<vtkIdType>(point), wide);
+    part.Positions(point, wide);
     std::transform(wide, wide + 3, position,
       [](double coordinate) { return static_cast<TCoordinate>(coordinate); });
     value = static_cast<TValue>(part.Values(point));
@@ -235,7 +269,7 @@ public:
 private:
   struct Part
   {
-    vtkIsopointPositions Positions;
+    AnyPositions Positions;
     AnyValues Values;
     const unsigned char* Ghosts;
   };
@@ -256,12 +290,9 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
     return;
   }
   const BlockReader read(blocks);
-  const auto all = [&blocks](const auto& holds)
-  { return std::all_of(blocks.begin(), blocks.end(), holds); };
-  const bool floatPositions =
-    all([](const vtkIsopointBlock& block) { return vtkHasFloatPositions(block.Positions); });
-  const bool floatValues =
-    all([](const vtkIsopointBlock& block) { return fitsFloat(block.Scalars); });
+  const bool floatPositions = vtkHaveFloatPositions(blocks);
+  const bool floatValues = std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return fitsFloat(block.Scalars); });
   const auto load = [&](auto coordinate, auto value) {
     loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
   };
@@ -269,33 +300,12 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
                  : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
 }
 
-bool vtkHasFloatPositions(vtkDataSet* input)
+bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)
 {
-  vtkDataArray* const points = pointsOf(input);
-  return points && points->GetDataType() == VTK_FLOAT;
-}
-
-vtkIsopointPositions::vtkIsopointPositions(vtkDataSet* input)
-  : Input(input)
-{
-  vtkDataArray* const points = pointsOf(input);
-  this->Floats = points ? packedArray<float>(points) : nullptr;
-  this->Doubles = points ? packedArray<double>(points) : nullptr;
-}
-
-void vtkIsopointPositions::Get(vtkIdType point, double position[3]) const
-{
-  const auto index = static_cast<std::size_t>(point);
-  if (this->Floats)
-  {
-    PackedPositions<float>{ this->Floats }(index, position);
-  }
-  else if (this->Doubles)
-  {
-    PackedPositions<double>{ this->Doubles }(index, position);
-  }
-  else
-  {
-    ComputedPositions{ this->Input }(index, position);
-  }
+  return std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block)
+    {
+      vtkDataArray* const points = pointsOf(block.Positions);
+      return points && points->GetDataType() == VTK_FLOAT;
+    });
 }

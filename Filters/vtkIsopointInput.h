@@ -2,8 +2,6 @@
 #ifndef vtkIsopointInput_h
 #define vtkIsopointInput_h
 
-#include "vtkType.h"
-
 #include <vector>
 
 namespace isopoint
@@ -11,7 +9,6 @@ namespace isopoint
 struct Execution;
 class IsosurfaceExtractor;
 } // namespace isopoint
-class vtkDataSet;
 struct vtkIsopointBlock;
 
 /**
@@ -23,24 +20,8 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
 
 /**
- * Whether the points of a data set are stored as float.
+ * Whether the positions of all blocks are stored as float.
  */
-bool vtkHasFloatPositions(vtkDataSet* input);
-
-/**
- * Writes the position of a point of the data set; thread-safe.
- */
-class vtkIsopointPositions
-{
-public:
-  explicit vtkIsopointPositions(vtkDataSet* input);
-
-  void Get(vtkIdType point, double position[3]) const;
-
-private:
-  vtkDataSet* Input;
-  const float* Floats = nullptr;
-  const double* Doubles = nullptr;
-};
+bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks);
 
 #endif

@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsopointFilter.h"
 
-#include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "Isopoint/Splat/SplatGeometry.h"
-#include "Isopoint/Extraction/Thinning.h"
-#include "vtkIsopointAllocation.h"
-#include "vtkIsopointArrays.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 #include "vtkIsopointBlocks.h"
+#include "vtkIsopointComputedArrays.h"
+#include "vtkIsopointEndSamples.h"
 #include "vtkIsopointExecution.h"
-#include "vtkIsopointGathering.h"
-#include "vtkIsopointGeometry.h"
 #include "vtkIsopointInput.h"
-#include "vtkIsopointPlacement.h"
+#include "vtkIsopointInterpolatedArrays.h"
+#include "vtkIsopointOutput.h"
 
 #include "vtkCellArray.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
-#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkUniformGridAMR.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,83 +36,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
-
 using isopoint::Execution;
-
-vtkSmartPointer<vtkPoints> newOutputPoints(vtkDataSet* input, int precision, vtkIdType count)
-{
-  const bool single = precision == vtkAlgorithm::SINGLE_PRECISION ||
-                      (precision == vtkAlgorithm::DEFAULT_PRECISION && vtkHasFloatPositions(input));
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  vtkAllocateTuples(points->GetData(), count);
-  return points;
-}
-
-vtkSmartPointer<vtkCellArray> newVertices(vtkIdType count)
-{
-  vtkNew<vtkIdTypeArray> offsets;
-  vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(offsets, count + 1);
-  vtkAllocateTuples(connectivity, count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    offsets->SetValue(i, i);
-    connectivity->SetValue(i, i);
-  }
-  offsets->SetValue(count, count);
-  auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  vertices->SetData(offsets, connectivity);
-  return vertices;
-}
-
-/// An empty output for a composite input that is contoured block by block.
-vtkSmartPointer<vtkDataObject> newCompositeFor(vtkDataObject* input)
-{
-  return vtkUniformGridAMR::SafeDownCast(input)
-           ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
-           : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-}
-
-/// Gives an output the structure of an input, and in place of its leaves surfaces (null for none),
-/// in the order of their traversal.
-void setLeaves(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
-  vtkCompositeDataSet* output)
-{
-  std::size_t leaf = 0;
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(input))
-  {
-    for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
-    {
-      vtkNew<vtkMultiBlockDataSet> boxes;
-      boxes->SetNumberOfBlocks(levels->GetNumberOfDataSets(level));
-      vtkMultiBlockDataSet::SafeDownCast(output)->SetBlock(level, boxes);
-      for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
-      {
-        if (levels->GetDataSet(level, box))
-        {
-          boxes->SetBlock(box, surfaces[leaf++]);
-        }
-      }
-    }
-    return;
-  }
-  auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
-  output->CopyStructure(composite);
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    if (surfaces[leaf])
-    {
-      output->SetDataSet(iterator, surfaces[leaf]);
-    }
-    ++leaf;
-  }
-}
-
-} // namespace
 
 /// The tree of one cloud.
 class vtkScatteredIsopointFilter::KeptTree
@@ -133,49 +50,62 @@ public:
 class vtkScatteredIsopointFilter::Internals
 {
 public:
-  /// What is wanted of fits around isopoints, if anything: splats need the samples' spacing, and
-  /// thinning what they tell of sheets.
-  static std::optional<isopoint::FitRequest> FitRequestOf(const vtkScatteredIsopointFilter& filter)
+  static vtkIsopointComputedArrays::Choice ChosenArrays(const vtkScatteredIsopointFilter& filter)
+  {
+    vtkIsopointComputedArrays::Choice choice;
+    choice.Normals = filter.ComputeNormals != 0;
+    choice.Radius = filter.ComputeRadii != 0;
+    choice.SplatAxes = filter.ComputeSplatAxes != 0;
+    choice.SplatClip = filter.ComputeSplatClips != 0;
+    choice.Gradients = filter.ComputeGradients != 0;
+    choice.ProjectionOrder = filter.ComputeProjectionOrders != 0;
+    choice.IsProjected = filter.Projection != NO_PROJECTION;
+    return choice;
+  }
+
+  /// The fits that the projection or an array needs: splats need the samples' spacing at least, and
+  /// thinning needs a fit.
+  static std::optional<isopoint::FitRequest> FitRequestOf(
+    const vtkScatteredIsopointFilter& filter, const vtkIsopointComputedArrays::Choice& arrays)
   {
     using isopoint::FitOrder;
     using isopoint::FitRequest;
-    const vtkIsopointGeometry::Arrays wanted = WantedGeometry(filter);
-    const auto request = [&](FitOrder highest) {
-      return FitRequest{ highest, wanted.IsProjected };
-    };
     switch (filter.Projection)
     {
       case LINEAR_FIT:
-        return request(FitOrder::Linear);
+        return FitRequest{ FitOrder::Linear, true };
       case QUADRATIC_FIT:
-        return request(FitOrder::Quadratic);
+        return FitRequest{ FitOrder::Quadratic, true };
       case CUBIC_FIT:
-        return request(FitOrder::Cubic);
+        return FitRequest{ FitOrder::Cubic, true };
       case CREASE_FIT:
-        return request(FitOrder::Crease);
+        return FitRequest{ FitOrder::Crease, true };
       default:
-        if (wanted.Gradients || filter.MinimumSpacing > 0.0 ||
-            (wanted.NeedsSplats() && filter.NormalMethod == NORMALS_FROM_FIELD))
+        if (arrays.Gradients || filter.MinimumSpacing > 0.0 ||
+            (arrays.NeedsSplats() && filter.NormalMethod == NORMALS_FROM_FIELD))
         {
-          return request(FitOrder::Cubic);
+          return FitRequest{ FitOrder::Cubic, false };
         }
-        return wanted.NeedsSplats() || wanted.ProjectionOrder
-                 ? std::optional<FitRequest>(request(FitOrder::None))
+        return arrays.NeedsSplats() || arrays.ProjectionOrder
+                 ? std::optional<FitRequest>({ std::nullopt, false })
                  : std::nullopt;
     }
   }
 
-  static vtkIsopointGeometry::Arrays WantedGeometry(const vtkScatteredIsopointFilter& filter)
+  static isopoint::ExtractionRequest RequestOf(const vtkScatteredIsopointFilter& filter)
   {
-    vtkIsopointGeometry::Arrays wanted;
-    wanted.Normals = filter.ComputeNormals != 0;
-    wanted.Radius = filter.ComputeRadii != 0;
-    wanted.SplatAxes = filter.ComputeSplatAxes != 0;
-    wanted.SplatClip = filter.ComputeSplatClips != 0;
-    wanted.Gradients = filter.ComputeGradients != 0;
-    wanted.ProjectionOrder = filter.ComputeProjectionOrders != 0;
-    wanted.IsProjected = filter.Projection != NO_PROJECTION;
-    return wanted;
+    const vtkIsopointComputedArrays::Choice arrays = ChosenArrays(filter);
+    isopoint::ExtractionRequest request;
+    request.isosurface.angle = filter.Angle;
+    request.isosurface.gapFactor = filter.GapFactor;
+    request.isosurface.fit = FitRequestOf(filter, arrays);
+    request.minimumSpacing = filter.MinimumSpacing;
+    if (arrays.NeedsSplats())
+    {
+      request.splats = isopoint::SplatOptions{ filter.NumberOfNeighbors,
+        filter.NormalMethod == NORMALS_FROM_FIELD, arrays.NeedsShapes() };
+    }
+    return request;
   }
 
   vtkIsopointBlocks Input;
@@ -272,7 +202,7 @@ vtkTypeBool vtkScatteredIsopointFilter::ProcessRequest(
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   const vtkSmartPointer<vtkDataObject> wanted =
     this->ContourBlocks && vtkCompositeDataSet::SafeDownCast(input)
-      ? newCompositeFor(input)
+      ? vtkNewIsopointComposite(input)
       : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPolyData>::New());
   if (!output || std::strcmp(output->GetClassName(), wanted->GetClassName()) != 0)
   {
@@ -327,7 +257,7 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
       this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
     }
     surfaces.resize(blocks.GetNumberOfLeaves());
-    setLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+    vtkSetIsopointLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
     return;
   }
   catch (const isopoint::Aborted&)
@@ -385,13 +315,10 @@ void vtkScatteredIsopointFilter::CheckParameters()
 void vtkScatteredIsopointFilter::ExtractBlocks(
   std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output)
 {
-  constexpr double loadingShare = 0.1;
-  constexpr double extractionShare = 0.7;
   const Execution execution = vtkMakeIsopointExecution(this, this->UseAllCores != 0);
   const std::vector<vtkIsopointBlock>& all = this->Kept->Input.GetBlocks();
   const std::vector<vtkIsopointBlock> blocks(all.begin() + static_cast<std::ptrdiff_t>(begin),
     all.begin() + static_cast<std::ptrdiff_t>(end));
-
   const vtkIsopointState state = this->Kept->Input.GetState(begin, end);
   if (state != kept.LoadedFrom)
   {
@@ -404,76 +331,67 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   {
     this->NumberOfSkippedSamples -= block.Fillers;
   }
-  this->UpdateProgress(loadingShare);
+  this->FillOutput(execution, blocks, this->ExtractIsovalues(execution, kept), output);
+  this->UpdateProgress(1.0);
+}
 
+std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
+  const Execution& execution, KeptTree& kept)
+{
+  constexpr double loadingShare = 0.1;
+  this->UpdateProgress(loadingShare);
   const double* const values = this->ContourValues->GetValues();
   const std::set<double> isovalues(values, values + this->ContourValues->GetNumberOfContours());
-  std::vector<vtkContouredIsosurface> surfaces;
-  std::size_t pointCount = 0;
+  const double share = (1.0 - loadingShare) / static_cast<double>(isovalues.size());
+  isopoint::ExtractionRequest request = Internals::RequestOf(*this);
+  std::vector<isopoint::ExtractedIsosurface> surfaces;
   for (const double isovalue : isovalues)
   {
-    const double share = (extractionShare - loadingShare) / static_cast<double>(isovalues.size());
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
+    request.isosurface.isovalue = isovalue;
     surfaces.push_back(
-      { isovalue, kept.Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share),
-                    isovalue, this->Angle, this->GapFactor, Internals::FitRequestOf(*this)) });
-    isopoint::thin(execution, this->MinimumSpacing, surfaces.back().Surface);
-    pointCount += surfaces.back().Surface.points.size();
+      kept.Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share), request));
     isopoint::throwIfAborted(execution);
   }
+  return surfaces;
+}
 
-  const vtkIsopointGathering gathering(blocks, surfaces);
-  vtkDataSet* const input = gathering.GetBlock().Positions;
-  vtkDataArray* const scalars = gathering.GetBlock().Scalars;
-  const auto count = static_cast<vtkIdType>(pointCount);
+void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface> surfaces,
+  vtkPolyData* output)
+{
+  const bool isSingle = this->OutputPointsPrecision == vtkAlgorithm::SINGLE_PRECISION ||
+                        (this->OutputPointsPrecision == vtkAlgorithm::DEFAULT_PRECISION &&
+                          vtkHaveFloatPositions(blocks));
   const vtkSmartPointer<vtkPoints> points =
-    newOutputPoints(input, this->OutputPointsPrecision, count);
-  const vtkIsopointGeometry::Arrays wanted = Internals::WantedGeometry(*this);
-  const isopoint::SampleExtents extents = kept.Extractor.sampleExtents();
-  vtkIsopointGeometry geometry(wanted, count);
-  vtkIdType point = 0;
-  for (vtkContouredIsosurface& surface : surfaces)
+    vtkNewIsopointPositions(surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
+  const vtkIdType count = points->GetNumberOfPoints();
+  output->SetPoints(points);
+  output->SetVerts(vtkNewIsopointVertices(count));
+
+  const vtkIsopointEndSamples samples(blocks, surfaces);
+  vtkPointData* const pointData = output->GetPointData();
+  vtkInterpolateIsopointArrays(
+    execution, samples.GetAttributes(), samples.GetScalars(), surfaces, pointData);
+  if (this->ComputeScalars)
   {
-    const auto shareUpTo = [=](std::size_t points)
-    {
-      return extractionShare + (1.0 - extractionShare) * static_cast<double>(points) /
-                                 static_cast<double>(std::max<std::size_t>(pointCount, 1));
-    };
-    const auto before = static_cast<std::size_t>(point);
-    const Execution step = vtkMakeIsopointStep(
-      execution, this, shareUpTo(before), shareUpTo(before + surface.Surface.points.size()));
-    isopoint::SurfacePoints placed = vtkPlaceIsopoints(execution, input, scalars, surface);
-    placed.extents = extents;
-    std::vector<isopoint::Splat> splats;
-    if (wanted.NeedsSplats())
-    {
-      splats = isopoint::computeSplats(step, placed,
-        { this->NumberOfNeighbors, this->NormalMethod == NORMALS_FROM_FIELD,
-          wanted.NeedsShapes() });
-    }
-    geometry.Append(placed, splats, points);
-    point += static_cast<vtkIdType>(placed.positions.size());
+    vtkAddContouredArray(samples.GetScalars(), surfaces, pointData);
+  }
+
+  vtkIsopointComputedArrays computed(Internals::ChosenArrays(*this), count);
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    computed.Append(extracted);
     isopoint::throwIfAborted(execution);
   }
   this->NumberOfUnprojectedPoints +=
-    this->Projection == NO_PROJECTION ? count : geometry.GetNumberWithoutFit();
-
-  output->SetPoints(points);
-  output->SetVerts(newVertices(count));
-  vtkPointData* const pointData = output->GetPointData();
-  vtkInterpolateIsopointArrays(
-    execution, gathering.GetBlock().Attributes, scalars, surfaces, pointData);
-  if (this->ComputeScalars)
-  {
-    vtkAddContouredArray(scalars, surfaces, pointData);
-  }
-  for (const std::string& name : geometry.AddTo(pointData))
+    this->Projection == NO_PROJECTION ? count : computed.GetNumberWithoutFit();
+  for (const std::string& name : computed.AddTo(pointData))
   {
     vtkWarningMacro(<< "The input's array \"" << name
                     << "\" gives way to the computed one of that name. Switch that one off or"
                     << " rename the input's to keep it.");
   }
-  this->UpdateProgress(1.0);
 }
 
 void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -100,9 +100,16 @@
 
 #include <cstddef> // for std::size_t
 #include <memory>  // for std::unique_ptr
+#include <vector>  // for lists of blocks and surfaces
 
+namespace isopoint
+{
+struct Execution;
+struct ExtractedIsosurface;
+} // namespace isopoint
 class vtkContourValues;
 class vtkDataObject;
+struct vtkIsopointBlock;
 
 class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsopointFilter : public vtkPolyDataAlgorithm
 {
@@ -417,6 +424,10 @@ private:
   void CheckParameters();
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
+  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
+    const isopoint::Execution& execution, KeptTree& kept);
+  void FillOutput(const isopoint::Execution& execution, const std::vector<vtkIsopointBlock>& blocks,
+    std::vector<isopoint::ExtractedIsosurface> surfaces, vtkPolyData* output);
 
   std::unique_ptr<Internals> Kept;
 };

@@ -2,42 +2,64 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 
 #include "Isopoint/Extraction/ExtractIsosurface.h"
+#include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
+#include "Isopoint/Splat/SplatGeometry.h"
 
 namespace isopoint
 {
+namespace
+{
+
+/// An execution that reports the progress of a part of the work.
+Execution partOf(const Execution& execution, double begin, double end)
+{
+  Execution part = execution;
+  part.progress = [&execution, begin, end](double fraction)
+  { execution.progress(begin + fraction * (end - begin)); };
+  return part;
+}
+
+} // namespace
 
 void IsosurfaceExtractor::clear()
 {
-  this->Tree = SampleTree<FloatSample>();
+  this->Held = Cloud<FloatSample>();
   this->ItemCount = 0;
 }
 
 std::size_t IsosurfaceExtractor::sampleCount() const
 {
-  return std::visit([](const auto& tree) { return tree.samples.size(); }, this->Tree);
+  return std::visit([](const auto& cloud) { return cloud.tree.samples.size(); }, this->Held);
 }
 
 std::size_t IsosurfaceExtractor::skippedCount() const
 {
-  return std::visit([](const auto& tree) { return tree.skipped; }, this->Tree);
+  return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Held);
 }
 
-Isosurface IsosurfaceExtractor::extract(const Execution& execution, double isovalue, double angle,
-  double gapFactor, std::optional<FitRequest> fitRequest)
+ExtractedIsosurface IsosurfaceExtractor::extract(
+  const Execution& execution, const ExtractionRequest& request)
 {
   return std::visit(
-    [&](auto& tree)
+    [&](auto& cloud)
     {
-      return extractIsosurface(
-        execution, tree, isovalue, angle, gapFactor, this->ItemCount, fitRequest);
+      const double surfaceShare = request.splats ? 0.6 : 1.0;
+      ExtractedIsosurface result;
+      result.surface = extractIsosurface(partOf(execution, 0.0, surfaceShare), cloud.tree,
+        cloud.neighborhoods, this->ItemCount, request.isosurface);
+      thin(execution, request.minimumSpacing, result.surface);
+      throwIfAborted(execution);
+      if (request.splats)
+      {
+        const Isosurface& surface = result.surface;
+        const SampleExtents extents(cloud.tree);
+        result.splats = computeSplats(partOf(execution, surfaceShare, 1.0),
+          { surface.positions, surface.decreasingEdges, surface.fits }, &extents, *request.splats);
+      }
+      return result;
     },
-    this->Tree);
-}
-
-SampleExtents IsosurfaceExtractor::sampleExtents() const
-{
-  return std::visit([](const auto& tree) { return extentsOf(tree); }, this->Tree);
+    this->Held);
 }
 
 } // namespace isopoint

@@ -3,8 +3,10 @@
 #define isopoint_IsosurfaceExtractor_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Neighbors/ExtentQuery.h"
 #include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Extraction/IsosurfaceRequest.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -12,6 +14,7 @@
 #include <optional>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace isopoint
 {
@@ -22,13 +25,30 @@ using SampleFor = std::conditional_t<std::is_same_v<TCoordinate, float>,
   std::conditional_t<std::is_same_v<TValue, float>, FloatSample, FloatSampleOfDouble>,
   std::conditional_t<std::is_same_v<TValue, float>, DoubleSampleOfFloat, WideSample>>;
 
-/// Extracts isosurfaces from one cloud of samples, and keeps what it learns of the cloud from one
-/// extraction to the next. The first costs O(n) for each level of the tree whose regions are not
-/// yet smaller than the surface; a further one only what its own band adds.
+/// What is to be computed for one isovalue.
+struct ExtractionRequest
+{
+  IsosurfaceRequest isosurface;
+  /// How much of the isosurface thin() drops: 0, which drops nothing, up to 1. Takes effect if
+  /// something is fitted.
+  double minimumSpacing = 0.0;
+  std::optional<SplatOptions> splats = std::nullopt;
+};
+
+/// All that is computed for one isovalue.
+struct ExtractedIsosurface
+{
+  Isosurface surface;
+  std::vector<Splat> splats; // one for each isopoint, or empty if none were requested
+};
+
+/// Extracts isosurfaces from one cloud of samples. The tree and the neighbourhoods are kept from
+/// one extraction to the next: the first takes O(n) for each level of the tree whose regions are
+/// not yet smaller than the surface; a further one only what its own narrow band adds.
 class IsosurfaceExtractor
 {
 public:
-  /// Takes over a cloud of `count` items, with the ids 0 .. count - 1, in place of any former one.
+  /// Loads a cloud of `count` items, with the ids 0 .. count - 1, in place of any former one.
   /// @param read(id, position, value) writes coordinates (three TCoordinate) and value (TValue) of
   /// an item and returns whether it takes part; called from any thread. Its parameters are to be
   /// `auto*` and `auto&`: very large clouds are held in wider types.
@@ -39,17 +59,18 @@ public:
     this->clear();
     if (isNarrow(count))
     {
-      this->Tree = loadSamples<SampleFor<TCoordinate, TValue>>(execution, count, read);
+      using TSample = SampleFor<TCoordinate, TValue>;
+      this->Held = Cloud<TSample>{ loadSamples<TSample>(execution, count, read), {} };
     }
     else
     {
-      this->Tree = loadSamples<WideSample>(execution, count, read);
+      this->Held = Cloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {} };
     }
     this->ItemCount = count;
   }
 
-  /// Takes over new values, where positions, types and the items that take part are those of the
-  /// last load(): the tree is kept. Otherwise nothing changes.
+  /// Replaces the values, provided that positions, types and the items that take part are those of
+  /// the last load(); the tree is kept. Otherwise nothing changes.
   /// @returns whether it did
   /// @throws Aborted, the former values kept; std::bad_alloc, and then holds no samples
   template <class TCoordinate, class TValue, class Reader>
@@ -60,46 +81,44 @@ public:
              : this->replaceValuesAs<WideSample>(execution, count, read);
   }
 
-  /// Forgets all samples and frees their memory.
+  /// Drops all samples and frees their memory.
   void clear();
 
-  /// Samples that take part, those of one position counted separately.
+  /// The number of samples that take part, coincident ones counted separately.
   std::size_t sampleCount() const;
 
-  /// Items that do not.
+  /// The number of items that do not.
   std::size_t skippedCount() const;
 
-  /// The canonical isosurface: the same for any execution and any order of calls.
-  /// @param isovalue any; none is found where no two samples lie on either side of it
-  /// @param angle of the angle criterion in degrees, 0 up to 180
-  /// @param gapFactor of the gap criterion: 0, which drops nothing, or positive
-  /// @param fitRequest what is fitted to the samples around each isopoint (see fitAround); without
-  /// it nothing is
+  /// The canonical isosurface and, if requested, its splats: the same for any execution and any
+  /// order of calls.
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
-  Isosurface extract(const Execution& execution, double isovalue, double angle,
-    double gapFactor = 0.0, std::optional<FitRequest> fitRequest = std::nullopt);
-
-  /// What tells how far samples stand ahead of a place (see extentOfSamples), as long as nothing
-  /// else of this is called.
-  /// @throws std::bad_alloc
-  SampleExtents sampleExtents() const;
+  ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request);
 
 private:
+  /// The samples, and what has been found out about them.
+  template <class TSample>
+  struct Cloud
+  {
+    SampleTree<TSample> tree;
+    NeighborhoodCache<typename TSample::Id> neighborhoods;
+  };
+
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 
   template <class TSample, class Reader>
   bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
   {
-    auto* const tree = std::get_if<SampleTree<TSample>>(&this->Tree);
-    if (!tree || tree->isEmpty() || count != this->ItemCount ||
-        !holdsPositions(execution, *tree, count, read))
+    auto* const cloud = std::get_if<Cloud<TSample>>(&this->Held);
+    if (!cloud || cloud->tree.isEmpty() || count != this->ItemCount ||
+        !holdsPositions(execution, cloud->tree, count, read))
     {
       return false;
     }
     try
     {
-      isopoint::replaceValues(execution, *tree, read);
+      isopoint::replaceValues(execution, cloud->tree, read);
     }
     catch (...)
     {
@@ -109,9 +128,9 @@ private:
     return true;
   }
 
-  std::variant<SampleTree<FloatSample>, SampleTree<FloatSampleOfDouble>,
-    SampleTree<DoubleSampleOfFloat>, SampleTree<WideSample>>
-    Tree;
+  std::variant<Cloud<FloatSample>, Cloud<FloatSampleOfDouble>, Cloud<DoubleSampleOfFloat>,
+    Cloud<WideSample>>
+    Held;
   std::size_t ItemCount = 0;
 };
 

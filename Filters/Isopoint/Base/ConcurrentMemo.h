@@ -9,20 +9,20 @@
 namespace isopoint
 {
 
-/// What was computed for nodes of a tree, each about once for all threads that share it.
+/// Values computed on demand and shared by all threads, by an index such as a node's.
 template <class T>
 class ConcurrentMemo
 {
 public:
-  /// O(1) but for the first time a nodeIndex is asked for. From any thread.
-  /// @param compute() its value; threads that ask at once may each compute it
-  /// @throws std::bad_alloc, and what compute() does
+  /// The value of an index, computed at the first request: O(1) afterwards. From any thread.
+  /// @param compute() the value; threads that ask at the same time may each compute it
+  /// @throws std::bad_alloc, and what compute() throws
   template <class Compute>
-  T at(std::size_t nodeIndex, const Compute& compute)
+  T at(std::size_t index, const Compute& compute)
   {
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      const auto found = this->Values.find(nodeIndex);
+      const auto found = this->Values.find(index);
       if (found != this->Values.end())
       {
         return found->second;
@@ -30,12 +30,12 @@ public:
     }
     const T value = compute();
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Values.emplace(nodeIndex, value).first->second;
+    return this->Values.emplace(index, value).first->second;
   }
 
 private:
   std::mutex Mutex;
-  std::unordered_map<std::size_t, T> Values; // by nodeIndex
+  std::unordered_map<std::size_t, T> Values;
 };
 
 } // namespace isopoint

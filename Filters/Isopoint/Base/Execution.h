@@ -31,8 +31,8 @@ struct Aborted : std::runtime_error
   }
 };
 
-/// How a computation runs: what it may use and whom it tells. The defaults run in the calling
-/// thread and tell nobody. No result depends on any of it.
+/// How a computation runs: the threads it uses, and the caller's handlers of progress and abort.
+/// The defaults run in the calling thread and report nothing. No result depends on any of it.
 struct Execution
 {
   ParallelFor parallelFor = [](std::size_t count, std::size_t, const RangeTask& task)
@@ -41,10 +41,10 @@ struct Execution
   /// How many ranges `parallelFor` works on at the same time, at least 1.
   std::size_t threads = 1;
 
-  /// Told the share of the work that is done, rising from 0 to 1, from the calling thread.
+  /// Called from the calling thread with the share of the work that is done, from 0 up to 1.
   std::function<void(double fraction)> progress = [](double) {};
 
-  /// Asked from the calling thread, every few tens of milliseconds, whether to stop.
+  /// Called from the calling thread every few tens of milliseconds: whether to stop.
   std::function<bool()> aborted = []() { return false; };
 };
 
@@ -57,8 +57,9 @@ inline void throwIfAborted(const Execution& execution)
   }
 }
 
-/// Runs the task over [0, count) as `ParallelFor` promises. An exception in any range keeps the
-/// ranges not yet begun from running and is thrown again here, since none may cross the scheduler.
+/// Runs the task over [0, count) as `ParallelFor` promises. An exception must not cross the
+/// scheduler: that of any range prevents the ranges not yet begun from running and is thrown again
+/// here.
 inline void forRanges(
   const Execution& execution, std::size_t count, std::size_t grain, const RangeTask& task)
 {
@@ -93,8 +94,9 @@ inline void forRanges(
   }
 }
 
-/// forRanges() in batches of so many items for each thread, between which the execution may be
-/// stopped. @param batchDone called after each with the share of the items that are done
+/// forRanges() in batches, between which the execution may be stopped.
+/// @param batchPerThread items of a batch, for each thread
+/// @param batchDone called after each batch with the share of the items that are done
 /// @throws Aborted, and what the task throws
 inline void forBatches(
   const Execution& execution, std::size_t count, std::size_t batchPerThread, std::size_t grain,

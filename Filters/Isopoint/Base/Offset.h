@@ -2,52 +2,50 @@
 #ifndef isopoint_Offset_h
 #define isopoint_Offset_h
 
+#include "Isopoint/Base/Vector.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace isopoint
 {
 
-/// A neighbour as seen from the sample whose neighbourhood it belongs to.
+/// The vector from a sample to one of its neighbours, and its length.
 struct Offset
 {
-  double vector[3];
+  Vector vector;
   double squaredLength;
   double length;
 };
 
-inline Offset offsetBetween(const double from[3], const double to[3])
+inline Offset offsetBetween(const Vector& from, const Vector& to)
 {
   Offset offset;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    offset.vector[axis] = to[axis] - from[axis];
-  }
-  offset.squaredLength = offset.vector[0] * offset.vector[0] + offset.vector[1] * offset.vector[1] +
-                         offset.vector[2] * offset.vector[2];
+  offset.vector = difference(to, from);
+  offset.squaredLength = dot(offset.vector, offset.vector);
   offset.length = std::sqrt(offset.squaredLength);
   return offset;
 }
 
-/// Bounds on the offsets from a position to all those in a box. They hold for what
-/// offsetBetween() computes, to the last bit, not for the exact offsets alone: each operation in it
-/// is monotonic, rounding included. So are those in AngleCriterion, and with them the bounds tell
-/// what it does with every offset at once. Nothing may overflow for that.
+/// Bounds on the offsets from a position to all those in a box. They hold to the last bit for what
+/// offsetBetween() computes: each operation in it is monotonic, rounding included. So are the
+/// operations in AngleCriterion, which therefore decides on all offsets within the bounds at once.
+/// Precondition: nothing overflows.
 struct OffsetBounds
 {
-  double lower[3];
-  double upper[3];
+  Vector lower;
+  Vector upper;
   double leastSquaredLength;
   double greatestSquaredLength;
 };
 
-template <class TCoordinate>
-OffsetBounds offsetsToBox(
-  const double from[3], const TCoordinate lower[3], const TCoordinate upper[3])
+/// @param lower, upper corners of the box, three coordinates each
+template <class TBound>
+OffsetBounds offsetsToBox(const Vector& from, const TBound& lower, const TBound& upper)
 {
   OffsetBounds bounds;
-  double least[3];
-  double greatest[3];
+  Vector least;
+  Vector greatest;
   for (int axis = 0; axis < 3; ++axis)
   {
     bounds.lower[axis] = lower[axis] - from[axis];
@@ -55,9 +53,8 @@ OffsetBounds offsetsToBox(
     least[axis] = std::max({ bounds.lower[axis], -bounds.upper[axis], 0.0 });
     greatest[axis] = std::max(-bounds.lower[axis], bounds.upper[axis]);
   }
-  bounds.leastSquaredLength = least[0] * least[0] + least[1] * least[1] + least[2] * least[2];
-  bounds.greatestSquaredLength =
-    greatest[0] * greatest[0] + greatest[1] * greatest[1] + greatest[2] * greatest[2];
+  bounds.leastSquaredLength = dot(least, least);
+  bounds.greatestSquaredLength = dot(greatest, greatest);
   return bounds;
 }
 
@@ -67,7 +64,7 @@ OffsetBounds offsetsToBox(
 template <class Choice>
 double extremeProduct(const Offset& offset, const OffsetBounds& bounds, const Choice& choose)
 {
-  double products[3];
+  Vector products;
   for (int axis = 0; axis < 3; ++axis)
   {
     products[axis] =

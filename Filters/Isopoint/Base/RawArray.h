@@ -12,9 +12,9 @@
 namespace isopoint
 {
 
-/// A growing array of trivial elements that are left uninitialised. Unlike std::vector it does not
-/// touch memory before its first writer does (which may be any thread), and growing a large one
-/// remaps its pages instead of holding two copies.
+/// A growing array of trivial elements that are left uninitialised. Unlike std::vector, it does not
+/// touch memory before the first write (from any thread), and growing a large one remaps its pages
+/// instead of holding two copies.
 template <class T>
 class RawArray
 {

@@ -2,24 +2,25 @@
 #ifndef isopoint_Region_h
 #define isopoint_Region_h
 
+#include "Isopoint/Base/Vector.h"
+
 #include <cmath>
 
 namespace isopoint
 {
 
-/// A closed axis-parallel box, the region of a node. Its bounds are the input's coordinates and
+/// A closed axis-parallel box, the region of a node. Its bounds are coordinates of the input and
 /// splitting planes, both in double: comparing them is exact.
 struct Region
 {
-  double lower[3];
-  double upper[3];
+  Vector lower;
+  Vector upper;
 
   /// The axis of the longest side, the lowest one among equals.
   int longestSide() const
   {
-    const double side[3] = { this->upper[0] - this->lower[0], this->upper[1] - this->lower[1],
-      this->upper[2] - this->lower[2] };
-    int longest = side[1] > side[0] ? 1 : 0;
+    const Vector side = difference(this->upper, this->lower);
+    const int longest = side[1] > side[0] ? 1 : 0;
     return side[2] > side[longest] ? 2 : longest;
   }
 };

@@ -12,9 +12,10 @@
 namespace isopoint
 {
 
-/// Sorts the elements and drops repeated ones, with every thread: they are dealt into buckets by
-/// their key, and the buckets sorted independently.
-/// @param key(element) a number below keyCount that never falls as elements ascend
+/// Sorts the elements and drops repeated ones, with every thread: they are distributed over buckets
+/// by their key, and the buckets are sorted independently.
+/// @param key(element) a number below keyCount, monotonic in the elements' order
+/// Complexity: O(n log n)
 template <class T, class Key>
 std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& elements,
   std::uint64_t keyCount, const Key& key)

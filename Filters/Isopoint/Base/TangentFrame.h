@@ -11,8 +11,8 @@
 namespace isopoint
 {
 
-/// Two axes of length 1 across a normal, first x second along it. Any would do; these depend on
-/// nothing but the normal.
+/// Two unit vectors orthogonal to a normal, first x second along it. They depend on nothing but the
+/// normal.
 struct TangentFrame
 {
   Vector first;
@@ -33,20 +33,20 @@ struct TangentFrame
   }
 };
 
-/// In how many directions it is told how far samples stand from a place.
+/// The number of directions in which the extent of the samples around a place is measured.
 constexpr std::size_t extentCount = 8;
 
-/// Directions of length 1, evenly around a normal.
+/// Unit vectors orthogonal to a normal, at equal angles around it.
 inline std::array<Vector, extentCount> extentDirections(const Vector& normal)
 {
   constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
   const TangentFrame frame(normal);
-  const Vector rising = scaled(diagonal, frame.second);
-  const Vector falling = scaled(-1.0, rising);
-  return { frame.first, sum(rising, diagonal, frame.first), frame.second,
-    sum(rising, -diagonal, frame.first), scaled(-1.0, frame.first),
-    sum(falling, -diagonal, frame.first), scaled(-1.0, frame.second),
-    sum(falling, diagonal, frame.first) };
+  const Vector upwards = scaled(diagonal, frame.second);
+  const Vector downwards = scaled(-1.0, upwards);
+  return { frame.first, sum(upwards, diagonal, frame.first), frame.second,
+    sum(upwards, -diagonal, frame.first), scaled(-1.0, frame.first),
+    sum(downwards, -diagonal, frame.first), scaled(-1.0, frame.second),
+    sum(downwards, diagonal, frame.first) };
 }
 
 } // namespace isopoint

@@ -8,7 +8,11 @@
 namespace isopoint
 {
 
+/// A position, direction or offset in space; the core's one vector type.
 using Vector = std::array<double, 3>;
+
+/// The second derivatives xx, yy, zz, xy, xz, yz of a function of the position.
+using Hessian = std::array<double, 6>;
 
 inline double dot(const Vector& a, const Vector& b)
 {

@@ -2,8 +2,9 @@
 #ifndef isopoint_ExtractionContext_h
 #define isopoint_ExtractionContext_h
 
-#include "Isopoint/Tree/LeafValueCache.h"
 #include "Isopoint/Neighbors/NeighborListBudget.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Tree/LeafValueCache.h"
 #include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -13,22 +14,34 @@
 namespace isopoint
 {
 
-/// What the threads of an extraction share, beside the tree. No result depends on it.
+/// What the threads of one extraction share. No result depends on any of it but the tree and the
+/// isovalue.
 template <class TSample>
 struct ExtractionContext
 {
-  explicit ExtractionContext(const SampleTree<TSample>& tree)
-    : bounds(tree)
+  using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
+
+  /// @param extractedTree refined around the isovalue
+  /// @param knownNeighborhoods of that tree; must not change while the context is in use
+  ExtractionContext(const SampleTree<TSample>& extractedTree,
+    const Neighborhoods& knownNeighborhoods, double extractedIsovalue)
+    : tree(extractedTree)
+    , neighborhoods(knownNeighborhoods)
+    , isovalue(extractedIsovalue)
+    , bounds(tree)
     , leafMeans(tree)
-    , limit(tree.samples.size())
-    , room(static_cast<std::int64_t>(tree.neighborhoods.room(tree.samples.size())))
+    , listBudget(tree.samples.size())
+    , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(tree.samples.size())))
   {
   }
 
+  const SampleTree<TSample>& tree;
+  const Neighborhoods& neighborhoods;
+  const double isovalue;
   SampleBounds<TSample> bounds;
   SharedLeafMeans<TSample> leafMeans;
-  NeighborListBudget limit;
-  std::atomic<std::int64_t> room; // how many more numbers of neighbourhoods are worth keeping
+  NeighborListBudget listBudget;
+  std::atomic<std::int64_t> cacheBudget; // numbers that may still be added to the neighbourhoods
 };
 
 } // namespace isopoint

@@ -2,7 +2,9 @@
 #ifndef isopoint_Isosurface_h
 #define isopoint_Isosurface_h
 
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,71 +14,55 @@
 namespace isopoint
 {
 
-/// A point of the isosurface on the edge between two samples, at
-/// p_first + parameter * (p_second - p_first).
-struct Isopoint
+/// The edge of an isopoint, between two samples on either side of the isovalue.
+struct IsopointEdge
 {
-  std::uint64_t first;  // a sample's id
-  std::uint64_t second; // that of another, first < second
-  double parameter;     // 0 .. 1
+  std::uint64_t first;  // the id of one sample
+  std::uint64_t second; // the id of the other, first < second
+  /// The place on the edge that is nearest to the isopoint: 0 at `first`, 1 at `second`. All
+  /// attributes are interpolated there.
+  double parameter;
 
-  bool operator<(const Isopoint& other) const
+  bool operator<(const IsopointEdge& other) const
   {
     return this->first != other.first ? this->first < other.first : this->second < other.second;
   }
-  bool operator==(const Isopoint& other) const
+  bool operator==(const IsopointEdge& other) const
   {
     return this->first == other.first && this->second == other.second;
   }
 };
 
-/// Samples of exactly one position, which count as one: it bears the lowest id, and the mean of
-/// their values and other attributes.
-struct CoincidentSamples
-{
-  std::vector<std::uint64_t> ids; // ascending, at least two
-};
-
-/// The isopoints of one isovalue, each edge once, ordered by (first, second), the merged samples
-/// among their ends, ordered by lowest id, and, where asked for, what was fitted around each
-/// isopoint. The parameter of one that was moved is that of the nearest place on its edge.
+/// The isopoints of one isovalue, ordered by the ends (first, second) of their edges, each edge
+/// once.
 struct Isosurface
 {
-  std::vector<Isopoint> points;
-  std::vector<CoincidentSamples> merged;
-  std::vector<LocalFit> fits; // one for each point, or none
+  double isovalue = 0.0;
 
-  /// The samples that count as the one of this id, or null if it is a sample of its own.
-  /// O(log merged.size())
+  // One entry for each isopoint.
+  std::vector<IsopointEdge> edges;
+  std::vector<Vector> positions;       // moved to the zero of the fit, where that was requested
+  std::vector<Vector> decreasingEdges; // from the end not below the isovalue to the one that is
+
+  std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
+
+  std::vector<CoincidentSamples> coincident; // among the ends of the edges, by lowest id
+
+  std::size_t size() const { return this->edges.size(); }
+
+  /// The samples that coincide with the one of this id, or null if it is alone.
+  /// O(log coincident.size())
   const CoincidentSamples* coincidentAt(std::uint64_t id) const
   {
-    const auto found = std::lower_bound(this->merged.begin(), this->merged.end(), id,
-      [](const CoincidentSamples& group, std::uint64_t wanted) { return group.ids.front() < wanted; });
-    return found != this->merged.end() && found->ids.front() == id ? &*found : nullptr;
+    const auto found = std::lower_bound(this->coincident.begin(), this->coincident.end(), id,
+      [](const CoincidentSamples& group, std::uint64_t wanted)
+      { return group.ids.front() < wanted; });
+    return found != this->coincident.end() && found->ids.front() == id ? &*found : nullptr;
   }
 };
 
-/// The mean of values that count as one, in the order of their ids and kept within their range,
-/// which the rounding of a sum may leave by a bit. @param count at least 1
-/// @param valueAt the i-th value, as a double
-template <class ValueAt>
-double meanOf(std::size_t count, const ValueAt& valueAt)
-{
-  double sum = 0.0;
-  double minimum = valueAt(0);
-  double maximum = minimum;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double value = valueAt(i);
-    sum += value;
-    minimum = std::min(minimum, value);
-    maximum = std::max(maximum, value);
-  }
-  return std::min(std::max(sum / static_cast<double>(count), minimum), maximum);
-}
-
-/// What samples have of an attribute: their own, or the mean over those that count as one, computed
-/// once for each surface however many points end there.
+/// An attribute of the samples at the ends of a surface's edges: their own or, of coincident
+/// samples, the mean, computed once for each surface.
 template <class AttributeAt>
 class CoincidentAttribute
 {
@@ -86,19 +72,19 @@ public:
     : Surface(surface)
     , Own(attributeAt)
   {
-    this->Means.reserve(surface.merged.size());
-    for (const CoincidentSamples& group : surface.merged)
+    this->Means.reserve(surface.coincident.size());
+    for (const CoincidentSamples& group : surface.coincident)
     {
       this->Means.push_back(meanOf(group.ids.size(),
         [&](std::size_t i) { return static_cast<double>(this->Own(group.ids[i])); }));
     }
   }
 
-  /// O(log merged samples)
+  /// O(log coincident samples)
   double operator()(std::uint64_t id) const
   {
     const CoincidentSamples* const group = this->Surface.coincidentAt(id);
-    return group ? this->Means[static_cast<std::size_t>(group - this->Surface.merged.data())]
+    return group ? this->Means[static_cast<std::size_t>(group - this->Surface.coincident.data())]
                  : this->Own(id);
   }
 

@@ -27,8 +27,8 @@ struct BandNode
   bool isCrossing;
 };
 
-/// Whether samples below the isovalue and others stand in the node or in it and one that touches
-/// it: then the surface may pass here.
+/// Whether the node, or the node together with one that touches it, has samples below the isovalue
+/// and others that are not: then the surface may pass here.
 template <class TSample>
 bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
 {
@@ -38,8 +38,9 @@ bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth
   return (hasBelow && hasAbove) || touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
 }
 
-/// Refines a tree around the isosurface of one isovalue (DESIGN section 2), treelet by treelet:
-/// only nodes that may hold a piece of the surface, and those that touch one, are split.
+/// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
+/// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, "Narrow
+/// band").
 template <class TSample>
 class NarrowBand
 {
@@ -48,7 +49,7 @@ public:
     : Tree(tree)
     , Isovalue(isovalue)
     , Run(execution)
-    , Limit(tree.samples.size())
+    , ListBudget(tree.samples.size())
   {
   }
 
@@ -56,7 +57,8 @@ public:
   /// touches such a leaf: every leaf with a crossing edge is among those below them
   /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
   /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
-  /// than 2^31 samples in nested heaps, or has more nodes than its ids can number
+  /// than 2^31 samples in nested groups of coincident ones, or has more nodes than its ids can
+  /// number
   std::vector<BinaryIndex> refine()
   {
     std::vector<BandNode> front;
@@ -71,7 +73,7 @@ public:
       const int bottom = treeletBottom(depth, root.count());
       this->splitFront(front, depth, bottom);
       this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
-      // To split so few samples all the way takes less time than to tell which are needed.
+      // To split so few samples all the way takes less time than to determine which are needed.
       const std::size_t few = front.size() / 4;
       const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
       if (unfinished <= few)
@@ -101,11 +103,11 @@ public:
 private:
   using NodeType = Node<TSample>;
 
-  /// Nodes of the front that are searched below at a time.
+  /// The number of nodes of the front whose subtrees are searched at a time.
   static constexpr std::size_t searchGrain = 64;
 
-  /// A treelet to be split off a node.
-  struct Growth
+  /// A treelet to be built below a node.
+  struct TreeletTask
   {
     BandNode node;
     std::size_t firstPair;
@@ -116,10 +118,10 @@ private:
   {
     if (bottom > maximumDepth)
     {
-      throw std::length_error("too many heaps of samples at one position inside each other");
+      throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
     }
     const int levels = bottom - depth;
-    // Nodes are split together while there are too few of them to keep every thread busy.
+    // All threads split each node together while there are too few nodes to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const bool together = front.size() < 4 * this->Run.threads;
     const std::size_t batchSamples = (std::size_t{ 1 } << 19) * this->Run.threads;
@@ -127,7 +129,7 @@ private:
     std::size_t begin = 0;
     while (begin < front.size())
     {
-      std::vector<Growth> batch;
+      std::vector<TreeletTask> batch;
       std::size_t pairs = 0;
       std::size_t samples = 0;
       for (; begin < front.size() && samples < batchSamples; ++begin)
@@ -142,28 +144,28 @@ private:
         samples += node.count();
       }
       const std::size_t firstPair = appendPairs(this->Tree, pairs);
-      for (Growth& growth : batch)
+      for (TreeletTask& task : batch)
       {
-        growth.firstPair += firstPair;
+        task.firstPair += firstPair;
       }
       this->splitBatch(batch, levels, together ? togetherCount : samples + 1);
       throwIfAborted(this->Run);
     }
   }
 
-  void splitBatch(const std::vector<Growth>& batch, int levels, std::size_t togetherCount)
+  void splitBatch(const std::vector<TreeletTask>& batch, int levels, std::size_t togetherCount)
   {
-    std::vector<Growth> alone;
-    for (const Growth& growth : batch)
+    std::vector<TreeletTask> alone;
+    for (const TreeletTask& task : batch)
     {
-      NodeType& node = this->Tree.nodes[growth.node.nodeIndex];
+      NodeType& node = this->Tree.nodes[task.node.nodeIndex];
       if (node.count() < togetherCount)
       {
-        alone.push_back(growth);
+        alone.push_back(task);
         continue;
       }
-      TreeletSplitter<TSample> splitter(this->Tree, growth.firstPair);
-      splitter.splitTogether(this->Run, node, pathTo(this->Tree, growth.node.index).region, levels);
+      TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
+      splitter.splitTogether(this->Run, node, pathTo(this->Tree, task.node.index).region, levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -179,7 +181,7 @@ private:
       });
   }
 
-  /// How many samples are in nodes so many levels below the front that are no leaves; counting
+  /// The number of samples in nodes so many levels below the front that are no leaves; counting
   /// ends above a limit.
   std::size_t unfinishedSamples(
     const std::vector<BandNode>& front, int levels, std::size_t limit) const
@@ -209,7 +211,7 @@ private:
   }
 
   /// Splits everything below the front down to leaves, whether the surface is near or not.
-  /// @param depth that it is split to already
+  /// @param depth to which it has been split
   void finish(const std::vector<BandNode>& front, int depth)
   {
     std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
@@ -223,7 +225,7 @@ private:
     }
   }
 
-  /// The nodes of a depth that are no leaves.
+  /// The nodes of a depth below the front that are no leaves.
   std::vector<BandNode> unfinishedBelow(const std::vector<BandNode>& front, int depth)
   {
     return this->collectBelow(front, depth,
@@ -236,8 +238,8 @@ private:
       });
   }
 
-  /// Marks the crossing nodes of a depth and all that touch one. Only below crossing nodes can
-  /// there be crossing ones.
+  /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
+  /// crossing.
   void mark(const std::vector<BandNode>& front, int depth)
   {
     this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
@@ -266,7 +268,7 @@ private:
   void markAround(const Path& crossing, int depth)
   {
     this->Marks[crossing.nodeIndex()].store(Mark::Crossing, std::memory_order_relaxed);
-    if (this->Limit.isReached())
+    if (this->ListBudget.isSpent())
     {
       forEachAcross(crossing,
         [&](FoundNode across)
@@ -284,7 +286,7 @@ private:
         ++count;
         return false;
       });
-    this->Limit.listed(count);
+    this->ListBudget.spend(count);
   }
 
   bool isMarked(std::size_t nodeIndex) const
@@ -299,9 +301,9 @@ private:
       none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
   }
 
-  /// Marks the nodes of a depth in a subtree that touch the region, and with them those above that
-  /// depth below which all are marked. There the next search ends: where many crossing nodes touch
-  /// the same many others, it would mark them time and again.
+  /// Marks the nodes of a depth in a subtree that touch the region, and those above that depth all
+  /// of whose descendants are marked. The next search ends at the latter: where many crossing nodes
+  /// touch the same many others, each would mark them all again.
   /// @returns whether all are marked
   bool markBelow(FoundNode top, int depth, const Region& region)
   {
@@ -327,7 +329,7 @@ private:
     return areAll;
   }
 
-  /// The marked nodes of a depth.
+  /// The marked nodes of a depth below the front.
   std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
   {
     return this->collectBelow(front, depth,
@@ -373,8 +375,8 @@ private:
   SampleTree<TSample>& Tree;
   const double Isovalue;
   const Execution& Run;
-  NeighborListBudget Limit;
-  std::vector<std::atomic<Mark>> Marks; // by nodeIndex, of the depth at hand and above
+  NeighborListBudget ListBudget;
+  std::vector<std::atomic<Mark>> Marks; // by node index, of the present depth and above
 };
 
 } // namespace isopoint

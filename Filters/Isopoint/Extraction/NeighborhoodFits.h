@@ -3,13 +3,13 @@
 #define isopoint_NeighborhoodFits_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Fit/DetectionRate.h"
 #include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Extraction/SampleGatherer.h"
-#include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Base/SortUnique.h"
+#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/SampleGatherer.h"
+#include "Isopoint/Fit/DetectionRate.h"
+#include "Isopoint/Fit/LocalFit.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,59 +19,39 @@
 namespace isopoint
 {
 
-/// An isopoint and the leaves that its edge connects.
-template <class TSample>
-struct LocatedIsopoint : Isopoint
-{
-  typename TSample::Id firstLeaf;
-  typename TSample::Id secondLeaf;
-};
-
-/// Fits to the samples around edges, one edge at a time. Scratch is kept.
+/// Fits to the samples around edges, one edge at a time. Memory is kept. For one thread.
 template <class TSample>
 class NeighborhoodFitter
 {
 public:
-  NeighborhoodFitter(const SampleTree<TSample>& tree, double isovalue, FitRequest request,
-    ExtractionContext<TSample>& shared)
-    : Isovalue(isovalue)
+  NeighborhoodFitter(ExtractionContext<TSample>& context, FitRequest request)
+    : Isovalue(context.isovalue)
     , Request(request)
-    , Gatherer(tree, isovalue, shared)
+    , Gatherer(context)
   {
   }
 
-  /// @param point whose parameter is set to where it is moved
-  LocalFit fit(LocatedIsopoint<TSample>& point, DetectionRates& tallies)
+  /// @param rates of detection among the isopoints fitted before; updated
+  LocalFit fit(const CrossingEdge<TSample>& crossing, DetectionRates& rates)
   {
-    this->Gatherer.gather(point.firstLeaf, point.secondLeaf);
-    const FitSample first = this->Gatherer.sampleAt(point.firstLeaf);
-    const FitSample second = this->Gatherer.sampleAt(point.secondLeaf);
+    this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
+    const FitSample first = this->Gatherer.sampleAt(crossing.firstLeaf);
+    const FitSample second = this->Gatherer.sampleAt(crossing.secondLeaf);
+    const bool increases = first.value < this->Isovalue;
     FitEdge edge;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      edge.position[axis] =
-        interpolate(first.position[axis], second.position[axis], point.parameter);
-    }
-    const bool rises = first.value < this->Isovalue;
-    edge.rising = rises ? difference(second.position, first.position)
-                        : difference(first.position, second.position);
-    edge.rise = rises ? second.value - first.value : first.value - second.value;
+    edge.position = interpolate(first.position, second.position, crossing.crossing);
+    edge.increasing = increases ? difference(second.position, first.position)
+                                : difference(first.position, second.position);
+    edge.increase = increases ? second.value - first.value : first.value - second.value;
     edge.spacing = this->Gatherer.spacing();
     LocalFit fit = fitAround(
       edge, this->Isovalue, this->Gatherer.samples(),
       [&]() -> const std::vector<FitSample>& { return this->Gatherer.widerSamples(); },
-      this->Request.highest, tallies);
+      this->Request.highest, rates);
     fit.spacing = edge.spacing;
     if (!this->Request.move)
     {
       fit.position = edge.position;
-    }
-    else if (fit.order != FitOrder::None)
-    {
-      const Vector along = difference(second.position, first.position);
-      const double parameter =
-        dot(difference(fit.position, first.position), directionOf(along)) / lengthOf(along);
-      point.parameter = std::min(std::max(parameter, 0.0), 1.0);
     }
     return fit;
   }
@@ -82,12 +62,12 @@ private:
   SampleGatherer<TSample> Gatherer;
 };
 
-/// The place of an isopoint in the tree.
+/// Where an edge stands in the order of the tree.
 struct TreePlace
 {
-  std::uint64_t lower; // of its edge's ends among the tree's samples
+  std::uint64_t lower; // of its ends among the tree's samples
   std::uint64_t upper;
-  std::size_t point;
+  std::size_t edge;
 
   bool operator<(const TreePlace& other) const
   {
@@ -99,56 +79,54 @@ struct TreePlace
   }
 };
 
-/// Isopoints in the order of the tree, where those that follow each other lie close together,
-/// however samples are numbered.
+/// Edges in the order of the tree: consecutive ones lie close together, however samples are
+/// numbered.
 template <class TSample>
 std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSample>& tree,
-  const std::vector<LocatedIsopoint<TSample>>& points)
+  const std::vector<CrossingEdge<TSample>>& edges)
 {
-  const auto beginOf = [&tree](typename TSample::Id nodeIndex) -> std::uint64_t
-  { return tree.nodes[static_cast<std::size_t>(nodeIndex)].begin; };
+  const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
+  { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
   std::vector<TreePlace> places;
-  places.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
+  places.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
   {
     const auto [lower, upper] =
-      std::minmax({ beginOf(points[i].firstLeaf), beginOf(points[i].secondLeaf) });
+      std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
     places.push_back({ lower, upper, i });
   }
   return sortedUnique(
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
 
-/// Fits to the samples around each isopoint: to those of the two cells that its edge connects and
-/// of the cells that touch one of them. Where one of the two touches more than 256, its own are
-/// left out; where both do, those that are small as seen from it are represented by one. The tree
-/// is to be refined for the isovalue. Isopoints are fitted in groups of 256 that follow each other
-/// in the tree: what the others tell of detail and creases decides on doubtful ones (see
-/// DetectionRate).
-/// @param points whose parameters are set to where moved isopoints stand
+/// Fits to the samples around each edge: those of the two cells that it connects and of the cells
+/// that touch one of them. If one of the two touches more than 256, its own are left out; if both
+/// do, a subset represents them (see SampleGatherer). Edges are fitted in groups of 256 that follow
+/// each other in the tree: doubtful fits depend on the detection rates of a group.
+/// @returns one fit for each edge
+/// @throws Aborted, std::bad_alloc
 template <class TSample>
-std::vector<LocalFit> fitNeighborhoods(const Execution& execution, const SampleTree<TSample>& tree,
-  double isovalue, FitRequest request, ExtractionContext<TSample>& shared,
-  std::vector<LocatedIsopoint<TSample>>& points)
+std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
+  ExtractionContext<TSample>& context, FitRequest request,
+  const std::vector<CrossingEdge<TSample>>& edges)
 {
-  std::vector<LocalFit> fits(points.size());
-  const std::vector<TreePlace> places = placesOf(execution, tree, points);
-  // So many isopoints share tallies. Batches are of few groups: where cells touch hundreds of
-  // others, a point takes long.
+  std::vector<LocalFit> fits(edges.size());
+  const std::vector<TreePlace> places = placesOf(execution, context.tree, edges);
+  // Batches are of few groups: where cells touch hundreds of others, a fit takes long.
   constexpr std::size_t groupSize = 256;
   constexpr std::size_t batch = 4;
   forBatches(execution, (places.size() + groupSize - 1) / groupSize, batch, 1,
     [&](std::size_t begin, std::size_t end)
     {
-      NeighborhoodFitter<TSample> fitter(tree, isovalue, request, shared);
+      NeighborhoodFitter<TSample> fitter(context, request);
       for (std::size_t group = begin; group < end; ++group)
       {
-        DetectionRates tallies;
+        DetectionRates rates;
         const std::size_t groupEnd = std::min((group + 1) * groupSize, places.size());
         for (std::size_t i = group * groupSize; i < groupEnd; ++i)
         {
-          const std::size_t point = places[i].point;
-          fits[point] = fitter.fit(points[point], tallies);
+          const std::size_t edge = places[i].edge;
+          fits[edge] = fitter.fit(edges[edge], rates);
         }
       }
     });

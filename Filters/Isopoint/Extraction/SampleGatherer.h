@@ -2,11 +2,11 @@
 #ifndef isopoint_SampleGatherer_h
 #define isopoint_SampleGatherer_h
 
-#include "Isopoint/Neighbors/ImplicitNeighborhood.h"
-#include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Neighbors/ImplicitNeighborhood.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tree/LeafValueCache.h"
 
 #include <algorithm>
 #include <array>
@@ -18,23 +18,23 @@
 namespace isopoint
 {
 
-/// Gathers the samples around edges, one edge at a time. Scratch is kept.
+/// Gathers the samples around edges, one edge at a time. Memory is kept. For one thread.
 template <class TSample>
 class SampleGatherer
 {
 public:
   using Id = typename TSample::Id;
 
-  SampleGatherer(const SampleTree<TSample>& tree, double isovalue, ExtractionContext<TSample>& shared)
-    : Tree(tree)
-    , Isovalue(isovalue)
-    , Many(tree, shared.bounds)
-    , Values(tree, shared.leafMeans)
+  explicit SampleGatherer(ExtractionContext<TSample>& context)
+    : Context(context)
+    , Tree(context.tree)
+    , Implicit(context.tree, context.bounds)
+    , Values(context.tree, context.leafMeans)
   {
   }
 
-  /// Gathers the samples of both ends' neighbourhoods; but where one end alone has very many
-  /// neighbours, as in a cell that fills a void, they are far off beside those of the other.
+  /// Gathers the samples of both ends' neighbourhoods; but if one end alone has very many
+  /// neighbours, as a cell that fills a void has, only those of the other end.
   void gather(Id firstLeaf, Id secondLeaf)
   {
     this->clear();
@@ -68,10 +68,10 @@ public:
     this->list(this->Samples);
   }
 
-  /// Of the edge at hand, by id.
+  /// The samples of the present edge, by id.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
-  /// More of them, if those are few: the neighbourhoods of some of them as well.
+  /// More of them, if those are few: with the neighbourhoods of some of them.
   const std::vector<FitSample>& widerSamples()
   {
     if (this->Samples.size() > enoughSamples)
@@ -86,8 +86,8 @@ public:
     return this->WiderSamples;
   }
 
-  /// The mean, over the ends whose neighbours are taken, of the distance that two fifths of them do
-  /// not exceed.
+  /// The spacing of the samples around the edge: the mean, over the ends whose neighbours are
+  /// taken, of the distance that two fifths of these do not exceed.
   double spacing() const { return this->Spacing; }
 
   /// A leaf's sample.
@@ -99,11 +99,11 @@ public:
   }
 
 private:
-  /// Neighbourhoods of more samples are wide enough, as where samples stand in lines.
+  /// Neighbourhoods of more samples than that are wide enough, as where samples stand in lines.
   static constexpr std::size_t enoughSamples = 64;
 
-  /// Of a neighbourhood of more cells than that, as where samples stand in lines, those that are
-  /// this small beside their distance from its middle are represented by one.
+  /// In a neighbourhood of more cells than that, as where samples stand in lines, subtrees whose
+  /// size over their distance is less than smallSize are represented by one leaf.
   static constexpr std::size_t mostNeighbors = 256;
   static constexpr double smallSize = 0.2;
 
@@ -114,9 +114,9 @@ private:
     this->Seen.fill(0);
   }
 
-  /// The spacing of the samples around an end: the distance that two fifths of its
-  /// neighbourhood, which are those listed from `begin` on, do not exceed. The farthest may stand
-  /// across a void, the nearest all in one line with it.
+  /// The spacing of the samples around an end: the distance that two fifths of its neighbourhood,
+  /// listed from `begin` on, do not exceed. The farthest may stand across a void, the nearest all
+  /// in one line with it.
   double spacingAt(Id end, std::size_t begin)
   {
     const Vector center = this->sampleAt(end).position;
@@ -137,8 +137,8 @@ private:
     return found->first;
   }
 
-  /// Adds the samples of the neighbourhoods of those that lie on the other side of the isovalue
-  /// than the end whose neighbours they are: the tree is refined around these.
+  /// Adds the neighbourhoods of those neighbours of an end that lie on the other side of the
+  /// isovalue: the tree is refined around these.
   void gatherWider()
   {
     this->Across.clear();
@@ -170,7 +170,7 @@ private:
     this->list(this->WiderSamples);
   }
 
-  bool isBelow(Id leaf) { return this->sampleAt(leaf).value < this->Isovalue; }
+  bool isBelow(Id leaf) { return this->sampleAt(leaf).value < this->Context.isovalue; }
 
   /// Lists samples by id, each once.
   void list(std::vector<FitSample>& samples)
@@ -193,11 +193,11 @@ private:
     }
   }
 
-  /// Adds a sample and, unless they are very many, its neighbours. @returns whether they are few
+  /// Adds a sample and, unless they are very many, its neighbours. @returns whether it added these
   bool addFew(Id leafNode)
   {
     this->addLeaf(leafNode);
-    const NodeList<Id> known = this->Tree.neighborhoods.at(static_cast<std::size_t>(leafNode));
+    const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leafNode));
     if (known.count > mostNeighbors)
     {
       return false;
@@ -228,18 +228,18 @@ private:
     return true;
   }
 
-  /// Adds some of a sample's neighbours, one for each direction and distance.
+  /// Adds a subset of a sample's neighbours that covers all directions and distances.
   void addSome(Id leafNode)
   {
-    this->Many.moveTo(pathToLeaf(this->Tree, leafNode));
-    this->Many.forEachSpread(smallSize,
+    this->Implicit.moveTo(pathToLeaf(this->Tree, leafNode));
+    this->Implicit.forEachSpread(smallSize,
       [this](std::size_t leaf, std::size_t count) { this->addLeaf(static_cast<Id>(leaf), count); });
   }
 
-  /// Adds a leaf, unless it was added and is remembered: around an edge most are met many times.
-  /// One that is forgotten is listed again, until list() takes each once; within the neighbourhood
-  /// of one end none is met twice.
-  /// @param count of the samples that it stands for
+  /// Adds a leaf, unless `Seen` shows that it was added: around an edge most leaves are met many
+  /// times. `Seen` may miss some; list() then drops the repetitions. Within the neighbourhood of
+  /// one end none is met twice.
+  /// @param count of the samples that it represents
   void addLeaf(Id leaf, std::size_t count = 1)
   {
     Id& seen = this->Seen[static_cast<std::size_t>(leaf) % this->Seen.size()];
@@ -257,21 +257,21 @@ private:
     return this->Tree.nodes[static_cast<std::size_t>(leaf)];
   }
 
+  ExtractionContext<TSample>& Context;
   const SampleTree<TSample>& Tree;
-  const double Isovalue;
-  ImplicitNeighborhood<TSample> Many;
+  ImplicitNeighborhood<TSample> Implicit;
   LeafValueCache<TSample> Values;
-  Id FirstLeaf = 0; // of the edge at hand
+  Id FirstLeaf = 0; // of the present edge
   Id SecondLeaf = 0;
   std::vector<std::pair<Id, Id>> Leaves; // by the id of the leaf's first sample
-  std::array<Id, 1024> Seen{};          // leaves added lately, by their last bits
-  std::vector<Id> Ends;                 // whose neighbourhoods are taken
+  std::array<Id, 1024> Seen{};           // leaves added recently, by their last bits
+  std::vector<Id> Ends;                  // whose neighbourhoods are taken
   std::vector<Id> Across;
-  std::vector<Id> Touching; // the leaf at hand
+  std::vector<Id> Touching; // the present leaf
   std::vector<FitSample> Samples;
   std::vector<FitSample> WiderSamples;
   bool IsWiderGathered = false;
-  std::vector<std::size_t> Counts; // of the samples that those gathered in Leaves stand for
+  std::vector<std::size_t> Counts; // of the samples that each of Leaves represents
   std::vector<std::pair<double, std::size_t>> Distances; // and the same counts
   double Spacing = 0.0;
 };

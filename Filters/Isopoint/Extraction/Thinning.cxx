@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Extraction/Thinning.h"
 
-#include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
 
 #include <algorithm>
 #include <array>
@@ -24,20 +24,20 @@ namespace
 /// How far off the tangent plane, in reaches, a point of the same sheet stands at most.
 constexpr double mostHeight = 0.25;
 
-/// Reaches no larger leave any coordinate finite that they are added to.
+/// Adding a reach up to this size to any coordinate gives a finite one.
 constexpr double largestSpacing = 1e290;
 
-/// Whether a point may be close to others at all.
+/// Whether a fit determines the sheet of a point; otherwise it is close to none.
 bool hasSheet(const LocalFit& fit, double minimumSpacing)
 {
   const double slope = lengthOf(fit.gradient);
-  return fit.order != FitOrder::None && slope > 0.0 && std::isfinite(slope) &&
-         fit.spacing <= largestSpacing && minimumSpacing * fit.spacing > 0.0 &&
+  return fit.order && slope > 0.0 && std::isfinite(slope) && fit.spacing <= largestSpacing &&
+         minimumSpacing * fit.spacing > 0.0 &&
          std::all_of(fit.position.begin(), fit.position.end(),
            [](double coordinate) { return std::isfinite(coordinate); });
 }
 
-/// Whether two points that both tell of their sheets are close.
+/// Whether two points, both with a sheet, are close.
 bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
 {
   const double reach = minimumSpacing * std::min(one.spacing, other.spacing);
@@ -53,15 +53,14 @@ bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
          std::abs(dot(otherNormal, offset)) <= mostHeight * reach;
 }
 
-/// Isopoints that were kept, by place: on grids whose cells are little wider than the reaches of
-/// their points, and so hold but a few each.
+/// The isopoints that were kept, in hash grids: one for each power of two of the reaches, whose
+/// cells hold a few points each.
 class KeptPoints
 {
 public:
   KeptPoints(const std::vector<LocalFit>& fits, double minimumSpacing)
     : Fits(fits)
     , MinimumSpacing(minimumSpacing)
-    , NextInCell(fits.size(), none)
   {
   }
 
@@ -86,14 +85,10 @@ public:
     const Cell cell{ exponent,
       { std::floor(fit.position[0] / size), std::floor(fit.position[1] / size),
         std::floor(fit.position[2] / size) } };
-    std::size_t& first = this->FirstInCell.emplace(cell, none).first->second;
-    this->NextInCell[point] = first;
-    first = point;
+    this->PointsInCell[cell].push_back(point);
   }
 
 private:
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
   /// A cube of a grid; whole numbers, or infinite where points are far off for their grid.
   struct Cell
   {
@@ -120,10 +115,11 @@ private:
     }
   };
 
-  /// So that a point and its reach extend into no more than two cells of an axis.
+  /// Twice the largest reach: a point and its reach extend into no more than two cells of an axis.
   static double cellSize(int exponent) { return std::ldexp(1.0, exponent + 1); }
 
-  /// The reach is at most two to the power of this. No grid is finer than the coordinates on it.
+  /// The binary exponent of an upper bound on the reach. No grid is finer than double's resolution
+  /// of the coordinates on it.
   int exponentOf(const LocalFit& fit) const
   {
     const auto [lowest, highest] = std::minmax_element(fit.position.begin(), fit.position.end());
@@ -133,7 +129,7 @@ private:
     return farthest > 0.0 ? std::max(ofReach, std::ilogb(farthest) - digits) : ofReach;
   }
 
-  /// Looks at the kept points within a reach on the grid of an exponent.
+  /// Whether a kept point on the grid of an exponent, within a reach, is close.
   bool hasCloseTo(const LocalFit& fit, int exponent, double reach) const
   {
     const double size = cellSize(exponent);
@@ -161,23 +157,17 @@ private:
 
   bool hasCloseIn(const Cell& cell, const LocalFit& fit) const
   {
-    const auto found = this->FirstInCell.find(cell);
-    for (std::size_t point = found == this->FirstInCell.end() ? none : found->second; point != none;
-         point = this->NextInCell[point])
-    {
-      if (areClose(this->Fits[point], fit, this->MinimumSpacing))
-      {
-        return true;
-      }
-    }
-    return false;
+    const auto found = this->PointsInCell.find(cell);
+    return found != this->PointsInCell.end() &&
+           std::any_of(found->second.begin(), found->second.end(),
+             [&](std::size_t point)
+             { return areClose(this->Fits[point], fit, this->MinimumSpacing); });
   }
 
   const std::vector<LocalFit>& Fits;
   const double MinimumSpacing;
   std::vector<int> Exponents; // of the grids, ascending
-  std::unordered_map<Cell, std::size_t, HashOfCell> FirstInCell;
-  std::vector<std::size_t> NextInCell; // by point
+  std::unordered_map<Cell, std::vector<std::size_t>, HashOfCell> PointsInCell;
 };
 
 /// The points to keep, ascending.
@@ -216,23 +206,23 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>&
   return few;
 }
 
-/// Those of the merged samples that points end at.
+/// The coincident samples that are ends of edges.
 std::vector<CoincidentSamples> endsAmong(
-  const std::vector<CoincidentSamples>& merged, const std::vector<Isopoint>& points)
+  const std::vector<CoincidentSamples>& coincident, const std::vector<IsopointEdge>& edges)
 {
-  if (merged.empty())
+  if (coincident.empty())
   {
     return {};
   }
   std::vector<std::uint64_t> ends;
-  ends.reserve(2 * points.size());
-  for (const Isopoint& point : points)
+  ends.reserve(2 * edges.size());
+  for (const IsopointEdge& edge : edges)
   {
-    ends.insert(ends.end(), { point.first, point.second });
+    ends.insert(ends.end(), { edge.first, edge.second });
   }
   std::sort(ends.begin(), ends.end());
   std::vector<CoincidentSamples> result;
-  std::copy_if(merged.begin(), merged.end(), std::back_inserter(result),
+  std::copy_if(coincident.begin(), coincident.end(), std::back_inserter(result),
     [&ends](const CoincidentSamples& group)
     { return std::binary_search(ends.begin(), ends.end(), group.ids.front()); });
   return result;
@@ -247,14 +237,17 @@ void thin(const Execution& execution, double minimumSpacing, Isosurface& surface
     return;
   }
   const std::vector<std::size_t> kept = keptPoints(execution, minimumSpacing, surface.fits);
-  if (kept.size() == surface.points.size())
+  if (kept.size() == surface.size())
   {
     return;
   }
   Isosurface thinned;
-  thinned.points = chosen(surface.points, kept);
+  thinned.isovalue = surface.isovalue;
+  thinned.edges = chosen(surface.edges, kept);
+  thinned.positions = chosen(surface.positions, kept);
+  thinned.decreasingEdges = chosen(surface.decreasingEdges, kept);
   thinned.fits = chosen(surface.fits, kept);
-  thinned.merged = endsAmong(surface.merged, thinned.points);
+  thinned.coincident = endsAmong(surface.coincident, thinned.edges);
   surface = std::move(thinned);
 }
 

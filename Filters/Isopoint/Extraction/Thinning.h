@@ -8,8 +8,8 @@
 namespace isopoint
 {
 
-/// Drops isopoints where they are denser than they need to be: of the surface's points in their
-/// order each is kept if it is not close to one that was kept before.
+/// Drops isopoints where they are denser than the samples warrant: of the surface's points in their
+/// order, each is kept unless it is close to one that was kept before.
 ///
 /// With the reach r = minimumSpacing * (the smaller of the two spacings), two points are close if a
 /// fit held around both, they are less than r apart, neither stands more than r / 4 off the tangent
@@ -17,8 +17,8 @@ namespace isopoint
 /// least `mostCreaseCosine`. So points on two sheets, or on either side of a crease, are never
 /// close: consecutive sheets of one isovalue have opposite gradients, and the next but one lies off
 /// the tangent plane. Around points with spacings beyond 1e290 nothing is close.
-/// @param surface with fits, or nothing is dropped; of its merged samples those stay that its
-/// points end at
+/// @param surface with fits, or nothing is dropped; its coincident samples remain as far as they
+/// are ends of the remaining edges
 /// @param minimumSpacing 0, which drops nothing, up to 1
 /// @throws std::bad_alloc or Aborted, the surface then unchanged
 /// Complexity: O(n) for each power of two between the smallest and the largest spacing

@@ -46,11 +46,10 @@ struct CreaseSearch
 };
 
 /// Fits two, three and four affine functions by alternating between which sample belongs to which
-/// and least squares (Magnani, Boyd, "Convex piecewise-linear fitting", Optimization and
-/// Engineering 10, 2009). Two start as parts of a single fit's samples, cut across the direction in
-/// which its residuals bend most, then that of the largest residuals is cut so again. Where pieces
-/// may be curved, polynomials of degree two follow, by further alternation, for those of up to
-/// three pieces whose samples determine them.
+/// and least squares [MB09]. Two start as parts of a single fit's samples, cut across the direction
+/// in which its residuals bend most; then the piece of the largest residuals is cut likewise. If
+/// pieces may be curved, polynomials of degree two follow, by further alternation, for those of up
+/// to three pieces whose samples determine them.
 /// @returns the affine ones of smallest residuals for each number of pieces, and the curved ones
 /// that follow from them; without those in which a piece has too few samples
 /// Complexity: O(samples.size())

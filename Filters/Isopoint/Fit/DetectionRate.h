@@ -5,46 +5,47 @@
 namespace isopoint
 {
 
-/// Counts how often samples tell of what is looked for, detail or creases, among isopoints that lie
-/// close together. In noise, next to none do, and those by chance: there the question is not worth
-/// its time. Where many do, weaker evidence of the others is to be believed.
+/// The running rate at which a feature, under-resolved detail or creases, is detected among
+/// isopoints close together. In noise it is detected at next to none, and there by chance: the test
+/// is then not worth its time. Where it is detected at many, weaker evidence suffices at the
+/// others.
 class DetectionRate
 {
 public:
-  /// Whether to ask the next isopoint: where next to none of those asked told of it, if there were
-  /// enough of them, only one in eight is.
+  /// Whether to test the next isopoint: if enough were tested and the feature was detected at next
+  /// to none of them, only one in eight is.
   bool isWorthTesting()
   {
-    const bool isRare = this->Asked >= fewestAsked && this->Told < rareShare * this->Asked;
+    const bool isRare = this->Tested >= fewestTested && this->Detected < rareShare * this->Tested;
     this->Skipped = isRare ? (this->Skipped + 1) % rareStride : 0;
     return this->Skipped == 0;
   }
 
-  /// Whether many of those asked told of it, if there were enough of them.
+  /// Whether enough isopoints were tested and the feature was detected at many of them.
   bool isCommon() const
   {
-    return this->Asked >= fewestAsked && this->Told >= commonShare * this->Asked;
+    return this->Tested >= fewestTested && this->Detected >= commonShare * this->Tested;
   }
 
-  void add(bool told)
+  void add(bool isDetected)
   {
-    this->Asked += 1.0;
-    this->Told += told ? 1.0 : 0.0;
+    this->Tested += 1.0;
+    this->Detected += isDetected ? 1.0 : 0.0;
   }
 
 private:
-  /// In noise the criterion errs at one place in thirty or less.
-  static constexpr double fewestAsked = 16.0;
+  /// On noise the test errs at one place in thirty or less.
+  static constexpr double fewestTested = 16.0;
   static constexpr double rareShare = 0.1;
   static constexpr double commonShare = 0.3;
   static constexpr int rareStride = 8;
 
-  double Asked = 0.0;
-  double Told = 0.0;
-  int Skipped = 0; // lately
+  double Tested = 0.0;
+  double Detected = 0.0;
+  int Skipped = 0; // since the last one that was tested
 };
 
-/// What is looked for where residuals are large.
+/// The rates of the features that are tested for where residuals are large.
 struct DetectionRates
 {
   DetectionRate detail;

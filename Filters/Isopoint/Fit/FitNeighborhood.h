@@ -19,15 +19,15 @@ namespace isopoint
 /// A fit in the frame of a neighbourhood, and the place it moves the isopoint to.
 struct CandidateFit
 {
-  FitOrder order = FitOrder::None;
-  bool isDetermined = false;                                  // the polynomial, by the samples
+  std::optional<FitOrder> order;                              // if it holds
+  bool isDetermined = false;                                  // by the samples
   double criterion = std::numeric_limits<double>::infinity(); // lower is better
   double residual = std::numeric_limits<double>::infinity();  // relative
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  std::array<double, 6> hessian{};
+  Hessian hessian{};
 
-  bool holds() const { return this->order != FitOrder::None; }
+  bool holds() const { return this->order.has_value(); }
 };
 
 /// The samples around an isopoint in a frame of its own, and what can be fitted to them.
@@ -48,25 +48,26 @@ public:
   /// samples.
   CandidateFit smooth(int degree);
 
-  /// Whether values vary from sample to sample more than any surface that can be fitted would tell.
+  /// Whether values vary from sample to sample more than any surface that can be fitted explains.
   bool indicatesNoise() const;
 
   /// Whether a polynomial of degree two leaves residuals that are alike among samples close to each
   /// other, as beside a crease, rather than independent, as in noise.
   bool leavesPattern() const;
 
-  /// The degree of the polynomial, of degree one to three, that the criterion tells to be best; 1
-  /// where creases are better, or where samples do not determine all of them.
-  int bestDegree() const;
+  /// The degree, two or three, of the polynomial that the criterion ranks first among those of
+  /// degree one to three and creases; nothing if it ranks another one first, or if the samples do
+  /// not determine all three polynomials.
+  std::optional<int> bestDegree() const;
 
-  /// The fit that the criterion tells to be best.
+  /// The fit that the criterion ranks first.
   CandidateFit best(FitOrder highest) const;
 
   /// The gradient of the affine function through the samples, in the units of the field, unless it
-  /// tells of too little or contradicts the edge.
+  /// explains too little or contradicts the edge.
   std::optional<Vector> affineGradient() const;
 
-  /// Takes a fit over where it holds. @returns whether it does
+  /// Copies a fit to the result if it holds. @returns whether it does
   bool apply(const CandidateFit& candidate, LocalFit& fit) const;
 
 private:
@@ -88,7 +89,7 @@ private:
   double Scale;
   double ValueScale = 0.0;
   std::vector<FrameSample> Samples; // mildly weighted
-  Eigen::Vector3d Rising;
+  Eigen::Vector3d Increasing;
   double EndSpacing;
 };
 

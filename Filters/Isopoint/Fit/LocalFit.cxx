@@ -10,36 +10,36 @@ namespace isopoint
 namespace
 {
 
-// Residuals are roots of mean squares, in units of how much a fit rises over the samples' mean
+// Residuals are roots of mean squares, in units of the fit's increase over the samples' mean
 // distance.
 
-/// Where the polynomial of degree two leaves less than this, nothing else is tried.
+/// If the polynomial of degree two leaves less than this, nothing else is tried.
 constexpr double fineResidual = 0.002;
 
-/// Where that of degree two or three leaves less than this, it is as near to the surface as noise
-/// lets it.
+/// If that of degree two or three leaves less than this, it is as close to the surface as noise
+/// permits.
 constexpr double smoothResidual = 0.03;
 
-/// Where it may leave this: samples too few to tell noise from detail determine no more than a
-/// quadratic, and no crease was found.
+/// The largest residual where the samples determine no more than a quadratic, too few to
+/// distinguish noise from detail, and no crease was found.
 constexpr double roughResidual = 0.1;
 
 /// The fits around an isopoint, tried in turn.
 class FitAttempts
 {
 public:
-  /// @param fit that is taken over into
+  /// @param fit receives the fit that holds
   FitAttempts(FitNeighborhood& neighborhood, const std::function<FitNeighborhood()>& gatherWider,
-    FitOrder highest, DetectionRates& tallies, LocalFit& fit)
+    FitOrder highest, DetectionRates& rates, LocalFit& fit)
     : Neighborhood(neighborhood)
     , GatherWider(gatherWider)
     , Highest(highest)
-    , Tallies(tallies)
+    , Rates(rates)
     , Fit(fit)
   {
   }
 
-  /// Takes over the best fit that holds, if one does.
+  /// Applies the best fit that holds, if one does.
   void run()
   {
     if (this->Highest == FitOrder::Linear)
@@ -51,7 +51,7 @@ public:
     const bool isDone = this->takeQuadratic(fineResidual) || this->takeCrease() ||
                         this->takeCubic(smoothResidual) || this->takeQuadratic(smoothResidual) ||
                         this->takeDetail();
-    // A quadratic that the samples determine is judged by them alone.
+    // A quadratic that the samples determine was judged above.
     if (!isDone && !this->Quadratic.isDetermined)
     {
       this->takeRough();
@@ -83,14 +83,14 @@ private:
       return true;
     }
     if (this->Neighborhood.indicatesNoise() || !this->wider().leavesPattern() ||
-        !this->Tallies.creases.isWorthTesting())
+        !this->Rates.creases.isWorthTesting())
     {
       return false;
     }
     // Close to a corner, a few samples of a third piece do not determine it.
     const bool isFound =
       this->takeCreaseThrough(this->wider()) || this->takeCreaseThrough(this->Neighborhood);
-    this->Tallies.creases.add(isFound);
+    this->Rates.creases.add(isFound);
     return isFound;
   }
 
@@ -100,18 +100,18 @@ private:
     return best.order == FitOrder::Crease && samples.apply(best, this->Fit);
   }
 
-  /// A cubic that leaves residuals, where detail that the samples resolve thinly is what leaves
-  /// them, not noise or creases.
+  /// A cubic that leaves residuals because of detail that the samples hardly resolve, not because
+  /// of noise or creases.
   bool takeDetail()
   {
     if (this->Highest < FitOrder::Cubic || this->Neighborhood.mayCrossGap() ||
-        !this->Tallies.detail.isWorthTesting())
+        !this->Rates.detail.isWorthTesting())
     {
       return false;
     }
-    const int degree = this->wider().bestDegree();
-    this->Tallies.detail.add(degree == 3);
-    const bool isDetail = degree == 3 || (degree == 2 && this->Tallies.detail.isCommon());
+    const std::optional<int> degree = this->wider().bestDegree();
+    this->Rates.detail.add(degree == 3);
+    const bool isDetail = degree == 3 || (degree == 2 && this->Rates.detail.isCommon());
     return isDetail && this->wider().apply(this->cubic(), this->Fit);
   }
 
@@ -140,7 +140,7 @@ private:
   FitNeighborhood& Neighborhood;
   const std::function<FitNeighborhood()>& GatherWider;
   FitOrder Highest;
-  DetectionRates& Tallies;
+  DetectionRates& Rates;
   LocalFit& Fit;
   CandidateFit Quadratic;
   std::optional<FitNeighborhood> Wider;
@@ -150,14 +150,14 @@ private:
 } // namespace
 
 LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples,
-  const std::function<const std::vector<FitSample>&()>& widerSamples, FitOrder highest,
-  DetectionRates& tallies)
+  const std::function<const std::vector<FitSample>&()>& widerSamples,
+  std::optional<FitOrder> highest, DetectionRates& rates)
 {
   LocalFit fit{};
   fit.position = edge.position;
-  const double length = lengthOf(edge.rising);
-  fit.gradient = scaled(edge.rise / length, directionOf(edge.rising));
-  if (highest == FitOrder::None)
+  const double length = lengthOf(edge.increasing);
+  fit.gradient = scaled(edge.increase / length, directionOf(edge.increasing));
+  if (!highest)
   {
     return fit;
   }
@@ -174,8 +174,8 @@ LocalFit fitAround(const FitEdge& edge, double isovalue, const std::vector<FitSa
   }
   const std::function<FitNeighborhood()> gatherWider = [&]()
   { return FitNeighborhood(edge, isovalue, widerSamples(), spacing); };
-  FitAttempts(neighborhood, gatherWider, highest, tallies, fit).run();
-  if (fit.order == FitOrder::None)
+  FitAttempts(neighborhood, gatherWider, *highest, rates, fit).run();
+  if (!fit.order)
   {
     if (const std::optional<Vector> gradient = neighborhood.affineGradient())
     {

@@ -42,7 +42,7 @@ template <int Degree, class IsTaken>
 std::optional<Polynomial> fit(const std::vector<FrameSample>& samples, const IsTaken& isTaken)
 {
   constexpr int count = coefficientCount(Degree);
-  // Residuals are to remain, or nothing tells whether the fit describes the samples.
+  // Without residuals nothing shows whether the fit describes the samples.
   constexpr std::size_t fewestSamples = count + 1 + count / 5;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -117,7 +117,7 @@ Eigen::Vector3d Polynomial::gradient(const Eigen::Vector3d& p) const
   return gradient;
 }
 
-std::array<double, 6> Polynomial::hessian(const Eigen::Vector3d& p) const
+Hessian Polynomial::hessian(const Eigen::Vector3d& p) const
 {
   const auto& c = this->coefficients;
   const double x = p.x();

@@ -2,9 +2,10 @@
 #ifndef isopoint_PolynomialFit_h
 #define isopoint_PolynomialFit_h
 
+#include "Isopoint/Base/Vector.h"
+
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +14,7 @@
 namespace isopoint
 {
 
-/// A sample in a frame of its own: around the origin, at a size and with values near 1.
+/// A sample in the frame of a fit, whose lengths and values are near 1.
 struct FrameSample
 {
   Eigen::Vector3d position;
@@ -27,8 +28,8 @@ constexpr std::size_t coefficientCount(int degree)
   return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
-/// A polynomial of degree one to three. Coefficients are those of 1; x, y, z; x^2, y^2, z^2, x y,
-/// x z, y z; x^3, y^3, z^3, x^2 y, x^2 z, y^2 x, y^2 z, z^2 x, z^2 y, x y z.
+/// A polynomial of degree one to three. Its coefficients are those of 1; x, y, z; x^2, y^2, z^2, x
+/// y, x z, y z; x^3, y^3, z^3, x^2 y, x^2 z, y^2 x, y^2 z, z^2 x, z^2 y, x y z.
 struct Polynomial
 {
   static constexpr int highestDegree = 3;
@@ -59,12 +60,11 @@ struct Polynomial
 
   Eigen::Vector3d gradient(const Eigen::Vector3d& p) const;
 
-  /// The second derivatives xx, yy, zz, xy, xz, yz.
-  std::array<double, 6> hessian(const Eigen::Vector3d& p) const;
+  Hessian hessian(const Eigen::Vector3d& p) const;
 };
 
 /// The least-squares polynomial of a degree, unless the samples do not determine it or leave too
-/// few residuals to tell how well it describes them. Complexity: O(samples.size())
+/// few residuals to judge how well it describes them. Complexity: O(samples.size())
 std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree);
 
 /// The same through those samples alone that have a label.
@@ -72,8 +72,8 @@ std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
 std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
   const std::vector<std::uint8_t>& labels, std::uint8_t label, int degree);
 
-/// What a mean square of residuals is to be multiplied by to tell that of the values' errors: as
-/// many coefficients as samples leave no residuals.
+/// The factor from a mean square of residuals to an estimate of the values' mean square error, for
+/// the degrees of freedom that the coefficients take.
 inline double residualFreedom(std::size_t sampleCount, std::size_t coefficientCount)
 {
   const auto count = static_cast<double>(sampleCount);
@@ -95,10 +95,9 @@ double meanSquaredResidual(const std::vector<FrameSample>& samples, const Functi
   return sum / weights;
 }
 
-/// How alike the residuals of samples close to each other are: Moran's I ("Notes on continuous
-/// stochastic phenomena", Biometrika 37, 1950), the weighted mean product of two, by how close they
-/// are, over the mean square of one. Noise leaves about 0 or less, what is no polynomial of the
-/// degree more. Complexity: O(samples.size()^2)
+/// How alike the residuals of samples close to each other are: Moran's I [M50], the mean product of
+/// two, weighted by closeness, over the mean square of one. About 0 or less for noise, more for
+/// fields that the polynomial does not describe. Complexity: O(samples.size()^2)
 double residualCoherence(const std::vector<FrameSample>& samples, const Polynomial& polynomial);
 
 } // namespace isopoint

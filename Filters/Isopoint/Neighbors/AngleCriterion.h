@@ -16,15 +16,16 @@ namespace isopoint
 /// a cube: on a regular lattice the diagonals survive rounding.
 constexpr double defaultAngle = 54.7;
 
-/// The order in which AngleCriterion::survivesAmongSorted() takes a neighbourhood.
+/// Sorts a neighbourhood as AngleCriterion::survivesAmongSorted() requires.
 inline void nearestFirst(std::vector<Offset>& offsets)
 {
   std::sort(offsets.begin(), offsets.end(),
     [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
 }
 
-/// The angle criterion (section 6 of the paper): a neighbour is dropped if any strictly closer one,
-/// dropped itself or not, lies under a smaller angle than the given one.
+/// The angle criterion ([RL06] section 6; docs/algorithm.md, "Angle criterion"): a neighbour is
+/// dropped if the angle between it and any strictly closer one, dropped itself or not, is smaller
+/// than the given one. Neighbours at the same distance do not drop each other.
 class AngleCriterion
 {
 public:
@@ -54,8 +55,8 @@ public:
     return true;
   }
 
-  /// The same of a neighbourhood sorted by nearestFirst(), for which the nearest ones, seen in many
-  /// directions, decide most often: far less than O(count) for all but the few that survive.
+  /// The same in a neighbourhood sorted by nearestFirst(). The nearest ones, seen in many
+  /// directions, mostly drop the others: far less than O(count) but for the few that survive.
   bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
   {
     for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)
@@ -68,8 +69,8 @@ public:
     return true;
   }
 
-  /// Whether z is closer than all y within the bounds and drops them. It may be told false where it
-  /// is true, never the other way round.
+  /// Whether z is closer than all y within the bounds and drops them. Conservative: may be false
+  /// where z drops them all, never true where it does not.
   bool dropsAll(const Offset& z, const OffsetBounds& y) const
   {
     const double squaredLength =
@@ -78,8 +79,8 @@ public:
            leastProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
   }
 
-  /// Whether a z within the bounds might be closer than y and drop it. It may be told true where it
-  /// is false, never the other way round.
+  /// Whether a z within the bounds might be closer than y and drop it. Conservative: may be true
+  /// where none does, never false where one does.
   bool mayDrop(const OffsetBounds& z, const Offset& y) const
   {
     const double squaredLength =
@@ -90,19 +91,17 @@ public:
 
   bool dropsNothing() const { return this->DropsNothing; }
 
-  /// Whether z is closer than y and lies under a smaller angle from it than the given one.
+  /// Whether z is strictly closer than y and drops it.
   bool isDroppedBy(const Offset& y, const Offset& z) const
   {
     return z.squaredLength < y.squaredLength && this->drops(z, y);
   }
 
 private:
-  /// Whether z lies under a smaller angle from y than the given one.
+  /// Whether the angle between z and y is smaller than the given one.
   bool drops(const Offset& z, const Offset& y) const
   {
-    const double product =
-      y.vector[0] * z.vector[0] + y.vector[1] * z.vector[1] + y.vector[2] * z.vector[2];
-    return product > this->Cosine * (y.length * z.length);
+    return dot(y.vector, z.vector) > this->Cosine * (y.length * z.length);
   }
 
   bool DropsNothing;

@@ -13,14 +13,15 @@
 namespace isopoint
 {
 
-/// Tells edges across gaps in the cloud from others. The spacing behind the end x of an edge {x, y}
-/// is the distance from x to the 2nd nearest position of a sample within 54.7356 degrees of the
-/// direction from y to x (the angle's cosine is 1 / sqrt 3), infinite where there are fewer. An
-/// edge is dropped if it is longer than `factor` times the larger one of the spacings behind its
-/// ends. All samples count for that, in N(x) or not: cells at the brink of a void are as wide as it
-/// is deep, and so do not touch those of the nearest samples. Only those behind count, since on
-/// lines and in slices samples stand much closer in some directions than across to the next line or
-/// slice. Both ends have to agree, so that edges from a dense region to a sparse one stay.
+/// Drops edges across gaps in the cloud. The spacing behind the end x of an edge {x, y} is the
+/// distance from x to the 2nd nearest position of a sample within 54.7356 degrees of the direction
+/// from y to x (the angle's cosine is 1 / sqrt 3), infinite where there are fewer. An edge is
+/// dropped if it is longer than `factor` times the larger one of the spacings behind its ends.
+/// - All samples count, in N(x) or not: the cells at the border of a void extend across it, and so
+///   do not touch those of the nearest samples.
+/// - Only samples behind x count, since on lines and in slices samples stand much closer to each
+///   other than to those of the next line or slice.
+/// - Both ends must agree, so that edges from a dense region to a sparse one stay.
 class GapCriterion
 {
 public:
@@ -83,15 +84,13 @@ private:
   bool isCrowdedBehind(const SampleTree<TSample>& tree, const TSample& end, const TSample& other,
     const Search& search) const
   {
-    const std::array<double, 3> center = positionOf(end);
-    const Offset edge = offsetBetween(center.data(), positionOf(other).data());
+    const Vector center = positionOf(end);
+    const Offset edge = offsetBetween(center, positionOf(other));
     const auto isBehind = [&](const TSample& sample)
     {
-      const Offset offset = offsetBetween(center.data(), positionOf(sample).data());
-      const double product = offset.vector[0] * edge.vector[0] + offset.vector[1] * edge.vector[1] +
-                             offset.vector[2] * edge.vector[2];
+      const Offset offset = offsetBetween(center, positionOf(sample));
       return this->Factor * offset.length < edge.length &&
-             -product > cosine * (offset.length * edge.length);
+             -dot(offset.vector, edge.vector) > cosine * (offset.length * edge.length);
     };
     Found<TSample> found;
     return search(this->boxAround(center, edge.length),
@@ -110,14 +109,8 @@ private:
       });
   }
 
-  template <class TSample>
-  static std::array<double, 3> positionOf(const TSample& sample)
-  {
-    return { sample.position[0], sample.position[1], sample.position[2] };
-  }
-
   /// A box that holds all that is close enough to matter, with room for rounding.
-  Region boxAround(const std::array<double, 3>& center, double length) const
+  Region boxAround(const Vector& center, double length) const
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double reach = length / this->Factor * (1.0 + 1e-9);

@@ -2,10 +2,10 @@
 #ifndef isopoint_ImplicitNeighborhood_h
 #define isopoint_ImplicitNeighborhood_h
 
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Tree/SampleBounds.h"
-#include "Isopoint/Base/Vector.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,9 +17,9 @@
 namespace isopoint
 {
 
-/// The neighbourhood of a leaf, searched without listing it: what of it matters is found by the
-/// bounding boxes of the samples below nodes. Neighbourhoods of n cells each, as of samples on two
-/// skew lines, take a search of about O(log n) each. Scratch is kept from one leaf to the next.
+/// The neighbourhood of a leaf, searched without listing it, by the bounding boxes of the samples
+/// of nodes. A neighbourhood of n cells, as of samples on two skew lines, takes a search of about
+/// O(log n). Memory is kept from one leaf to the next. For one thread.
 template <class TSample>
 class ImplicitNeighborhood
 {
@@ -32,17 +32,16 @@ public:
   {
   }
 
-  /// Whether no offset between samples is so long that its square overflows: then it cannot.
+  /// Whether a search is possible: the square of no offset between samples overflows.
   bool canSearch() const { return this->CanSearch; }
 
-  /// Goes to the neighbourhood of a leaf. The tree is to be refined there.
+  /// Selects the neighbourhood of a leaf, around which the tree must be refined.
   /// @throws std::bad_alloc
   void moveTo(const Path& leaf)
   {
     this->Bounds.compute();
     this->Region = leaf.region;
-    const TSample& sample = this->Tree.samples[this->Tree.nodes[leaf.nodeIndex()].begin];
-    std::copy_n(sample.position, 3, this->Center);
+    this->Center = positionOf(this->Tree.samples[this->Tree.nodes[leaf.nodeIndex()].begin]);
     this->Tops.clear();
     forEachAcross(leaf,
       [this](FoundNode across)
@@ -52,12 +51,13 @@ public:
       });
   }
 
-  /// Visits the neighbours that survive the angle criterion, in no particular order. Those that one
-  /// next to the leaf, or found before, drops are left out by whole subtrees; whether any other
-  /// neighbour drops what is left is searched for.
-  /// @param enter(node) whether the node and those below it are of interest
-  /// @param isWanted(nodeIndex) whether a leaf is
-  /// @param visit(nodeIndex) called for each wanted one that survives
+  /// Visits the neighbours that survive the angle criterion, in no particular order. Whole subtrees
+  /// are left out if one neighbour drops them, out of those next to the leaf and those found
+  /// before; for the remaining candidates the neighbourhood is searched for any neighbour that
+  /// drops them.
+  /// @param enter(node) whether the node and its descendants are of interest
+  /// @param isWanted(nodeIndex) whether a leaf is of interest
+  /// @param visit(nodeIndex) called for each leaf of interest that survives
   template <class Filter, class Wanted, class Visitor>
   void forEachSurvivor(const AngleCriterion& criterion, const Filter& enter, const Wanted& isWanted,
     const Visitor& visit)
@@ -103,11 +103,12 @@ public:
     }
   }
 
-  /// Visits a neighbour for each direction and distance: all near ones, and one of those that are
-  /// small as seen from the leaf's sample, side by side in the tree. The whole neighbourhood
-  /// determines which, not what else of the tree is refined.
-  /// @param size of the samples' bounding box, as a share of its distance
-  /// @param visit(nodeIndex, count) of the leaf and about how many neighbours it stands for
+  /// Visits a subset of the neighbours that covers all directions and distances: a subtree whose
+  /// samples' bounding box appears small from the leaf's sample is represented by one of its
+  /// leaves. The choice depends on the neighbourhood alone, not on what else of the tree is
+  /// refined.
+  /// @param size below which a box is small: its diagonal over its distance
+  /// @param visit(nodeIndex, count) a leaf, and about how many neighbours it represents
   /// Complexity: O(log n) for n neighbours on lines
   template <class Visitor>
   void forEachSpread(double size, const Visitor& visit) const
@@ -126,12 +127,12 @@ private:
     std::size_t nodeIndex;
     std::size_t checked; // droppers that do not drop all of it
 
-    /// Whether it is farther: heaps have the greatest on top.
+    /// Whether it is farther: the standard library's heaps have the greatest element on top.
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
 
-  /// Those in the smallest subtrees stand side by side with the leaf's sample, and so drop most of
-  /// what lies behind them.
+  /// Takes neighbours from the smallest subtrees: they are close to the leaf's sample, and so drop
+  /// most of what lies behind them.
   void addNearDroppers()
   {
     constexpr std::size_t few = 8;
@@ -159,7 +160,7 @@ private:
     std::push_heap(this->Queue.begin(), this->Queue.end());
   }
 
-  /// Takes out the nearest of those pushed, if there is one.
+  /// Removes and returns the nearest of those pushed, if there is one.
   std::optional<Found> pop()
   {
     const bool isNext = this->Next && (this->Queue.empty() || !(*this->Next < this->Queue.front()));
@@ -200,12 +201,11 @@ private:
   bool isSmall(const Node<TSample>& node, double size) const
   {
     const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
-    const Vector diagonal = difference({ offsets.upper[0], offsets.upper[1], offsets.upper[2] },
-      { offsets.lower[0], offsets.lower[1], offsets.lower[2] });
+    const Vector diagonal = difference(offsets.upper, offsets.lower);
     return dot(diagonal, diagonal) < size * size * offsets.leastSquaredLength;
   }
 
-  /// A leaf below a node that touches the region, and that touches it as well.
+  /// A leaf that touches the region, below a node that does.
   std::size_t leafBelow(std::size_t nodeIndex) const
   {
     const Node<TSample>* node = &this->Tree.nodes[nodeIndex];
@@ -218,7 +218,7 @@ private:
     return nodeIndex;
   }
 
-  /// One of the nearest neighbours below a node that touches the region, as long as it canSearch().
+  /// One of the nearest neighbours below a node that touches the region. Requires canSearch().
   std::size_t nearLeafBelow(std::size_t nodeIndex) const
   {
     while (this->Tree.nodes[nodeIndex].isSplit())
@@ -255,11 +255,11 @@ private:
   Offset offsetTo(std::size_t nodeIndex) const
   {
     const TSample& sample = this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
-    const double position[3] = { sample.position[0], sample.position[1], sample.position[2] };
-    return offsetBetween(this->Center, position);
+    return offsetBetween(this->Center, positionOf(sample));
   }
 
-  /// Whether one of the droppers from the given one on certainly drops all within the bounds.
+  /// Whether one of the droppers, from the one numbered `first` on, certainly drops all within the
+  /// bounds.
   bool areDropped(
     const AngleCriterion& criterion, const OffsetBounds& offsets, std::size_t first) const
   {
@@ -267,7 +267,7 @@ private:
       this->Droppers.end(), [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
   }
 
-  /// Whether any neighbour drops that one.
+  /// Whether any neighbour drops y.
   bool isDropped(const AngleCriterion& criterion, const Offset& y) const
   {
     return std::any_of(this->Tops.begin(), this->Tops.end(),
@@ -277,7 +277,8 @@ private:
           this->Tree, { top, 0 }, maximumDepth, this->Region,
           [&](const Node<TSample>& node)
           { return criterion.mayDrop(this->Bounds.offsets(this->Center, node), y); },
-          [&](std::size_t nodeIndex) { return criterion.isDroppedBy(y, this->offsetTo(nodeIndex)); });
+          [&](std::size_t nodeIndex)
+          { return criterion.isDroppedBy(y, this->offsetTo(nodeIndex)); });
       });
   }
 
@@ -285,7 +286,7 @@ private:
   SampleBounds<TSample>& Bounds;
   bool CanSearch;
   isopoint::Region Region{};
-  double Center[3]{};
+  Vector Center{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
   std::optional<Found> Next;     // often the nearest of all, kept out of the heap
   std::vector<Found> Queue;      // of the others

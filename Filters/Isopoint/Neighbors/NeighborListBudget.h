@@ -9,32 +9,34 @@
 namespace isopoint
 {
 
-/// Tells when neighbourhoods are better searched than listed. Listing is quicker for small ones,
-/// and for a few large ones as well; but those of n samples can add up to n^2 neighbours. Those of
-/// large ones that are listed before the limit is reached add up to O(n). Shared by all threads; no
+/// A budget of listed neighbours, shared by all threads. To list a neighbourhood is quicker than to
+/// search it where it is small, and for a few large ones; but the neighbourhoods of n samples can
+/// add up to n^2 neighbours. With this budget, those of large neighbourhoods that are listed add up
+/// to O(n); when it is spent, neighbourhoods are to be searched (see ImplicitNeighborhood). No
 /// result depends on it.
 class NeighborListBudget
 {
 public:
   explicit NeighborListBudget(std::size_t sampleCount)
-    : Room(static_cast<std::int64_t>(sampleCount))
+    : Remaining(static_cast<std::int64_t>(sampleCount))
   {
   }
 
-  bool isReached() const { return this->Room.load(std::memory_order_relaxed) <= 0; }
+  bool isSpent() const { return this->Remaining.load(std::memory_order_relaxed) <= 0; }
 
-  /// Takes a neighbourhood into account that was listed.
-  void listed(std::size_t neighborCount)
+  /// Accounts for a neighbourhood that was listed; small ones are free.
+  void spend(std::size_t neighborCount)
   {
     constexpr std::size_t few = 64;
     if (neighborCount > few)
     {
-      this->Room.fetch_sub(static_cast<std::int64_t>(neighborCount), std::memory_order_relaxed);
+      this->Remaining.fetch_sub(
+        static_cast<std::int64_t>(neighborCount), std::memory_order_relaxed);
     }
   }
 
 private:
-  std::atomic<std::int64_t> Room;
+  std::atomic<std::int64_t> Remaining;
 };
 
 } // namespace isopoint

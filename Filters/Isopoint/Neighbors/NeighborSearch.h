@@ -2,6 +2,8 @@
 #ifndef isopoint_NeighborSearch_h
 #define isopoint_NeighborSearch_h
 
+#include "Isopoint/Base/Region.h"
+#include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
@@ -17,10 +19,11 @@ struct FoundNode
 };
 
 /// Visits the nodes of the depth `nodeDepth`, and those above it that are not split, in the subtree
-/// at `top`, whose region touches the given one. That the subtree's root touches it must hold
-/// already: then each plane is decided by a single comparison.
-/// @param enter(node) whether the node and those below it are of interest
-/// @returns whether a visit returned true, which ends the search
+/// at `top`, whose region touches the given one.
+/// Precondition: the region of `top` does; then each plane takes a single comparison.
+/// @param enter(node) whether the node and its descendants are of interest
+/// @param visit(nodeIndex) returns whether to end the search
+/// @returns whether a visit did
 template <class TSample, class Filter, class Visitor>
 bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int nodeDepth,
   const Region& region, const Filter& enter, const Visitor& visit)
@@ -44,8 +47,8 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
       }
       continue;
     }
-    // Both children are written and the stack grows by those that touch: which ones do is nothing
-    // a branch predictor could learn.
+    // Both children are written and the stack grows by those that touch, without a branch: which
+    // ones do is unpredictable.
     stack[stackSize] = { node.upperNode(), found.depth + 1 };
     stackSize += node.plane <= region.upper[node.axis] ? 1 : 0;
     stack[stackSize] = { node.lowerNode(), found.depth + 1 };
@@ -55,10 +58,10 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
 }
 
 /// Visits the roots of the subtrees that hold all nodes whose closed region shares a point with the
-/// closed region of the path's node. Each lies across a plane that bounds the node's region; that
-/// plane belongs to an ancestor whose split of this axis has the node on this side. The nearest
-/// such ancestor bounds the region, and so does every farther one whose plane has the same
-/// coordinate, as in lattices: the search crosses them all.
+/// closed region of the path's node. Each lies across a plane that bounds the node's region: the
+/// splitting plane of an ancestor. The nearest ancestor that splits an axis with the node on a side
+/// bounds the region there, and so does every farther one whose plane has the same coordinate, as
+/// in lattices: the search crosses them all.
 /// @param visit(root) returns whether to end the search
 /// @returns whether a visit did
 template <class Visitor>
@@ -69,7 +72,8 @@ bool forEachAcross(const Path& path, const Visitor& visit)
     const bool upper = path.uppers[depth - 1];
     const int axis = path.axes[depth - 1];
     const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
-    if (bound == path.planes[depth - 1] && visit(FoundNode{ siblingOf(path.nodeIndices[depth]), depth }))
+    if (bound == path.planes[depth - 1] &&
+        visit(FoundNode{ siblingOf(path.nodeIndices[depth]), depth }))
     {
       return true;
     }
@@ -79,8 +83,8 @@ bool forEachAcross(const Path& path, const Visitor& visit)
 
 /// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
 /// path's own, whose closed region shares a point with the closed region of the path's node (the
-/// neighbourhood N(c), section 5 of the paper).
-/// @param enter(node) whether a node and those below it are of interest
+/// neighbourhood N(c) of [RL06] section 5).
+/// @param enter(node) whether a node and its descendants are of interest
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
 /// Complexity: O(depth + nodes visited); 14.5 neighbours on average in a uniform cloud.
@@ -102,8 +106,8 @@ bool visitTouching(
 }
 
 /// Visits the nodes, other than the path's own, that are not split and touch a box that touches the
-/// path's region; a few that do not touch it may be among them. The way up is short: only planes
-/// that the box reaches are crossed.
+/// path's region; a few that do not touch it may be among them. Only the planes that the box
+/// reaches are crossed.
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
 template <class TSample, class Visitor>
@@ -126,16 +130,17 @@ bool visitAround(
   return false;
 }
 
-/// Whether samples of a node may lie on the other side of the isovalue than one that `isBelow`.
+/// Whether samples of a node may lie on the other side of the isovalue.
+/// @param isBelow the side in question: below the isovalue, or not
 template <class TSample>
 bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
 {
   return isBelow ? node.maximum >= isovalue : node.minimum < isovalue;
 }
 
-/// Whether a node that touches the path's has samples on the other side of the isovalue than
-/// where the path's node has some: `isBelow` tells that side. Ranges steer the search, so that it
-/// is short where there is none.
+/// Whether a node that touches the path's has samples on the other side of the isovalue. Value
+/// ranges prune the search, so that it is short where there is none.
+/// @param isBelow the side of the path's node: below the isovalue, or not
 template <class TSample>
 bool touchesOtherSide(
   const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue, bool isBelow)

@@ -10,7 +10,7 @@
 namespace isopoint
 {
 
-/// Neighbours of a leaf, as nodeIndices.
+/// The neighbours of a leaf, as node indices.
 template <class TId>
 struct NodeList
 {
@@ -23,14 +23,14 @@ struct NodeList
   std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
 };
 
-/// Remembers the neighbourhoods of leaves near surfaces extracted before. They do not depend on
-/// isovalues, angles or values, and finding them is most of the work of an extraction from a tree
-/// that is refined already. Takes one number for each neighbour and one for each node.
+/// The neighbourhoods of leaves near surfaces extracted before. They do not depend on isovalues,
+/// angles or values, and finding them is most of the work of an extraction from a tree that is
+/// refined already. Memory: one number for each neighbour and one for each node.
 template <class TId>
 class NeighborhoodCache
 {
 public:
-  /// What is known of a leaf, empty if nothing.
+  /// The neighbourhood of a leaf, or an empty list if it is not known. O(1)
   NodeList<TId> at(std::size_t nodeIndex) const
   {
     if (nodeIndex >= this->Offsets.size() || this->Offsets[nodeIndex] == 0)
@@ -41,15 +41,15 @@ public:
     return { list + 1, static_cast<std::size_t>(list[0]) };
   }
 
-  /// How many more numbers of neighbourhoods there is room for within a limit.
+  /// How many more numbers may be added within a limit.
   std::size_t room(std::size_t limit) const
   {
     const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
     return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
   }
 
-  /// Takes over neighbourhoods, one after the other as nodeIndex, count, neighbours.
-  /// @param nodeCount above every nodeIndex
+  /// Adds neighbourhoods, one after the other as node index, count, neighbours.
+  /// @param nodeCount above every node index
   /// @throws std::bad_alloc, the cache as before
   void add(const std::vector<TId>& records, std::size_t nodeCount)
   {
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  std::vector<TId> Offsets;                     // by nodeIndex, into Lists; 0: not known
+  std::vector<TId> Offsets;                     // by node index, into Lists; 0: not known
   std::vector<TId> Lists = std::vector<TId>(1); // count, neighbours; the first number is unused
 };
 

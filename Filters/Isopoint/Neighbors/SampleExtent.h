@@ -2,22 +2,30 @@
 #ifndef isopoint_SampleExtent_h
 #define isopoint_SampleExtent_h
 
-#include "Isopoint/Neighbors/ExtentQuery.h"
+#include "Isopoint/Base/ConcurrentMemo.h"
 #include "Isopoint/Base/Region.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Tree/SampleBox.h"
 #include "Isopoint/Tree/SampleTree.h"
-#include "Isopoint/Base/ConcurrentMemo.h"
-#include "Isopoint/Base/Vector.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 
 namespace isopoint
 {
 
+/// A question for the extent of the samples ahead of a place on a surface; see SampleExtents.
+struct ExtentQuery
+{
+  Vector place;
+  Vector normal;    // of the surface there
+  Vector direction; // orthogonal to it, of length 1
+  double enough;    // the largest result that is of interest, positive
+  double reach;     // of the samples that count from the place, above `enough`, finite
+};
+
 /// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
-/// their regions. Each is computed when it is first asked for; from any thread.
+/// their regions. Each is computed at its first request; from any thread.
 template <class TSample>
 class UnsplitBounds
 {
@@ -31,7 +39,8 @@ public:
   /// @throws std::bad_alloc
   SampleBox<TSample> at(std::size_t nodeIndex)
   {
-    return this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, this->Tree.nodes[nodeIndex]); });
+    return this->Boxes.at(
+      nodeIndex, [&]() { return boxOfSamples(this->Tree, this->Tree.nodes[nodeIndex]); });
   }
 
 private:
@@ -39,8 +48,8 @@ private:
   ConcurrentMemo<SampleBox<TSample>> Boxes;
 };
 
-/// Looks for the samples ahead of a place, the farthest of them first. Those of a subtree whose
-/// region tells that they make no difference are left out.
+/// Searches for the samples ahead of a place, the farthest of them first. Subtrees whose region
+/// shows that they make no difference are skipped.
 template <class TSample>
 class SampleExtentSearch
 {
@@ -53,7 +62,7 @@ public:
   {
   }
 
-  /// Takes in the samples in a box around a place ahead.
+  /// Includes the samples in a box around a place ahead.
   void search(double ahead, double half)
   {
     const Vector center = sum(this->Query.place, ahead, this->Query.direction);
@@ -72,10 +81,10 @@ public:
 private:
   static constexpr double leastCosine = 0.7071; // of 45 degrees, but for rounding
 
-  /// @param box what the search's has in common with the node's region
+  /// @param box the intersection of the search's box and the node's region
   void visit(std::size_t nodeIndex, const Region& box)
   {
-    if (!this->mayMatter(box))
+    if (!this->mayContribute(box))
     {
       return;
     }
@@ -96,9 +105,9 @@ private:
   }
 
   /// Whether a sample in a box may stand farther ahead, on a side of the plane, than those found.
-  /// Rounding is monotonic: what is computed for a sample does not exceed what is for its box.
+  /// Rounding is monotonic: no value computed for a sample exceeds that for its box.
   template <class TBox>
-  bool mayMatter(const TBox& box) const
+  bool mayContribute(const TBox& box) const
   {
     double ahead = 0.0; // the largest, as all that follow
     double height = 0.0;
@@ -130,8 +139,8 @@ private:
     return least <= this->Query.reach && ahead >= leastCosine * least;
   }
 
-  /// Of a node that is not split. Where it has many, they are looked at only as long as one of them
-  /// may matter.
+  /// Includes the samples of a node that is not split; of many only as long as one of the rest may
+  /// make a difference.
   void addSamples(std::size_t nodeIndex)
   {
     constexpr std::size_t many = 64;
@@ -141,7 +150,7 @@ private:
     const SampleBox<TSample> box = areMany ? this->Bounds.at(nodeIndex) : SampleBox<TSample>{};
     for (std::size_t i = node.begin; i < end; ++i)
     {
-      if (areMany && (i - node.begin) % many == 0 && !this->mayMatter(box))
+      if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
       {
         return;
       }
@@ -177,43 +186,48 @@ private:
   double Below = 0.0;
 };
 
-/// How far samples stand ahead of a place on both sides of the plane through it that is tangent to
-/// the surface: the largest component along the direction that the offset of one has, of those
-/// within 45 degrees of it and within reach, on the side where they stand less far; at most what is
-/// enough, and 0 where there is none. The same however much of the tree is refined.
-/// Complexity: O(log n) where samples are far enough off; where none are, O(log n) and the nodes
-/// within reach, and the samples of those not split whose bounding box reaches farther than any
-/// sample found.
-/// @throws std::bad_alloc
+/// The extents of a tree's samples ahead of places on a surface. The tree must not change
+/// meanwhile.
 template <class TSample>
-double extentOfSamples(
-  const SampleTree<TSample>& tree, UnsplitBounds<TSample>& bounds, const ExtentQuery& query)
+class SampleExtents
 {
-  SampleExtentSearch<TSample> search(tree, bounds, query);
-  // Mostly the first few samples will do.
-  constexpr double share = 0.2;
-  const double beyond = query.reach - query.enough;
-  search.search(query.enough + 0.5 * beyond, share * beyond);
-  if (!search.isEnough())
+public:
+  explicit SampleExtents(const SampleTree<TSample>& tree)
+    : Tree(tree)
+    , Bounds(tree)
   {
-    // All that count lie in a ball that touches the place, of 1 / sqrt 2 of the reach.
-    search.search(0.707 * query.reach, 0.72 * query.reach);
   }
-  return search.extent();
-}
 
-/// What answers queries of a tree's samples, as long as it is not changed.
-template <class TSample>
-SampleExtents extentsOf(const SampleTree<TSample>& tree)
-{
-  if (tree.isEmpty())
+  /// How far samples stand ahead of a place, on both sides of the plane through it that is tangent
+  /// to the surface: the largest component along the direction of the offsets to the samples within
+  /// 45 degrees of it and within reach, on the side where that is less; at most query.enough, and 0
+  /// where there is no sample. The same however much of the tree is refined. From any thread.
+  /// Complexity: O(log n) where samples are far enough off; else O(log n), the nodes within reach,
+  /// and the samples of unsplit nodes whose bounding box reaches farther than any sample found.
+  /// @throws std::bad_alloc
+  double at(const ExtentQuery& query) const
   {
-    return [](const ExtentQuery&) { return 0.0; };
+    if (this->Tree.isEmpty())
+    {
+      return 0.0;
+    }
+    SampleExtentSearch<TSample> search(this->Tree, this->Bounds, query);
+    // Mostly the first few samples will do.
+    constexpr double share = 0.2;
+    const double beyond = query.reach - query.enough;
+    search.search(query.enough + 0.5 * beyond, share * beyond);
+    if (!search.isEnough())
+    {
+      // All that count lie in a ball that touches the place, of 1 / sqrt 2 of the reach.
+      search.search(0.707 * query.reach, 0.72 * query.reach);
+    }
+    return search.extent();
   }
-  const auto bounds = std::make_shared<UnsplitBounds<TSample>>(tree);
-  return [&tree, bounds](const ExtentQuery& query)
-  { return extentOfSamples(tree, *bounds, query); };
-}
+
+private:
+  const SampleTree<TSample>& Tree;
+  mutable UnsplitBounds<TSample> Bounds; // a memo, safe for concurrent use
+};
 
 } // namespace isopoint
 

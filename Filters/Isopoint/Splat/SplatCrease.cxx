@@ -21,7 +21,7 @@ SplatCrease creaseTowards(const Vector& offset, const Vector& normal, const Vect
   return { scaled(side, otherNormal), inside, inside / std::sqrt(1.0 - cosine * cosine), side };
 }
 
-std::array<double, 5> clipAtNearest(
+std::optional<SplatClip> clipAtNearest(
   const std::vector<SplatCrease>& creases, std::size_t fewest, double agreement, double limit)
 {
   const auto isNearer = [](const SplatCrease& a, const SplatCrease& b)
@@ -29,7 +29,7 @@ std::array<double, 5> clipAtNearest(
   const auto nearest = std::min_element(creases.begin(), creases.end(), isNearer);
   if (nearest == creases.end() || !(nearest->distance < limit))
   {
-    return {};
+    return std::nullopt;
   }
   constexpr std::size_t most = 5;
   std::vector<SplatCrease> planes{ *nearest };
@@ -43,14 +43,13 @@ std::array<double, 5> clipAtNearest(
   }
   if (planes.size() < fewest)
   {
-    return {};
+    return std::nullopt;
   }
   std::sort(planes.begin(), planes.end(), isNearer);
   const SplatCrease& middle = planes[planes.size() / 2];
   const auto farthest = std::find_if(planes.rbegin(), planes.rend(),
     [&](const SplatCrease& crease) { return crease.distance <= middle.distance + agreement; });
-  return { farthest->inward[0], farthest->inward[1], farthest->inward[2], farthest->height,
-    farthest->turn };
+  return SplatClip{ farthest->inward, farthest->height, farthest->turn };
 }
 
 } // namespace isopoint

@@ -5,6 +5,7 @@
 #include <CGAL/linear_least_squares_fitting_3.h>
 
 #include <cmath>
+#include <limits>
 
 namespace isopoint
 {
@@ -13,9 +14,9 @@ namespace
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// The normal of the plane through points around the origin of a size near 1, unoriented; of
-/// length 0 where they do not tell of one.
-Vector planeNormal(const std::vector<Kernel::Point_3>& points)
+/// The normal, not oriented, of the plane through points around the origin of a size near 1, if
+/// they determine one.
+std::optional<Vector> planeNormal(const std::vector<Kernel::Point_3>& points)
 {
   Kernel::Plane_3 plane;
   Kernel::Point_3 centroid;
@@ -27,12 +28,34 @@ Vector planeNormal(const std::vector<Kernel::Point_3>& points)
   constexpr double leastQuality = 1e-6;
   if (!(quality > leastQuality) || !std::isfinite(length) || length == 0.0)
   {
-    return { 0.0, 0.0, 0.0 };
+    return std::nullopt;
   }
   return directionOf(result);
 }
 
 } // namespace
+
+std::vector<std::size_t> setFieldNormals(
+  const SurfacePoints& points, const SplatOptions& options, std::vector<Splat>& splats)
+{
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    const bool isFitted =
+      options.fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
+    const double length = isFitted ? lengthOf(points.fits[i].gradient) : 0.0;
+    // Denormal gradients have lost their direction.
+    if (std::isfinite(length) && length >= std::numeric_limits<double>::min())
+    {
+      splats[i].normal = scaled(-1.0, directionOf(points.fits[i].gradient));
+    }
+    else
+    {
+      others.push_back(i);
+    }
+  }
+  return others;
+}
 
 PlaneNormals::PlaneNormals(const NearestPositions& nearest, const std::vector<Vector>& positions,
   const std::vector<Vector>& decreasingEdges, std::size_t neighborCount)
@@ -47,22 +70,22 @@ Vector PlaneNormals::at(std::size_t point)
 {
   this->Finder.find(point, this->NeighborCount, this->Nearest);
   const Vector own = directionOf(this->DecreasingEdges[point]);
-  const Vector normal = this->fitPlane(point);
-  if (lengthOf(normal) == 0.0)
+  const std::optional<Vector> normal = this->fitPlane(point);
+  if (!normal)
   {
     return own;
   }
-  return dot(normal, this->decreasingSide(own)) < 0.0 ? scaled(-1.0, normal) : normal;
+  return dot(*normal, this->decreasingSide(own)) < 0.0 ? scaled(-1.0, *normal) : *normal;
 }
 
-Vector PlaneNormals::fitPlane(std::size_t point)
+std::optional<Vector> PlaneNormals::fitPlane(std::size_t point) const
 {
   if (this->Nearest.size() < 2)
   {
-    return { 0.0, 0.0, 0.0 };
+    return std::nullopt;
   }
-  // Around the point and at a size near 1, so that neither a far origin nor a tiny cloud costs
-  // the fit its digits.
+  // Around the point and at a size near 1, so that the fit loses no digits to a far origin or a
+  // tiny scale.
   const double scale = 1.0 / this->Nearest.back().distance;
   const Vector& origin = this->Positions[point];
   std::vector<Kernel::Point_3> points(1, Kernel::Point_3(0.0, 0.0, 0.0));
@@ -75,9 +98,9 @@ Vector PlaneNormals::fitPlane(std::size_t point)
   return planeNormal(points);
 }
 
-/// The mean direction of the edges around that fall to the same side as the point's own: a
-/// single edge may run nearly along the surface, and edges of a sheet close by fall the other
-/// way.
+/// The mean direction of those edges around along which values decrease to the same side as along
+/// the point's own: a single edge may run nearly along the surface, and along the edges of a sheet
+/// close by values decrease to the other side.
 Vector PlaneNormals::decreasingSide(const Vector& own) const
 {
   Vector sum = own;

@@ -35,15 +35,14 @@ struct Form
   }
 };
 
-double second(const std::array<double, 6>& hessian, const Vector& a, const Vector& b)
+double second(const Hessian& hessian, const Vector& a, const Vector& b)
 {
   return hessian[0] * a[0] * b[0] + hessian[1] * a[1] * b[1] + hessian[2] * a[2] * b[2] +
          hessian[3] * (a[0] * b[1] + a[1] * b[0]) + hessian[4] * (a[0] * b[2] + a[2] * b[0]) +
          hessian[5] * (a[1] * b[2] + a[2] * b[1]);
 }
 
-Form curvatureOf(
-  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength)
+Form curvatureOf(const TangentCell& cell, const Hessian& hessian, double gradientLength)
 {
   const bool isBent = gradientLength > 0.0 && std::isfinite(gradientLength);
   const auto along = [&](const Vector& a, const Vector& b)
@@ -68,7 +67,7 @@ Form shapeOf(const TangentCell& cell)
 } // namespace
 
 std::array<Curvature, 2> principalCurvatures(
-  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength)
+  const TangentCell& cell, const Hessian& hessian, double gradientLength)
 {
   const Form form = curvatureOf(cell, hessian, gradientLength);
   const double flattest = form.flattestAngle();
@@ -82,8 +81,8 @@ std::array<Curvature, 2> principalCurvatures(
   return result;
 }
 
-Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
-  const std::array<double, 6>& hessian, double gradientLength)
+Ellipse fitEllipse(
+  const TangentCell& cell, const Vector& normal, const Hessian& hessian, double gradientLength)
 {
   const Form curvature = curvatureOf(cell, hessian, gradientLength);
   Ellipse best{};

@@ -2,8 +2,8 @@
 #ifndef isopoint_SplatShape_h
 #define isopoint_SplatShape_h
 
-#include "Isopoint/Splat/TangentCell.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Splat/TangentCell.h"
 
 #include <array>
 
@@ -24,25 +24,25 @@ struct Curvature
   double value;     // not negative
 };
 
-/// Whether a hessian tells how the surface bends; it is 0 where no fit does.
-inline bool isBendKnown(const std::array<double, 6>& hessian)
+/// Whether a Hessian determines the curvature; it is 0 where no fit does.
+inline bool isBendKnown(const Hessian& hessian)
 {
-  return hessian != std::array<double, 6>{};
+  return hessian != Hessian{};
 }
 
-/// In the two directions of a cell's plane in which the surface bends most and least.
-/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 for a plane
+/// The curvatures in the two directions of a cell's plane in which the surface bends most and
+/// least.
+/// @param hessian, gradientLength of the field (see LocalFit); a Hessian of 0 for a plane
 std::array<Curvature, 2> principalCurvatures(
-  const TangentCell& cell, const std::array<double, 6>& hessian, double gradientLength);
+  const TangentCell& cell, const Hessian& hessian, double gradientLength);
 
-/// An ellipse around a cell, and of those the one whose rim departs least from the surface that
-/// curves as a fit tells: long where the surface is flat, short where it bends. Where the fit tells
-/// of no bend it is the circle.
+/// The ellipse around a cell whose rim departs least from the curved surface: long where the
+/// surface is flat, short where it bends. It is a circle where the curvature is not known.
 /// @param normal of length 1
-/// @param hessian, gradientLength of the field (see LocalFit); a hessian of 0 where nothing is
-/// known
-Ellipse fitEllipse(const TangentCell& cell, const Vector& normal,
-  const std::array<double, 6>& hessian, double gradientLength);
+/// @param hessian, gradientLength of the field (see LocalFit); a Hessian of 0 where the curvature
+/// is not known
+Ellipse fitEllipse(
+  const TangentCell& cell, const Vector& normal, const Hessian& hessian, double gradientLength);
 
 } // namespace isopoint
 

@@ -7,17 +7,17 @@
 namespace isopoint
 {
 
-/// The name of a node of the kd-tree (section 4 of the paper): the root is 1, and below the
-/// leading 1 each bit tells the way down, 0 to the lower and 1 to the upper child. The name alone
-/// answers where a node stands among the others; no tree is needed.
+/// The binary index of a node of the kd-tree ([RL06] section 4): that of the root is 1, and each
+/// further bit leads to a child, 0 to the lower and 1 to the upper one. It names a node whatever
+/// part of the tree has been built.
 __extension__ using BinaryIndex = unsigned __int128;
 
 constexpr BinaryIndex rootIndex = 1;
 
-/// No index is deeper than its 128 bits allow. Halving at the median keeps a tree of n samples
-/// within ceil(log2 n) levels. Samples of one position stay together, which can part off as little
-/// as one sample on each axis before the heap is alone: heaps nested in heaps take up to four
-/// levels for each halving, 4 log2 n in all.
+/// The depth of the deepest node that 128 bits can name. Halving at the median keeps a tree of n
+/// samples at different positions within ceil(log2 n) levels. Coincident samples stay together, so
+/// that a split may part off as little as one sample on each axis before they are alone: nested
+/// groups of coincident samples take up to four levels for each halving, 4 log2 n in all.
 constexpr int maximumDepth = 127;
 
 constexpr BinaryIndex lowerChild(BinaryIndex node)

@@ -2,9 +2,9 @@
 #ifndef isopoint_LeafValueCache_h
 #define isopoint_LeafValueCache_h
 
-#include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Tree/SampleTree.h"
 #include "Isopoint/Base/ConcurrentMemo.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
+#include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
 #include <unordered_map>
@@ -12,15 +12,7 @@
 namespace isopoint
 {
 
-template <class TSample>
-double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
-{
-  const TSample* const samples = tree.samples.data() + leaf.begin;
-  return meanOf(
-    leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
-}
-
-/// The means of very large heaps, each computed by about one of the threads that share them.
+/// The values of leaves with very many coincident samples, shared by all threads.
 template <class TSample>
 class SharedLeafMeans
 {
@@ -30,7 +22,8 @@ public:
   {
   }
 
-  /// O(1) but for the first time a leaf of over 4096 samples is asked for. From any thread.
+  /// The value of a leaf: O(1), but at the first request for a leaf of over 4096 samples. From any
+  /// thread.
   /// @throws std::bad_alloc
   double at(std::size_t nodeIndex)
   {
@@ -48,20 +41,20 @@ private:
   ConcurrentMemo<double> Means;
 };
 
-/// The values of leaves: the means of their samples, which count as one. Those of heaps are
-/// remembered, since many cells may touch one. For one thread.
+/// The values of leaves, for one thread. Those of many coincident samples are kept, since many
+/// cells may touch such a leaf.
 template <class TSample>
 class LeafValueCache
 {
 public:
-  /// @param leafMeans of the same tree
-  LeafValueCache(const SampleTree<TSample>& tree, SharedLeafMeans<TSample>& leafMeans)
+  /// @param shared of the same tree
+  LeafValueCache(const SampleTree<TSample>& tree, SharedLeafMeans<TSample>& shared)
     : Tree(tree)
-    , Shared(leafMeans)
+    , Shared(shared)
   {
   }
 
-  /// O(1) but for the first time a heap is asked for.
+  /// The value of a leaf: O(1), but at the first request for one with many samples.
   /// @throws std::bad_alloc
   double at(std::size_t nodeIndex)
   {
@@ -75,16 +68,16 @@ public:
     {
       return meanOfLeaf(this->Tree, leaf);
     }
-    const auto found = this->Heaps.find(nodeIndex);
-    return found != this->Heaps.end()
+    const auto found = this->Means.find(nodeIndex);
+    return found != this->Means.end()
              ? found->second
-             : this->Heaps.emplace(nodeIndex, this->Shared.at(nodeIndex)).first->second;
+             : this->Means.emplace(nodeIndex, this->Shared.at(nodeIndex)).first->second;
   }
 
 private:
   const SampleTree<TSample>& Tree;
   SharedLeafMeans<TSample>& Shared;
-  std::unordered_map<std::size_t, double> Heaps; // by nodeIndex
+  std::unordered_map<std::size_t, double> Means; // by node index
 };
 
 } // namespace isopoint

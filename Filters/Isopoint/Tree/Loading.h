@@ -3,6 +3,7 @@
 #define isopoint_Loading_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -22,11 +23,11 @@ bool isFinite(const TSample& sample)
          std::isfinite(sample.position[2]) && std::isfinite(sample.value);
 }
 
-/// What a slice of the input held.
+/// The samples that a slice of the input contributes.
 template <class TSample>
 struct SliceSummary
 {
-  std::size_t kept = 0; // the numbers below are meaningless where this is 0
+  std::size_t kept = 0; // bounds and range are defined where this is positive
   typename TSample::Coordinate lower[3];
   typename TSample::Coordinate upper[3];
   typename TSample::Value minimum;
@@ -50,7 +51,7 @@ struct SliceSummary
   }
 };
 
-/// Reads the items [begin, end) to where they begin, packed.
+/// Reads the items [begin, end) into samples[begin] and following, packed.
 template <class TSample, class Reader>
 SliceSummary<TSample> loadSlice(
   TSample* samples, std::size_t begin, std::size_t end, const Reader& read)
@@ -68,7 +69,7 @@ SliceSummary<TSample> loadSlice(
   return summary;
 }
 
-/// Makes the root of a tree whose samples are loaded.
+/// Creates the root of a tree whose samples are loaded.
 template <class TSample>
 void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>>& slices)
 {
@@ -94,7 +95,7 @@ void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>
   }
 }
 
-/// Makes a tree of nothing but a root from an input of `count` items, each read once.
+/// Creates a tree with nothing but a root from an input of `count` items, each read once.
 /// @param read(id, position, value) writes an item's coordinates and value and returns whether it
 /// takes part. Items with a non-finite coordinate or value are left out as well.
 /// @throws std::bad_alloc, Aborted
@@ -140,8 +141,8 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
   return tree;
 }
 
-/// Computes the ranges of a node and of those up to so many levels below it from their samples,
-/// where nodes were not split, and from their children.
+/// Recomputes the value ranges of a node and of its descendants up to so many levels below: from
+/// their children, or from their samples where they are not split.
 template <class TSample>
 void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
 {
@@ -161,7 +162,7 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
-/// Whether a tree holds just the items that take part, at their positions.
+/// Whether a tree holds exactly the items that take part, at their positions.
 /// @param count of the items, those left out included
 /// @param read as for loadSamples()
 template <class TSample, class Reader>
@@ -204,8 +205,8 @@ bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
   return taking == tree.samples.size();
 }
 
-/// Gives the samples of a tree new values and computes the ranges of its nodes anew; the tree
-/// keeps its shape, since it does not depend on values.
+/// Gives the samples of a tree new values and recomputes the value ranges of its nodes. The tree
+/// keeps its shape, which does not depend on values.
 /// @param read as for loadSamples(); holdsPositions() must be true of it
 template <class TSample, class Reader>
 void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
@@ -227,7 +228,8 @@ void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const 
   constexpr int topLevels = 8;
   std::vector<std::size_t> tops;
   Path path = pathToRoot(tree);
-  forEachBelow(tree, path, topLevels, [&tops](const Path& top) { tops.push_back(top.nodeIndex()); });
+  forEachBelow(
+    tree, path, topLevels, [&tops](const Path& top) { tops.push_back(top.nodeIndex()); });
   forRanges(execution, tops.size(), 1,
     [&](std::size_t begin, std::size_t end)
     {

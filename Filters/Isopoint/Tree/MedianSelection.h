@@ -15,7 +15,7 @@
 namespace isopoint
 {
 
-/// The coordinates of the two samples in the middle of a node, on one axis: of the ranks
+/// The coordinates of the two samples in the middle of a node, on one axis: those of rank
 /// count / 2 - 1 and count / 2.
 template <class TCoordinate>
 struct MiddleCoordinates
@@ -25,7 +25,7 @@ struct MiddleCoordinates
 };
 
 /// The coordinates of rank - 1 and rank among few, 0 < rank < count: each is ranked by counting the
-/// smaller ones, which costs count^2 comparisons but no branch and suits vector registers.
+/// smaller ones, which takes count^2 comparisons but no branch, and vectorises.
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectByCounting(
   const TCoordinate* coordinates, std::size_t count, std::size_t rank)
@@ -53,7 +53,7 @@ MiddleCoordinates<TCoordinate> selectByCounting(
   return { last, upToLast > rank ? last : first };
 }
 
-/// The coordinates of rank - 1 and rank, 0 < rank < count, whose order changes. Passes without
+/// The coordinates of rank - 1 and rank, 0 < rank < count; reorders the coordinates. Passes without
 /// unpredictable branches keep what lies between two elements of a small subset that probably
 /// enclose the two sought, until few are left. O(count) on average, O(count log count) at worst.
 template <class TCoordinate>
@@ -102,9 +102,8 @@ MiddleCoordinates<TCoordinate> selectMiddle(
   return selectByCounting(coordinates, count, rank);
 }
 
-/// Bounds that very likely enclose both middle coordinates, and few others, read off a random
-/// subset (Floyd and Rivest, "Expected time bounds for selection", 1975). The generator is seeded
-/// by the count, so that a run can be repeated to the last move.
+/// Bounds that very likely enclose both middle coordinates, and few others, taken from a random
+/// subset [FR75]. The generator is seeded by the count, so that runs are repeatable.
 template <class TSample>
 struct MiddleBracket
 {
@@ -146,7 +145,7 @@ struct MiddleBracket
   }
 };
 
-/// What one pass over samples found of the middle.
+/// The result of one pass over samples that looks for the middle.
 struct MiddleCount
 {
   std::size_t below = 0;      // coordinates below the bracket

@@ -13,7 +13,7 @@
 namespace isopoint
 {
 
-/// How far a range was put in order from its beginning.
+/// How many elements of either range are in order, from its beginning.
 struct ExchangeProgress
 {
   std::size_t lowerDone;
@@ -22,8 +22,7 @@ struct ExchangeProgress
 
 /// Swaps what does not belong to `lower` with what does not belong to `upper` until one of the
 /// two is in order, in place. Misplaced elements are listed a block at a time without a branch on
-/// the comparison (the idea of Edelkamp and Weiss, "BlockQuicksort", ESA 2016): a median split is
-/// where a branch predictor is always wrong.
+/// the comparison [EW16], which at a median split no branch predictor could foresee.
 /// @param belongsLower whether an element belongs to the lower range
 template <class T, class Predicate>
 ExchangeProgress exchangeMisplaced(
@@ -82,9 +81,9 @@ ExchangeProgress exchangeMisplaced(
   }
 }
 
-/// Puts the elements into place where it is known that exactly the first `lowerCount` of them
-/// belong lower, with every thread: each takes one slice of both halves. What a slice cannot
-/// balance in itself is little in a cloud without a particular order and is finished alone.
+/// Partitions elements of which exactly `lowerCount` belong lower, with every thread: each takes
+/// one slice of both halves. What a slice cannot balance within itself, which is little unless the
+/// cloud is in a particular order, the calling thread exchanges afterwards.
 template <class T, class Predicate>
 void partitionTogether(const Execution& execution, T* elements, std::size_t count,
   std::size_t lowerCount, const Predicate& belongsLower)

@@ -2,15 +2,16 @@
 #ifndef isopoint_Sample_h
 #define isopoint_Sample_h
 
+#include "Isopoint/Base/Vector.h"
+
 #include <cstdint>
 #include <type_traits>
 
 namespace isopoint
 {
 
-/// One sample as the tree holds it: everything that building and searching ask for, side by side
-/// in cache. Positions keep the input's type, so that no bit is lost and none is spent in vain.
-/// The id tells which sample of the input this is.
+/// One sample as the tree holds it: all that building and searching need, in one place in memory.
+/// Positions and values keep the input's type. The id identifies the sample in the input.
 template <class TCoordinate, class TValue, class TId>
 struct Sample
 {
@@ -23,15 +24,21 @@ struct Sample
   TValue value;
 };
 
-/// The layouts in use. The 32-bit ones serve clouds of fewer than 2^30 samples: ids also number the
-/// tree's nodeIndices, two for each sample, and some that are set aside stay empty. Any cloud fits the
-/// wide one, since float converts to double exactly.
+/// The layouts in use. Those with 32-bit ids serve clouds of fewer than 2^30 samples, since ids
+/// also number the tree's nodes: two for each sample, and some that are reserved but never used.
+/// Any cloud fits the wide layout, since float converts to double exactly.
 using FloatSample = Sample<float, float, std::uint32_t>;
 using FloatSampleOfDouble = Sample<float, double, std::uint32_t>;
 using DoubleSampleOfFloat = Sample<double, float, std::uint32_t>;
 using WideSample = Sample<double, double, std::uint64_t>;
 
 static_assert(sizeof(FloatSample) == 20, "the commonest layout has no padding");
+
+template <class TSample>
+Vector positionOf(const TSample& sample)
+{
+  return { sample.position[0], sample.position[1], sample.position[2] };
+}
 
 template <class TSample>
 bool haveOnePosition(const TSample& a, const TSample& b)

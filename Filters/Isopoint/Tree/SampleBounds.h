@@ -13,9 +13,9 @@
 namespace isopoint
 {
 
-/// The bounding boxes of the samples below each split node, which can be far smaller than its
-/// region. They are there from the first call of compute() on and take six coordinates for each
-/// split node. The tree is not to be changed meanwhile.
+/// The bounding boxes of the samples of each split node, which can be far smaller than its region.
+/// They exist once compute() was called and take six coordinates for each split node. The tree must
+/// not change while they are in use.
 template <class TSample>
 class SampleBounds
 {
@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /// Computes them at its first call, from any thread: O(samples + nodes).
+  /// Computes the boxes at its first call: O(samples + nodes). From any thread.
   /// @throws std::bad_alloc; then the next call tries again
   void compute()
   {
@@ -37,8 +37,8 @@ public:
       });
   }
 
-  /// What bounds the offsets from a position to the samples of a node, which is a leaf or split.
-  OffsetBounds offsets(const double from[3], const Node<TSample>& node) const
+  /// Bounds on the offsets from a position to the samples of a node, which is a leaf or split.
+  OffsetBounds offsets(const Vector& from, const Node<TSample>& node) const
   {
     if (!node.isSplit())
     {

@@ -18,7 +18,7 @@ struct SampleBox
   typename TSample::Coordinate upper[3];
 };
 
-/// Of the samples of two boxes.
+/// The bounding box of two.
 template <class TSample>
 SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>& b)
 {
@@ -31,7 +31,7 @@ SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>&
   return box;
 }
 
-/// Of a node's samples. O(samples of the node), O(1) for a leaf
+/// The bounding box of a node's samples. O(samples of the node), O(1) for a leaf
 template <class TSample>
 SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
 {

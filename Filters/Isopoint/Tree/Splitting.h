@@ -3,30 +3,33 @@
 #define isopoint_Splitting_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Region.h"
 #include "Isopoint/Tree/MedianSelection.h"
 #include "Isopoint/Tree/Partition.h"
-#include "Isopoint/Base/Region.h"
 #include "Isopoint/Tree/Sample.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
 {
 
 /// How a node's samples were halved: the first `lowerCount` of them now form the lower child, and
-/// the region is cut at `plane`. A lowerCount of 0 says that all samples share one position.
+/// the region is cut at `plane`.
 struct Halves
 {
   std::size_t lowerCount;
   double plane;
 };
 
-/// Halves by the definition, with the standard library's selection, for nodes where a position
-/// stands on both sides of the middle. Linear time on average, O(n log n) at worst.
+/// Halves by the definition (docs/algorithm.md, "Tree"), with the standard library's selection, for
+/// nodes where coincident samples stand on both sides of the middle.
+/// @returns nothing if all samples share one position
+/// Complexity: O(n) on average, O(n log n) at worst.
 template <class TSample>
-Halves halveByDefinition(TSample* samples, std::size_t count, int axis)
+std::optional<Halves> halveByDefinition(TSample* samples, std::size_t count, int axis)
 {
   const SplittingOrder<TSample> order(axis);
   TSample* const end = samples + count;
@@ -44,18 +47,18 @@ Halves halveByDefinition(TSample* samples, std::size_t count, int axis)
         samples, samples + count / 2, [&](const TSample& s) { return !isShared(s); });
       if (middle == samples)
       {
-        return { 0, 0.0 };
+        return std::nullopt;
       }
     }
     last = std::max_element(samples, middle, order);
   }
   const TSample* first = std::min_element(middle, end, order);
-  return { static_cast<std::size_t>(middle - samples),
+  return Halves{ static_cast<std::size_t>(middle - samples),
     splittingPlaneBetween(last->position[axis], first->position[axis]) };
 }
 
-/// Whether a sample comes before the first one of the upper half. Equal coordinates are the
-/// exception, so that the common case is a single comparison.
+/// Whether a sample precedes the first one of the upper half. Equal coordinates are rare: the
+/// common case takes a single comparison.
 template <class TSample>
 struct BelongsLower
 {
@@ -83,8 +86,8 @@ struct BelongsLower
   SplittingOrder<TSample> Order;
 };
 
-/// The samples in the middle of a node where they share their coordinate on the axis, so that the
-/// other coordinates and the ids settle who is first of the upper half.
+/// The samples in the middle of a node that share their coordinate on the axis, so that the other
+/// coordinates and the ids determine the first of the upper half.
 template <class TSample>
 struct TiedMiddle
 {
@@ -115,8 +118,9 @@ struct TiedMiddle
 
 /// Moves the samples to their halves, where the middle coordinates are known.
 /// @param partition(lowerCount, belongsLower) moves them
+/// @returns nothing if all samples share one position
 template <class TSample, class Partition>
-Halves halveAtMiddle(TSample* samples, std::size_t count, int axis,
+std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axis,
   const MiddleCoordinates<typename TSample::Coordinate>& middle, const Partition& partition)
 {
   const std::size_t lowerCount = count / 2;
@@ -134,13 +138,14 @@ Halves halveAtMiddle(TSample* samples, std::size_t count, int axis,
     }
     partition(lowerCount, BelongsLower<TSample>(tied.first, axis));
   }
-  return { lowerCount, splittingPlaneBetween(middle.last, middle.first) };
+  return Halves{ lowerCount, splittingPlaneBetween(middle.last, middle.first) };
 }
 
-/// Halves the samples of one node along an axis, in place: one pass that finds the middle and one
-/// that moves each misplaced sample once.
+/// Halves the samples of one node along an axis, in place: one pass finds the middle and another
+/// moves each misplaced sample once.
+/// @returns nothing if all samples share one position
 template <class TSample>
-Halves halve(TSample* samples, std::size_t count, int axis,
+std::optional<Halves> halve(TSample* samples, std::size_t count, int axis,
   SelectionScratch<typename TSample::Coordinate>& scratch)
 {
   return halveAtMiddle(samples, count, axis, findMiddle(samples, count, axis, scratch),
@@ -153,7 +158,8 @@ Halves halve(TSample* samples, std::size_t count, int axis,
 
 /// The same with every thread at work on one node.
 template <class TSample>
-Halves halveTogether(const Execution& execution, TSample* samples, std::size_t count, int axis)
+std::optional<Halves> halveTogether(
+  const Execution& execution, TSample* samples, std::size_t count, int axis)
 {
   const auto middle = findMiddleTogether(execution, samples, count, axis);
   throwIfAborted(execution);

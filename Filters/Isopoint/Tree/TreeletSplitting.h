@@ -12,27 +12,27 @@
 namespace isopoint
 {
 
-/// The tree grows by treelets: the band decides after every third level which nodes to split
-/// next, and all work on a treelet is done while its samples are in cache.
+/// The tree grows by treelets, subtrees of a fixed depth [KA13]: after every third level the narrow
+/// band decides which nodes to split next, and a treelet is built while its samples are in cache.
 constexpr int treeletLevels = 3;
 
 /// The depth that treelets below nodes of the given depth reach. Treelets are aligned to the
-/// bottom of a tree without samples of one position: its last ones, by far the most, are then
-/// whole.
+/// bottom of a tree without coincident samples: the last ones, by far the most, are then of full
+/// depth.
 inline int treeletBottom(int depth, std::size_t sampleCount)
 {
   const int remaining = levelsToHalve(sampleCount) - depth;
   return depth + (remaining > treeletLevels ? (remaining - 1) % treeletLevels + 1 : treeletLevels);
 }
 
-/// How many pairs of children a treelet below a node of that many samples takes at most.
+/// The largest number of pairs of children that a treelet below a node of that many samples takes.
 inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
 {
   return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
 }
 
-/// Splits nodes by the definition of the canonical tree (DESIGN section 1; section 4 of the
-/// paper). The node itself becomes a parent last of all, so that an exception leaves it unsplit.
+/// Splits nodes by the definition of the canonical tree (docs/algorithm.md, "Tree"; [RL06] section
+/// 4). The node itself becomes a parent last of all, so that an exception leaves it unsplit.
 template <class TSample>
 class TreeletSplitter
 {
@@ -84,8 +84,8 @@ private:
     }
     TSample* const samples = this->Tree.samples.data() + node.begin;
     const int axis = region.longestSide();
-    const Halves halves = halving(samples, node.count(), axis);
-    if (halves.lowerCount == 0)
+    const std::optional<Halves> halves = halving(samples, node.count(), axis);
+    if (!halves)
     {
       std::sort(samples, samples + node.count(),
         [](const TSample& a, const TSample& b) { return a.id < b.id; });
@@ -96,17 +96,17 @@ private:
     const std::size_t pair = this->NextPair++;
     Node<TSample>& lower = this->Tree.nodes[2 * pair];
     Node<TSample>& upper = this->Tree.nodes[2 * pair + 1];
-    const std::size_t middle = node.begin + halves.lowerCount;
+    const std::size_t middle = node.begin + halves->lowerCount;
     lower = makeNode<TSample>(node.begin, middle);
     upper = makeNode<TSample>(middle, node.end);
     Region half = region;
-    half.upper[axis] = halves.plane;
+    half.upper[axis] = halves->plane;
     this->split(lower, half, levels - 1, halving, ranging);
     half.upper[axis] = region.upper[axis];
-    half.lower[axis] = halves.plane;
+    half.lower[axis] = halves->plane;
     this->split(upper, half, levels - 1, halving, ranging);
     uniteRanges(node, lower, upper);
-    node.plane = halves.plane;
+    node.plane = halves->plane;
     node.axis = static_cast<std::uint8_t>(axis);
     node.childPair = static_cast<typename TSample::Id>(pair);
   }

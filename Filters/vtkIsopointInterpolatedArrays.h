@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef vtkIsopointArrays_h
-#define vtkIsopointArrays_h
+#ifndef vtkIsopointInterpolatedArrays_h
+#define vtkIsopointInterpolatedArrays_h
 
-#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/IsosurfaceExtractor.h"
 
 #include <vector>
 
@@ -15,22 +15,13 @@ class vtkDataSetAttributes;
 class vtkPointData;
 
 /**
- * The isopoints of one isovalue.
- */
-struct vtkContouredIsosurface
-{
-  double Isovalue;
-  isopoint::Isosurface Surface;
-};
-
-/**
  * Fills the output's point data with the input's arrays at the isopoints of all surfaces, one
  * surface after the other: numbers interpolated (integers rounded to the nearest), pedigree ids
  * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays, arrays
  * that are not as long as the contoured one and the contoured array itself are left out.
  */
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
-  vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
+  vtkDataArray* contoured, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
   vtkPointData* output);
 
 /**
@@ -38,6 +29,6 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
  * float or double, of type double otherwise. It becomes the active scalars.
  */
 void vtkAddContouredArray(vtkDataArray* contoured,
-  const std::vector<vtkContouredIsosurface>& surfaces, vtkPointData* output);
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPointData* output);
 
 #endif

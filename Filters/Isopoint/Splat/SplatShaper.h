@@ -1,67 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Isopoint/Splat/SplatGeometry.h"
+#ifndef isopoint_SplatShaper_h
+#define isopoint_SplatShaper_h
 
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Splat/NearestPositions.h"
+#include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatBorder.h"
 #include "Isopoint/Splat/SplatCrease.h"
-#include "Isopoint/Splat/SplatNormals.h"
 #include "Isopoint/Splat/SplatShape.h"
 #include "Isopoint/Splat/TangentCell.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
+#include <vector>
 
 namespace isopoint
 {
-namespace
-{
 
-/// How many of the nearest positions are looked at first when a cell is cut, and at most. Cells of
-/// a uniform cloud have about six sides.
-constexpr std::size_t firstNeighbors = 20;
-constexpr std::size_t mostNeighbors = 160;
-
-/// The distance of this one of the nearest positions tells how dense they are.
-constexpr std::size_t densityNeighbors = 12;
-
-/// A splat's size beside its cell's, since the surface bends where the cell is flat: that where it
-/// bends little, what is added for the square of the angle it turns by within the cell, and the
-/// most, which is also that where no fit tells how it bends.
-constexpr double leastOverlap = 1.1;
-constexpr double overlapOfBend = 0.5;
-constexpr double mostOverlap = 1.2;
-
-/// How far a cell may reach, in spacings of the samples: where other points bound it on all sides;
-/// where those do around a gap in a smooth surface; where none do, beside a smooth surface's
-/// border; and where no fit tells of a surface either.
-constexpr double closedReach = 2.5;
-constexpr double gapReach = 4.5;
-constexpr double borderReach = 1.2;
-constexpr double loneReach = 1.0;
-
-/// Points without a smooth fit do not bound the cell of a point with one if they are nearer, in the
-/// same unit: with normals that are but estimates, their own splats may miss what lies beyond.
-constexpr double unfittedDistance = 0.5;
-
-/// Errors of fits at creases, in the same unit: planes across one whose distances differ by no more
-/// are taken to be the same.
-constexpr double agreement = 0.01;
-
-/// Shapes splats whose normals are known, one at a time.
+/// Determines the shapes of splats whose normals are known, one at a time. For one thread.
+/// @tparam TExtents see SplatBorder
+template <class TExtents>
 class SplatShaper
 {
 public:
-  SplatShaper(
-    const NearestPositions& nearest, const SurfacePoints& points, const std::vector<Splat>& splats)
+  /// @param splats of which normals are set
+  SplatShaper(const NearestPositions& nearest, const SurfacePoints& points, const TExtents* extents,
+    const std::vector<Splat>& splats)
     : Finder(nearest)
     , Points(points)
     , Splats(splats)
-    , Border(points.extents)
+    , Border(extents)
   {
   }
 
+  /// Sets all of a splat but its normal.
   void shape(std::size_t point, Splat& splat)
   {
     this->list(point, firstNeighbors);
@@ -93,28 +69,60 @@ public:
   }
 
 private:
-  /// Of the fit that held, if any.
-  FitOrder orderAt(std::size_t point) const
+  /// How many of the nearest positions are considered first when a cell is cut, and at most. Cells
+  /// of a uniform cloud have about six sides.
+  static constexpr std::size_t firstNeighbors = 20;
+  static constexpr std::size_t mostNeighbors = 160;
+
+  /// The distance to this one of the nearest positions measures how dense they are.
+  static constexpr std::size_t densityNeighbors = 12;
+
+  /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
+  /// least, the increment for the square of the angle by which the surface turns within the cell,
+  /// and the greatest, which also holds where no fit determines the curvature.
+  static constexpr double leastOverlap = 1.1;
+  static constexpr double overlapOfBend = 0.5;
+  static constexpr double mostOverlap = 1.2;
+
+  /// How far a cell may reach, in spacings of the samples: where other points bound it on all
+  /// sides; where they do so around a gap in a smooth surface; where they do not, beside the border
+  /// of a smooth surface; and the same where no fit determines a surface.
+  static constexpr double closedReach = 2.5;
+  static constexpr double gapReach = 4.5;
+  static constexpr double borderReach = 1.2;
+  static constexpr double loneReach = 1.0;
+
+  /// Nearer than this, in spacings, a point without a smooth fit does not bound the cell of a point
+  /// with one: the normal of the former is an estimate, and its splat may miss what lies beyond.
+  static constexpr double unfittedDistance = 0.5;
+
+  /// The error of fits at creases, in spacings: planes across a crease whose distances differ by no
+  /// more are taken to be the same.
+  static constexpr double agreement = 0.01;
+
+  /// The order of the fit that held, if any.
+  std::optional<FitOrder> orderAt(std::size_t point) const
   {
-    return this->Points.fits.empty() ? FitOrder::None : this->Points.fits[point].order;
+    return this->Points.fits.empty() ? std::nullopt : this->Points.fits[point].order;
   }
 
-  /// Whether a fit tells that the surface is smooth there.
+  /// Whether a fit held that describes a smooth surface.
   bool isSmooth(std::size_t point) const { return this->orderAt(point) >= FitOrder::Quadratic; }
 
-  /// Whether a fit tells of a crease beside it.
+  /// Whether a fit found a crease close by.
   bool isBesideCrease(std::size_t point) const { return this->orderAt(point) == FitOrder::Crease; }
 
-  /// What bounds a cell: any points, or those alone that lie on one smooth surface with it.
+  /// What bounds a cell: any points, or only those that lie on one smooth surface with its own.
   enum class Bound
   {
     AllPoints,
     Sheet
   };
 
-  /// Cuts the cell of a point beside a gap of the isopoints, as between samples that stand in
-  /// lines. @returns whether points of its own sheet stand all around the gap, as they do not at a
-  /// border; the cell is of no use otherwise
+  /// Cuts the cell of a point beside a gap between isopoints, as between samples that stand in
+  /// lines.
+  /// @returns whether points of its own sheet stand all around the gap, as they do not at a border;
+  /// otherwise the cell is of no use
   bool reachesAcrossGap(std::size_t point, TangentCell& cell)
   {
     const double reach = gapReach * this->fitSpacingAt(point);
@@ -144,8 +152,7 @@ private:
     this->Finder.find(point, count, this->Nearest);
   }
 
-  /// As the fits tell, or 0: of a sample alone with another one there is no other measure than
-  /// their edge.
+  /// The samples' spacing as measured for the fits, or 0 without fits.
   double fitSpacingAt(std::size_t point) const
   {
     return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
@@ -156,7 +163,8 @@ private:
   double spacingAt(std::size_t point) const
   {
     const double fitted = this->fitSpacingAt(point);
-    const double spacing = fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
+    const double spacing =
+      fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
     if (this->Nearest.size() < densityNeighbors)
     {
       return spacing;
@@ -165,7 +173,7 @@ private:
     return std::min(spacing, share * this->Nearest[densityNeighbors - 1].distance);
   }
 
-  /// Cuts off what is farther than the radius of the surface's curvature, as a fit tells of it.
+  /// Cuts off what is farther than the surface's radius of curvature.
   static void cutWhereSurfaceTurns(const std::array<Curvature, 2>& curvatures, TangentCell& cell)
   {
     for (const Curvature& curvature : curvatures)
@@ -179,14 +187,14 @@ private:
     }
   }
 
-  /// Cuts a disk down to the cell, listing more of the nearest where it takes them: positions
-  /// farther than twice its reach do not touch it.
+  /// Cuts a disk down to the cell, listing more of the nearest where needed: positions farther than
+  /// twice its reach do not touch it.
   void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
   {
     for (;; this->list(point, 2 * this->Wanted))
     {
       cell.reset(limit);
-      this->Border.cutWhereKnown(cell);
+      this->Border.cutWhereFound(cell);
       this->Creases.clear();
       for (const NearestPositions::Neighbor& neighbor : this->Nearest)
       {
@@ -202,7 +210,7 @@ private:
     }
   }
 
-  /// Cuts a cell towards one of the nearest: at its plane if fits at both tell of a crease between
+  /// Cuts a cell towards one of the nearest: at its plane if fits at both found a crease between
   /// them, or else halfway. Keeps the planes across creases.
   void cutTowards(
     std::size_t point, const NearestPositions::Neighbor& neighbor, Bound bound, TangentCell& cell)
@@ -230,7 +238,7 @@ private:
     const Vector outward = scaled(1.0 / neighbor.distance, offset);
     const auto along = [&]() { return sum(outward, -dot(outward, normal), normal); };
     const double half = 0.5 * neighbor.distance;
-    // What is before the crease is not the other's to cover.
+    // No bisector cut on this side of the crease.
     if (isAcrossCrease && half < this->Creases.back().distance * lengthOf(along()))
     {
       return;
@@ -245,15 +253,17 @@ private:
     }
   }
 
-  /// What clips a splat, by the planes across creases. That of a point whose own fit tells of none
-  /// still belongs to one side of a crease close by, of which two others are believed; it ends a
-  /// little beyond their planes, since what lies in those is not in its own.
-  std::array<double, 5> clipOf(std::size_t point, double error, double limit) const
+  /// The clipping plane of a splat, from the planes across creases. A point whose own fit found no
+  /// crease may still lie on one side of a crease close by, if the planes of two others agree on
+  /// it; its splat ends a little beyond their planes, which are not exactly those of its own side.
+  std::optional<SplatClip> clipOf(std::size_t point, double error, double limit) const
   {
     const bool isBeside = this->isBesideCrease(point);
-    std::array<double, 5> clip = clipAtNearest(this->Creases, isBeside ? 1 : 2, error, limit);
-    const bool isClipped = clip != std::array<double, 5>{};
-    clip[3] += isClipped && !isBeside ? error : 0.0;
+    std::optional<SplatClip> clip = clipAtNearest(this->Creases, isBeside ? 1 : 2, error, limit);
+    if (clip && !isBeside)
+    {
+      clip->distance += error;
+    }
     return clip;
   }
 
@@ -278,22 +288,22 @@ private:
            std::abs(dot(normal, otherNormal) - turn) < tolerance;
   }
 
-  /// Whether no smooth fit held at one of the nearest, close to a point of which it did.
+  /// Whether a smooth fit held at a point but not at one of the nearest very close to it.
   bool isUnfittedBeside(std::size_t point, const NearestPositions::Neighbor& neighbor) const
   {
     return this->isSmooth(point) && !this->isSmooth(neighbor.point) &&
            neighbor.distance < unfittedDistance * this->fitSpacingAt(point);
   }
 
-  /// Whether fits tell that the planes of two points meet between them at a crease.
+  /// Whether the planes of two points meet between them at a crease that a fit found.
   bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    return this->orderAt(point) != FitOrder::None && this->isBesideCrease(other) &&
+    return this->orderAt(point) && this->isBesideCrease(other) &&
            this->doPlanesMeet(point, other, offset);
   }
 
   /// Whether the planes of two points meet between them: each point lies on the same side of the
-  /// other's plane. Points on both planes tell no side.
+  /// other's plane. Points on both planes lie on no side.
   bool doPlanesMeet(std::size_t point, std::size_t other, const Vector& offset) const
   {
     const Vector& normal = this->Splats[point].normal;
@@ -328,77 +338,13 @@ private:
 
   const NearestPositions& Finder;
   const SurfacePoints& Points;
-  const std::vector<Splat>& Splats; // normals at least
+  const std::vector<Splat>& Splats; // of which normals are set
   std::vector<NearestPositions::Neighbor> Nearest;
   std::size_t Wanted = 0; // of the nearest; there may be fewer
-  SplatBorder Border;
+  SplatBorder<TExtents> Border;
   std::vector<SplatCrease> Creases; // by the distance of the points across
 };
 
-/// Takes normals from the fits' gradients. @returns the points that have none
-std::vector<std::size_t> takeFieldNormals(
-  const SurfacePoints& points, bool fieldNormals, std::vector<Splat>& splats)
-{
-  std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < splats.size(); ++i)
-  {
-    const bool isFitted = fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
-    const double length = isFitted ? lengthOf(points.fits[i].gradient) : 0.0;
-    // Denormal gradients have lost their direction.
-    if (std::isfinite(length) && length >= std::numeric_limits<double>::min())
-    {
-      splats[i].normal = scaled(-1.0, directionOf(points.fits[i].gradient));
-    }
-    else
-    {
-      others.push_back(i);
-    }
-  }
-  return others;
-}
-
-} // namespace
-
-std::vector<Splat> computeSplats(
-  const Execution& execution, const SurfacePoints& points, const SplatOptions& options)
-{
-  std::vector<Splat> splats(points.positions.size());
-  const std::vector<std::size_t> unfitted = takeFieldNormals(points, options.fieldNormals, splats);
-  if (unfitted.empty() && !options.shapes)
-  {
-    execution.progress(1.0);
-    return splats;
-  }
-  const NearestPositions nearest(points.positions);
-  throwIfAborted(execution);
-
-  const double normalsShare = options.shapes ? 0.4 : 1.0;
-  constexpr std::size_t batch = 8192;
-  constexpr std::size_t grain = 512;
-  forBatches(
-    execution, unfitted.size(), batch, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      PlaneNormals planes(nearest, points.positions, points.decreasingEdges,
-        static_cast<std::size_t>(options.neighborCount));
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        splats[unfitted[i]].normal = planes.at(unfitted[i]);
-      }
-    },
-    [&](double share) { execution.progress(normalsShare * share); });
-  forBatches(
-    execution, options.shapes ? splats.size() : 0, batch, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      SplatShaper shaper(nearest, points, splats);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        shaper.shape(i, splats[i]);
-      }
-    },
-    [&](double share) { execution.progress(normalsShare + (1.0 - normalsShare) * share); });
-  return splats;
-}
-
 } // namespace isopoint
+
+#endif

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointGathering.h"
+#include "vtkIsopointEndSamples.h"
 
 #include "vtkIsopointAllocation.h"
-#include "vtkIsopointInput.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributesFieldList.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -18,19 +13,20 @@
 namespace
 {
 
-using isopoint::Isopoint;
 using isopoint::CoincidentSamples;
+using isopoint::ExtractedIsosurface;
+using isopoint::IsopointEdge;
 
-std::vector<std::uint64_t> idsOf(const std::vector<vtkContouredIsosurface>& surfaces)
+std::vector<std::uint64_t> idsOf(const std::vector<ExtractedIsosurface>& surfaces)
 {
   std::vector<std::uint64_t> ids;
-  for (const vtkContouredIsosurface& contoured : surfaces)
+  for (const ExtractedIsosurface& extracted : surfaces)
   {
-    for (const Isopoint& point : contoured.Surface.points)
+    for (const IsopointEdge& edge : extracted.surface.edges)
     {
-      ids.insert(ids.end(), { point.first, point.second });
+      ids.insert(ids.end(), { edge.first, edge.second });
     }
-    for (const CoincidentSamples& group : contoured.Surface.merged)
+    for (const CoincidentSamples& group : extracted.surface.coincident)
     {
       ids.insert(ids.end(), group.ids.begin(), group.ids.end());
     }
@@ -40,18 +36,18 @@ std::vector<std::uint64_t> idsOf(const std::vector<vtkContouredIsosurface>& surf
   return ids;
 }
 
-void renumber(std::vector<vtkContouredIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
+void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
 {
   const auto renumberOne = [&ids](std::uint64_t& id)
   { id = static_cast<std::uint64_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()); };
-  for (vtkContouredIsosurface& contoured : surfaces)
+  for (ExtractedIsosurface& extracted : surfaces)
   {
-    for (Isopoint& point : contoured.Surface.points)
+    for (IsopointEdge& edge : extracted.surface.edges)
     {
-      renumberOne(point.first);
-      renumberOne(point.second);
+      renumberOne(edge.first);
+      renumberOne(edge.second);
     }
-    for (CoincidentSamples& group : contoured.Surface.merged)
+    for (CoincidentSamples& group : extracted.surface.coincident)
     {
       std::for_each(group.ids.begin(), group.ids.end(), renumberOne);
     }
@@ -85,19 +81,13 @@ std::vector<Stretch> stretchesOf(
   return stretches;
 }
 
-bool allHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)
-{
-  return std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block) { return vtkHasFloatPositions(block.Positions); });
-}
-
 bool allHaveFloatScalars(const std::vector<vtkIsopointBlock>& blocks)
 {
   return std::all_of(blocks.begin(), blocks.end(),
     [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
 }
 
-/// A block's attributes but for the arrays that are not as long as there are samples.
+/// A block's attributes without the arrays that have fewer or more tuples than there are samples.
 vtkSmartPointer<vtkDataSetAttributes> completeAttributes(const vtkIsopointBlock& block)
 {
   auto complete = vtkSmartPointer<vtkPointData>::New();
@@ -147,9 +137,12 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
 
 } // namespace
 
-vtkIsopointGathering::vtkIsopointGathering(
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<vtkContouredIsosurface>& surfaces)
-  : Block(blocks.front())
+vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
+
+vtkIsopointEndSamples::vtkIsopointEndSamples(
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+  : Attributes(blocks.front().Attributes)
+  , Scalars(blocks.front().Scalars)
 {
   if (blocks.size() == 1)
   {
@@ -157,41 +150,28 @@ vtkIsopointGathering::vtkIsopointGathering(
   }
   const std::vector<std::uint64_t> ids = idsOf(surfaces);
   const std::vector<Stretch> stretches = stretchesOf(blocks, ids);
-  const auto count = static_cast<vtkIdType>(ids.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(allHaveFloatPositions(blocks) ? VTK_FLOAT : VTK_DOUBLE);
-  vtkAllocateTuples(points->GetData(), count);
   const auto scalars = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE));
-  scalars->SetName(this->Block.Scalars->GetName());
-  vtkAllocateTuples(scalars, count);
+  scalars->SetName(this->Scalars->GetName());
+  vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
   for (const Stretch& stretch : stretches)
   {
-    const vtkIsopointBlock& block = blocks[stretch.block];
-    const vtkIsopointPositions positions(block.Positions);
+    vtkDataArray* const ofBlock = blocks[stretch.block].Scalars;
     for (std::size_t i = stretch.begin; i < stretch.end; ++i)
     {
       const auto from = static_cast<vtkIdType>(ids[i] - stretch.firstId);
-      const auto to = static_cast<vtkIdType>(i);
-      double position[3];
-      positions.Get(from, position);
-      points->SetPoint(to, position);
-      scalars->SetComponent(to, 0, block.Scalars->GetComponent(from, 0));
+      scalars->SetComponent(static_cast<vtkIdType>(i), 0, ofBlock->GetComponent(from, 0));
     }
   }
   renumber(surfaces, ids);
 
-  vtkNew<vtkPolyData> gathered;
-  gathered->SetPoints(points);
-  vtkPointData* const attributes = gathered->GetPointData();
-  gatherAttributes(blocks, stretches, ids, attributes);
+  this->Copied = vtkSmartPointer<vtkPointData>::New();
+  gatherAttributes(blocks, stretches, ids, this->Copied);
   if (scalars->GetName())
   {
-    attributes->RemoveArray(scalars->GetName());
+    this->Copied->RemoveArray(scalars->GetName());
   }
-  attributes->AddArray(scalars);
-  this->Block = vtkIsopointBlock();
-  this->Block.Positions = gathered;
-  this->Block.Attributes = attributes;
-  this->Block.Scalars = scalars;
+  this->Copied->AddArray(scalars);
+  this->Attributes = this->Copied;
+  this->Scalars = scalars;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef vtkIsopointGeometry_h
-#define vtkIsopointGeometry_h
+#ifndef vtkIsopointComputedArrays_h
+#define vtkIsopointComputedArrays_h
 
-#include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/IsosurfaceExtractor.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -12,15 +12,14 @@
 
 class vtkDataArray;
 class vtkPointData;
-class vtkPoints;
 
 /**
  * The arrays that are computed for the isopoints of all surfaces, one surface after the other.
  */
-class vtkIsopointGeometry
+class vtkIsopointComputedArrays
 {
 public:
-  struct Arrays
+  struct Choice
   {
     bool Normals = false;
     bool Radius = false;
@@ -28,24 +27,27 @@ public:
     bool SplatClip = false;
     bool Gradients = false;
     bool ProjectionOrder = false;
-    bool IsProjected = false; // whether fits moved the points
+    bool IsProjected = false; // whether fits move the points
 
     /// Whether any array is of splats, and whether one is of more than their normals.
     bool NeedsSplats() const { return this->Normals || this->NeedsShapes(); }
     bool NeedsShapes() const { return this->Radius || this->SplatAxes || this->SplatClip; }
   };
 
-  vtkIsopointGeometry(const Arrays& wanted, vtkIdType count);
-
   /**
-   * Writes the next surface's positions to the points, and its arrays. Splats may be empty where
-   * none are needed.
+   * @param choice the arrays that are wanted
+   * @param count of the points of all surfaces
+   * @throws std::bad_alloc
    */
-  void Append(const isopoint::SurfacePoints& surface, const std::vector<isopoint::Splat>& splats,
-    vtkPoints* points);
+  vtkIsopointComputedArrays(const Choice& choice, vtkIdType count);
 
   /**
-   * Points so far around which no fit held.
+   * Writes the arrays of the next surface.
+   */
+  void Append(const isopoint::ExtractedIsosurface& extracted);
+
+  /**
+   * The number of points so far around which no fit held.
    */
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
@@ -56,7 +58,10 @@ public:
   std::vector<std::string> AddTo(vtkPointData* pointData) const;
 
 private:
-  Arrays Wanted;
+  void SetSplat(const isopoint::Splat& splat);
+  void SetFit(const isopoint::LocalFit& fit);
+
+  Choice Wanted;
   vtkIdType Next = 0;
   vtkIdType WithoutFit = 0;
   vtkSmartPointer<vtkDataArray> Normals;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointArrays.h"
+#include "vtkIsopointInterpolatedArrays.h"
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
@@ -19,7 +19,8 @@
 namespace
 {
 
-using isopoint::Isopoint;
+using isopoint::ExtractedIsosurface;
+using isopoint::IsopointEdge;
 using isopoint::Isosurface;
 
 /// A number as an array's type holds it: integers are rounded, and kept within their range, which
@@ -56,15 +57,14 @@ void interpolateComponents(const isopoint::Execution& execution, const Isosurfac
   {
     const isopoint::CoincidentAttribute attribute(
       surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
-    isopoint::forRanges(execution, surface.points.size(), grain,
+    isopoint::forRanges(execution, surface.size(), grain,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          const Isopoint& point = surface.points[i];
+          const IsopointEdge& edge = surface.edges[i];
           write(i, component,
-            isopoint::interpolate(
-              attribute(point.first), attribute(point.second), point.parameter));
+            isopoint::interpolate(attribute(edge.first), attribute(edge.second), edge.parameter));
         }
       });
   }
@@ -116,20 +116,20 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
 void copyNearer(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
   vtkIdType firstTuple)
 {
-  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  for (std::size_t i = 0; i < surface.size(); ++i)
   {
-    const Isopoint& point = surface.points[i];
-    const std::uint64_t nearer = point.parameter < 0.5 ? point.first : point.second;
+    const IsopointEdge& edge = surface.edges[i];
+    const std::uint64_t nearer = edge.parameter < 0.5 ? edge.first : edge.second;
     output->SetTuple(firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(nearer), input);
   }
 }
 
-vtkIdType pointCount(const std::vector<vtkContouredIsosurface>& surfaces)
+vtkIdType pointCount(const std::vector<ExtractedIsosurface>& surfaces)
 {
   std::size_t count = 0;
-  for (const vtkContouredIsosurface& contoured : surfaces)
+  for (const ExtractedIsosurface& extracted : surfaces)
   {
-    count += contoured.Surface.points.size();
+    count += extracted.surface.size();
   }
   return static_cast<vtkIdType>(count);
 }
@@ -165,8 +165,7 @@ bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 } // namespace
 
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
-  vtkDataArray* contoured, const std::vector<vtkContouredIsosurface>& surfaces,
-  vtkPointData* output)
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
 {
   for (int index = 0; index < input->GetNumberOfArrays(); ++index)
   {
@@ -180,9 +179,9 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
     vtkIdType firstTuple = 0;
-    for (const vtkContouredIsosurface& contouredSurface : surfaces)
+    for (const ExtractedIsosurface& extracted : surfaces)
     {
-      const Isosurface& surface = contouredSurface.Surface;
+      const Isosurface& surface = extracted.surface;
       if (isNumeric)
       {
         interpolateArray(
@@ -192,14 +191,14 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       {
         copyNearer(surface, array, result, firstTuple);
       }
-      firstTuple += static_cast<vtkIdType>(surface.points.size());
+      firstTuple += static_cast<vtkIdType>(surface.size());
     }
     addArray(attribute, result, output);
   }
 }
 
-void vtkAddContouredArray(vtkDataArray* contoured,
-  const std::vector<vtkContouredIsosurface>& surfaces, vtkPointData* output)
+void vtkAddContouredArray(
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
 {
   const int type = contoured->GetDataType();
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
@@ -207,11 +206,11 @@ void vtkAddContouredArray(vtkDataArray* contoured,
   result->SetName(contoured->GetName());
   vtkAllocateTuples(result, pointCount(surfaces));
   vtkIdType tuple = 0;
-  for (const vtkContouredIsosurface& surface : surfaces)
+  for (const ExtractedIsosurface& extracted : surfaces)
   {
-    for (std::size_t i = 0; i < surface.Surface.points.size(); ++i)
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      result->SetComponent(tuple++, 0, surface.Isovalue);
+      result->SetComponent(tuple++, 0, extracted.surface.isovalue);
     }
   }
   addArray(vtkDataSetAttributes::SCALARS, result, output);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointGeometry.h"
+#include "vtkIsopointComputedArrays.h"
 
 #include "vtkIsopointAllocation.h"
 
 #include "vtkFloatArray.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace
@@ -30,7 +30,7 @@ vtkSmartPointer<vtkDataArray> newArray(
   return array;
 }
 
-/// A radius within float's range, whatever the coordinates' scale.
+/// A radius within float's range, whatever the scale of the coordinates.
 float asFloatRadius(double radius)
 {
   using Limits = std::numeric_limits<float>;
@@ -48,7 +48,7 @@ void set(vtkDataArray* array, vtkIdType tuple, const double* values)
 
 } // namespace
 
-vtkIsopointGeometry::vtkIsopointGeometry(const Arrays& wanted, vtkIdType count)
+vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& wanted, vtkIdType count)
   : Wanted(wanted)
   , Normals(newArray<vtkFloatArray>(wanted.Normals, "Normals", 3, count))
   , Radius(newArray<vtkFloatArray>(wanted.Radius, "Radius", 1, count))
@@ -61,34 +61,47 @@ vtkIsopointGeometry::vtkIsopointGeometry(const Arrays& wanted, vtkIdType count)
 {
 }
 
-void vtkIsopointGeometry::Append(const isopoint::SurfacePoints& surface,
-  const std::vector<isopoint::Splat>& splats, vtkPoints* points)
+void vtkIsopointComputedArrays::Append(const isopoint::ExtractedIsosurface& extracted)
 {
-  for (std::size_t i = 0; i < surface.positions.size(); ++i, ++this->Next)
+  for (std::size_t i = 0; i < extracted.surface.size(); ++i, ++this->Next)
   {
-    points->SetPoint(this->Next, surface.positions[i].data());
-    if (!splats.empty())
+    if (!extracted.splats.empty())
     {
-      const isopoint::Splat& splat = splats[i];
-      set(this->Normals, this->Next, splat.normal.data());
-      const double radius = asFloatRadius(splat.radius);
-      set(this->Radius, this->Next, &radius);
-      set(this->SplatAxis1, this->Next, splat.axis1.data());
-      set(this->SplatAxis2, this->Next, splat.axis2.data());
-      set(this->SplatClip, this->Next, splat.clip.data());
+      this->SetSplat(extracted.splats[i]);
     }
-    if (!surface.fits.empty())
+    if (!extracted.surface.fits.empty())
     {
-      const isopoint::LocalFit& fit = surface.fits[i];
-      set(this->Gradients, this->Next, fit.gradient.data());
-      this->WithoutFit += fit.order == isopoint::FitOrder::None ? 1 : 0;
-      const double order = this->Wanted.IsProjected ? static_cast<double>(fit.order) : 0.0;
-      set(this->ProjectionOrder, this->Next, &order);
+      this->SetFit(extracted.surface.fits[i]);
     }
   }
 }
 
-std::vector<std::string> vtkIsopointGeometry::AddTo(vtkPointData* pointData) const
+void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
+{
+  const double radius = asFloatRadius(splat.radius);
+  std::array<double, 5> clip{};
+  if (splat.clip)
+  {
+    const isopoint::Vector& inward = splat.clip->inward;
+    clip = { inward[0], inward[1], inward[2], splat.clip->distance, splat.clip->turn };
+  }
+  set(this->Normals, this->Next, splat.normal.data());
+  set(this->Radius, this->Next, &radius);
+  set(this->SplatAxis1, this->Next, splat.axis1.data());
+  set(this->SplatAxis2, this->Next, splat.axis2.data());
+  set(this->SplatClip, this->Next, clip.data());
+}
+
+void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit)
+{
+  const double order =
+    this->Wanted.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
+  this->WithoutFit += fit.order ? 0 : 1;
+  set(this->Gradients, this->Next, fit.gradient.data());
+  set(this->ProjectionOrder, this->Next, &order);
+}
+
+std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const
 {
   std::vector<std::string> replaced;
   for (vtkDataArray* const array :

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_EdgeFinder_h
+#define isopoint_EdgeFinder_h
+
+#include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Neighbors/GapCriterion.h"
+#include "Isopoint/Neighbors/ImplicitNeighborhood.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Tree/LeafValueCache.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Finds the crossing edges of leaves, one leaf at a time. Memory is kept from one leaf to the
+/// next. For one thread.
+template <class TSample>
+class EdgeFinder
+{
+public:
+  using Id = typename TSample::Id;
+
+  EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion,
+    const GapCriterion& gapCriterion)
+    : Context(context)
+    , Tree(context.tree)
+    , Isovalue(context.isovalue)
+    , Criterion(criterion)
+    , Gaps(gapCriterion)
+    , Implicit(context.tree, context.bounds)
+    , Values(context.tree, context.leafMeans)
+  {
+  }
+
+  /// Adds the edges from the leaf's sample to the neighbours that survive the angle criterion there
+  /// and lie on the other side of the isovalue ([RL06] sections 6 and 7), but not across a gap.
+  void find(const Path& leaf)
+  {
+    const double value = this->Values.at(leaf.nodeIndex());
+    const bool isBelow = value < this->Isovalue;
+    this->Neighbors = this->Context.neighborhoods.at(leaf.nodeIndex());
+    if (this->Neighbors.isEmpty())
+    {
+      if (this->Context.listBudget.isSpent() && !this->Criterion.dropsNothing() &&
+          this->Implicit.canSearch())
+      {
+        this->connectToSurvivors(leaf, value);
+        return;
+      }
+      if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
+      {
+        return;
+      }
+      this->listNeighbors(leaf);
+    }
+    this->findCrossings(isBelow);
+    if (this->Crossings.empty())
+    {
+      return;
+    }
+    this->measureNeighbors(this->sampleAt(leaf.nodeIndex()));
+    for (const Crossing& crossing : this->Crossings)
+    {
+      if (this->survives(crossing.neighbor))
+      {
+        this->connect(leaf, value, this->Neighbors[crossing.neighbor], crossing.value);
+      }
+    }
+  }
+
+  const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
+
+  /// Node indices of the leaves with coincident samples among the edges' ends, with repetitions.
+  const std::vector<std::size_t>& coincidentLeaves() const { return this->CoincidentLeaves; }
+
+  /// The neighbourhoods that were searched for, as NeighborhoodCache::add() takes them.
+  std::vector<Id>& records()
+  {
+    this->Records.resize(this->KeptRecords);
+    return this->Records;
+  }
+
+private:
+  struct Crossing
+  {
+    std::size_t neighbor;
+    double value;
+  };
+
+  void listNeighbors(const Path& leaf)
+  {
+    const std::size_t begin = this->KeptRecords;
+    this->Records.resize(begin);
+    this->Records.push_back(static_cast<Id>(leaf.nodeIndex()));
+    this->Records.push_back(0);
+    visitTouching(this->Tree, leaf, maximumDepth,
+      [this](std::size_t nodeIndex)
+      {
+        this->Records.push_back(static_cast<Id>(nodeIndex));
+        return false;
+      });
+    const std::size_t count = this->Records.size() - begin - 2;
+    this->Context.listBudget.spend(count);
+    this->Records[begin + 1] = static_cast<Id>(count);
+    this->Neighbors = { this->Records.data() + begin + 2, count };
+    if (this->Context.cacheBudget.fetch_sub(static_cast<std::int64_t>(count + 2)) >
+        static_cast<std::int64_t>(count + 2))
+    {
+      this->KeptRecords = this->Records.size();
+    }
+  }
+
+  /// What find() does, without a list of the neighbours.
+  void connectToSurvivors(const Path& leaf, double value)
+  {
+    const bool isBelow = value < this->Isovalue;
+    this->Implicit.moveTo(leaf);
+    this->Implicit.forEachSurvivor(
+      this->Criterion,
+      [this, isBelow](const Node<TSample>& node)
+      { return mayHoldOtherSide(node, this->Isovalue, isBelow); },
+      [this, isBelow](std::size_t nodeIndex)
+      { return (this->Values.at(nodeIndex) < this->Isovalue) != isBelow; },
+      [this, &leaf, value](std::size_t nodeIndex)
+      { this->connect(leaf, value, nodeIndex, this->Values.at(nodeIndex)); });
+  }
+
+  const TSample& sampleAt(std::size_t nodeIndex) const
+  {
+    return this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
+  }
+
+  /// Lists the neighbours on the other side of the isovalue.
+  void findCrossings(bool isBelow)
+  {
+    this->Crossings.clear();
+    for (std::size_t i = 0; i < this->Neighbors.count; ++i)
+    {
+      const double value = this->Values.at(this->Neighbors[i]);
+      if ((value < this->Isovalue) != isBelow)
+      {
+        this->Crossings.push_back({ i, value });
+      }
+    }
+  }
+
+  /// Lists the offsets to the neighbours.
+  void measureNeighbors(const TSample& sample)
+  {
+    const Vector center = positionOf(sample);
+    this->Offsets.clear();
+    for (const std::size_t nodeIndex : this->Neighbors)
+    {
+      this->Offsets.push_back(offsetBetween(center, positionOf(this->sampleAt(nodeIndex))));
+    }
+    this->Sorted.clear();
+  }
+
+  /// Of many neighbours, as of a large cell among small ones, the nearest are compared first:
+  /// comparing all pairs would take the square of their number.
+  bool survives(std::size_t neighbor)
+  {
+    constexpr std::size_t few = 64;
+    if (this->Offsets.size() <= few)
+    {
+      return this->Criterion.survives(this->Offsets.data(), this->Offsets.size(), neighbor);
+    }
+    if (this->Sorted.empty())
+    {
+      this->Sorted = this->Offsets;
+      nearestFirst(this->Sorted);
+    }
+    return this->Criterion.survivesAmongSorted(this->Sorted.data(), this->Offsets[neighbor]);
+  }
+
+  /// Adds the edge between a leaf's sample and another one, unless it spans a gap.
+  void connect(const Path& leaf, double value, std::size_t otherLeaf, double otherValue)
+  {
+    const TSample& sample = this->sampleAt(leaf.nodeIndex());
+    const TSample& otherSample = this->sampleAt(otherLeaf);
+    if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
+    {
+      return;
+    }
+    this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
+      { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
+    this->addCoincident(leaf.nodeIndex());
+    this->addCoincident(otherLeaf);
+  }
+
+  struct End
+  {
+    Id id;
+    Id leaf;
+    double value;
+  };
+
+  void addEdge(const End& a, const End& b)
+  {
+    const End& first = a.id < b.id ? a : b;
+    const End& second = a.id < b.id ? b : a;
+    this->Edges.push_back({ first.id, second.id,
+      edgeParameter(first.value, second.value, this->Isovalue), first.leaf, second.leaf });
+  }
+
+  void addCoincident(std::size_t leaf)
+  {
+    if (this->Tree.nodes[leaf].count() > 1 &&
+        (this->CoincidentLeaves.empty() || this->CoincidentLeaves.back() != leaf))
+    {
+      this->CoincidentLeaves.push_back(leaf);
+    }
+  }
+
+  ExtractionContext<TSample>& Context;
+  const SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const AngleCriterion& Criterion;
+  const GapCriterion& Gaps;
+  ImplicitNeighborhood<TSample> Implicit;
+  NodeList<Id> Neighbors;
+  std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf
+  std::size_t KeptRecords = 0;
+  std::vector<Offset> Offsets; // of the neighbours
+  std::vector<Offset> Sorted;  // the same, nearest first, where there are many
+  std::vector<Crossing> Crossings;
+  std::vector<CrossingEdge<TSample>> Edges;
+  std::vector<std::size_t> CoincidentLeaves;
+  LeafValueCache<TSample> Values;
+};
+
+} // namespace isopoint
+
+#endif

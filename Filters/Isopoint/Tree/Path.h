@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Path_h
+#define isopoint_Path_h
+
+#include "Isopoint/Base/Region.h"
+#include "Isopoint/Tree/BinaryIndex.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+namespace isopoint
+{
+
+/// The path from the root to a node, and the node's region.
+struct Path
+{
+  BinaryIndex index = rootIndex;
+  int depth = 0;
+  std::size_t nodeIndices[maximumDepth + 1]; // of the ancestors by depth, the node's own last
+  double planes[maximumDepth];               // that cut the ancestors' regions
+  std::uint8_t axes[maximumDepth];           // of these planes
+  bool uppers[maximumDepth];                 // whether the path goes to their upper sides
+  Region region{};
+
+  std::size_t nodeIndex() const { return this->nodeIndices[this->depth]; }
+};
+
+template <class TSample>
+Path pathToRoot(const SampleTree<TSample>& tree)
+{
+  Path path;
+  path.nodeIndices[0] = SampleTree<TSample>::rootNode;
+  path.region = tree.region;
+  return path;
+}
+
+/// Extends the path to a child of its node. @returns the bound of the region that this replaced
+template <class TSample>
+double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
+{
+  const Node<TSample>& node = tree.nodes[path.nodeIndex()];
+  path.index = upper ? upperChild(path.index) : lowerChild(path.index);
+  assert(path.depth < maximumDepth);
+  path.planes[path.depth] = node.plane;
+  path.axes[path.depth] = node.axis;
+  path.uppers[path.depth] = upper;
+  path.nodeIndices[++path.depth] = tree.child(node, upper);
+  double& bound = upper ? path.region.lower[node.axis] : path.region.upper[node.axis];
+  const double former = bound;
+  bound = node.plane;
+  return former;
+}
+
+/// Shortens the path to the parent; `former` is what descend() returned.
+inline void ascend(Path& path, double former)
+{
+  path.index >>= 1;
+  --path.depth;
+  const bool upper = path.uppers[path.depth];
+  const int axis = path.axes[path.depth];
+  (upper ? path.region.lower[axis] : path.region.upper[axis]) = former;
+}
+
+/// The path to the node with that binary index. O(depth)
+template <class TSample>
+Path pathTo(const SampleTree<TSample>& tree, BinaryIndex index)
+{
+  Path path = pathToRoot(tree);
+  for (int bit = depthOf(index) - 1; bit >= 0; --bit)
+  {
+    descend(tree, path, isUpperChild(index >> bit));
+  }
+  return path;
+}
+
+/// The path to a leaf, found by the position of its samples in the tree's order. O(depth)
+template <class TSample>
+Path pathToLeaf(const SampleTree<TSample>& tree, std::size_t leafNode)
+{
+  Path path = pathToRoot(tree);
+  while (path.nodeIndex() != leafNode)
+  {
+    const Node<TSample>& upper = tree.nodes[tree.nodes[path.nodeIndex()].upperNode()];
+    descend(tree, path, tree.nodes[leafNode].begin >= upper.begin);
+  }
+  return path;
+}
+
+/// Visits the nodes of the depth `nodeDepth` below the path's node, and the unsplit ones above
+/// that depth.
+/// @param visit(path) called with the path to each; `path` itself is restored in the end
+template <class TSample, class Visitor>
+void forEachBelow(const SampleTree<TSample>& tree, Path& path, int nodeDepth, const Visitor& visit)
+{
+  if (path.depth == nodeDepth || !tree.nodes[path.nodeIndex()].isSplit())
+  {
+    visit(path);
+    return;
+  }
+  for (const bool upper : { false, true })
+  {
+    const double former = descend(tree, path, upper);
+    forEachBelow(tree, path, nodeDepth, visit);
+    ascend(path, former);
+  }
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointOutput.h"
+
+#include "vtkIsopointAllocation.h"
+
+#include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUniformGridAMR.h"
+
+#include <cstddef>
+
+vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type)
+{
+  vtkIdType count = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    count += static_cast<vtkIdType>(extracted.surface.size());
+  }
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(type);
+  vtkAllocateTuples(points->GetData(), count);
+  vtkIdType next = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (const isopoint::Vector& position : extracted.surface.positions)
+    {
+      points->SetPoint(next++, position.data());
+    }
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkNew<vtkIdTypeArray> connectivity;
+  vtkAllocateTuples(offsets, count + 1);
+  vtkAllocateTuples(connectivity, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    offsets->SetValue(i, i);
+    connectivity->SetValue(i, i);
+  }
+  offsets->SetValue(count, count);
+  auto vertices = vtkSmartPointer<vtkCellArray>::New();
+  vertices->SetData(offsets, connectivity);
+  return vertices;
+}
+
+vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)
+{
+  return vtkUniformGridAMR::SafeDownCast(input)
+           ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
+           : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+}
+
+void vtkSetIsopointLeaves(vtkDataObject* input,
+  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output)
+{
+  std::size_t leaf = 0;
+  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(input))
+  {
+    for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
+    {
+      vtkNew<vtkMultiBlockDataSet> boxes;
+      boxes->SetNumberOfBlocks(levels->GetNumberOfDataSets(level));
+      vtkMultiBlockDataSet::SafeDownCast(output)->SetBlock(level, boxes);
+      for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
+      {
+        if (levels->GetDataSet(level, box))
+        {
+          boxes->SetBlock(box, surfaces[leaf++]);
+        }
+      }
+    }
+    return;
+  }
+  auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
+  output->CopyStructure(composite);
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    if (surfaces[leaf])
+    {
+      output->SetDataSet(iterator, surfaces[leaf]);
+    }
+    ++leaf;
+  }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointOutput_h
+#define vtkIsopointOutput_h
+
+#include "Isopoint/IsosurfaceExtractor.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <vector>
+
+class vtkCellArray;
+class vtkCompositeDataSet;
+class vtkDataObject;
+class vtkPoints;
+class vtkPolyData;
+
+/**
+ * The positions of the isopoints of all surfaces, one surface after the other.
+ * @param type VTK_FLOAT or VTK_DOUBLE
+ * @throws std::bad_alloc
+ */
+vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type);
+
+/**
+ * One vertex cell for each of so many points.
+ * @throws std::bad_alloc
+ */
+vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
+
+/**
+ * An empty output for a composite input whose blocks are contoured by themselves: of the same type,
+ * but a vtkMultiBlockDataSet of levels for an AMR.
+ */
+vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);
+
+/**
+ * Gives such an output the structure of the input, with surfaces in place of the leaves.
+ * @param surfaces in the order of the leaves' traversal, null for none
+ */
+void vtkSetIsopointLeaves(vtkDataObject* input,
+  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output);
+
+#endif

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prints a hash of the filter's output for each of N random combinations of inputs and options.
+
+    PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 \
+        Testing/Python/fingerprint.py [N] [FIRST]
+
+Two builds whose lists agree give the same bytes: positions, cells and all arrays in their order,
+and the numbers of skipped samples and unprojected points. Each combination depends on its number
+alone. See docs/testing.md.
+"""
+
+import hashlib
+import sys
+
+import numpy as np
+from scatteredisopoints import vtkScatteredIsopointFilter
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet,
+    vtkImageData,
+    vtkMultiBlockDataSet,
+    vtkPolyData,
+    vtkRectilinearGrid,
+)
+
+
+def field(kind, p, random):
+    x, y, z = p[:, 0], p[:, 1], p[:, 2]
+    if kind == "waves":
+        return np.sin(7 * x) + np.cos(5 * y + x) + np.sin(6 * z - 2 * y)
+    if kind == "cube":
+        return 0.6 - np.abs(p - 0.5).max(axis=1)
+    if kind == "sheets":
+        return np.minimum(np.abs(z - 0.45), np.abs(z - 0.55 + 0.1 * x)) - 0.02
+    if kind == "step":
+        return (x + 0.3 * y > 0.6).astype(float) + 0.05 * random.random(len(p))
+    if kind == "noise":
+        return np.sin(7 * x) + 0.3 * random.normal(size=len(p))
+    if kind == "integers":
+        return np.round(4 * (np.sin(7 * x) + np.cos(5 * y)))
+    return np.linalg.norm(p - 0.5, axis=1)
+
+
+def positions(kind, count, random):
+    if kind == "clustered":
+        return 0.5 + (random.random((count, 3)) - 0.5) * 10.0 ** (-3 * random.random((count, 1)))
+    if kind == "lattice":
+        side = max(2, int(round(count ** (1 / 3))))
+        grid = np.arange(side) / (side - 1)
+        return np.array(np.meshgrid(grid, grid, grid)).reshape(3, -1).T.copy()
+    if kind == "coarse":
+        return np.floor(random.random((count, 3)) * 12) / 12
+    if kind == "lines":
+        p = random.random((count, 3))
+        p[:, 1:] = np.floor(p[:, 1:] * 14) / 14
+        return p
+    if kind == "slab":
+        return random.random((count, 3)) * [1.0, 1.0, 0.05]
+    if kind == "coplanar":
+        return random.random((count, 3)) * [1.0, 1.0, 0.0]
+    return random.random((count, 3))
+
+
+def add_arrays(attributes, p, values, types, random):
+    scalars = numpy_to_vtk(np.ascontiguousarray(values.astype(types[1])), deep=True)
+    scalars.SetName("values")
+    attributes.SetScalars(scalars)
+    vectors = numpy_to_vtk(np.ascontiguousarray(np.sin(3 * p)), deep=True)
+    vectors.SetName("vectors")
+    attributes.AddArray(vectors)
+    counts = numpy_to_vtk((1000 * p[:, 0]).astype(np.int32), deep=True)
+    counts.SetName("counts")
+    attributes.AddArray(counts)
+    names = vtkStringArray()
+    names.SetName("names")
+    names.SetNumberOfValues(len(p))
+    for i in range(len(p)):
+        names.SetValue(i, str(i % 97))
+    attributes.AddArray(names)
+    if random.random() < 0.3:
+        ghosts = numpy_to_vtk((random.random(len(p)) < 0.02).astype(np.uint8), deep=True)
+        ghosts.SetName("vtkGhostType")
+        attributes.AddArray(ghosts)
+
+
+def cloud(kinds, types, random, offset=0.0):
+    p = positions(kinds[0], int(random.integers(50, 9000)), random)
+    values = field(kinds[1], p, random)
+    if types[1] != np.int16 and random.random() < 0.2:
+        values[random.random(len(p)) < 0.01] = np.nan
+    p = p * types[2] + types[3] + offset
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(p.astype(types[0])), deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    add_arrays(data.GetPointData(), p, values, types, random)
+    return data
+
+
+def image(kinds, types, random):
+    side = [int(n) for n in random.integers(5, 24, 3)]
+    if random.random() < 0.5:
+        data = vtkImageData()
+        data.SetDimensions(side)
+        data.SetSpacing(*(0.02 + 0.1 * random.random(3)))
+    else:
+        data = vtkRectilinearGrid()
+        data.SetDimensions(side)
+        setters = (data.SetXCoordinates, data.SetYCoordinates, data.SetZCoordinates)
+        for n, set_coordinates in zip(side, setters):
+            set_coordinates(numpy_to_vtk(np.cumsum(0.01 + 0.1 * random.random(n)), deep=True))
+    is_of_cells = random.random() < 0.5
+    count = data.GetNumberOfCells() if is_of_cells else data.GetNumberOfPoints()
+    cells = [n - 1 if is_of_cells else n for n in side]
+    index = np.indices(cells[::-1]).reshape(3, -1)[::-1].T / np.array(side)
+    assert len(index) == count
+    attributes = data.GetCellData() if is_of_cells else data.GetPointData()
+    add_arrays(attributes, index, field(kinds[1], index, random), types, random)
+    return data, is_of_cells
+
+
+def blocks(kinds, types, random):
+    data = vtkMultiBlockDataSet()
+    for i in range(int(random.integers(2, 5))):
+        data.SetBlock(i, cloud(kinds, types, random, 0.7 * i * types[2]))
+    return data
+
+
+def choose(random, *options):
+    return options[int(random.integers(len(options)))]
+
+
+def configured(number):
+    """The filter with the input and the options of a combination."""
+    random = np.random.default_rng(number)
+    kinds = (
+        choose(random, "uniform", "uniform", "clustered", "lattice", "coarse", "lines", "slab",
+               "coplanar"),
+        choose(random, "waves", "distance", "cube", "sheets", "step", "noise", "integers"),
+    )
+    types = (
+        choose(random, np.float32, np.float64),
+        choose(random, np.float32, np.float64, np.int16),
+        choose(random, 1.0, 1.0, 1e-9, 1e12),
+        choose(random, 0.0, 0.0, 1000.0),
+    )
+    isopoints = vtkScatteredIsopointFilter()
+    is_of_cells = False
+    kind = choose(random, "cloud", "cloud", "cloud", "image", "blocks")
+    if kind == "image":
+        data, is_of_cells = image(kinds, types, random)
+    else:
+        data = (blocks if kind == "blocks" else cloud)(kinds, types, random)
+    isopoints.SetInputData(data)
+    isopoints.SetInputArrayToProcess(0, 0, 0, 1 if is_of_cells else 0, "values")
+    for i in range(int(random.integers(1, 4))):
+        isopoints.SetValue(i, choose(random, 0.0, 0.1, 0.3, 0.5, 1.0, float(random.normal())))
+    isopoints.SetAngle(choose(random, 54.7, 54.7, 20.0, 0.0, 90.0))
+    isopoints.SetProjection(choose(random, 3, 3, 4, 4, 2, 1, 0))
+    isopoints.SetNormalMethod(int(random.integers(2)))
+    isopoints.SetGapFactor(choose(random, 0.0, 0.0, 4.0, 1.5))
+    isopoints.SetMinimumSpacing(choose(random, 0.0, 0.0, 0.5, 1.0))
+    isopoints.SetNumberOfNeighbors(int(random.integers(3, 20)))
+    isopoints.SetOutputPointsPrecision(int(random.integers(3)))
+    isopoints.SetContourBlocks(int(random.random() < 0.3))
+    isopoints.SetKeepTree(int(random.random() < 0.8))
+    for name in ("Normals", "Radii", "Scalars", "Gradients", "ProjectionOrders", "SplatAxes",
+                 "SplatClips"):
+        getattr(isopoints, "SetCompute" + name)(int(random.random() < 0.7))
+    return isopoints, random
+
+
+def leaves(data):
+    if data is None or not isinstance(data, vtkCompositeDataSet):
+        return [data]
+    iterator = data.NewIterator()
+    found = []
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        found.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return found
+
+
+def update(isopoints, digest):
+    """Adds the filter's output to a hash; returns the number of points."""
+    isopoints.Update()
+    points = 0
+    digest.update(b"%d %d" % (isopoints.GetNumberOfSkippedSamples(),
+                              isopoints.GetNumberOfUnprojectedPoints()))
+    for leaf in leaves(isopoints.GetOutputDataObject(0)):
+        count = leaf.GetNumberOfPoints() if leaf else 0
+        points += count
+        digest.update(b"leaf %d" % count)
+        if count == 0:
+            continue
+        digest.update(b"verts %d" % leaf.GetNumberOfVerts())
+        digest.update(str(leaf.GetPoints().GetDataType()).encode())
+        digest.update(vtk_to_numpy(leaf.GetPoints().GetData()).tobytes())
+        attributes = leaf.GetPointData()
+        for i in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetAbstractArray(i)
+            digest.update(f"{array.GetName()} {array.GetDataType()} "
+                          f"{attributes.IsArrayAnAttribute(i)}".encode())
+            if isinstance(array, vtkStringArray):
+                digest.update(" ".join(array.GetValue(k) for k in range(count)).encode())
+            else:
+                digest.update(vtk_to_numpy(array).tobytes())
+    return points
+
+
+def main():
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    for number in range(first, first + count):
+        isopoints, random = configured(number)
+        digest = hashlib.sha256()
+        points = update(isopoints, digest)
+        # Another isovalue from the kept tree.
+        isopoints.SetValue(0, float(random.normal()))
+        points += update(isopoints, digest)
+        print(number, points, digest.hexdigest()[:32], flush=True)
+
+
+if __name__ == "__main__":
+    main()
