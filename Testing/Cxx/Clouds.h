@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -281,6 +282,17 @@ inline auto readerOf(const Cloud& cloud)
   };
 }
 
+/// The isosurface of a loaded cloud.
+template <class TExtractor>
+isopoint::Isosurface extractFrom(TExtractor&& extractor, const isopoint::Execution& execution,
+  double isovalue, double angle = isopoint::defaultAngle, double gapFactor = 0.0,
+  std::optional<isopoint::FitRequest> fit = std::nullopt)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { isovalue, angle, gapFactor, fit };
+  return extractor.extract(execution, request).surface;
+}
+
 template <class TCoordinate = double, class TValue = double>
 isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
   std::size_t threads = 1, double gapFactor = 0.0)
@@ -288,7 +300,7 @@ isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
   const isopoint::Execution execution = executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
-  return extractor.extract(execution, isovalue, angle, gapFactor);
+  return extractFrom(extractor, execution, isovalue, angle, gapFactor);
 }
 
 } // namespace clouds

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 /// What the tests of fits share.
@@ -46,38 +47,38 @@ inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, d
   return samples;
 }
 
-inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
-  double isovalue = 0.0, isopoint::DetectionRates tallies = {})
+inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge,
+  std::optional<FitOrder> highest, double isovalue = 0.0, isopoint::DetectionRates rates = {})
 {
   return isopoint::fitAround(
     edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest,
-    tallies);
+    rates);
 }
 
-/// A tally of so many that were asked, of whom some told of what is looked for.
-inline isopoint::DetectionRate tallyOf(int told, int asked)
+/// The rate after so many tests, with a detection at some of them.
+inline isopoint::DetectionRate rateOf(int detected, int tested)
 {
-  isopoint::DetectionRate tally;
-  for (int i = 0; i < asked; ++i)
+  isopoint::DetectionRate rate;
+  for (int i = 0; i < tested; ++i)
   {
-    tally.add(i < told);
+    rate.add(i < detected);
   }
-  return tally;
+  return rate;
 }
 
 /// A vertical edge of length 2 on which linear interpolation is at the origin.
-inline FitEdge upwards(double rise = 2.0)
+inline FitEdge upwards(double increase = 2.0)
 {
-  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, rise, 1.0 };
+  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, increase, 1.0 };
 }
 
 inline isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
-  std::size_t threads = 2, FitOrder highest = FitOrder::Cubic)
+  std::size_t threads = 2, std::optional<FitOrder> highest = FitOrder::Cubic)
 {
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return extractor.extract(execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
+  return clouds::extractFrom(extractor, execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
 }
 
 inline clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
@@ -113,7 +114,7 @@ inline Vector slopeOf(const Field& field, const Vector& p)
 
 /// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
 /// border. There is one sample in each unit of volume.
-inline double meanDistanceFromGyroid(double waveNumber, FitOrder highest)
+inline double meanDistanceFromGyroid(double waveNumber, std::optional<FitOrder> highest)
 {
   const Field field = gyroid(waveNumber);
   constexpr double isovalue = 0.3;

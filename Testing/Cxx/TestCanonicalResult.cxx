@@ -15,7 +15,7 @@ namespace
 {
 
 void expectSamePoints(
-  const std::vector<bruteforce::Point>& expected, const std::vector<isopoint::Isopoint>& found)
+  const std::vector<bruteforce::Point>& expected, const std::vector<isopoint::IsopointEdge>& found)
 {
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -38,7 +38,7 @@ std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isova
     {
       SCOPED_TRACE(testing::Message() << "isovalue " << isovalue << ", angle " << angle);
       const auto expected = bruteforce::extract(cloud, isovalue, angle);
-      expectSamePoints(expected, clouds::extract(cloud, isovalue, angle).points);
+      expectSamePoints(expected, clouds::extract(cloud, isovalue, angle).edges);
       count += expected.size();
     }
   }
@@ -72,7 +72,7 @@ TEST(BruteForce, UniformLargeEnoughForEveryPathOfSplitting)
 {
   const clouds::Cloud cloud = clouds::uniform(12000, 4);
   expectSamePoints(bruteforce::extract(cloud, 0.4, isopoint::defaultAngle),
-    clouds::extract(cloud, 0.4, isopoint::defaultAngle).points);
+    clouds::extract(cloud, 0.4, isopoint::defaultAngle).edges);
 }
 
 TEST(BruteForce, Clustered)
@@ -220,7 +220,7 @@ TEST(BruteForce, EverySampleLayout)
   const clouds::Cloud cloud = roundedToFloat(clouds::uniform(800, 11));
   const auto expected = bruteforce::extract(cloud, 0.25, isopoint::defaultAngle);
   const auto check = [&](const isopoint::Isosurface& found)
-  { expectSamePoints(expected, found.points); };
+  { expectSamePoints(expected, found.edges); };
   check(clouds::extract<float, float>(cloud, 0.25, isopoint::defaultAngle));
   check(clouds::extract<float, double>(cloud, 0.25, isopoint::defaultAngle));
   check(clouds::extract<double, float>(cloud, 0.25, isopoint::defaultAngle));
@@ -253,6 +253,6 @@ TEST(BruteForce, IsovaluesThatCrossNothing)
   for (const double isovalue :
     { 1e9, -1e9, infinity, -infinity, std::numeric_limits<double>::quiet_NaN() })
   {
-    EXPECT_TRUE(clouds::extract(cloud, isovalue, isopoint::defaultAngle).points.empty());
+    EXPECT_TRUE(clouds::extract(cloud, isovalue, isopoint::defaultAngle).edges.empty());
   }
 }

@@ -211,7 +211,7 @@ TEST(Creases, AreNotLookedForWhereTheyAreRare)
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
   const auto orderAfter = [&](int found)
   {
-    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, tallyOf(found, 16) })
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, rateOf(found, 16) })
       .order;
   };
   EXPECT_EQ(orderAfter(2), FitOrder::Crease);

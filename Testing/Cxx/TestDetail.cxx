@@ -17,9 +17,9 @@ using isopoint::DetectionRate;
 
 TEST(Detail, TalliesTellWhetherItIsCommon)
 {
-  EXPECT_FALSE(tallyOf(15, 15).isCommon());
-  EXPECT_FALSE(tallyOf(4, 16).isCommon());
-  EXPECT_TRUE(tallyOf(5, 16).isCommon());
+  EXPECT_FALSE(rateOf(15, 15).isCommon());
+  EXPECT_FALSE(rateOf(4, 16).isCommon());
+  EXPECT_TRUE(rateOf(5, 16).isCommon());
 }
 
 TEST(Detail, FewAreAskedWhereItIsRare)
@@ -33,17 +33,17 @@ TEST(Detail, FewAreAskedWhereItIsRare)
     }
     return count;
   };
-  EXPECT_EQ(asked(tallyOf(0, 15)), 80);
-  EXPECT_EQ(asked(tallyOf(0, 16)), 10);
-  EXPECT_EQ(asked(tallyOf(1, 16)), 10);
-  EXPECT_EQ(asked(tallyOf(2, 16)), 80);
+  EXPECT_EQ(asked(rateOf(0, 15)), 80);
+  EXPECT_EQ(asked(rateOf(0, 16)), 10);
+  EXPECT_EQ(asked(rateOf(1, 16)), 10);
+  EXPECT_EQ(asked(rateOf(2, 16)), 80);
 }
 
 // Residuals are as large as those of noise here, six samples to a wave; but they fall with the
 // degree.
 TEST(Detail, IsToldFromNoiseWhereItIsThinlySampled)
 {
-  const double linear = meanDistanceFromGyroid(1.0, FitOrder::None);
+  const double linear = meanDistanceFromGyroid(1.0, std::nullopt);
   EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Cubic), 0.5 * linear);
   EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
 }
@@ -54,12 +54,12 @@ TEST(Detail, IsNotLookedForAcrossGaps)
   FitEdge edge = upwards();
   EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::Cubic);
   edge.spacing = 0.1;
-  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, FitOrder::None);
+  EXPECT_EQ(fit(samplesOf(field, 80), edge, FitOrder::Cubic).order, std::nullopt);
 }
 
 TEST(Detail, StepsAreNotMadeWorse)
 {
-  const auto meanDistance = [](FitOrder highest)
+  const auto meanDistance = [](std::optional<FitOrder> highest)
   {
     const Field field = [](const Vector& p) { return lengthOf(p) < 12.0 ? 0.0 : 1.0; };
     const isopoint::Isosurface surface =
@@ -71,7 +71,7 @@ TEST(Detail, StepsAreNotMadeWorse)
     }
     return sum / static_cast<double>(surface.fits.size());
   };
-  EXPECT_LT(meanDistance(FitOrder::Cubic), meanDistance(FitOrder::None));
+  EXPECT_LT(meanDistance(FitOrder::Cubic), meanDistance(std::nullopt));
 }
 
 TEST(Detail, NoiseMovesFewPoints)
@@ -82,7 +82,7 @@ TEST(Detail, NoiseMovesFewPoints)
   std::size_t moved = 0;
   for (const LocalFit& at : surface.fits)
   {
-    moved += at.order != FitOrder::None ? 1 : 0;
+    moved += at.order != std::nullopt ? 1 : 0;
   }
   ASSERT_GT(surface.fits.size(), 2000u);
   EXPECT_LT(moved, surface.fits.size() / 50);
@@ -92,25 +92,25 @@ TEST(Detail, NoiseMovesFewPoints)
 TEST(Detail, IsNotLookedForWhereItIsRare)
 {
   const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
-  const auto orderAfter = [&](const DetectionRate& tally) {
-    return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
+  const auto orderAfter = [&](const DetectionRate& rate) {
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Cubic, 0.0, { rate, {} }).order;
   };
-  EXPECT_EQ(orderAfter(tallyOf(2, 16)), FitOrder::Cubic);
-  EXPECT_EQ(orderAfter(tallyOf(1, 16)), FitOrder::None);
+  EXPECT_EQ(orderAfter(rateOf(2, 16)), FitOrder::Cubic);
+  EXPECT_EQ(orderAfter(rateOf(1, 16)), std::nullopt);
 }
 
 // Samples that tell of a bend, but not of more.
 TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
 {
   const Field field = [](const Vector& p) { return p[2] + 0.2 * p[0] * p[0]; };
-  const auto orderAfter = [&](const DetectionRate& tally) {
-    return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, { tally, {} }).order;
+  const auto orderAfter = [&](const DetectionRate& rate) {
+    return fit(samplesOf(field, 80, 0.5), upwards(), FitOrder::Cubic, 0.0, { rate, {} }).order;
   };
-  EXPECT_EQ(orderAfter(tallyOf(4, 16)), FitOrder::None);
-  EXPECT_EQ(orderAfter(tallyOf(8, 16)), FitOrder::Cubic);
+  EXPECT_EQ(orderAfter(rateOf(4, 16)), std::nullopt);
+  EXPECT_EQ(orderAfter(rateOf(8, 16)), FitOrder::Cubic);
 }
 
-// Isopoints share tallies; ranges of threads must not cut these.
+// Isopoints share rates; ranges of threads must not cut these.
 TEST(Detail, DoesNotDependOnThreads)
 {
   clouds::Random random(8);
@@ -146,23 +146,23 @@ TEST(Detail, DoesNotDependOnTheOrderOfSamples)
   const auto ordersOf = [](const clouds::Cloud& samples, bool isReversed)
   {
     const isopoint::Isosurface surface = extractFitted(samples, 8.0, true);
-    std::map<Ends, FitOrder> orders;
-    for (std::size_t i = 0; i < surface.points.size(); ++i)
+    std::map<Ends, std::optional<FitOrder>> orders;
+    for (std::size_t i = 0; i < surface.edges.size(); ++i)
     {
-      const Ends ends{ surface.points[i].first, surface.points[i].second };
+      const Ends ends{ surface.edges[i].first, surface.edges[i].second };
       const std::uint64_t last = samples.size() - 1;
       orders[isReversed ? Ends{ last - ends.second, last - ends.first } : ends] =
         surface.fits[i].order;
     }
     return orders;
   };
-  const std::map<Ends, FitOrder> expected = ordersOf(cloud, false);
-  const auto countOf = [&expected](FitOrder order)
+  const std::map<Ends, std::optional<FitOrder>> expected = ordersOf(cloud, false);
+  const auto countOf = [&expected](std::optional<FitOrder> order)
   {
     return std::count_if(expected.begin(), expected.end(),
       [order](const auto& point) { return point.second == order; });
   };
-  EXPECT_GT(countOf(FitOrder::None), 200);
+  EXPECT_GT(countOf(std::nullopt), 200);
   EXPECT_GT(countOf(FitOrder::Cubic), 200);
   EXPECT_TRUE(ordersOf(reversed, true) == expected);
 }

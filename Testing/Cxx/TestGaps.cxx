@@ -43,12 +43,12 @@ bool isInSlab(const double* p)
 void expectTheDefinition(const clouds::Cloud& cloud, double value, double angle)
 {
   std::size_t kept = bruteforce::extract(cloud, value, angle).size();
-  EXPECT_EQ(clouds::extract(cloud, value, angle).points.size(), kept);
+  EXPECT_EQ(clouds::extract(cloud, value, angle).edges.size(), kept);
   for (const double factor : { 5.0, 2.0, 1.3, 1.0, 0.7, 0.1 })
   {
     SCOPED_TRACE(testing::Message() << "factor " << factor << ", angle " << angle);
     const auto expected = bruteforce::extract(cloud, value, angle, factor);
-    const auto found = clouds::extract(cloud, value, angle, 2, factor).points;
+    const auto found = clouds::extract(cloud, value, angle, 2, factor).edges;
     ASSERT_EQ(expected.size(), found.size());
     for (std::size_t i = 0; i < expected.size(); ++i)
     {
@@ -71,8 +71,8 @@ struct Count
 Count countAcross(const clouds::Cloud& cloud, double factor)
 {
   Count count;
-  for (const isopoint::Isopoint& point :
-    clouds::extract(cloud, isovalue, defaultAngle, 2, factor).points)
+  for (const isopoint::IsopointEdge& point :
+    clouds::extract(cloud, isovalue, defaultAngle, 2, factor).edges)
   {
     const bool ahead = cloud.positions[3 * point.first] > 0.5;
     count.across += ahead != (cloud.positions[3 * point.second] > 0.5) ? 1 : 0;
@@ -118,10 +118,10 @@ TEST(Gaps, NothingOrHardlyAnyGoesWhereThereIsNone)
 {
   const auto keptShare = [](const clouds::Cloud& cloud, double value)
   {
-    const std::size_t all = clouds::extract(cloud, value, defaultAngle).points.size();
+    const std::size_t all = clouds::extract(cloud, value, defaultAngle).edges.size();
     EXPECT_GT(all, 100u);
     return static_cast<double>(
-             clouds::extract(cloud, value, defaultAngle, 1, sensibleFactor).points.size()) /
+             clouds::extract(cloud, value, defaultAngle, 1, sensibleFactor).edges.size()) /
            static_cast<double>(all);
   };
   EXPECT_EQ(keptShare(clouds::uniform(20000, 28), isovalue), 1.0);
@@ -170,8 +170,8 @@ TEST(Gaps, NothingGoesWhereCoarseCellsMeetFineOnes)
   };
   fill(0.0, 0.5, 8);
   fill(0.5, 1.0, 32);
-  EXPECT_EQ(clouds::extract(cloud, isovalue, defaultAngle, 1, sensibleFactor).points.size(),
-    clouds::extract(cloud, isovalue, defaultAngle).points.size());
+  EXPECT_EQ(clouds::extract(cloud, isovalue, defaultAngle, 1, sensibleFactor).edges.size(),
+    clouds::extract(cloud, isovalue, defaultAngle).edges.size());
 }
 
 // Both ends must agree: what is far from everything is a sample of its own right.
@@ -181,9 +181,9 @@ TEST(Gaps, ASampleInTheOpenKeepsItsEdges)
   cloud.add(8.0, 0.5, 0.5, 100.0);
   const auto edgesOf = [&cloud](double factor)
   {
-    const auto points = clouds::extract(cloud, 50.0, defaultAngle, 1, factor).points;
+    const auto points = clouds::extract(cloud, 50.0, defaultAngle, 1, factor).edges;
     return std::count_if(points.begin(), points.end(),
-      [&cloud](const isopoint::Isopoint& point) { return point.second == cloud.size() - 1; });
+      [&cloud](const isopoint::IsopointEdge& point) { return point.second == cloud.size() - 1; });
   };
   EXPECT_GT(edgesOf(0.0), 0);
   EXPECT_EQ(edgesOf(sensibleFactor), edgesOf(0.0));

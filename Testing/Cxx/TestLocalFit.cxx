@@ -147,7 +147,7 @@ TEST(LocalFit, StaysWhereSamplesDoNotTell)
       samplesOf([](const Vector& p) { return 1e308 * p[2]; }, 30) })
   {
     const LocalFit found = fit(samples, upwards(), FitOrder::Quadratic);
-    EXPECT_EQ(found.order, FitOrder::None);
+    EXPECT_EQ(found.order, std::nullopt);
     EXPECT_EQ(found.position, (Vector{ 0.0, 0.0, 0.0 }));
     if (!found.isGradientFitted)
     {
@@ -163,7 +163,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
   {
     bool asked = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
-    isopoint::DetectionRates tallies;
+    isopoint::DetectionRates rates;
     isopoint::fitAround(
       upwards(), 0.0, samples,
       [&]() -> const std::vector<FitSample>&
@@ -171,7 +171,7 @@ TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
         asked = true;
         return samples;
       },
-      highest, tallies);
+      highest, rates);
     return asked;
   };
   const Field plane = [](const Vector& p) { return p[2]; };
@@ -188,7 +188,7 @@ TEST(LocalFit, MovesASpheresPointsOntoIt)
 {
   const Field field = [](const Vector& p) { return lengthOf(p); };
   const isopoint::Isosurface surface = extractFitted(cloudOf(field, 100000, 46.4), 16.0, true);
-  ASSERT_GT(surface.points.size(), 3000u);
+  ASSERT_GT(surface.edges.size(), 3000u);
   for (std::size_t i = 0; i < surface.fits.size(); ++i)
   {
     const LocalFit& at = surface.fits[i];
@@ -200,7 +200,7 @@ TEST(LocalFit, MovesASpheresPointsOntoIt)
 // A field too wavy for degree two alone.
 TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
 {
-  const double linear = meanDistanceFromGyroid(0.2, FitOrder::None);
+  const double linear = meanDistanceFromGyroid(0.2, std::nullopt);
   const double quadratic = meanDistanceFromGyroid(0.2, FitOrder::Quadratic);
   const double cubic = meanDistanceFromGyroid(0.2, FitOrder::Cubic);
   EXPECT_LT(quadratic, 0.5 * linear);
@@ -233,19 +233,19 @@ TEST(LocalFit, LeavesTheExtractionAsItIs)
   const isopoint::Isosurface plain = clouds::extract(cloud, 0.5, 54.7);
   const isopoint::Isosurface fitted = extractFitted(cloud, 0.5, false);
   const isopoint::Isosurface moved = extractFitted(cloud, 0.5, true);
-  ASSERT_EQ(fitted.points, plain.points);
-  ASSERT_EQ(moved.points, plain.points);
+  ASSERT_EQ(fitted.edges, plain.edges);
+  ASSERT_EQ(moved.edges, plain.edges);
   std::size_t held = 0;
-  for (std::size_t i = 0; i < plain.points.size(); ++i)
+  for (std::size_t i = 0; i < plain.edges.size(); ++i)
   {
-    ASSERT_EQ(fitted.points[i].parameter, plain.points[i].parameter);
-    held += moved.fits[i].order != FitOrder::None ? 1 : 0;
+    ASSERT_EQ(fitted.edges[i].parameter, plain.edges[i].parameter);
+    held += moved.fits[i].order != std::nullopt ? 1 : 0;
     const double edge = lengthOf(difference(moved.fits[i].position, fitted.fits[i].position));
-    ASSERT_TRUE(moved.fits[i].order != FitOrder::None || edge == 0.0);
-    ASSERT_GE(moved.points[i].parameter, 0.0);
-    ASSERT_LE(moved.points[i].parameter, 1.0);
+    ASSERT_TRUE(moved.fits[i].order != std::nullopt || edge == 0.0);
+    ASSERT_GE(moved.edges[i].parameter, 0.0);
+    ASSERT_LE(moved.edges[i].parameter, 1.0);
   }
-  EXPECT_GT(held, plain.points.size() * 9 / 10);
+  EXPECT_GT(held, plain.edges.size() * 9 / 10);
 }
 
 // Neither threads nor what was extracted before: neighbourhoods are complete in any case.
@@ -256,9 +256,9 @@ TEST(LocalFit, IsTheSameForAnyThreadsAndAnyTree)
   isopoint::IsosurfaceExtractor extractor;
   const isopoint::Execution execution = clouds::executionOn(3);
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  extractor.extract(execution, 2.0, 54.7);
+  clouds::extractFrom(extractor, execution, 2.0, 54.7);
   const isopoint::Isosurface later =
-    extractor.extract(execution, 5.0, 54.7, 0.0, FitRequest{ FitOrder::Cubic, true });
+    clouds::extractFrom(extractor, execution, 5.0, 54.7, 0.0, FitRequest{ FitOrder::Cubic, true });
   ASSERT_EQ(later.fits.size(), expected.fits.size());
   for (std::size_t i = 0; i < later.fits.size(); ++i)
   {

@@ -18,15 +18,15 @@ using isopoint::IsosurfaceExtractor;
 
 void expectSameBytes(const Isosurface& expected, const Isosurface& found)
 {
-  ASSERT_EQ(expected.points.size(), found.points.size());
-  for (std::size_t i = 0; i < expected.points.size(); ++i)
+  ASSERT_EQ(expected.edges.size(), found.edges.size());
+  for (std::size_t i = 0; i < expected.edges.size(); ++i)
   {
-    ASSERT_EQ(0, std::memcmp(&expected.points[i], &found.points[i], sizeof(isopoint::Isopoint)));
+    ASSERT_EQ(0, std::memcmp(&expected.edges[i], &found.edges[i], sizeof(isopoint::IsopointEdge)));
   }
-  ASSERT_EQ(expected.merged.size(), found.merged.size());
-  for (std::size_t i = 0; i < expected.merged.size(); ++i)
+  ASSERT_EQ(expected.coincident.size(), found.coincident.size());
+  for (std::size_t i = 0; i < expected.coincident.size(); ++i)
   {
-    EXPECT_EQ(expected.merged[i].ids, found.merged[i].ids);
+    EXPECT_EQ(expected.coincident[i].ids, found.coincident[i].ids);
   }
 }
 
@@ -48,7 +48,7 @@ TEST(SameResult, ForAnyNumberOfThreads)
          clouds::coincident(clouds::clustered(manySamples, 2), 0.1), clouds::lattice(70, 71, 72) })
   {
     const Isosurface expected = clouds::extract(cloud, 0.2, isopoint::defaultAngle, 1);
-    EXPECT_FALSE(expected.points.empty());
+    EXPECT_FALSE(expected.edges.empty());
     for (const std::size_t threads : { 2, 4, 7 })
     {
       SCOPED_TRACE(threads);
@@ -68,7 +68,7 @@ TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
     {
       IsosurfaceExtractor fresh = loaded(cloud);
       expectSameBytes(
-        fresh.extract(execution, isovalue, angle), kept.extract(execution, isovalue, angle));
+        clouds::extractFrom(fresh, execution, isovalue, angle), clouds::extractFrom(kept, execution, isovalue, angle));
     }
   }
 }
@@ -86,11 +86,11 @@ TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
     {
       const isopoint::FitRequest request = isovalue < 0.0 ? quadratic : crease;
       const Isosurface expected =
-        loaded(cloud).extract(clouds::executionOn(1), isovalue, 30.0, 0.0, request);
-      const Isosurface found = kept.extract(clouds::executionOn(3), isovalue, 30.0, 0.0, request);
+        clouds::extractFrom(loaded(cloud), clouds::executionOn(1), isovalue, 30.0, 0.0, request);
+      const Isosurface found = clouds::extractFrom(kept, clouds::executionOn(3), isovalue, 30.0, 0.0, request);
       expectSameBytes(expected, found);
-      ASSERT_EQ(expected.fits.size(), expected.points.size());
-      ASSERT_EQ(found.fits.size(), expected.points.size());
+      ASSERT_EQ(expected.fits.size(), expected.edges.size());
+      ASSERT_EQ(found.fits.size(), expected.edges.size());
       ASSERT_GT(found.fits.size(), 100u);
       for (std::size_t i = 0; i < found.fits.size(); ++i)
       {
@@ -108,7 +108,7 @@ TEST(SameResult, ForNewValuesAtKeptPositions)
   clouds::Cloud cloud = clouds::coincident(clouds::uniform(30000, 4), 0.05);
   const isopoint::Execution execution = clouds::executionOn(2);
   IsosurfaceExtractor kept = loaded(cloud);
-  kept.extract(execution, 0.5, 54.7);
+  clouds::extractFrom(kept, execution, 0.5, 54.7);
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
     cloud.values[i] = cloud.positions[3 * i] - cloud.positions[3 * i + 1];
@@ -116,9 +116,9 @@ TEST(SameResult, ForNewValuesAtKeptPositions)
   const auto read = clouds::readerOf(cloud);
   ASSERT_TRUE((kept.replaceValues<float, float>(execution, cloud.size(), read)));
   IsosurfaceExtractor fresh = loaded(cloud);
-  const Isosurface expected = fresh.extract(execution, 0.1, 54.7);
-  EXPECT_FALSE(expected.points.empty());
-  expectSameBytes(expected, kept.extract(execution, 0.1, 54.7));
+  const Isosurface expected = clouds::extractFrom(fresh, execution, 0.1, 54.7);
+  EXPECT_FALSE(expected.edges.empty());
+  expectSameBytes(expected, clouds::extractFrom(kept, execution, 0.1, 54.7));
 }
 
 TEST(SameResult, OtherPositionsAreNotTakenForTheSame)
@@ -163,13 +163,13 @@ TEST(SameResult, WithSamplesLeftOut)
   IsosurfaceExtractor extractor = loaded(holey, 3);
   EXPECT_EQ(extractor.skippedCount(), cloud.size() - remaining.size());
   const isopoint::Execution execution;
-  Isosurface expected = loaded(remaining).extract(execution, 0.5, 54.7);
-  for (isopoint::Isopoint& point : expected.points)
+  Isosurface expected = clouds::extractFrom(loaded(remaining), execution, 0.5, 54.7);
+  for (isopoint::IsopointEdge& point : expected.edges)
   {
     point.first = ids[point.first];
     point.second = ids[point.second];
   }
-  expectSameBytes(expected, extractor.extract(execution, 0.5, 54.7));
+  expectSameBytes(expected, clouds::extractFrom(extractor, execution, 0.5, 54.7));
 }
 
 // Deeper than the 64 levels that a machine word could name.
@@ -187,7 +187,7 @@ TEST(SameResult, ForVeryDeepTrees)
   }
   EXPECT_GT(deepest, 64);
   const Isosurface alone = clouds::extract(cloud, 3.5, 54.7, 1);
-  EXPECT_FALSE(alone.points.empty());
+  EXPECT_FALSE(alone.edges.empty());
   expectSameBytes(alone, clouds::extract(cloud, 3.5, 54.7, 3));
 }
 
@@ -195,14 +195,14 @@ TEST(SameResult, AfterAnAbort)
 {
   const clouds::Cloud cloud = clouds::uniform(manySamples, 7);
   IsosurfaceExtractor fresh = loaded(cloud);
-  const Isosurface expected = fresh.extract(clouds::executionOn(1), 0.5, 54.7);
+  const Isosurface expected = clouds::extractFrom(fresh, clouds::executionOn(1), 0.5, 54.7);
   for (int patience = 0; patience < 12; ++patience)
   {
     isopoint::Execution impatient = clouds::executionOn(2);
     int asked = 0;
     impatient.aborted = [&]() { return asked++ >= patience; };
     IsosurfaceExtractor extractor = loaded(cloud);
-    EXPECT_THROW(extractor.extract(impatient, 0.5, 54.7), isopoint::Aborted);
-    expectSameBytes(expected, extractor.extract(clouds::executionOn(2), 0.5, 54.7));
+    EXPECT_THROW(clouds::extractFrom(extractor, impatient, 0.5, 54.7), isopoint::Aborted);
+    expectSameBytes(expected, clouds::extractFrom(extractor, clouds::executionOn(2), 0.5, 54.7));
   }
 }

@@ -3,6 +3,9 @@
 
 #include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Extraction/NarrowBand.h"
+#include "Isopoint/Neighbors/SampleExtent.h"
+#include "Isopoint/Tree/Loading.h"
 
 #include <gtest/gtest.h>
 
@@ -11,17 +14,17 @@
 #include <vector>
 
 using isopoint::ExtentQuery;
-using isopoint::IsosurfaceExtractor;
 using isopoint::Vector;
 
 namespace
 {
 
-IsosurfaceExtractor loaded(const clouds::Cloud& cloud)
+using Tree = isopoint::SampleTree<isopoint::WideSample>;
+
+Tree loaded(const clouds::Cloud& cloud)
 {
-  IsosurfaceExtractor extractor;
-  extractor.load<double, double>(clouds::executionOn(2), cloud.size(), clouds::readerOf(cloud));
-  return extractor;
+  return isopoint::loadSamples<isopoint::WideSample>(
+    clouds::executionOn(2), cloud.size(), clouds::readerOf(cloud));
 }
 
 /// The definition, written down as plainly as possible.
@@ -73,17 +76,17 @@ TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
   for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
          clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
   {
-    IsosurfaceExtractor extractor = loaded(cloud);
+    Tree tree = loaded(cloud);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);
     // No isosurface refines the tree, then one, then one elsewhere.
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
-      extractor.extract(clouds::executionOn(2), isovalue, 54.7);
-      const isopoint::SampleExtents extents = extractor.sampleExtents();
+      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, clouds::executionOn(2)).refine();
+      const isopoint::SampleExtents extents(tree);
       for (const ExtentQuery& query : queries)
       {
         const double expected = extentByBruteForce(cloud, query);
-        EXPECT_DOUBLE_EQ(extents(query), expected);
+        EXPECT_DOUBLE_EQ(extents.at(query), expected);
         cutShort += expected > 0.0 && expected < query.enough ? 1 : 0;
       }
     }
@@ -105,10 +108,11 @@ TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
       }
     }
   }
-  const IsosurfaceExtractor extractor = loaded(cloud);
+  const Tree tree = loaded(cloud);
   const auto extentTowards = [&](const Vector& direction)
   {
-    return extractor.sampleExtents()({ { 0.0, 0.0, 0.5 }, { 0.0, 0.0, 1.0 }, direction, 3.5, 5.0 });
+    return isopoint::SampleExtents(tree).at(
+      { { 0.0, 0.0, 0.5 }, { 0.0, 0.0, 1.0 }, direction, 3.5, 5.0 });
   };
   EXPECT_DOUBLE_EQ(extentTowards({ 1.0, 0.0, 0.0 }), 1.0);
   EXPECT_DOUBLE_EQ(extentTowards({ -1.0, 0.0, 0.0 }), 3.5);
@@ -116,7 +120,8 @@ TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
 
 TEST(SampleExtent, OfNoSamplesIsNone)
 {
-  EXPECT_EQ(IsosurfaceExtractor().sampleExtents()(
+  const Tree none;
+  EXPECT_EQ(isopoint::SampleExtents(none).at(
               { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 }),
     0.0);
 }

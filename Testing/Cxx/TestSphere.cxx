@@ -37,7 +37,7 @@ clouds::Cloud sphereCloud()
 double largestDeviation(const clouds::Cloud& cloud, const isopoint::Isosurface& surface)
 {
   double largest = 0.0;
-  for (const isopoint::Isopoint& point : surface.points)
+  for (const isopoint::IsopointEdge& point : surface.edges)
   {
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -64,8 +64,8 @@ TEST(Sphere, DeviatesNoMoreThanThePaperSays)
   {
     const isopoint::Isosurface surface = clouds::extract(cloud, radius, row.angle, 2);
     EXPECT_LE(largestDeviation(cloud, surface), coarser * row.deviation) << row.angle;
-    EXPECT_LT(surface.points.size(), fewer) << row.angle;
-    fewer = surface.points.size();
+    EXPECT_LT(surface.edges.size(), fewer) << row.angle;
+    fewer = surface.edges.size();
   }
   EXPECT_GT(fewer, 3000u);
 }

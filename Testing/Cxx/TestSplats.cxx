@@ -15,14 +15,42 @@ using isopoint::lengthOf;
 using isopoint::Splat;
 using isopoint::Vector;
 
-std::vector<Splat> splatsOf(const isopoint::SurfacePoints& points)
+/// The points of a surface, one entry each.
+struct Points
 {
-  return isopoint::computeSplats(clouds::executionOn(2), points, isopoint::SplatOptions());
+  std::vector<Vector> positions;
+  std::vector<Vector> decreasingEdges;
+  std::vector<isopoint::LocalFit> fits;
+};
+
+/// Samples that end at the plane x = 0.
+struct HalfSpace
+{
+  double at(const isopoint::ExtentQuery& query) const
+  {
+    const double along = query.direction[0];
+    return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
+  }
+};
+
+/// a, b, c, d, e as in the array SplatClip.
+std::array<double, 5> clipOf(const Splat& splat)
+{
+  return splat.clip ? std::array<double, 5>{ splat.clip->inward[0], splat.clip->inward[1],
+                        splat.clip->inward[2], splat.clip->distance, splat.clip->turn }
+                    : std::array<double, 5>{};
+}
+
+template <class TExtents = HalfSpace>
+std::vector<Splat> splatsOf(const Points& points, const TExtents* extents = nullptr)
+{
+  return isopoint::computeSplats(clouds::executionOn(2),
+    { points.positions, points.decreasingEdges, points.fits }, extents, isopoint::SplatOptions());
 }
 
 std::vector<Splat> splatsOf(const std::vector<Vector>& positions, const std::vector<Vector>& edges)
 {
-  isopoint::SurfacePoints points;
+  Points points;
   points.positions = positions;
   points.decreasingEdges = edges;
   return splatsOf(points);
@@ -57,7 +85,8 @@ struct Sphere
 };
 
 /// A fit among samples of a spacing.
-isopoint::LocalFit fitAmong(double spacing, isopoint::FitOrder order, const Vector& gradient)
+isopoint::LocalFit fitAmong(
+  double spacing, std::optional<isopoint::FitOrder> order, const Vector& gradient)
 {
   isopoint::LocalFit fit{};
   fit.order = order;
@@ -68,7 +97,7 @@ isopoint::LocalFit fitAmong(double spacing, isopoint::FitOrder order, const Vect
 }
 
 /// Adds a point with a fit that held, among samples of spacing 1.
-void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint::FitOrder order,
+void addFitted(Points& points, const Vector& position, std::optional<isopoint::FitOrder> order,
   const Vector& gradient)
 {
   points.positions.push_back(position);
@@ -80,7 +109,7 @@ void addFitted(isopoint::SurfacePoints& points, const Vector& position, isopoint
 /// @param along the axis
 /// @param off the axis, at most 0
 /// @param tilt added to the fit's gradient
-void addOnWedge(isopoint::SurfacePoints& points, bool top, double along, double off,
+void addOnWedge(Points& points, bool top, double along, double off,
   isopoint::FitOrder order, const Vector& tilt)
 {
   addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off }, order,
@@ -88,7 +117,7 @@ void addOnWedge(isopoint::SurfacePoints& points, bool top, double along, double 
 }
 
 /// Turns the field to its negative.
-void negate(isopoint::SurfacePoints& points)
+void negate(Points& points)
 {
   for (std::size_t i = 0; i < points.positions.size(); ++i)
   {
@@ -144,7 +173,7 @@ TEST(Splats, AxesSpanTheTangentPlane)
     ASSERT_NEAR(dot(splat.axis1, splat.axis2), 0.0, 1e-12);
     ASSERT_NEAR(dot(cross(splat.axis1, splat.axis2), splat.normal),
       lengthOf(splat.axis1) * lengthOf(splat.axis2), 1e-12);
-    ASSERT_EQ(splat.clip, (std::array<double, 5>{}));
+    ASSERT_FALSE(splat.clip);
   }
 }
 
@@ -159,7 +188,7 @@ TEST(Splats, RowsAreJoined)
       positions.push_back({ 0.1 * i, static_cast<double>(row), 0.0 });
     }
   }
-  isopoint::SurfacePoints points;
+  Points points;
   points.positions = positions;
   points.decreasingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
   points.fits.assign(
@@ -185,7 +214,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
   for (const std::size_t count : { 8, 14, 40 })
   {
     const Sphere sphere(count, 1.0, 0.0);
-    isopoint::SurfacePoints points;
+    Points points;
     points.positions = sphere.positions;
     points.decreasingEdges = sphere.edges;
     for (const Vector& p : sphere.positions)
@@ -205,18 +234,15 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
 TEST(Splats, EndSoonOutOfTheSamples)
 {
   const Vector gradient{ 0.0, 0.0, -1.0 };
-  isopoint::SurfacePoints points;
-  points.extents = [](const isopoint::ExtentQuery& query) { // which end at the plane x = 0
-    const double along = query.direction[0];
-    return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
-  };
+  Points points;
+  const HalfSpace samples;
   clouds::Random random(5);
   for (int i = 0; i < 1000; ++i)
   {
     addFitted(
       points, { -10.0 * random(), 40.0 * random(), 0.0 }, isopoint::FitOrder::Quadratic, gradient);
   }
-  const std::vector<Splat> splats = splatsOf(points);
+  const std::vector<Splat> splats = splatsOf(points, &samples);
   double farthest = 0.0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
@@ -231,7 +257,7 @@ TEST(Splats, EndSoonOutOfTheSamples)
 // though a fit here and there is off.
 TEST(Splats, AreClippedAtACrease)
 {
-  isopoint::SurfacePoints points;
+  Points points;
   clouds::Random random(4);
   constexpr int count = 2000;
   const auto isOff = [](int i) { return i % 101 == 0; };
@@ -256,12 +282,12 @@ TEST(Splats, AreClippedAtACrease)
     const std::array<double, 5> expected =
       top ? std::array<double, 5>{ -1.0, 0.0, 0.0, toCrease, -1.0 }
           : std::array<double, 5>{ 0.0, 0.0, -1.0, toCrease, -1.0 };
-    if (splats[i].clip != (std::array<double, 5>{}))
+    if (splats[i].clip)
     {
       ++clipped;
       for (int k = 0; k < 5; ++k)
       {
-        ASSERT_NEAR(splats[i].clip[k], expected[k], 1e-12);
+        ASSERT_NEAR(clipOf(splats[i])[k], expected[k], 1e-12);
       }
     }
     else
@@ -275,9 +301,9 @@ TEST(Splats, AreClippedAtACrease)
 }
 
 /// Two planes at a right angle that meet at the y axis, with fits of an order on either.
-isopoint::SurfacePoints wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)
+Points wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)
 {
-  isopoint::SurfacePoints points;
+  Points points;
   clouds::Random random(7);
   for (int i = 0; i < 800; ++i)
   {
@@ -295,14 +321,14 @@ TEST(Splats, CoverAFaceUpToItsCrease)
   using isopoint::FitOrder;
   for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
-    const isopoint::SurfacePoints points = wedge(order, FitOrder::Crease);
+    const Points points = wedge(order, FitOrder::Crease);
     const std::vector<Splat> splats = splatsOf(points);
     const auto isCoveredBy = [&](const Vector& place, std::size_t i)
     {
       const Vector offset = difference(place, points.positions[i]);
       const auto alongAxis = [&](const Vector& axis)
       { return dot(offset, axis) / dot(axis, axis); };
-      const std::array<double, 5>& clip = splats[i].clip;
+      const std::array<double, 5> clip = clipOf(splats[i]);
       return std::hypot(alongAxis(splats[i].axis1), alongAxis(splats[i].axis2)) <= 1.0 &&
              dot({ clip[0], clip[1], clip[2] }, offset) + clip[3] >= -1e-9;
     };
@@ -325,7 +351,7 @@ TEST(Splats, OfPointsOnACreaseKeepTheirSide)
 {
   for (const double sign : { 1.0, -1.0 })
   {
-    isopoint::SurfacePoints points = wedge(isopoint::FitOrder::Crease, isopoint::FitOrder::Crease);
+    Points points = wedge(isopoint::FitOrder::Crease, isopoint::FitOrder::Crease);
     for (std::size_t i = 0; i < 40; ++i)
     {
       points.positions[i] = { 0.0, 0.25 * static_cast<double>(i), 0.0 };
@@ -340,7 +366,7 @@ TEST(Splats, OfPointsOnACreaseKeepTheirSide)
       EXPECT_GT(splats[i].radius, 0.1) << i;
       const Vector inward = i % 2 == 0 ? Vector{ -1.0, 0.0, 0.0 } : Vector{ 0.0, 0.0, -1.0 };
       EXPECT_EQ(
-        splats[i].clip, (std::array<double, 5>{ inward[0], inward[1], inward[2], 0.0, -sign }))
+        clipOf(splats[i]), (std::array<double, 5>{ inward[0], inward[1], inward[2], 0.0, -sign }))
         << i;
     }
   }
@@ -349,7 +375,7 @@ TEST(Splats, OfPointsOnACreaseKeepTheirSide)
 // A field and its negative have the same surface, whose splats differ by their normals' sides.
 TEST(Splats, AreAlikeWhicheverSideFalls)
 {
-  isopoint::SurfacePoints points;
+  Points points;
   clouds::Random random(6);
   for (int i = 0; i < 2000; ++i)
   {
@@ -368,9 +394,9 @@ TEST(Splats, AreAlikeWhicheverSideFalls)
     ASSERT_EQ(turned[i].normal, isopoint::scaled(-1.0, splats[i].normal));
     for (std::size_t k = 0; k < 4; ++k)
     {
-      ASSERT_NEAR(turned[i].clip[k], splats[i].clip[k], 1e-9) << i;
+      ASSERT_NEAR(clipOf(turned[i])[k], clipOf(splats[i])[k], 1e-9) << i;
     }
-    ASSERT_EQ(turned[i].clip[4], -splats[i].clip[4]) << i;
+    ASSERT_EQ(clipOf(turned[i])[4], -clipOf(splats[i])[4]) << i;
     ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
   }
 }
@@ -380,7 +406,7 @@ TEST(Splats, AreAlikeWhicheverSideFalls)
 TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
 {
   const Vector gradient{ 0.0, 0.0, -1.0 };
-  isopoint::SurfacePoints points;
+  Points points;
   for (int i = -5; i <= 5; ++i)
   {
     for (int k = -5; k <= 5; ++k)
@@ -398,7 +424,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   for (const Vector& beside : { Vector{ 0.02, 0.01, 0.0 }, Vector{ -0.3, 0.2, 0.0 },
          Vector{ -0.1, -0.3, 0.0 }, Vector{ 0.2, 0.3, 0.0 } })
   {
-    addFitted(points, beside, isopoint::FitOrder::None, { -1.0, 0.0, -0.2 });
+    addFitted(points, beside, std::nullopt, { -1.0, 0.0, -0.2 });
   }
   const std::array<double, 2> accompanied = axesOfMiddle();
   EXPECT_NEAR(accompanied[0], alone[0], 1e-12);
@@ -410,7 +436,7 @@ TEST(Splats, AreLeftWholeByASingleFit)
 {
   const auto splatsAround = [](const Vector& gradient)
   {
-    isopoint::SurfacePoints points;
+    Points points;
     clouds::Random random(4);
     addFitted(points, { 0.0, 0.0, 0.0 }, isopoint::FitOrder::Crease, gradient);
     for (int i = 1; i < 500; ++i)
@@ -424,7 +450,7 @@ TEST(Splats, AreLeftWholeByASingleFit)
   const std::vector<Splat> expected = splatsAround({ 0.0, 0.0, -1.0 });
   for (std::size_t i = 1; i < splats.size(); ++i)
   {
-    ASSERT_EQ(splats[i].clip, (std::array<double, 5>{})) << i;
+    ASSERT_FALSE(splats[i].clip) << i;
     ASSERT_GE(splats[i].radius, expected[i].radius - 1e-12) << i;
   }
 }

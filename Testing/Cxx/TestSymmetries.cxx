@@ -18,7 +18,7 @@ namespace
 {
 
 using clouds::Cloud;
-using isopoint::Isopoint;
+using isopoint::IsopointEdge;
 
 // A power of two: at each split both halves are then of equal size. Of an odd number the lower half
 // gets one sample less, so that a mirrored cloud is parted elsewhere.
@@ -50,12 +50,12 @@ Cloud moved(Cloud cloud, const std::function<void(double*)>& move)
   return cloud;
 }
 
-std::vector<Isopoint> pointsOf(const Cloud& cloud, double isovalue = 0.3)
+std::vector<IsopointEdge> pointsOf(const Cloud& cloud, double isovalue = 0.3)
 {
-  return clouds::extract(cloud, isovalue, isopoint::defaultAngle).points;
+  return clouds::extract(cloud, isovalue, isopoint::defaultAngle).edges;
 }
 
-void expectSame(const std::vector<Isopoint>& expected, const std::vector<Isopoint>& found)
+void expectSame(const std::vector<IsopointEdge>& expected, const std::vector<IsopointEdge>& found)
 {
   ASSERT_GT(expected.size(), 200u);
   ASSERT_EQ(expected.size(), found.size());
@@ -164,13 +164,13 @@ TEST(Symmetries, PermutationOfIds)
       permuted.add(p[0], p[1], p[2], cloud.values[id]);
     }
     std::map<std::pair<std::uint64_t, std::uint64_t>, double> expected;
-    for (const Isopoint& point : pointsOf(cloud))
+    for (const IsopointEdge& point : pointsOf(cloud))
     {
       expected[{ point.first, point.second }] = point.parameter;
     }
-    const std::vector<Isopoint> found = pointsOf(permuted);
+    const std::vector<IsopointEdge> found = pointsOf(permuted);
     ASSERT_EQ(found.size(), expected.size());
-    for (const Isopoint& point : found)
+    for (const IsopointEdge& point : found)
     {
       const std::uint64_t first = order[point.first];
       const std::uint64_t second = order[point.second];

@@ -34,7 +34,7 @@ bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
   const Vector way = isopoint::difference(a.position, b.position);
   const Vector normalA = isopoint::directionOf(a.gradient);
   const Vector normalB = isopoint::directionOf(b.gradient);
-  return a.order != FitOrder::None && b.order != FitOrder::None && slopeA > 0.0 && slopeB > 0.0 &&
+  return a.order != std::nullopt && b.order != std::nullopt && slopeA > 0.0 && slopeB > 0.0 &&
          std::isfinite(slopeA) && std::isfinite(slopeB) &&
          std::max(a.spacing, b.spacing) <= 1e290 && isopoint::lengthOf(way) < reach &&
          isopoint::dot(normalA, normalB) >= 0.906 &&
@@ -78,12 +78,14 @@ double expectTheDefinition(const Isosurface& surface)
     SCOPED_TRACE(testing::Message() << "minimum spacing " << minimumSpacing);
     const std::vector<std::size_t> expected = keptByDefinition(surface.fits, minimumSpacing);
     const Isosurface found = thinned(surface, minimumSpacing);
-    EXPECT_EQ(found.points.size(), expected.size());
+    EXPECT_EQ(found.edges.size(), expected.size());
     EXPECT_EQ(found.fits.size(), expected.size());
-    for (std::size_t i = 0; i < std::min(expected.size(), found.points.size()); ++i)
+    for (std::size_t i = 0; i < std::min(expected.size(), found.edges.size()); ++i)
     {
-      EXPECT_EQ(found.points[i], surface.points[expected[i]]) << i;
-      EXPECT_EQ(found.points[i].parameter, surface.points[expected[i]].parameter);
+      EXPECT_EQ(found.edges[i], surface.edges[expected[i]]) << i;
+      EXPECT_EQ(found.edges[i].parameter, surface.edges[expected[i]].parameter);
+      EXPECT_EQ(found.positions[i], surface.positions[expected[i]]);
+      EXPECT_EQ(found.decreasingEdges[i], surface.decreasingEdges[expected[i]]);
       EXPECT_EQ(found.fits[i].position, surface.fits[expected[i]].position);
       EXPECT_EQ(found.fits[i].spacing, surface.fits[expected[i]].spacing);
       if (testing::Test::HasFailure())
@@ -91,9 +93,9 @@ double expectTheDefinition(const Isosurface& surface)
         return share;
       }
     }
-    if (minimumSpacing == 0.5 && !surface.points.empty())
+    if (minimumSpacing == 0.5 && !surface.edges.empty())
     {
-      share = static_cast<double>(found.points.size()) / static_cast<double>(surface.points.size());
+      share = static_cast<double>(found.edges.size()) / static_cast<double>(surface.edges.size());
     }
   }
   return share;
@@ -105,7 +107,7 @@ Isosurface extracted(const clouds::Cloud& cloud, double isovalue, FitOrder order
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return extractor.extract(
+  return clouds::extractFrom(extractor, 
     execution, isovalue, isopoint::defaultAngle, 0.0, FitRequest{ order, move });
 }
 
@@ -115,7 +117,9 @@ Isosurface surfaceOf(std::vector<LocalFit> fits)
   Isosurface surface;
   for (std::size_t i = 0; i < fits.size(); ++i)
   {
-    surface.points.push_back({ i, i + 1, 0.5 });
+    surface.edges.push_back({ i, i + 1, 0.5 });
+    surface.positions.push_back(fits[i].position);
+    surface.decreasingEdges.push_back({ 0.0, 0.0, 1.0 });
   }
   surface.fits = std::move(fits);
   return surface;
@@ -135,7 +139,7 @@ std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, 
     fit.position[2] *= 0.1;
     fit.spacing = 0.2 * side * std::pow(factor, -random());
     fit.gradient = { random() - 0.5, random() - 0.5, random() < 0.5 ? -2.0 : 2.0 };
-    fit.order = random() < 0.1 ? FitOrder::None : FitOrder::Quadratic;
+    fit.order = random() < 0.1 ? std::nullopt : std::optional<FitOrder>(FitOrder::Quadratic);
   }
   return fits;
 }
@@ -157,7 +161,7 @@ void expectThinnedBySheets(const Isosurface& surface, double minimumSpacing,
   const std::function<int(const Vector&)>& sheetOf)
 {
   const Isosurface kept = thinned(surface, minimumSpacing);
-  EXPECT_LT(kept.points.size(), surface.points.size());
+  EXPECT_LT(kept.edges.size(), surface.edges.size());
   for (const LocalFit& fit : surface.fits)
   {
     ASSERT_TRUE(std::any_of(kept.fits.begin(), kept.fits.end(),
@@ -245,15 +249,15 @@ TEST(Thinning, PointsThatTellOfNoSheetAreLeftAlone)
   usable.gradient = { 1.0, 0.0, 0.0 };
   usable.spacing = 1.0;
   usable.order = FitOrder::Cubic;
-  EXPECT_EQ(thinned(surfaceOf({ usable, usable, usable }), 0.5).points.size(), 1u);
+  EXPECT_EQ(thinned(surfaceOf({ usable, usable, usable }), 0.5).edges.size(), 1u);
   const auto expectKept = [&](LocalFit fit)
   {
-    EXPECT_EQ(thinned(surfaceOf({ fit, fit }), 0.5).points.size(), 2u);
-    EXPECT_EQ(thinned(surfaceOf({ fit, usable }), 0.5).points.size(), 2u);
-    EXPECT_EQ(thinned(surfaceOf({ usable, fit }), 0.5).points.size(), 2u);
+    EXPECT_EQ(thinned(surfaceOf({ fit, fit }), 0.5).edges.size(), 2u);
+    EXPECT_EQ(thinned(surfaceOf({ fit, usable }), 0.5).edges.size(), 2u);
+    EXPECT_EQ(thinned(surfaceOf({ usable, fit }), 0.5).edges.size(), 2u);
   };
   LocalFit fit = usable;
-  fit.order = FitOrder::None;
+  fit.order = std::nullopt;
   expectKept(fit);
   for (const double bad :
     { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
@@ -279,9 +283,9 @@ TEST(Thinning, PointsThatTellOfNoSheetAreLeftAlone)
 TEST(Thinning, NothingGoesAtZeroOrWithoutFits)
 {
   Isosurface surface = surfaceOf(randomFits(1000, 1.0, 10.0, 71));
-  EXPECT_EQ(thinned(surface, 0.0).points.size(), 1000u);
+  EXPECT_EQ(thinned(surface, 0.0).edges.size(), 1000u);
   surface.fits.clear();
-  EXPECT_EQ(thinned(surface, 1.0).points.size(), 1000u);
+  EXPECT_EQ(thinned(surface, 1.0).edges.size(), 1000u);
 }
 
 TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
@@ -294,25 +298,25 @@ TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
   }
   const Isosurface surface = extracted(smooth, 6.1);
   const Isosurface few = thinned(surface, 1.0);
-  ASSERT_LT(few.points.size(), surface.points.size());
+  ASSERT_LT(few.edges.size(), surface.edges.size());
   std::set<std::uint64_t> ends;
-  for (const isopoint::Isopoint& point : few.points)
+  for (const isopoint::IsopointEdge& point : few.edges)
   {
     ends.insert({ point.first, point.second });
   }
   std::vector<std::vector<std::uint64_t>> expected;
-  for (const isopoint::CoincidentSamples& group : surface.merged)
+  for (const isopoint::CoincidentSamples& group : surface.coincident)
   {
     if (ends.count(group.ids.front()) > 0)
     {
       expected.push_back(group.ids);
     }
   }
-  ASSERT_LT(expected.size(), surface.merged.size());
-  ASSERT_EQ(few.merged.size(), expected.size());
+  ASSERT_LT(expected.size(), surface.coincident.size());
+  ASSERT_EQ(few.coincident.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
-    EXPECT_EQ(few.merged[i].ids, expected[i]);
+    EXPECT_EQ(few.coincident[i].ids, expected[i]);
   }
 }
 
@@ -327,7 +331,7 @@ TEST(Thinning, SheetsCloseByDoNotThinEachOther)
       extracted(sampled(count, [](double, double, double z) { return (z - 0.5) * (z - 0.5); }),
         0.25 * gap * gap);
     const auto half = [](const Vector& p) { return p[2] < 0.5 ? 0 : 1; };
-    EXPECT_GT(two.points.size(), 100u);
+    EXPECT_GT(two.edges.size(), 100u);
     for (const double minimumSpacing : { 1.0, 0.5 })
     {
       expectThinnedBySheets(two, minimumSpacing, half);
@@ -365,18 +369,22 @@ TEST(Thinning, SidesOfACreaseDoNotThinEachOther)
                                       { return z - 0.5 + slope * std::abs(x - 0.5); }),
     0.0, FitOrder::Crease);
   Isosurface sides = roof;
-  sides.points.clear();
+  sides.edges.clear();
+  sides.positions.clear();
+  sides.decreasingEdges.clear();
   sides.fits.clear();
-  for (std::size_t i = 0; i < roof.points.size(); ++i)
+  for (std::size_t i = 0; i < roof.edges.size(); ++i)
   {
-    if (roof.fits[i].order != FitOrder::None)
+    if (roof.fits[i].order != std::nullopt)
     {
-      sides.points.push_back(roof.points[i]);
+      sides.edges.push_back(roof.edges[i]);
+      sides.positions.push_back(roof.positions[i]);
+      sides.decreasingEdges.push_back(roof.decreasingEdges[i]);
       sides.fits.push_back(roof.fits[i]);
     }
   }
   const Isosurface kept = thinned(sides, 1.0);
-  EXPECT_LT(kept.points.size(), sides.points.size() / 2);
+  EXPECT_LT(kept.edges.size(), sides.edges.size() / 2);
   const auto facesTo = [](const LocalFit& fit) { return fit.gradient[0] < 0.0; };
   for (const LocalFit& fit : sides.fits)
   {
@@ -396,15 +404,15 @@ TEST(Thinning, IsTheSameForAnyNumberOfThreads)
 {
   const clouds::Cloud cloud = clouds::uniform(60000, 73);
   const Isosurface expected = thinned(extracted(cloud, 0.3, FitOrder::Cubic, 1), 0.5);
-  EXPECT_FALSE(expected.points.empty());
+  EXPECT_FALSE(expected.edges.empty());
   for (const std::size_t threads : { 2, 3 })
   {
     Isosurface found = extracted(cloud, 0.3, FitOrder::Cubic, threads);
     isopoint::thin(clouds::executionOn(threads), 0.5, found);
-    ASSERT_EQ(found.points.size(), expected.points.size());
-    for (std::size_t i = 0; i < expected.points.size(); ++i)
+    ASSERT_EQ(found.edges.size(), expected.edges.size());
+    for (std::size_t i = 0; i < expected.edges.size(); ++i)
     {
-      ASSERT_TRUE(isSame(found.points[i], expected.points[i]));
+      ASSERT_TRUE(isSame(found.edges[i], expected.edges[i]));
       ASSERT_TRUE(isSame(found.fits[i].position, expected.fits[i].position));
     }
   }
@@ -420,7 +428,7 @@ TEST(Thinning, AnAbortLeavesTheSurfaceAsItWas)
     int asked = 0;
     impatient.aborted = [&]() { return asked++ >= patience; };
     EXPECT_THROW(isopoint::thin(impatient, 0.5, surface), isopoint::Aborted);
-    EXPECT_EQ(surface.points.size(), all.points.size());
+    EXPECT_EQ(surface.edges.size(), all.edges.size());
     EXPECT_EQ(surface.fits.size(), all.fits.size());
   }
 }

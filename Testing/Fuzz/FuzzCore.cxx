@@ -66,7 +66,7 @@ std::vector<std::uint64_t> dropOthers(const Cloud& all, Cloud& finite)
 }
 
 void compare(
-  const Cloud& all, double isovalue, double angle, const std::vector<isopoint::Isopoint>& found)
+  const Cloud& all, double isovalue, double angle, const std::vector<isopoint::IsopointEdge>& found)
 {
   Cloud finite;
   const std::vector<std::uint64_t> ids = dropOthers(all, finite);
@@ -105,7 +105,7 @@ void run(ByteSource& bytes)
     {
       isovalue = cloud.values[static_cast<std::size_t>(bytes.below(100)) % count];
     }
-    compare(cloud, isovalue, angle, extractor.extract(execution, isovalue, angle).points);
+    compare(cloud, isovalue, angle, clouds::extractFrom(extractor, execution, isovalue, angle).edges);
     if (bytes.flag())
     {
       // New values at the same positions, some of them perhaps not finite.
