@@ -243,7 +243,9 @@ vtkAbstractArray* vtkIsopointArrayChoice::Find(vtkDataSetAttributes* attributes)
 
 std::string vtkIsopointArrayChoice::DescribeMissing() const
 {
-  const std::string element = this->MayBeOfPoints() ? "point" : "cell";
+  const std::string element = !this->MayBeOfPoints() ? "cell"
+                              : this->MayBeOfCells() ? "point or cell"
+                                                     : "point";
   return this->Name.empty()
            ? "The input has no active " + element + " scalars."
            : "The input has no " + element + " array named \"" + this->Name + "\".";

@@ -28,7 +28,7 @@ struct vtkUnusableIsopointInput : std::runtime_error
 };
 
 /**
- * The array that is to be contoured, as vtkAlgorithm::SetInputArrayToProcess() was told.
+ * The array that is to be contoured, as vtkAlgorithm::SetInputArrayToProcess() chose it.
  */
 class vtkIsopointArrayChoice
 {
