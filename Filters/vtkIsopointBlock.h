@@ -39,7 +39,8 @@ struct vtkIsopointBlock
 /**
  * What the samples of blocks were read from, in order: the modification times of the objects that
  * positions, scalars and ghosts belong to. Each is unique among all objects, so equal ones mean the
- * same objects, unchanged; a maximum over several would not.
+ * same objects, unchanged; a maximum over several would not. Where an object changes without a new
+ * modification time, numbers that describe it follow: counts, or a hash of what it holds.
  */
 using vtkIsopointState = std::vector<vtkMTimeType>;
 

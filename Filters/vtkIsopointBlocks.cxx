@@ -3,6 +3,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "vtkIsopointCellCenters.h"
+#include "vtkIsopointCompatibility.h"
 #include "vtkIsopointGhosts.h"
 
 #include "vtkBitArray.h"
@@ -12,8 +13,13 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkExplicitStructuredGrid.h"
+#include "vtkHyperTree.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -22,8 +28,10 @@
 #include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkUnstructuredGridBase.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <sstream>
 #include <utility>
 
@@ -35,10 +43,68 @@ void add(vtkIsopointState& state, vtkObject* object)
   state.push_back(object ? object->GetMTime() : 0);
 }
 
-void addCells(vtkIsopointState& state, vtkCellArray* cells)
+void add(vtkIsopointState& state, vtkCellArray* cells)
 {
-  add(state, cells);
+  state.push_back(cells ? cells->GetMTime() : 0);
   add(state, cells ? cells->GetConnectivityArray() : nullptr);
+  add(state, cells ? cells->GetOffsetsArray() : nullptr);
+}
+
+/// Adds what an array of flags holds. Blanking a point or a cell and masking a node change these in
+/// place, and VTK counts that as no modification.
+template <class TArray>
+void addFlags(vtkIsopointState& state, TArray* flags)
+{
+  add(state, static_cast<vtkObject*>(flags));
+  std::uint64_t hash = 14695981039346656037u; // FNV-1a: one changed flag always changes it
+  const vtkIdType count = flags ? flags->GetNumberOfValues() : 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    hash = (hash ^ static_cast<unsigned char>(flags->GetValue(i))) * 1099511628211u;
+  }
+  state.push_back(static_cast<vtkMTimeType>(hash));
+}
+
+void addGhosts(vtkIsopointState& state, vtkDataSetAttributes* attributes)
+{
+  addFlags(state,
+    vtkUnsignedCharArray::SafeDownCast(
+      attributes ? attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) : nullptr));
+}
+
+void addGrid(vtkIsopointState& state, vtkUnstructuredGrid* grid)
+{
+  add(state, grid->GetCells());
+  add(state, grid->GetCellTypesArray());
+  const auto faces = vtkGetFacesOfPolyhedra(grid);
+  add(state, faces.first);
+  add(state, faces.second);
+}
+
+void addCoordinates(vtkIsopointState& state, vtkDataArray* x, vtkDataArray* y, vtkDataArray* z)
+{
+  add(state, x);
+  add(state, y);
+  add(state, z);
+}
+
+/// A tree that is subdivided or replaced leaves the grid's modification time as it is.
+void addTrees(vtkIsopointState& state, vtkHyperTreeGrid* trees)
+{
+  addCoordinates(
+    state, trees->GetXCoordinates(), trees->GetYCoordinates(), trees->GetZCoordinates());
+  addFlags(state, trees->GetMask());
+  vtkHyperTreeGrid::vtkHyperTreeGridIterator iterator;
+  trees->InitializeTreeIterator(iterator);
+  while (vtkHyperTree* const tree = iterator.GetNextTree())
+  {
+    add(state, tree);
+    for (const vtkIdType number : { tree->GetTreeIndex(), tree->GetNumberOfVertices(),
+           tree->GetGlobalIndexFromLocal(0), tree->GetGlobalNodeIndexMax() })
+    {
+      state.push_back(static_cast<vtkMTimeType>(number));
+    }
+  }
 }
 
 /// What the positions of a leaf's points and cells, and whether they take part, depend on.
@@ -52,35 +118,39 @@ vtkIsopointState geometryOf(vtkDataObject* leaf)
   }
   if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(leaf))
   {
-    addCells(state, grid->GetCells());
+    addGrid(state, grid);
+  }
+  else if (vtkUnstructuredGridBase::SafeDownCast(leaf))
+  {
+    // Its cells are in memory of another kind, of which it alone knows when it changed.
+    add(state, static_cast<vtkObject*>(leaf));
+  }
+  if (auto* const grid = vtkExplicitStructuredGrid::SafeDownCast(leaf))
+  {
+    add(state, grid->GetCells());
   }
   if (auto* const polyData = vtkPolyData::SafeDownCast(leaf))
   {
-    addCells(state, polyData->GetVerts());
-    addCells(state, polyData->GetLines());
-    addCells(state, polyData->GetPolys());
-    addCells(state, polyData->GetStrips());
+    add(state, polyData->GetVerts());
+    add(state, polyData->GetLines());
+    add(state, polyData->GetPolys());
+    add(state, polyData->GetStrips());
+  }
+  if (auto* const image = vtkImageData::SafeDownCast(leaf))
+  {
+    add(state, image->GetDirectionMatrix());
   }
   if (auto* const grid = vtkRectilinearGrid::SafeDownCast(leaf))
   {
-    add(state, grid->GetXCoordinates());
-    add(state, grid->GetYCoordinates());
-    add(state, grid->GetZCoordinates());
+    addCoordinates(
+      state, grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates());
   }
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {
-    add(state, trees->GetXCoordinates());
-    add(state, trees->GetYCoordinates());
-    add(state, trees->GetZCoordinates());
-    add(state, trees->GetMask());
-    state.push_back(static_cast<vtkMTimeType>(trees->GetGlobalNodeIndexMax()));
+    addTrees(state, trees);
   }
-  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* const attributes = leaf->GetAttributes(type);
-    add(state,
-      attributes ? attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) : nullptr);
-  }
+  addGhosts(state, leaf->GetAttributes(vtkDataObject::POINT));
+  addGhosts(state, leaf->GetAttributes(vtkDataObject::CELL));
   return state;
 }
 
@@ -173,7 +243,9 @@ vtkAbstractArray* vtkIsopointArrayChoice::Find(vtkDataSetAttributes* attributes)
 
 std::string vtkIsopointArrayChoice::DescribeMissing() const
 {
-  const std::string element = this->MayBeOfPoints() ? "point" : "cell";
+  const std::string element = !this->MayBeOfPoints() ? "cell"
+                              : this->MayBeOfCells() ? "point or cell"
+                                                     : "point";
   return this->Name.empty()
            ? "The input has no active " + element + " scalars."
            : "The input has no " + element + " array named \"" + this->Name + "\".";

@@ -28,7 +28,7 @@ struct vtkUnusableIsopointInput : std::runtime_error
 };
 
 /**
- * The array that is to be contoured, as vtkAlgorithm::SetInputArrayToProcess() was told.
+ * The array that is to be contoured, as vtkAlgorithm::SetInputArrayToProcess() chose it.
  */
 class vtkIsopointArrayChoice
 {
@@ -53,7 +53,9 @@ private:
 
 /**
  * Sees a data object as samples: each data set or hyper tree grid of it is a block. Centres of
- * cells are kept from one call to the next as long as the cells stay the same.
+ * cells are kept from one call to the next as long as the cells stay the same. Arrays that change
+ * in place are to be marked by Modified(), other than ghosts and the mask of a hyper tree grid,
+ * which are compared by what they hold.
  */
 class vtkIsopointBlocks
 {

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -23,37 +24,47 @@ void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTa
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
 }
 
-void forOnOwnThreads(
-  std::size_t threads, std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+/// Threads that do the same work. They have ended where this goes out of scope, whether it is left
+/// regularly or by an exception.
+class Helpers
 {
-  std::atomic<std::size_t> next{ 0 };
-  const auto work = [&]()
+public:
+  /// Starts so many threads, or as many as the system grants.
+  template <class Work>
+  Helpers(std::size_t count, const Work& work)
   {
-    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
+    try
     {
-      task(begin, std::min(begin + grain, count));
+      this->Threads.reserve(count);
+      while (this->Threads.size() < count)
+      {
+        this->Threads.emplace_back(work);
+      }
     }
-  };
-  std::vector<std::thread> helpers;
-  const std::size_t helperCount = std::min(threads, (count + grain - 1) / grain) - 1;
-  helpers.reserve(helperCount);
-  try
-  {
-    while (helpers.size() < helperCount)
+    catch (const std::system_error&)
     {
-      helpers.emplace_back(work);
+      // The system grants no more threads: those there are do the work.
+    }
+    catch (const std::bad_alloc&)
+    {
+      // Neither does memory.
     }
   }
-  catch (const std::system_error&)
+
+  Helpers(const Helpers&) = delete;
+  Helpers& operator=(const Helpers&) = delete;
+
+  ~Helpers()
   {
-    // The system grants no more threads: those there are do the work.
+    for (std::thread& thread : this->Threads)
+    {
+      thread.join();
+    }
   }
-  work();
-  for (std::thread& helper : helpers)
-  {
-    helper.join();
-  }
-}
+
+private:
+  std::vector<std::thread> Threads;
+};
 
 /// Whether nobody chose the sequential backend: it is just what VTK was built with.
 bool isSequentialByDefault()
@@ -77,6 +88,25 @@ std::size_t allowedThreads()
 
 } // namespace
 
+void vtkForIsopointRanges(
+  std::size_t threads, std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+{
+  if (count == 0)
+  {
+    return;
+  }
+  std::atomic<std::size_t> next{ 0 };
+  const auto work = [&]()
+  {
+    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
+    {
+      task(begin, std::min(begin + grain, count));
+    }
+  };
+  const Helpers helpers(std::min(threads, (count + grain - 1) / grain) - 1, work);
+  work();
+}
+
 isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores)
 {
   isopoint::Execution execution;
@@ -86,7 +116,7 @@ isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCo
     execution.threads = threads;
     execution.parallelFor = [threads](
                               std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
-    { forOnOwnThreads(threads, count, grain, task); };
+    { vtkForIsopointRanges(threads, count, grain, task); };
   }
   else
   {

@@ -65,23 +65,25 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input)
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
   vtkUnsignedCharArray* const cells =
     vtkGetIsopointGhosts(input->GetCellData(), input->GetNumberOfCells());
-  if (!hasAny(cells, invisible))
+  // Where the points have a ghost array, it says which of them are duplicates.
+  const int leftOut = own ? invisible : invisible | vtkDataSetAttributes::DUPLICATECELL;
+  if (!hasAny(cells, leftOut))
   {
     return own;
   }
-  constexpr unsigned char inInvisible = 1;
-  constexpr unsigned char inVisible = 2;
+  constexpr unsigned char inLeftOut = 1;
+  constexpr unsigned char inSample = 2;
   std::vector<unsigned char> memberships(static_cast<std::size_t>(count), 0);
   forEachCellPoint(input,
     [&](vtkIdType cell, vtkIdType point)
     {
       memberships[static_cast<std::size_t>(point)] |=
-        (cells->GetValue(cell) & invisible) != 0 ? inInvisible : inVisible;
+        (cells->GetValue(cell) & leftOut) != 0 ? inLeftOut : inSample;
     });
   const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
   for (vtkIdType point = 0; point < count; ++point)
   {
-    const bool isCovered = memberships[static_cast<std::size_t>(point)] == inInvisible;
+    const bool isCovered = memberships[static_cast<std::size_t>(point)] == inLeftOut;
     const int value =
       (own ? own->GetValue(point) : 0) | (isCovered ? vtkDataSetAttributes::HIDDENPOINT : 0);
     ghosts->SetValue(point, static_cast<unsigned char>(value));

@@ -16,8 +16,9 @@ vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtk
 
 /**
  * Which points of a data set are no samples, as vtkIsopointBlock::Ghosts: ghost and hidden ones,
- * and those that belong to cells of which every one is hidden or covered by a finer level. Null if
- * there are none.
+ * and those that belong to cells of which every one is hidden or covered by a finer level or, where
+ * the points have no ghost array, is a ghost. Points that belong to no cell are samples. Null if
+ * all points are.
  */
 vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input);
 

@@ -41,8 +41,9 @@
  *    float and double arrays keep their type, integer arrays become double.
  * 3. Samples with a non-finite coordinate or value, ghosts and hidden ones are left out and counted
  *    (GetNumberOfSkippedSamples). Hidden are also cells with a hidden point, cells covered by a
- *    finer level of an AMR (as its ghost arrays tell: see vtkAMRUtilities::BlankCells), points that
- *    belong to such cells alone, empty cells, masked leaves, and blocks without the array.
+ *    finer level of an AMR (as its ghost arrays mark them: see vtkAMRUtilities::BlankCells), points
+ *    that belong to such cells alone or, where the points have no ghost array, to these and ghost
+ *    cells alone, empty cells, masked leaves, and blocks without the array.
  * 4. Samples at exactly one position count as one, with the lowest id among them and the mean of
  *    their values and attributes.
  * 5. All arrays of the points (or cells, if the contoured one is theirs) are interpolated with the

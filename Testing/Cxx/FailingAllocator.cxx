@@ -2,6 +2,7 @@
 #include "FailingAllocator.h"
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 
@@ -12,15 +13,18 @@ std::atomic<bool> isArmed{ false };
 std::atomic<long> seen{ 0 };
 std::atomic<long> failingFrom{ 0 };
 std::atomic<long> failingTo{ 0 };
+std::atomic<std::size_t> smallestFailing{ 0 };
 
 bool fails(std::size_t size)
 {
-  if (!isArmed || size < failingallocator::largeSize)
+  if (!isArmed || size < smallestFailing)
   {
     return false;
   }
   const long number = ++seen;
-  return number >= failingFrom && number <= failingTo;
+  const bool isFailure = number >= failingFrom && number <= failingTo;
+  errno = isFailure ? ENOMEM : errno;
+  return isFailure;
 }
 
 } // namespace
@@ -28,8 +32,9 @@ bool fails(std::size_t size)
 namespace failingallocator
 {
 
-void failAt(long n, bool andAllLater)
+void failAt(long n, bool andAllLater, std::size_t smallest)
 {
+  smallestFailing = smallest;
   seen = 0;
   failingFrom = n;
   failingTo = andAllLater ? 1000000000 : n;

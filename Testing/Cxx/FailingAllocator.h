@@ -4,19 +4,20 @@
 
 #include <cstddef>
 
-/// Large allocations of the whole program can be made to fail, one by one. Takes the place of the C
+/// Allocations of the whole program can be made to fail, one by one. Takes the place of the C
 /// library's malloc and its kin; with the address sanitizer, which does so itself, of operator new
 /// and of realloc (by the linker's --wrap).
 namespace failingallocator
 {
 
-/// Allocations of at least so many bytes count: what grows with the number of samples.
+/// Of allocations, those of at least so many bytes grow with the number of samples.
 constexpr std::size_t largeSize = std::size_t{ 1 } << 12;
 
-/// From now on the n-th large allocation fails (from 1), and all later ones as well if so wanted.
-void failAt(long n, bool andAllLater);
+/// From now on the n-th allocation of at least so many bytes fails (from 1), and all later ones as
+/// well if so wanted.
+void failAt(long n, bool andAllLater, std::size_t smallest = largeSize);
 
-/// No more failures. @returns how many large allocations there were since failAt()
+/// No more failures. @returns how many such allocations there were since failAt()
 long stop();
 
 } // namespace failingallocator

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points of ghost cells: which are samples where only the cells say what is a ghost.
+#include "InputTesting.h"
+
+using namespace inputtesting;
+
+namespace
+{
+
+/// Cells of a box of 8 x 8 x 8 are ghosts of one sort or another by their place along x.
+void addCellGhosts(vtkDataSet* input, const std::array<unsigned char, 8>& bitsAlongX)
+{
+  const auto ghosts = newGhosts(input->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    ghosts->SetValue(cell, bitsAlongX[static_cast<std::size_t>(cell % 8)]);
+  }
+  input->GetCellData()->AddArray(ghosts);
+}
+
+/// Points of a box of 9 x 9 x 9 by their place along x.
+Samples samplesAlongX(vtkDataSet* input, const std::array<bool, 9>& isSample)
+{
+  Samples samples;
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    if (isSample[static_cast<std::size_t>(i % 9)])
+    {
+      samples.add(input->GetPoint(i), fieldAt(input->GetPoint(i)));
+    }
+  }
+  return samples;
+}
+
+void expectSkipped(vtkDataSet* input, vtkIdType count)
+{
+  const auto filter = newFilter(input);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), count);
+}
+
+constexpr unsigned char duplicate = vtkDataSetAttributes::DUPLICATECELL;
+constexpr unsigned char hidden = vtkDataSetAttributes::HIDDENCELL;
+constexpr unsigned char refined = vtkDataSetAttributes::REFINEDCELL;
+constexpr vtkIdType layer = 81; // points of one place along x
+
+} // namespace
+
+TEST(Ghosts, PointsOfGhostCellsAloneAreLeftOutAndCounted)
+{
+  for (vtkDataSet* const input : everyGrid())
+  {
+    SCOPED_TRACE(input->GetClassName());
+    addPointField(input);
+    addCellGhosts(input, { 0, 0, 0, 0, 0, duplicate, duplicate, duplicate });
+    const std::array<bool, 9> isSample{ true, true, true, true, true, true, false, false, false };
+    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
+    expectSkipped(input, 3 * layer);
+  }
+}
+
+TEST(Ghosts, CellsThatAreLeftOutForDifferentReasonsAddUp)
+{
+  for (vtkDataSet* const input : everyGrid())
+  {
+    SCOPED_TRACE(input->GetClassName());
+    addPointField(input);
+    addCellGhosts(input, { duplicate, hidden, 0, 0, 0, 0, duplicate, refined });
+    const std::array<bool, 9> isSample{ false, false, true, true, true, true, true, false, false };
+    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
+    expectSkipped(input, 4 * layer);
+  }
+}
+
+TEST(Ghosts, AGhostArrayOfThePointsSaysWhichAreDuplicates)
+{
+  for (vtkDataSet* const input : everyGrid())
+  {
+    SCOPED_TRACE(input->GetClassName());
+    addPointField(input);
+    addCellGhosts(input, { duplicate, duplicate, 0, 0, 0, duplicate, hidden, hidden });
+    const auto ghosts = newGhosts(input->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < input->GetNumberOfPoints(); i += 9)
+    {
+      ghosts->SetValue(i, vtkDataSetAttributes::DUPLICATEPOINT);
+    }
+    input->GetPointData()->AddArray(ghosts);
+    const std::array<bool, 9> isSample{ false, true, true, true, true, true, true, false, false };
+    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
+    expectSkipped(input, 3 * layer);
+  }
+}
+
+TEST(Ghosts, PointsOfNoCellAreSamples)
+{
+  const auto grid = unstructuredOf(newImage(8, 0.25, -1.0, -1.0, -1.0));
+  addCellGhosts(grid,
+    { duplicate, duplicate, duplicate, duplicate, duplicate, duplicate, duplicate, duplicate });
+  Samples samples;
+  const auto cloud = newCloud(1000, VTK_DOUBLE);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    grid->GetPoints()->InsertNextPoint(cloud->GetPoint(i));
+    samples.add(cloud->GetPoint(i), fieldAt(cloud->GetPoint(i)));
+  }
+  addPointField(grid);
+  expectSame(grid, vtkDataObject::FIELD_ASSOCIATION_POINTS, samples);
+  expectSkipped(grid, 9 * layer);
+}
