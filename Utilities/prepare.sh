@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing of Debian's packages and builds the project: prepare.sh PRESET
+# prepare.sh check installs what Utilities/check.sh needs and builds nothing.
 # Quick when there is nothing to do. Needs root only where packages are missing.
 set -euo pipefail
 
@@ -41,6 +42,9 @@ if ((${#missing[@]} > 0)); then
   apt-get install --quiet=2 --yes --no-install-recommends "${missing[@]}" > /dev/null
 fi
 
+if [[ $preset == check ]]; then
+  exit 0
+fi
 if [[ ! -f build/$preset/build.ninja ]]; then
   log=$(mktemp)
   trap 'rm -f "$log"' EXIT

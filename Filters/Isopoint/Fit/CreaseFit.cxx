@@ -92,11 +92,13 @@ private:
     return true;
   }
 
+  std::uint8_t pieceCount() const { return static_cast<std::uint8_t>(this->Fit.pieces.size()); }
+
   std::uint8_t pieceAt(const Eigen::Vector3d& p) const
   {
     std::uint8_t best = 0;
     double bestValue = this->Fit.sense * this->Fit.pieces[best].value(p);
-    for (std::uint8_t piece = 1; piece < this->Fit.pieces.size(); ++piece)
+    for (std::uint8_t piece = 1; piece < this->pieceCount(); ++piece)
     {
       const double value = this->Fit.sense * this->Fit.pieces[piece].value(p);
       if (value > bestValue)
@@ -111,7 +113,7 @@ private:
   /// Fits each piece to its samples. @returns whether they determine all
   bool refit(int degree)
   {
-    for (std::uint8_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
+    for (std::uint8_t piece = 0; piece < this->pieceCount(); ++piece)
     {
       std::optional<Polynomial> polynomial;
       for (int tried = degree; tried > 0 && !polynomial; --tried)

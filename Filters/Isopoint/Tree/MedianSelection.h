@@ -82,7 +82,7 @@ MiddleCoordinates<TCoordinate> selectMiddle(
     for (std::size_t i = 0; i < count; ++i)
     {
       below += coordinates[i] < lower ? 1 : 0;
-      inside += (coordinates[i] >= lower) & (coordinates[i] <= upper) ? 1 : 0;
+      inside += ((coordinates[i] >= lower) & (coordinates[i] <= upper)) ? 1 : 0;
     }
     if (below >= rank || rank >= below + inside || 4 * inside > 3 * count)
     {
@@ -94,7 +94,7 @@ MiddleCoordinates<TCoordinate> selectMiddle(
     {
       const TCoordinate coordinate = coordinates[i];
       coordinates[kept] = coordinate;
-      kept += (coordinate >= lower) & (coordinate <= upper) ? 1 : 0;
+      kept += ((coordinate >= lower) & (coordinate <= upper)) ? 1 : 0;
     }
     rank -= below;
     count = kept;
@@ -183,7 +183,7 @@ MiddleCount collectMiddle(const TSample* samples, std::size_t count, int axis,
     {
       const auto coordinate = samples[i].position[axis];
       listed[found] = coordinate;
-      found += (coordinate >= lower) & (coordinate <= upper) ? 1 : 0;
+      found += ((coordinate >= lower) & (coordinate <= upper)) ? 1 : 0;
       below += coordinate < lower ? 1 : 0;
     }
     result.candidates = found;

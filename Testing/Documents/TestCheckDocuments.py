@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The checker of documents finds each class of defect, and none where there is none."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE_DIR = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+CHECKER = os.path.join(SOURCE_DIR, "Utilities", "check-documents.py")
+PRESETS = '{"configurePresets": [{"name": "base", "hidden": true}, {"name": "release"}]}'
+
+
+def block(language, code):
+    return "```%s\n%s\n```\n" % (language, code)
+
+
+class CheckDocuments(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        for name, text in {
+            "CMakePresets.json": PRESETS,
+            "CMakeLists.txt": "add_executable(Program Program.cxx)\n",
+            "Program.cxx": "",
+            "run.sh": "#!/bin/sh\n",
+            "README.md": "# Title\n\n## Two words\n",
+            "CONTRIBUTING.md": "",
+            "CHANGELOG.md": "",
+            "docs/page.md": "# Page\n",
+        }.items():
+            self.write(name, text)
+        os.chmod(os.path.join(self.folder.name, "run.sh"), 0o755)
+
+    def write(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def check(self, text, *options):
+        """The checker's output for a page with that text, and whether it found defects."""
+        self.write("docs/page.md", text)
+        result = subprocess.run(
+            [sys.executable, CHECKER, "--root", self.folder.name, *options],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)  # fmt: skip
+        self.assertIn(result.returncode, (0, 1), result.stdout)
+        return result.stdout if result.returncode else ""
+
+    def expect_clean(self, text, *options):
+        self.assertEqual(self.check(text, *options), "")
+
+    def expect(self, text, line, message, *options):
+        output = self.check(text, *options)
+        self.assertIn("docs/page.md:%d: " % line, output)
+        self.assertIn(message, output)
+
+    def test_links(self):
+        self.expect_clean("[a](../README.md#two-words), [b](#here), [c](https://example.org/x)\n# Here\n")
+        self.expect("\n[a](missing.md)\n", 2, "no file for the link missing.md")
+        self.expect("[a](../README.md#three-words)\n", 1, "no heading")
+        self.expect("[a](#nowhere)\n", 1, "no heading")
+        self.expect("[a](../../outside.md)\n", 1, "no file for the link")
+
+    def test_paths_in_backticks(self):
+        self.expect_clean("`Program.cxx`, `docs/page.md`, `docs/*.md`, `build/release/bin/Program`, `a/b`\n")
+        self.expect("`docs/missing.md`\n", 1, "no file docs/missing.md")
+        self.expect("`Missing.cxx`\n", 1, "no file Missing.cxx")
+        self.expect("`Missing/File.h`\n", 1, "no file Missing/File.h")
+        self.expect("`build/debug/bin/Program`\n", 1, "no preset debug")
+        self.expect("`cmake --preset debug`\n", 1, "no preset debug")
+
+    def test_commands(self):
+        self.expect_clean(block("bash", "A=1 ./run.sh X  # comment\ncmake --preset release --target Program"))
+        self.expect(block("bash", "ls\ncmake --preset base"), 3, "no preset base")
+        self.expect(block("sh", "cmake --build x --target Missing"), 2, "no target Missing")
+        self.expect(block("bash", "./missing.sh"), 2, "no file missing.sh")
+        self.expect(block("bash", "if true"), 1, "syntax error")
+        self.write("docs/plain.sh", "")
+        self.expect(block("bash", "docs/plain.sh"), 2, "not executable")
+        self.expect(block("", "ls"), 1, "a block without a language")
+
+    def test_scripts(self):
+        self.expect_clean(block("python", "import missing"))
+        self.expect(block("python", "a = 1\na = ("), 3, "no Python")
+        self.expect("<!-- setup: missing.py -->\n" + block("python", "a"), 2, "no file missing.py")
+
+    def test_scripts_run(self):
+        run = ("--run-with", self.folder.name)
+        self.write("module.py", "value = 1\n")
+        self.expect_clean(block("python", "import module\nassert module.value == 1"), *run)
+        self.expect_clean("<!-- setup:\na = 1\n-->\n" + block("python", "assert a == 1"), *run)
+        self.write("setup.py", "a = 2\n")
+        self.expect_clean("<!-- setup: setup.py -->\n" + block("python", "assert a == 2"), *run)
+        self.expect(block("python", "raise RuntimeError('reason')"), 1, "reason", *run)
+        # A setup is that of the next block only.
+        text = "<!-- setup: setup.py -->\n" + block("python", "a") + block("python", "a")
+        self.expect(text, 5, "NameError", *run)
+
+    def test_words_and_places(self):
+        self.expect_clean("`/usr/local/lib`, `/usr/bin/python3`, and/or, 1/2, https://example.org/x\n")
+        for word in ("tells", "Told", "tell", "heap", "slot", "../shared", "DESIGN", "PLATFORM"):
+            self.expect("a %s b\n" % word, 1, word)
+        self.expect("\n`/home/name`\n", 2, "/home/name")
+        self.expect(block("bash", "ls /srv"), 2, "/srv")
+
+    def test_readme_is_short(self):
+        self.write("README.md", "\n" * 130)
+        self.expect_clean("")
+        self.write("README.md", "\n" * 131)
+        self.assertIn("README.md:131: more than 130 lines", self.check(""))
+
+    def test_documents_are_there(self):
+        os.remove(os.path.join(self.folder.name, "CHANGELOG.md"))
+        self.assertIn("CHANGELOG.md:0: is missing", self.check(""))
+
+
+if __name__ == "__main__":
+    unittest.main()

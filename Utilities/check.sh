@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# check.sh [format|lint|documents|fix]...: whether C++ files are formatted (clang-format 14), whether the
+# sources of Filters, Rendering and Plugin are clean (clang-tidy 14, of the build of the preset ci), and
+# whether links, paths and commands in the documents hold. Without arguments all three. fix formats
+# in place.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+cxx_files()
+{
+  find Filters Plugin Rendering Testing -name '*.h' -print0 -o -name '*.cxx' -print0
+}
+
+# The command of a tool's version 14, installed where that is possible.
+version_14()
+{
+  command -v "$1-14" > /dev/null || Utilities/prepare.sh check >&2 || true
+  local command
+  for command in "$1-14" "$1"; do
+    if "$command" --version 2> /dev/null | grep -q 'version 14\.'; then
+      echo "$command"
+      return
+    fi
+  done
+  echo "$0: $1 of version 14 is needed: other versions format and warn differently." >&2
+  echo "Its package is listed in Utilities/debian-packages-check.txt." >&2
+  return 1
+}
+
+format()
+{
+  local tool
+  tool=$(version_14 clang-format)
+  cxx_files | xargs -0 "$tool" "$@"
+}
+
+lint()
+{
+  local tool
+  tool=$(version_14 clang-tidy)
+  Utilities/prepare.sh ci # generated headers
+  [[ -f build/ci/compile_commands.json ]] || cmake --preset ci > /dev/null
+  # One entry for each file, the ones that take long first.
+  mkdir -p build/ci/lint
+  /usr/bin/python3 - << 'END' |
+import json
+import os
+
+entries = {}
+for entry in json.load(open("build/ci/compile_commands.json")):
+    path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
+    if path.startswith(("Filters/", "Plugin/", "Rendering/")):
+        entries.setdefault(path, entry)
+json.dump(list(entries.values()), open("build/ci/lint/compile_commands.json", "w"))
+for path in sorted(entries, key=lambda path: (not path.startswith("Filters/Isopoint/"), path)):
+    print(path, end="\0")
+END
+    xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/ci/lint 2>&1 |
+    sed -E '/^[0-9]+ warnings? .*generated\.$/d'
+}
+
+(($# > 0)) || set -- format lint documents
+for check; do
+  case $check in
+    format) format --dry-run --Werror ;;
+    fix) format -i ;;
+    lint) lint ;;
+    documents) Utilities/check-documents.py ;;
+    *)
+      echo "usage: $0 [format|lint|documents|fix]..." >&2
+      exit 2
+      ;;
+  esac
+done
