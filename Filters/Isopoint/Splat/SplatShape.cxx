@@ -88,7 +88,7 @@ Ellipse fitEllipse(
   Ellipse best{};
   double leastCost = std::numeric_limits<double>::infinity();
   const double reach = cell.reach();
-  // Where nothing tells how the surface bends, ellipses that are as long as the cell leave gaps.
+  // Where the curvature is not known, ellipses that are as long as the cell leave gaps.
   const bool mayBeLong = isBendKnown(hessian);
   for (const double angle : { shapeOf(cell).flattestAngle(), curvature.flattestAngle() })
   {
