@@ -54,8 +54,11 @@ public:
   /// Coordinates of 2 components in a color map, one a point.
   void SetColorCoordinates(vtkDataArray* coordinates);
 
-  /// Draws about every stride-th splat with a program that is in use.
-  void Draw(vtkShaderProgram* program, int stride);
+  /// From now on about one splat in so many is drawn, always the same ones. After SetSplats.
+  void SetStride(int stride);
+
+  /// Draws the splats with a program that is in use.
+  void Draw(vtkShaderProgram* program);
 
   void ReleaseGraphicsResources();
 
@@ -72,7 +75,6 @@ private:
 
   void SetClips(const Shape& shape);
   void Bind(vtkShaderProgram* program);
-  void BindSubset(int stride);
   void ForgetPrograms();
 
   vtkNew<vtkOpenGLBufferObject> Disks; // position, normal, radius
@@ -84,7 +86,8 @@ private:
   std::array<double, 3> Center = { 0.0, 0.0, 0.0 };
   vtkIdType NumberOfSplats = 0;
   vtkIdType SubsetSize = 0;
-  int SubsetStride = 0;
+  int Stride = 1;
+  int SubsetStride = 0;    // that the subset was made for; 0: none
   int ColorComponents = 0; // 4: colors, 2: coordinates in a color map
   bool Normals = false;
   bool Ellipses = false;

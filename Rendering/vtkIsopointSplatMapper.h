@@ -33,6 +33,7 @@
  * @warning Filters that turn or scale points leave arrays of radii, axes and planes as they were:
  * turn or scale the actor instead. Those that translate points need not change them.
  * @warning A block has at most 2^31 - 1 points; larger ones are an error and not drawn.
+ * @warning Input that memory runs out for is one error and not drawn, until there is enough.
  *
  * @sa vtkPointGaussianMapper
  */
@@ -179,7 +180,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void ComputeBounds() override;
-  void UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void UpdateBufferObjects(vtkRenderer*, vtkActor*) override {} // RenderPiece has done so
   void UpdateMaximumPointCellIds(vtkRenderer* renderer, vtkActor* actor) override;
 
   ///@{

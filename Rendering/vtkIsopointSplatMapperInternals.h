@@ -7,6 +7,8 @@
 #include "vtkIsopointSplatMapper.h"
 #include "vtkIsopointSplatPasses.h"
 
+#include <functional>
+
 class vtkIsopointSplatMapper::Internals
 {
 public:
@@ -18,8 +20,14 @@ public:
     ColorMap = 2
   };
 
-  void UpdateGeometry(vtkIsopointSplatMapper* mapper);
-  void UpdateColors(vtkIsopointSplatMapper* mapper);
+  /// Does something that may run out of memory. That is one error for each input, not one for each
+  /// frame. @returns whether it was done
+  bool Try(vtkIsopointSplatMapper* mapper, const std::function<void()>& something);
+
+  /// Fills the buffers of all blocks, and finds their cells where a selector looks for cells.
+  /// @returns whether there is anything to draw
+  bool Prepare(vtkIsopointSplatMapper* mapper, vtkHardwareSelector* selector);
+
   void SetUpPasses(vtkIsopointSplatMapper* mapper, vtkRenderer* renderer, vtkActor* actor,
     vtkIsopointSplatPasses::Settings& settings);
   std::vector<vtkIsopointSplatPasses::Block> GetPassBlocks(vtkActor* actor);
@@ -39,12 +47,19 @@ public:
   int ViewportOrigin[2] = { 0, 0 };
 
 private:
+  void ReportOutOfMemory(vtkIsopointSplatMapper* mapper);
+  void UpdateGeometry(vtkIsopointSplatMapper* mapper);
+  void UpdateGeometry(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
+  void UpdateColors(vtkIsopointSplatMapper* mapper);
   vtkDataArray* Usable(
     vtkIsopointSplatMapper* mapper, vtkPolyData* data, vtkDataArray* array, int components);
   vtkIsopointSplatBuffers::Shape ShapeOf(vtkIsopointSplatMapper* mapper, vtkPolyData* data);
   bool CanUseColorMap(vtkIsopointSplatMapper* mapper) const;
   void UpdateColors(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
+  void MapScalars(
+    vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block, int& cellFlag);
 
+  vtkMTimeType OutOfMemory = 0; // the change of the input that memory was too small for
   unsigned int LastVersion = 0;
 };
 

@@ -9,5 +9,18 @@
 #include "vtk_glew.h"
 #endif
 
+#include <new>
+
+/// Ends a step that OpenGL had no memory for. Takes back OpenGL's own errors: VTK would report them
+/// at every frame.
+/// @throws std::bad_alloc
+[[noreturn]] inline void vtkIsopointSplatOutOfGraphicsMemory()
+{
+  for (int i = 0; i < 100 && glGetError() != GL_NO_ERROR; ++i)
+  {
+  }
+  throw std::bad_alloc();
+}
+
 #endif
 // VTK-HeaderTest-Exclude: vtkIsopointSplatOpenGL.h

@@ -49,11 +49,17 @@ void prepareDepthTexture(vtkTextureObject* texture, const int size[2])
   texture->Resize(size[0], size[1]);
 }
 
+/// @throws std::bad_alloc where OpenGL had no memory for a texture of the framebuffer
 void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
 {
   framebuffer->Bind();
   framebuffer->DeactivateDrawBuffers();
   framebuffer->ActivateDrawBuffers(buffers);
+  // All formats are among those that OpenGL must be able to draw to.
+  if (glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  {
+    vtkIsopointSplatOutOfGraphicsMemory();
+  }
 }
 
 /// Leaves OpenGL as it was found. vtkOpenGLState::Push and Pop would bind again what was bound when
@@ -75,6 +81,7 @@ public:
     , DepthMask(state)
     , Viewport(state)
   {
+    state->vtkglGetDoublev(GL_DEPTH_CLEAR_VALUE, &this->ClearDepth);
     glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->BlendEquations[0]);
     glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->BlendEquations[1]);
     state->PushFramebufferBindings();
@@ -83,6 +90,7 @@ public:
   ~StateKeeper()
   {
     this->State->PopFramebufferBindings();
+    this->State->vtkglClearDepth(this->ClearDepth);
     this->State->vtkglBlendEquationSeparate(this->BlendEquations[0], this->BlendEquations[1]);
   }
 
@@ -98,8 +106,46 @@ private:
   vtkOpenGLState::ScopedglDepthFunc DepthFunction;
   vtkOpenGLState::ScopedglDepthMask DepthMask;
   vtkOpenGLState::ScopedglViewport Viewport;
+  GLdouble ClearDepth;
   GLint BlendEquations[2];
 };
+
+/// Clips by the first planes of gl_ClipDistance for a while.
+class ClipDistances
+{
+public:
+  explicit ClipDistances(std::size_t count)
+    : Count(static_cast<unsigned int>(count))
+  {
+    for (unsigned int i = 0; i < this->Count; ++i)
+    {
+      glEnable(GL_CLIP_DISTANCE0 + i);
+    }
+  }
+
+  ~ClipDistances()
+  {
+    for (unsigned int i = 0; i < this->Count; ++i)
+    {
+      glDisable(GL_CLIP_DISTANCE0 + i);
+    }
+  }
+
+  ClipDistances(const ClipDistances&) = delete;
+  ClipDistances& operator=(const ClipDistances&) = delete;
+
+private:
+  const unsigned int Count;
+};
+
+void clear(vtkOpenGLState* state)
+{
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  state->vtkglClearDepth(1.0);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
 
 /// Model coordinates relative to a centre to view coordinates; transposed, as VTK has them.
 void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
@@ -158,10 +204,7 @@ void vtkIsopointSplatPasses::Render(const Settings& settings, const std::vector<
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglViewport(0, 0, settings.Size[0], settings.Size[1]);
-  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
-  {
-    glEnable(GL_CLIP_DISTANCE0 + i);
-  }
+  const ClipDistances clipDistances(settings.ClippingPlanes.size());
   if (!isUpToDate)
   {
     this->RenderLayers(settings, blocks);
@@ -171,10 +214,6 @@ void vtkIsopointSplatPasses::Render(const Settings& settings, const std::vector<
     this->RenderIds(settings, blocks);
   }
   this->HasIds = settings.Ids;
-  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
-  {
-    glDisable(GL_CLIP_DISTANCE0 + i);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -247,11 +286,7 @@ bool vtkIsopointSplatPasses::RenderLayer(
 
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  state->vtkglClearDepth(1.0);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  clear(state);
 
   GLuint query = 0;
   if (index > 0)
@@ -314,9 +349,8 @@ void vtkIsopointSplatPasses::RenderIds(const Settings& settings, const std::vect
   bind(this->IdFramebuffer, 1);
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
-  state->vtkglDepthMask(GL_TRUE);
+  clear(state);
   state->vtkglDepthFunc(GL_LESS);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   this->DrawBlocks(Pass::Ids, 0, settings, blocks);
 }
 
@@ -350,7 +384,7 @@ void vtkIsopointSplatPasses::DrawBlocks(
       program->SetUniformi(
         pass == Pass::Ids ? "visibleDepth" : "previousDepth", depth->GetTextureUnit());
     }
-    block.Buffers->Draw(program, settings.Stride);
+    block.Buffers->Draw(program);
   }
   if (depth)
   {
