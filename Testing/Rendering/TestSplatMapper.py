@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the splat mapper does with each kind of input, good and bad."""
 
+import ctypes
 import gc
 
 import numpy as np
@@ -23,13 +24,14 @@ from scenes import (
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
+    vtkDataObject,
     vtkDataSetAttributes,
     vtkMultiBlockDataSet,
     vtkPlane,
     vtkPolyData,
 )
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkActor, vtkHardwareSelector, vtkPolyDataMapper
 
 UP = [0.0, -1.0, 1.0]  # towards the scene's camera
 
@@ -470,6 +472,34 @@ def does_not_disturb_other_actors():
         check(np.count_nonzero(~same) < 2000 and not same.all(), "only the splat differs")
 
 
+def leaves_the_clear_depth():
+    """Another actor's clear depth is neither used nor changed, drawing and selecting."""
+    depth_clear_value = 0x0B73
+    opengl = ctypes.CDLL("libGL.so.1")
+    actor = actor_of(disk())
+    scene = Scene(actor)
+    expected = scene.image()
+    state = scene.window.GetState()
+    actor.GetMapper().AddObserver("StartEvent", lambda *_: state.vtkglClearDepth(0.25))
+
+    def check_clear_depth(when):
+        depth = ctypes.c_double()
+        scene.window.MakeCurrent()
+        opengl.glGetDoublev(depth_clear_value, ctypes.byref(depth))
+        check(depth.value == 0.25, f"a clear depth of {depth.value} {when}")
+
+    check(np.array_equal(scene.image(), expected), "the same picture")
+    actor.GetMapper().SetRadiusScale(0.9)
+    scene.window.Render()
+    check_clear_depth("after drawing")
+    selector = vtkHardwareSelector()
+    selector.SetRenderer(scene.renderer)
+    selector.SetFieldAssociation(vtkDataObject.FIELD_ASSOCIATION_POINTS)
+    selector.SetArea(300, 300, 300, 300)
+    check(selector.Select().GetNumberOfNodes() == 1, "the splat is selected")
+    check_clear_depth("after selecting")
+
+
 def defaults_and_ranges():
     mapper = vtkIsopointSplatMapper()
     check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
@@ -543,6 +573,7 @@ if __name__ == "__main__":
         flattened_by_a_transform,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
+        leaves_the_clear_depth,
     ):
         print(test.__name__, flush=True)
         test()
