@@ -61,7 +61,7 @@ void copyVector(vtkDataArray* array, vtkIdType index, float* vector)
   }
 }
 
-/// Three components as floats, scaled to a length of 1; zeros where they have none.
+/// Three components as floats, normalized; zeros where the length is 0 or not finite.
 void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 {
   double values[3];
@@ -77,11 +77,11 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 struct Clip
 {
   std::array<float, 4> Plane{};
-  float Turn = 0.0f; // 1 where the surface turns to the normal's side at the plane, or -1
+  float Turn = 0.0f; // 1: the face across the crease is on the normal's side, -1: on the other
 };
 
-/// A splat's plane: its normal over the radius and the centre's distance before it, in radii. Zeros
-/// for none, and for one that single precision does not hold.
+/// A splat's clipping plane: its normal divided by the radius, and the centre's distance from it in
+/// radii. Zeros for none, and for one that is out of the range of single precision.
 std::array<float, 4> planeOf(const double* clip, double radius)
 {
   const double scale = std::hypot(clip[0], clip[1], clip[2]) * radius;
@@ -98,7 +98,7 @@ std::array<float, 4> planeOf(const double* clip, double radius)
   return plane;
 }
 
-/// Uploads elements. A buffer that OpenGL has no memory for keeps another size than theirs.
+/// Uploads elements. Where OpenGL has no memory for them, the buffer has another size than theirs.
 /// @throws std::bad_alloc
 template <class TElement>
 void upload(vtkOpenGLBufferObject* buffer, const TElement* elements, std::size_t count,
@@ -252,7 +252,7 @@ void vtkIsopointSplatBuffers::SetColorCoordinates(vtkDataArray* coordinates)
       {
         double tuple[2];
         coordinates->GetTuple(i, tuple);
-        // Beyond the map's ends there is nothing but its border.
+        // Beyond its ends the map would be blended with its border.
         values[2 * i] = static_cast<float>(vtkMath::ClampValue(tuple[0], 0.0, 1.0));
         values[2 * i + 1] = static_cast<float>(vtkMath::ClampValue(tuple[1], 0.0, 1.0));
       }
@@ -346,7 +346,7 @@ void vtkIsopointSplatBuffers::SetStride(int stride)
         indices.push_back(static_cast<std::uint32_t>(i));
       }
     }
-    glBindVertexArray(0); // which would keep the buffer of indices
+    glBindVertexArray(0); // a vertex array would keep the binding of the indices
     upload(this->Subset, indices.data(), indices.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
     this->SubsetSize = static_cast<vtkIdType>(indices.size());
     this->SubsetStride = stride;

@@ -133,7 +133,7 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
     this->CurrentInput = nullptr;
     return;
   }
-  // The superclass asks it for what its shader needs; all blocks are drawn.
+  // The superclass's shader depends on one input; the first block represents all that are drawn.
   this->CurrentInput = this->Internal->Blocks.Get().front()->Data;
   this->RenderPieceStart(renderer, actor);
   this->RenderPieceDraw(renderer, actor);
@@ -157,7 +157,7 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     return;
   }
 
-  // What is culled was so splat by splat; the triangle over the viewport has no facing.
+  // Faces are culled splat by splat in the passes; the triangle over the viewport is never culled.
   vtkOpenGLState* const state = passes.GetWindow()->GetState();
   vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
   state->vtkglDisable(GL_CULL_FACE);
@@ -250,7 +250,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
     former->RemoveObserver(this->Internal->WindowObserver);
   }
   this->Internal->Passes.SetWindow(vtkOpenGLRenderWindow::SafeDownCast(window));
-  // Its context goes with it, and handles would be another one's then.
+  // The window deletes its context: later, the same handles could be those of another context.
   this->Internal->WindowObserver =
     window->AddObserver(vtkCommand::DeleteEvent, this, &vtkIsopointSplatMapper::ReleaseSplats);
 }
@@ -258,7 +258,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ReleaseSplats()
 {
-  // The window that they were made for may not be the current one, or may be gone.
+  // The window of these resources may not be the current one, or may have been deleted.
   vtkOpenGLRenderWindow* const window = this->Internal->Passes.GetWindow();
   if (window)
   {
@@ -266,7 +266,7 @@ void vtkIsopointSplatMapper::ReleaseSplats()
   }
   this->Internal->Blocks.ReleaseGraphicsResources();
   this->Internal->Passes.ReleaseGraphicsResources();
-  // The superclass releases its own only if it has rendered by itself.
+  // The superclass releases its own resources only if its RenderPiece has been called.
   for (vtkOpenGLHelper& helper : this->Primitives)
   {
     helper.ReleaseGraphicsResources(window);

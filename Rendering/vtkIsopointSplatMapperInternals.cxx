@@ -42,7 +42,7 @@ const char* orNothing(const char* name)
   return name ? name : "";
 }
 
-/// Of points spread over a surface whose area is the bounding box's diagonal, squared.
+/// Radius for points spread over a surface whose area is the square of the bounding box's diagonal.
 double automaticRadius(vtkPolyData* data)
 {
   const double diagonal = vtkIsopointSplatBounds::OfFinite(data->GetPoints()).GetDiagonalLength();
@@ -50,7 +50,8 @@ double automaticRadius(vtkPolyData* data)
   return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
 }
 
-/// A color of each point, where colors belong to points, to vertex cells or to the field data.
+/// Colors of points from those of points, of vertex cells or of a tuple of the field data.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
   vtkIsopointSplatBlocks::Block& block, vtkUnsignedCharArray* colors, int cellFlag, vtkIdType tuple)
 {
@@ -87,7 +88,7 @@ bool hasTranslucent(vtkUnsignedCharArray* colors)
   return false;
 }
 
-/// Gives a variable another value for a while.
+/// Sets a variable for the duration of a scope.
 class ScopedValue
 {
 public:
@@ -110,11 +111,11 @@ private:
 
 //------------------------------------------------------------------------------
 bool vtkIsopointSplatMapper::Internals::Try(
-  vtkIsopointSplatMapper* mapper, const std::function<void()>& something)
+  vtkIsopointSplatMapper* mapper, const std::function<void()>& function)
 {
   try
   {
-    something();
+    function();
     return true;
   }
   catch (const std::bad_alloc&)
@@ -146,7 +147,7 @@ try
 }
 catch (const std::bad_alloc&)
 {
-  // Not even enough for a message.
+  // There is no memory for the message either.
 }
 
 //------------------------------------------------------------------------------
@@ -189,7 +190,7 @@ vtkDataArray* vtkIsopointSplatMapper::Internals::Usable(
   if (!this->WarnedOfShortArrays)
   {
     vtkWarningWithObjectMacro(
-      mapper, "The array \"" << orNothing(array->GetName()) << "\" is left out: it has "
+      mapper, "The array \"" << orNothing(array->GetName()) << "\" is ignored: it has "
                              << array->GetNumberOfTuples() << " tuples for "
                              << data->GetNumberOfPoints() << " points. Give it one for each.");
     this->WarnedOfShortArrays = true;
@@ -324,7 +325,7 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* map
       this->UpdateColors(mapper, *block);
     }
   }
-  // Mapping may build the table.
+  // Mapping may build the table, which changes its modified time.
   const std::string newState = stateOf();
   for (const auto& block : blocks)
   {
@@ -344,7 +345,7 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
       array = nullptr;
     }
   };
-  // Else the mapper would take the former block's to be this one's.
+  // MapScalars would take the previous block's colors to be up to date for this one.
   forget(mapper->Colors);
   forget(mapper->ColorCoordinates);
   int cellFlag = 0;
@@ -373,8 +374,8 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
     if (!this->WarnedOfCells)
     {
       vtkWarningWithObjectMacro(mapper,
-        "Splats have the material's color: cell data colors vertex cells, and there are none. Apply "
-        "vtkCellDataToPointData, or choose a point array.");
+        "The splats are not colored by the cell array: cell data color vertex cells, and the input "
+        "has none. Apply vtkCellDataToPointData, or choose a point array.");
       this->WarnedOfCells = true;
     }
     block.Buffers.SetColors(nullptr);
@@ -403,7 +404,8 @@ void vtkIsopointSplatMapper::Internals::MapScalars(
     mapper->ScalarMode, mapper->ArrayAccessMode, mapper->ArrayId, mapper->ArrayName, cellFlag);
   if (scalars && mapper->ScalarVisibility)
   {
-    // Two floats a tuple in a color map; a color is half of that.
+    // MapScalars allocates two floats per tuple for coordinates in a color map, half of that for
+    // colors.
     constexpr std::size_t size = 2 * sizeof(float);
     vtkIsopointSplatMemory::Require(size * static_cast<std::size_t>(scalars->GetNumberOfTuples()));
   }
@@ -459,8 +461,10 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   if (planes > most && this->TooManyPlanes != mapper->GetClippingPlanes()->GetMTime())
   {
     this->TooManyPlanes = mapper->GetClippingPlanes()->GetMTime();
-    vtkErrorWithObjectMacro(mapper, "Of " << planes << " clipping planes the first " << most
-                                          << " clip: OpenGL has no more. Remove some.");
+    vtkErrorWithObjectMacro(mapper, "Only the first "
+                                      << most << " of " << planes
+                                      << " clipping planes are applied: the shaders "
+                                         "support no more. Remove some.");
   }
 
   vtkProperty* const property = actor->GetProperty();

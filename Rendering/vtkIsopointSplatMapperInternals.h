@@ -12,7 +12,7 @@
 class vtkIsopointSplatMapper::Internals
 {
 public:
-  /// Where a splat's color comes from; the values stand in the resolving shader as well.
+  /// Source of the splats' colors. vtkIsopointSplatResolveColor.glsl uses the same values.
   enum class Coloring
   {
     Material = 0,
@@ -20,12 +20,14 @@ public:
     ColorMap = 2
   };
 
-  /// Does something that may run out of memory. That is one error for each input, not one for each
-  /// frame. @returns whether it was done
-  bool Try(vtkIsopointSplatMapper* mapper, const std::function<void()>& something);
+  /// Calls a function that may throw std::bad_alloc, which is reported once for each input rather
+  /// than at each frame.
+  /// @returns whether the function returned
+  bool Try(vtkIsopointSplatMapper* mapper, const std::function<void()>& function);
 
-  /// Fills the buffers of all blocks, and finds their cells where a selector looks for cells.
-  /// @returns whether there is anything to draw
+  /// Brings the buffers of all blocks up to date, and for a selection of cells the map from points
+  /// to cells.
+  /// @returns whether there is anything to render
   bool Prepare(vtkIsopointSplatMapper* mapper, vtkHardwareSelector* selector);
 
   void SetUpPasses(vtkIsopointSplatMapper* mapper, vtkRenderer* renderer, vtkActor* actor,
@@ -41,9 +43,9 @@ public:
   bool WarnedOfNormals = false;
   bool WarnedOfShortArrays = false;
   bool WarnedOfCells = false;
-  vtkMTimeType TooManyPlanes = 0; // the change of the clipping planes that was an error
+  vtkMTimeType TooManyPlanes = 0; // modified time of the clipping planes last reported as too many
   unsigned long WindowObserver = 0;
-  bool ShaderOfComposite = false; // whether the shader at hand was built for composite input
+  bool ShaderOfComposite = false; // whether the current shader was built for composite input
   int ViewportOrigin[2] = { 0, 0 };
 
 private:
@@ -59,7 +61,7 @@ private:
   void MapScalars(
     vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block, int& cellFlag);
 
-  vtkMTimeType OutOfMemory = 0; // the change of the input that memory was too small for
+  vtkMTimeType OutOfMemory = 0; // modified time of the input last reported as too large
   unsigned int LastVersion = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How hardware selections find points and cells: ids of points are drawn, and turned into what was
-// asked for where pixels are read.
+// Hardware selection: ids of points are rendered, and mapped to the requested ids, of cells or of
+// an id array, when the pixels are read.
 #include "vtkIsopointSplatMapper.h"
 
 #include "vtkIsopointSplatMapperInternals.h"
@@ -54,7 +54,7 @@ void vtkIsopointSplatMapper::UpdateMaximumPointCellIds(vtkRenderer* renderer, vt
   {
     const vtkIdType last = block->Data->GetNumberOfPoints() - 1;
     selector->UpdateMaximumPointId(last);
-    // Cells are found by the points that are drawn.
+    // The passes for cells render ids of points, too.
     selector->UpdateMaximumCellId(std::max(last, block->Data->GetNumberOfCells() - 1));
     const auto include = [selector](vtkDataSetAttributes* attributes, const char* name,
                            void (vtkHardwareSelector::*update)(vtkIdType))

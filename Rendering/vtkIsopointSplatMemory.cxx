@@ -22,7 +22,7 @@ void vtkIsopointSplatMemory::Allocate(vtkUnsignedCharArray* array, vtkIdType tup
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMemory::Require(std::size_t bytes)
 {
-  // Volatile, since compilers may leave out an allocation that nothing is done with.
+  // Volatile, since compilers may remove an allocation that is not used.
   void* volatile memory = std::malloc(bytes);
   if (!memory && bytes > 0)
   {

@@ -8,17 +8,17 @@
 
 class vtkUnsignedCharArray;
 
-/// Where VTK's arrays find no memory they end the program, unless VTK was built without assertions.
-/// These throw instead.
+/// Allocation that throws. VTK's arrays end the program where there is no memory for them, unless
+/// VTK was built without assertions.
 namespace vtkIsopointSplatMemory
 {
 
-/// Gives an array so many tuples, of any values.
+/// Sets the number of tuples of an array, whose values are then undefined.
 /// @throws std::bad_alloc
 void Allocate(vtkUnsignedCharArray* array, vtkIdType tuples);
 
-/// Does nothing where so many bytes can be allocated in one piece. To be called immediately before
-/// methods of VTK that allocate arrays of a known size by themselves.
+/// Checks that a number of bytes can be allocated in one piece, immediately before a method of VTK
+/// that allocates arrays of that size. Other threads may take the memory in between.
 /// @throws std::bad_alloc
 void Require(std::size_t bytes);
 

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointSplatOpenGL_h
 #define vtkIsopointSplatOpenGL_h
 
-// VTK changed its loader of OpenGL's functions with version 9.4.
+// VTK 9.4 replaced its loader of OpenGL's functions.
 #if __has_include("vtk_glad.h")
 #include "vtk_glad.h"
 #else
@@ -11,8 +11,8 @@
 
 #include <new>
 
-/// Ends a step that OpenGL had no memory for. Takes back OpenGL's own errors: VTK would report them
-/// at every frame.
+/// Reports that OpenGL has no memory, and clears OpenGL's own errors, which VTK would print at
+/// every frame.
 /// @throws std::bad_alloc
 [[noreturn]] inline void vtkIsopointSplatOutOfGraphicsMemory()
 {

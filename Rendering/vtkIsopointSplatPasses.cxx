@@ -20,11 +20,11 @@
 namespace
 {
 
-/// In pixels. Above half of a pixel's diagonal, so that every splat covers the middle of one.
+/// In pixels. More than half of a pixel's diagonal, so that every splat covers a pixel's centre.
 constexpr float minimumHalfAxis = 0.75f;
 
-/// Splats blend over a wider circle than they cover: the surface is smoother and its outline as it
-/// was.
+/// Blended splats are larger than visible ones by this factor: the surface is smoother, its outline
+/// unchanged.
 constexpr double blendingReach = 1.4;
 
 void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
@@ -55,15 +55,15 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
   framebuffer->Bind();
   framebuffer->DeactivateDrawBuffers();
   framebuffer->ActivateDrawBuffers(buffers);
-  // All formats are among those that OpenGL must be able to draw to.
+  // All formats are required to be renderable: only a lack of memory makes it incomplete.
   if (glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
   {
     vtkIsopointSplatOutOfGraphicsMemory();
   }
 }
 
-/// Leaves OpenGL as it was found. vtkOpenGLState::Push and Pop would bind again what was bound when
-/// they last looked, buffers among it that are gone.
+/// Restores OpenGL's state at the end of a scope. vtkOpenGLState::Push and Pop would restore
+/// bindings from VTK's cache, some of them of deleted buffers.
 class StateKeeper
 {
 public:
@@ -110,7 +110,7 @@ private:
   GLint BlendEquations[2];
 };
 
-/// Clips by the first planes of gl_ClipDistance for a while.
+/// Enables the first elements of gl_ClipDistance for the duration of a scope.
 class ClipDistances
 {
 public:
@@ -147,7 +147,7 @@ void clear(vtkOpenGLState* state)
   state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-/// Model coordinates relative to a centre to view coordinates; transposed, as VTK has them.
+/// The matrix from model coordinates relative to a centre to view coordinates, both transposed.
 void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
 {
   vtkNew<vtkMatrix4x4> translation;
@@ -296,7 +296,7 @@ bool vtkIsopointSplatPasses::RenderLayer(
   }
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   state->vtkglDepthFunc(GL_LESS);
-  // What is in front of the near plane must not hide anything, though it is drawn further back.
+  // Splats in front of the near plane must not hide anything, though this pass moves them back.
   glEnable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
   this->DrawBlocks(Pass::Visibility, index, settings, blocks);
   glDisable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
@@ -429,7 +429,7 @@ void vtkIsopointSplatPasses::SetUniforms(
 {
   vtkNew<vtkMatrix4x4> centerToView;
   placeCenter(block.Buffers->GetCenter(), settings.ModelToView, centerToView);
-  // Normals take the transposed inverse; matrices reach the shader transposed once more.
+  // Normals are transformed by the transposed inverse; OpenGL transposes matrices once more.
   vtkNew<vtkMatrix3x3> linear;
   for (int row = 0; row < 3; ++row)
   {

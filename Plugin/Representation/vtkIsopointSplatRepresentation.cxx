@@ -65,6 +65,7 @@ vtkSmartPointer<vtkPoints> pointsOf(vtkDataSet* data)
 }
 
 /// The points of a data set with their arrays; null where there are none.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
 {
   vtkDataSet* const data = vtkDataSet::SafeDownCast(object);
@@ -75,7 +76,7 @@ vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
   const auto splats = vtkSmartPointer<vtkPolyData>::New();
   if (vtkPolyData* const polyData = vtkPolyData::SafeDownCast(data))
   {
-    // With its vertex cells, which can be selected.
+    // Vertex cells are kept, since they can be selected.
     splats->ShallowCopy(polyData);
     return splats;
   }
@@ -85,8 +86,9 @@ vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
   return splats;
 }
 
-/// The same for composite data, block by block; others become one block, since the client of a
-/// server, which has no data, must expect something.
+/// The same for each block of composite data. Other data become one block: the client of a server,
+/// which has no data, expects composite data.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkDataObject> compositeSplatsOf(vtkDataObject* object)
 {
   vtkCompositeDataSet* const input = vtkCompositeDataSet::SafeDownCast(object);

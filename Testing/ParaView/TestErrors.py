@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An error of the last rank alone: TestErrors.py [PVSERVER]. The tests' output must show it, also
-where that rank is not the one that runs the script."""
+"""An error on the last rank only: TestErrors.py [PVSERVER]. The output of the test must contain it,
+also if that rank is not the one that runs the script."""
 
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points of images and rectilinear grids as splats, which are not stored but computed."""
+"""Splats of images and rectilinear grids, whose points are computed rather than stored."""
 
 import contextlib
 import os
@@ -67,7 +67,7 @@ def number_of_splats(view):
 
 
 def all_seen(count):
-    """All 400 of them; pixels at their rims are counted as well."""
+    """Whether all 400 splats are seen; pixels at their rims make the measured number larger."""
     return 400 < count < 440
 
 
@@ -102,7 +102,7 @@ def keeps_precision(view):
 
 @contextlib.contextmanager
 def limited_memory():
-    """Enough for all but the positions of a huge image."""
+    """Limits the memory to what suffices for all but the positions of a huge image."""
     former = resource.getrlimit(resource.RLIMIT_AS)
     with open("/proc/self/statm") as pages:
         size = int(pages.read().split()[0]) * resource.getpagesize()

@@ -154,7 +154,7 @@ def selection(view, isopoints, display):
 
 
 def sharp_edges(view):
-    """Splats end at creases where the filter says so: the cube does not stick out of its outline."""
+    """With the filter's clipping planes splats end at creases, and do not extend beyond the cube."""
     image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
     distance = "max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))"
     source = simple.Calculator(Input=image, ResultArrayName="r", Function=distance)
@@ -229,8 +229,8 @@ def free_port():
 
 
 def connect_to(server):
-    """Starts a server and connects to it. The server ends with the connection, when this client does;
-    a client whose server ended before would report that."""
+    """Starts a server and connects to it. The server ends when this client does; if it ended before,
+    the client would report an error."""
     port = free_port()
     # The client listens and the server calls, so that neither has to wait for the other.
     subprocess.Popen(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A library to preload that limits the memory of a program's large allocations: what grows with the
-// number of splats. All others succeed, since Mesa crashes where it has no memory to draw with. Its
-// own are of up to 1.4 MB.
+// A library to be preloaded that limits the large allocations of a program, those whose size grows
+// with the number of splats. Smaller ones are not limited, since Mesa crashes if one of its own, of
+// up to 1.4 MB, fails while it draws.
 #include <cstddef>
 #include <cstdlib>
 #include <mutex>
@@ -20,7 +20,7 @@ struct Allocation
   void* Memory = nullptr;
   std::size_t Size = 0;
 };
-Allocation allocations[1000]; // the large ones since there is a limit
+Allocation allocations[1000]; // the large ones since limitMemory()
 
 /// Takes memory from what is left. @returns whether there was enough
 bool take(std::size_t size)
@@ -83,7 +83,7 @@ extern "C"
   void* __libc_memalign(std::size_t alignment, std::size_t size);
   void __libc_free(void* memory);
 
-  /// From now on large allocations may take so many bytes together.
+  /// Limits the sum of later large allocations, in bytes, until unlimitMemory().
   void limitMemory(std::size_t bytes)
   {
     const std::lock_guard<std::mutex> lock(mutex);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the splat mapper does with each kind of input, good and bad."""
+"""The splat mapper with valid and invalid input of each kind."""
 
 import ctypes
 import gc
@@ -127,7 +127,7 @@ def leaves_out_only_what_cannot_be_drawn():
     check(np.array_equal(Scene(actor_of(marked)).image(), good), "ghost points")
 
 
-def has_the_size_it_is_told():
+def has_the_given_size():
     scene = Scene(actor_of(disk(radius=0.5)))
     scene.camera.ParallelProjectionOn()
     scene.camera.SetParallelScale(1.0)
@@ -321,7 +321,7 @@ def one_mapper_in_two_windows():
 
 
 def a_mapper_that_outlives_its_window():
-    """Its buffers go with the window: handles are another window's afterwards."""
+    """The window deletes its buffers: later, their handles may be those of another window."""
     source = vtkSphereSource()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
@@ -473,7 +473,7 @@ def does_not_disturb_other_actors():
 
 
 def leaves_the_clear_depth():
-    """Another actor's clear depth is neither used nor changed, drawing and selecting."""
+    """A clear depth set by others is neither used nor changed, in rendering and in selection."""
     depth_clear_value = 0x0B73
     opengl = ctypes.CDLL("libGL.so.1")
     actor = actor_of(disk())
@@ -557,7 +557,7 @@ if __name__ == "__main__":
         leaves_out_only_what_cannot_be_drawn,
         an_infinite_point_changes_nothing,
         clipping_planes_beyond_the_sixth,
-        has_the_size_it_is_told,
+        has_the_given_size,
         draws_ellipses,
         warns_once_without_normals,
         colors_of_every_kind,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where memory runs out splats are one error and are not drawn, and the program goes on. To be run
-with the library of LimitedMemory.cxx preloaded."""
+"""Where memory runs out, one error is reported, no splat is rendered, and the program continues. To
+be run with the library of LimitedMemory.cxx preloaded."""
 
 import ctypes
 
@@ -9,7 +9,7 @@ from scenes import Scene, actor_of, check, color_by, differs, polydata
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkRenderingCore import vtkHardwareSelector
 
-COUNT = 800_000  # so many that even their indices are large for LimitedMemory.cxx
+COUNT = 800_000  # so that even the indices of every second splat are large in LimitedMemory.cxx
 UP = [0.0, -1.0, 1.0]  # towards the scene's camera
 
 
@@ -32,7 +32,7 @@ def splats(count):
 
 
 class LimitedMemory:
-    """For a while large allocations may take so many bytes together."""
+    """Limits the sum of large allocations, in bytes, in a block of statements."""
 
     program = ctypes.CDLL(None)
 
@@ -98,7 +98,7 @@ class Subject:
         return bool(differs(self.scene.image()).any())
 
     def draws_all_or_nothing(self, limit):
-        """Two frames with limited memory; whether it sufficed."""
+        """Renders two frames with limited memory and returns whether it sufficed."""
         with LimitedMemory(limit):
             drawn = [self.draws() for _ in range(2)]
         if not self.errors:
@@ -113,7 +113,7 @@ class Subject:
 
 
 def more_memory_each_time(step):
-    """Limits that fail at one array after the other."""
+    """Increasing limits, at which one array after the other fails."""
     for i in range(100):
         yield i * step
     check(False, "enough memory at last")
@@ -130,7 +130,7 @@ def fills_buffers_or_draws_nothing(many, few):
 
 
 def draws_as_asked_or_nothing(many, few):
-    """Where splats have been drawn and are then to be drawn otherwise."""
+    """Changes of a property of splats that have been rendered before."""
     for prepare in (colors, color_map, colors_of_cells, every_second):
         subject = Subject(few)
         prepare(subject.mapper)
