@@ -6,6 +6,7 @@ import ctypes
 
 import numpy as np
 from scenes import Scene, actor_of, check, color_by, differs, polydata
+from vtkmodules.vtkCommonCore import vtkFloatArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkRenderingCore import vtkHardwareSelector
 
@@ -28,6 +29,10 @@ def splats(count):
         value=points[:, 0].copy(),
     )
     data.GetCellData().AddArray(data.GetPointData().GetArray("value"))
+    of_field = vtkFloatArray()
+    of_field.SetName("value")
+    of_field.InsertNextValue(0.5)
+    data.GetFieldData().AddArray(of_field)
     return data
 
 
@@ -65,6 +70,12 @@ def color_map(mapper):
 def colors_of_cells(mapper):
     mapper.ScalarVisibilityOn()
     mapper.SetScalarModeToUseCellFieldData()
+
+
+def color_of_field(mapper):
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUseFieldData()
+    mapper.SetFieldDataTupleId(0)
 
 
 def every_second(mapper):
@@ -131,7 +142,7 @@ def fills_buffers_or_draws_nothing(many, few):
 
 def draws_as_asked_or_nothing(many, few):
     """Changes of a property of splats that have been rendered before."""
-    for prepare in (colors, color_map, colors_of_cells, every_second):
+    for prepare in (colors, color_map, colors_of_cells, color_of_field, every_second):
         subject = Subject(few)
         prepare(subject.mapper)
         check(subject.draws(), "few splats so, with the memory for their shaders")
