@@ -15,7 +15,7 @@
 namespace
 {
 
-/// Gives leaves what is said of a data object that they are, or are in.
+/// Applies the attributes of a data object to the leaves that it is or contains.
 void applyAttributes(vtkDataObject* object, vtkCompositeDataDisplayAttributes* attributes,
   std::vector<vtkIsopointSplatLeaf>& leaves)
 {
@@ -84,7 +84,7 @@ std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
   {
     return leaves;
   }
-  // Outer blocks come before the inner ones, which have the last word.
+  // The iterator visits outer blocks before inner ones, whose attributes replace theirs.
   applyAttributes(composite, attributes, leaves);
   if (const auto tree = vtkDataObjectTreeIterator::SafeDownCast(iterator))
   {

@@ -16,24 +16,24 @@ class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
 class vtkPolyData;
 
-/// A polydata with points that a mapper may draw.
+/// A polydata with points, and its display attributes.
 struct vtkIsopointSplatLeaf
 {
   vtkPolyData* Data = nullptr;
   unsigned int FlatIndex = 0; // within composite input
   bool Visible = true;
-  bool HasColor = false; // of its own, instead of the scalars' and the material's
+  bool HasColor = false; // instead of scalar colors and the material's color
   std::array<double, 3> Color = { 0.0, 0.0, 0.0 };
 };
 
-/// Those in a data object. Visibilities and colors are given to them or to blocks that they are in,
-/// of which the innermost counts; attributes may be null.
+/// The leaves of a data object. Their visibilities and colors are those of the innermost block
+/// around them that has any; attributes may be null.
 std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
   vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
 /**
- * The vtkPolyData that a mapper draws: its input, or the leaves of its composite input, each with
- * its buffers, which are kept as long as it stays the same.
+ * The vtkPolyData that a mapper draws, its input or the leaves of its composite input, with their
+ * buffers. A vtkPolyData that remains in the input keeps its buffers.
  */
 class vtkIsopointSplatBlocks
 {
@@ -43,23 +43,24 @@ public:
     vtkSmartPointer<vtkPolyData> Data; // the leaf's
     vtkIsopointSplatLeaf Leaf;
     vtkIsopointSplatBuffers Buffers;
-    std::string GeometryState; // what the buffers were filled from
+    std::string GeometryState; // identifies the contents of the buffers; empty: none
     std::string ColorState;
-    unsigned int Version = 0;           // another one after each change of the buffers
-    std::vector<vtkIdType> CellOfPoint; // vertex cells, found when first asked for
+    unsigned int Version = 0;           // differs after each change of the buffers
+    std::vector<vtkIdType> CellOfPoint; // filled at the first call of CellOfPoint()
   };
 
-  /// Takes the points of an input; null and other data objects have none.
+  /// Sets the input; null and other data objects have no blocks.
   void SetInput(vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
   bool IsComposite() const { return this->Composite; }
   bool IsEmpty() const { return this->Blocks.empty(); }
   const std::vector<std::unique_ptr<Block>>& Get() const { return this->Blocks; }
 
-  /// The block of a flat index, or the only one of input that is not composite; else null.
+  /// The block of a flat index, or the only block of input that is not composite; null if there is
+  /// none.
   Block* Find(unsigned int flatIndex) const;
 
-  /// The vertex cell of a point; -1 for a point that has none. O(cells) the first time.
+  /// The vertex cell of a point, -1 if it has none. O(cells) at the first call, else O(1).
   static vtkIdType CellOfPoint(Block& block, vtkIdType point);
 
   void ReleaseGraphicsResources();

@@ -13,16 +13,17 @@ class vtkDataObject;
 class vtkPoints;
 
 /**
- * Bounds of the points with finite coordinates, the only ones that are drawn: a single one that is
- * not finite must not send the camera to infinity.
+ * Bounds of the points with finite coordinates, the only ones that are drawn: one point that is not
+ * finite would make the bounds, and a camera reset to them, infinite.
  */
 class vtkIsopointSplatBounds
 {
 public:
-  /// Of some points; not valid where none is finite. O(points).
+  /// Bounds of points; not valid if none is finite. O(points).
   static vtkBoundingBox OfFinite(vtkPoints* points);
 
-  /// Of all visible polydata in a data object, kept from the last call where points are the same.
+  /// Bounds of all visible polydata in a data object. O(points) for those that changed since the
+  /// last call.
   vtkBoundingBox Of(vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
 private:

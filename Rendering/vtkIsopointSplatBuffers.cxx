@@ -61,7 +61,7 @@ void copyVector(vtkDataArray* array, vtkIdType index, float* vector)
   }
 }
 
-/// Three components as floats, scaled to a length of 1; zeros where they have none.
+/// Three components as floats, normalized; zeros where the length is 0 or not finite.
 void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 {
   double values[3];
@@ -77,11 +77,11 @@ void copyUnitVector(vtkDataArray* array, vtkIdType index, float* vector)
 struct Clip
 {
   std::array<float, 4> Plane{};
-  float Turn = 0.0f; // 1 where the surface turns to the normal's side at the plane, or -1
+  float Turn = 0.0f; // 1: the face across the crease is on the normal's side, -1: on the other
 };
 
-/// A splat's plane: its normal over the radius and the centre's distance before it, in radii. Zeros
-/// for none, and for one that single precision does not hold.
+/// A splat's clipping plane: its normal divided by the radius, and the centre's distance from it in
+/// radii. Zeros for none, and for one that is out of the range of single precision.
 std::array<float, 4> planeOf(const double* clip, double radius)
 {
   const double scale = std::hypot(clip[0], clip[1], clip[2]) * radius;
@@ -98,10 +98,26 @@ std::array<float, 4> planeOf(const double* clip, double radius)
   return plane;
 }
 
+/// Uploads elements. Where OpenGL has no memory for them, the buffer has another size than theirs.
+/// @throws std::bad_alloc
 template <class TElement>
-void upload(vtkOpenGLBufferObject* buffer, const std::vector<TElement>& elements)
+void upload(vtkOpenGLBufferObject* buffer, const TElement* elements, std::size_t count,
+  vtkOpenGLBufferObject::ObjectType type = vtkOpenGLBufferObject::ArrayBuffer)
 {
-  buffer->Upload(elements, vtkOpenGLBufferObject::ArrayBuffer);
+  if (count == 0)
+  {
+    return;
+  }
+  buffer->Upload(elements, count, type);
+  const bool isArray = type == vtkOpenGLBufferObject::ArrayBuffer;
+  GLint64 size = 0;
+  buffer->Bind();
+  glGetBufferParameteri64v(
+    isArray ? GL_ARRAY_BUFFER : GL_ELEMENT_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+  if (static_cast<std::size_t>(size) != count * sizeof(TElement))
+  {
+    vtkIsopointSplatOutOfGraphicsMemory();
+  }
 }
 
 } // namespace
@@ -165,10 +181,10 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
         }
       }
     });
-  upload(this->Disks, disks);
+  upload(this->Disks, disks.data(), disks.size());
   if (this->Ellipses)
   {
-    upload(this->Axes, axes);
+    upload(this->Axes, axes.data(), axes.size());
   }
   this->SetClips(shape);
   this->SubsetStride = 0;
@@ -209,7 +225,7 @@ void vtkIsopointSplatBuffers::SetClips(const Shape& shape)
   this->Clipped = hasClip;
   if (this->Clipped)
   {
-    upload(this->Clips, clips);
+    upload(this->Clips, clips.data(), clips.size());
   }
 }
 
@@ -219,9 +235,8 @@ void vtkIsopointSplatBuffers::SetColors(vtkUnsignedCharArray* colors)
   this->ColorComponents = colors ? 4 : 0;
   if (colors)
   {
-    this->Colors->Upload(colors->GetPointer(0),
-      4 * static_cast<std::size_t>(colors->GetNumberOfTuples()),
-      vtkOpenGLBufferObject::ArrayBuffer);
+    upload(this->Colors, colors->GetPointer(0),
+      4 * static_cast<std::size_t>(colors->GetNumberOfTuples()));
   }
   this->ForgetPrograms();
 }
@@ -237,27 +252,27 @@ void vtkIsopointSplatBuffers::SetColorCoordinates(vtkDataArray* coordinates)
       {
         double tuple[2];
         coordinates->GetTuple(i, tuple);
-        // Beyond the map's ends there is nothing but its border.
+        // Beyond its ends the map would be blended with its border.
         values[2 * i] = static_cast<float>(vtkMath::ClampValue(tuple[0], 0.0, 1.0));
         values[2 * i + 1] = static_cast<float>(vtkMath::ClampValue(tuple[1], 0.0, 1.0));
       }
     });
-  upload(this->Colors, values);
+  upload(this->Colors, values.data(), values.size());
   this->ColorComponents = 2;
   this->ForgetPrograms();
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatBuffers::Draw(vtkShaderProgram* program, int stride)
+void vtkIsopointSplatBuffers::Draw(vtkShaderProgram* program)
 {
   if (this->NumberOfSplats == 0)
   {
     return;
   }
   this->Bind(program);
-  if (stride > 1)
+  if (this->Stride > 1)
   {
-    this->BindSubset(stride);
+    this->Subset->Bind();
     glDrawElements(GL_POINTS, static_cast<GLsizei>(this->SubsetSize), GL_UNSIGNED_INT, nullptr);
     this->Subset->Release();
   }
@@ -314,12 +329,12 @@ void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatBuffers::BindSubset(int stride)
+void vtkIsopointSplatBuffers::SetStride(int stride)
 {
-  if (this->SubsetStride != stride)
+  if (stride > 1 && this->SubsetStride != stride)
   {
-    // Multiples of the golden ratio modulo 1 are spread evenly, whichever part of the points is
-    // looked at: neighbours in the file are neighbours in space.
+    // Multiples of the golden ratio modulo 1 are evenly distributed in every range of indices, and
+    // neighbours in a file are mostly neighbours in space.
     constexpr std::uint32_t goldenRatio = 2654435769u;
     const std::uint32_t limit = std::numeric_limits<std::uint32_t>::max() / stride;
     std::vector<std::uint32_t> indices;
@@ -331,11 +346,12 @@ void vtkIsopointSplatBuffers::BindSubset(int stride)
         indices.push_back(static_cast<std::uint32_t>(i));
       }
     }
-    this->Subset->Upload(indices, vtkOpenGLBufferObject::ElementArrayBuffer);
+    glBindVertexArray(0); // a vertex array would keep the binding of the indices
+    upload(this->Subset, indices.data(), indices.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
     this->SubsetSize = static_cast<vtkIdType>(indices.size());
     this->SubsetStride = stride;
   }
-  this->Subset->Bind();
+  this->Stride = stride;
 }
 
 //------------------------------------------------------------------------------

@@ -18,10 +18,12 @@ class vtkShaderProgram;
 class vtkUnsignedCharArray;
 
 /**
- * The splats of one vtkPolyData in buffers of the graphics card, ready for every pass.
+ * The splats of one vtkPolyData in buffers of the graphics card, for all passes.
  *
- * Positions are kept relative to a centre, which the caller's matrices add in double precision, so
- * that points around 1e9 do not tremble.
+ * Positions are relative to a centre, which the caller's matrices add in double precision: single
+ * precision would not resolve coordinates around 1e9. Methods that fill buffers throw
+ * std::bad_alloc where memory runs out, of the program or of OpenGL; ReleaseGraphicsResources is
+ * then to be called.
  */
 class vtkIsopointSplatBuffers
 {
@@ -31,35 +33,37 @@ public:
   vtkIsopointSplatBuffers(const vtkIsopointSplatBuffers&) = delete;
   vtkIsopointSplatBuffers& operator=(const vtkIsopointSplatBuffers&) = delete;
 
-  /// Arrays that shape the splats, one tuple a point; null where there is none.
+  /// Arrays of the splats' shapes with one tuple per point; null where there is none.
   struct Shape
   {
     vtkDataArray* Normals = nullptr; // of 3 components
     vtkDataArray* Radii = nullptr;   // of 1 component
-    vtkDataArray* Axis1 = nullptr;   // of 3 components, both axes or none
+    vtkDataArray* Axis1 = nullptr;   // of 3 components; used only if there are both axes
     vtkDataArray* Axis2 = nullptr;
-    vtkDataArray* Clips = nullptr; // of 4 or 5: a plane relative to the point, what is beyond
+    vtkDataArray* Clips = nullptr; // of 4 or 5, see vtkIsopointSplatMapper::SetSplatClipArrayName
     double Radius = 1.0;           // of all splats where Radii is null
   };
 
-  /// Takes the points of a polydata of at most 2^31 - 1 points. Splats of a radius that is not
-  /// positive, of a position that is not finite, and hidden or duplicated ghost points are not
-  /// drawn. Of a splat at q with a plane only the places p with (a, b, c) . (p - q) + d >= 0 are
-  /// drawn.
+  /// Sets the splats from a polydata of at most 2^31 - 1 points. Points whose radius is not
+  /// positive or whose position is not finite, and hidden or duplicated ghost points are not drawn.
   void SetSplats(vtkPolyData* polyData, const Shape& shape);
 
-  /// One color of 4 components a point; null for none.
+  /// Sets colors of 4 components, one per point; null for none.
   void SetColors(vtkUnsignedCharArray* colors);
 
-  /// Coordinates of 2 components in a color map, one a point.
+  /// Sets coordinates of 2 components in a color map, one per point.
   void SetColorCoordinates(vtkDataArray* coordinates);
 
-  /// Draws about every stride-th splat with a program that is in use.
-  void Draw(vtkShaderProgram* program, int stride);
+  /// Selects about one splat in this number, always the same ones, to be drawn. To be called after
+  /// SetSplats.
+  void SetStride(int stride);
+
+  /// Draws the selected splats with a program that is in use.
+  void Draw(vtkShaderProgram* program);
 
   void ReleaseGraphicsResources();
 
-  /// The point that positions are relative to.
+  /// The centre, in the coordinates of the points.
   const std::array<double, 3>& GetCenter() const { return this->Center; }
   vtkIdType GetNumberOfSplats() const { return this->NumberOfSplats; }
   bool HasNormals() const { return this->Normals; }
@@ -72,19 +76,19 @@ private:
 
   void SetClips(const Shape& shape);
   void Bind(vtkShaderProgram* program);
-  void BindSubset(int stride);
   void ForgetPrograms();
 
   vtkNew<vtkOpenGLBufferObject> Disks; // position, normal, radius
   vtkNew<vtkOpenGLBufferObject> Axes;
   vtkNew<vtkOpenGLBufferObject> Clips;
   vtkNew<vtkOpenGLBufferObject> Colors;
-  vtkNew<vtkOpenGLBufferObject> Subset; // indices of a random part of the splats
+  vtkNew<vtkOpenGLBufferObject> Subset;                      // indices of the selected splats
   std::map<unsigned int, std::unique_ptr<Program>> Programs; // by the program's handle
   std::array<double, 3> Center = { 0.0, 0.0, 0.0 };
   vtkIdType NumberOfSplats = 0;
   vtkIdType SubsetSize = 0;
-  int SubsetStride = 0;
+  int Stride = 1;
+  int SubsetStride = 0;    // stride of the indices in Subset; 0: none
   int ColorComponents = 0; // 4: colors, 2: coordinates in a color map
   bool Normals = false;
   bool Ellipses = false;

@@ -1,10 +1,10 @@
 //VTK::System::Dec
 
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fragments of the off-screen passes: visibility (depth alone), blending (weighted sums of
-// what the surface is made of) and ids (of the splat whose centre is nearest).
-// Blending writes weight x (normal, z), weight x (color, 1) and weight x opacity; ids are written
-// as the lower and upper 16 bits of the point's, and the block's.
+// The fragments of the off-screen passes: visibility (depth only), blending (weighted sums of the
+// surface's attributes) and ids (of the splat whose centre is nearest).
+// Blending writes weight x (normal, z), weight x (color, 1) and weight x opacity. Ids are written
+// as the lower and upper 16 bits of the point's id, and the block's id.
 //VTK::Define::Dec
 
 in vec2 placeGS;
@@ -30,7 +30,8 @@ uniform sampler2D previousDepth;
 //VTK::Output::Dec
 
 #ifdef SPLAT_CLIPS
-// In pixels. Faces that meet at a crease leave no slit though their planes are not quite the same.
+// Overlap in pixels of faces at a crease, so that there is no slit where their planes differ
+// slightly.
 const float slit = 0.05;
 #endif
 
@@ -47,7 +48,8 @@ void main()
     discard;
   }
 #ifdef SPLAT_CLIPS
-  // Twice as far where the passes blend: all that is covered has a weight, however it is rounded.
+  // Twice the overlap in the other passes, so that every visible fragment has a weight despite
+  // rounding.
 #ifdef SPLAT_VISIBILITY
   if (clipGS < -slit * pixel)
 #else
@@ -66,8 +68,8 @@ void main()
 #ifdef SPLAT_BLEND
   float weight = (1.0 - squaredRadius) * (1.0 - squaredRadius) + 1e-4;
 #ifdef SPLAT_CLIPS
-  // Beyond its plane a splat counts where there is nothing else, and behind the face that it meets
-  // there even less.
+  // A splat beyond its plane is seen only where there is no other splat; one hidden by the face
+  // across the crease has an even lower weight.
   weight *= (isBeyond ? 1e-3 : 1.0) * (isBehind ? 1e-6 : 1.0);
 #endif
   gl_FragData[0] = weight * vec4(normalGS, depthGS);

@@ -1,9 +1,9 @@
 //VTK::System::Dec
 
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A triangle around a splat in its own plane: the rasteriser then gives every fragment its
-// exact place within the ellipse and on the plane, in perspective too. All passes give the same
-// place on the screen and differ in depth only, so that they meet the same fragments.
+// A triangle around a splat in its own plane: the rasteriser interpolates exact positions within
+// the ellipse, in perspective too. In all passes the triangle covers the same fragments, at
+// different depths.
 //VTK::Define::Dec
 
 layout(points) in;
@@ -27,9 +27,9 @@ uniform float blendDepth; // in radii
 uniform int clippingPlaneCount;
 uniform vec4 clippingPlanes[6]; // in view coordinates
 
-out vec2 placeGS; // within the unit circle where the splat is
+out vec2 placeGS; // position in the splat's plane, in half-axes: within the unit circle
 #ifdef SPLAT_CLIPS
-out float clipGS; // distance before the splat's own clipping plane, in radii
+out float clipGS; // signed distance from the splat's clipping plane, in radii, negative beyond it
 flat out int isBehindCreaseGS;
 #endif
 #ifdef SPLAT_BLEND
@@ -41,16 +41,16 @@ flat out vec4 colorGS;
 flat out uint pointIdGS;
 #endif
 #if defined(SPLAT_VISIBILITY)
-out float gl_ClipDistance[7]; // the last: the near plane, before the splat is moved
+out float gl_ClipDistance[7]; // the last one for the near plane, before the splat is moved back
 #elif defined(SPLAT_CLIPPED)
 out float gl_ClipDistance[6];
 #endif
 #ifdef SPLAT_DEEPER_LAYER
-noperspective out float nearerDepthGS; // depth of the fragment, drawn nearer by the blend depth
+noperspective out float nearerDepthGS; // depth of the fragment, moved nearer by the blend depth
 #endif
 
-// Depth of a point moved along its view ray by a distance, away from the camera, but not out of
-// the far plane, where nothing is seen.
+// Depth of a point moved along its view ray by a distance, away from the camera, but not beyond the
+// far plane, where it would be clipped.
 float movedDepth(vec3 point, float distance)
 {
   vec3 ray = cameraParallel == 1 ? vec3(0.0, 0.0, -1.0) : normalize(point);

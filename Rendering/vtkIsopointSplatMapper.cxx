@@ -7,10 +7,8 @@
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -19,7 +17,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLTexture.h"
 #include "vtkOpenGLVertexArrayObject.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
@@ -28,6 +25,7 @@
 #include "vtkTextureObject.h"
 
 #include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkIsopointSplatMapper);
 
@@ -70,8 +68,13 @@ int vtkIsopointSplatMapper::FillInputPortInformation(int port, vtkInformation* i
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ComputeBounds()
 {
-  const vtkBoundingBox box =
-    this->Internal->Bounds.Of(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
+  vtkBoundingBox box;
+  this->Internal->Try(this,
+    [&]
+    {
+      box =
+        this->Internal->Bounds.Of(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
+    });
   if (box.IsValid())
   {
     box.GetBounds(this->Bounds);
@@ -90,20 +93,24 @@ bool vtkIsopointSplatMapper::HasTranslucentPolygonalGeometry()
   {
     return false;
   }
-  table->Build();
-  for (const vtkIsopointSplatLeaf& leaf :
-    vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes))
+  const auto isTranslucent = [&](const vtkIsopointSplatLeaf& leaf)
   {
     int cellFlag = 0;
     vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(
       leaf.Data, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
-    if (scalars && leaf.Visible && !leaf.HasColor &&
-        !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent))
+    return scalars && leaf.Visible && !leaf.HasColor &&
+           !table->IsOpaque(scalars, this->ColorMode, this->ArrayComponent);
+  };
+  bool result = false;
+  this->Internal->Try(this,
+    [&]
     {
-      return true;
-    }
-  }
-  return false;
+      table->Build();
+      const std::vector<vtkIsopointSplatLeaf> leaves =
+        vtkIsopointSplatLeaves(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
+      result = std::any_of(leaves.begin(), leaves.end(), isTranslucent);
+    });
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -121,13 +128,12 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
   this->UseWindow(renderer->GetRenderWindow());
-  this->Internal->Blocks.SetInput(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
-  if (this->Internal->Blocks.IsEmpty())
+  if (!this->Internal->Prepare(this, renderer->GetSelector()))
   {
     this->CurrentInput = nullptr;
     return;
   }
-  // The superclass asks it for what its shader needs; all blocks are drawn.
+  // The superclass's shader depends on one input; the first block represents all that are drawn.
   this->CurrentInput = this->Internal->Blocks.Get().front()->Data;
   this->RenderPieceStart(renderer, actor);
   this->RenderPieceDraw(renderer, actor);
@@ -135,46 +141,23 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::UpdateBufferObjects(vtkRenderer*, vtkActor*)
-{
-  this->Internal->UpdateGeometry(this);
-  this->Internal->UpdateColors(this);
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::UpdateMaximumPointCellIds(vtkRenderer* renderer, vtkActor*)
-{
-  vtkHardwareSelector* const selector = renderer->GetSelector();
-  for (const auto& block : this->Internal->Blocks.Get())
-  {
-    const vtkIdType last = block->Data->GetNumberOfPoints() - 1;
-    selector->UpdateMaximumPointId(last);
-    // Cells are found by the points that are drawn.
-    selector->UpdateMaximumCellId(std::max(last, block->Data->GetNumberOfCells() - 1));
-    const auto include = [selector](vtkDataSetAttributes* attributes, const char* name,
-                           void (vtkHardwareSelector::*update)(vtkIdType))
-    {
-      if (vtkDataArray* const ids = name ? attributes->GetArray(name) : nullptr)
-      {
-        (selector->*update)(static_cast<vtkIdType>(ids->GetRange(0)[1]));
-      }
-    };
-    include(block->Data->GetPointData(), this->PointIdArrayName,
-      &vtkHardwareSelector::UpdateMaximumPointId);
-    include(
-      block->Data->GetCellData(), this->CellIdArrayName, &vtkHardwareSelector::UpdateMaximumCellId);
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   vtkIsopointSplatPasses& passes = this->Internal->Passes;
   vtkIsopointSplatPasses::Settings settings;
-  this->Internal->SetUpPasses(this, renderer, actor, settings);
-  passes.Render(settings, this->Internal->GetPassBlocks(actor));
+  const bool isRendered = this->Internal->Try(this,
+    [&]
+    {
+      this->Internal->SetUpPasses(this, renderer, actor, settings);
+      passes.Render(settings, this->Internal->GetPassBlocks(actor));
+    });
+  if (!isRendered)
+  {
+    passes.ReleaseGraphicsResources();
+    return;
+  }
 
-  // What is culled was so splat by splat; the triangle over the viewport has no facing.
+  // Faces are culled splat by splat in the passes; the triangle over the viewport is never culled.
   vtkOpenGLState* const state = passes.GetWindow()->GetState();
   vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
   state->vtkglDisable(GL_CULL_FACE);
@@ -230,94 +213,6 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
 }
 
 //------------------------------------------------------------------------------
-namespace
-{
-
-vtkIdType readId(vtkHardwareSelector* selector, int lowPass, int highPass, unsigned int offset)
-{
-  const unsigned char* const low = selector->GetRawPixelBuffer(lowPass);
-  const unsigned char* const high = selector->GetRawPixelBuffer(highPass);
-  vtkIdType id = high ? high[offset] : 0;
-  for (int byte = 2; byte >= 0; --byte)
-  {
-    id = (id << 8) | low[offset + byte];
-  }
-  return id;
-}
-
-void writeBytes(unsigned char* pixels, unsigned int offset, vtkIdType value)
-{
-  for (int byte = 0; byte < 3; ++byte)
-  {
-    pixels[offset + byte] = static_cast<unsigned char>((value >> (8 * byte)) & 0xff);
-  }
-}
-
-vtkIdType throughArray(vtkDataSetAttributes* attributes, const char* name, vtkIdType id)
-{
-  vtkDataArray* const array = name ? attributes->GetArray(name) : nullptr;
-  return array && id < array->GetNumberOfTuples()
-           ? static_cast<vtkIdType>(array->GetComponent(id, 0))
-           : id;
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::ProcessSelectorPixelBuffers(
-  vtkHardwareSelector* selector, std::vector<unsigned int>& pixelOffsets, vtkProp*)
-{
-  using Selector = vtkHardwareSelector;
-  const int pass = selector->GetCurrentPass();
-  const bool isCell = pass == Selector::CELL_ID_LOW24 || pass == Selector::CELL_ID_HIGH24;
-  const bool isHigh = pass == Selector::CELL_ID_HIGH24 || pass == Selector::POINT_ID_HIGH24;
-  const bool isPoint = pass == Selector::POINT_ID_LOW24 || pass == Selector::POINT_ID_HIGH24;
-  const bool isProcess = pass == Selector::PROCESS_PASS && selector->GetUseProcessIdFromData();
-  const int lowPass = isCell ? Selector::CELL_ID_LOW24 : Selector::POINT_ID_LOW24;
-  const int highPass = isCell ? Selector::CELL_ID_HIGH24 : Selector::POINT_ID_HIGH24;
-  unsigned char* const pixels = selector->GetPixelBuffer(pass);
-  if (!this->PopulateSelectionSettings || !(isCell || isPoint || isProcess) || !pixels ||
-      !selector->GetRawPixelBuffer(lowPass))
-  {
-    return;
-  }
-  const unsigned char* const composite =
-    selector->GetRawPixelBuffer(Selector::COMPOSITE_INDEX_PASS);
-  for (const unsigned int offset : pixelOffsets)
-  {
-    const unsigned int flatIndex =
-      composite ? composite[offset] | (composite[offset + 1] << 8) | (composite[offset + 2] << 16)
-                : 0;
-    vtkIsopointSplatBlocks::Block* const block = this->Internal->Blocks.Find(flatIndex);
-    if (!block)
-    {
-      continue;
-    }
-    const vtkIdType point = readId(selector, lowPass, highPass, offset);
-    vtkIdType id = point;
-    if (isCell)
-    {
-      const vtkIdType cell = vtkIsopointSplatBlocks::CellOfPoint(*block, point);
-      id = cell < 0 ? 0 : throughArray(block->Data->GetCellData(), this->CellIdArrayName, cell);
-    }
-    else if (isPoint)
-    {
-      id = throughArray(block->Data->GetPointData(), this->PointIdArrayName, point);
-    }
-    else if (this->ProcessIdArrayName &&
-             block->Data->GetPointData()->GetArray(this->ProcessIdArrayName))
-    {
-      id = 1 + throughArray(block->Data->GetPointData(), this->ProcessIdArrayName, point);
-    }
-    else
-    {
-      continue;
-    }
-    writeBytes(pixels, offset, isHigh ? id >> 24 : id);
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::SetCompositeDataDisplayAttributes(
   vtkCompositeDataDisplayAttributes* attributes)
 {
@@ -355,7 +250,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
     former->RemoveObserver(this->Internal->WindowObserver);
   }
   this->Internal->Passes.SetWindow(vtkOpenGLRenderWindow::SafeDownCast(window));
-  // Its context goes with it, and handles would be another one's then.
+  // The window deletes its context: later, the same handles could be those of another context.
   this->Internal->WindowObserver =
     window->AddObserver(vtkCommand::DeleteEvent, this, &vtkIsopointSplatMapper::ReleaseSplats);
 }
@@ -363,7 +258,7 @@ void vtkIsopointSplatMapper::UseWindow(vtkWindow* window)
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ReleaseSplats()
 {
-  // The window that they were made for may not be the current one, or may be gone.
+  // The window of these resources may not be the current one, or may have been deleted.
   vtkOpenGLRenderWindow* const window = this->Internal->Passes.GetWindow();
   if (window)
   {
@@ -371,7 +266,7 @@ void vtkIsopointSplatMapper::ReleaseSplats()
   }
   this->Internal->Blocks.ReleaseGraphicsResources();
   this->Internal->Passes.ReleaseGraphicsResources();
-  // The superclass releases its own only if it has rendered by itself.
+  // The superclass releases its own resources only if its RenderPiece has been called.
   for (vtkOpenGLHelper& helper : this->Primitives)
   {
     helper.ReleaseGraphicsResources(window);

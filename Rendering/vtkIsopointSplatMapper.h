@@ -1,38 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkIsopointSplatMapper
- * @brief   draws points with normals and radii as one lit surface
+ * @brief   renders points with normals and radii as one lit surface
  *
- * Each point is a splat: a disk or an ellipse in the plane orthogonal to its normal. What overlaps
- * within BlendDepth of the visible surface is blended by weights that fall from a splat's centre to
- * its rim, normals, depth and colors alike, and the blended surface is lit once at every pixel. The
- * result looks like a smooth mesh rather than like points (Zwicker et al., Surface Splatting, 2001;
- * Botsch et al., High-Quality Surface Splatting on Today's GPUs, 2005).
+ * Each point is rendered as a splat: a disk or an ellipse in the plane orthogonal to its normal.
+ * Splats within BlendDepth of the visible surface are blended, with weights that decrease from a
+ * splat's centre to its rim: normals, depths and colors alike. The blended surface is lit once per
+ * pixel and looks like a smooth mesh (surface splatting [ZPBG01] with deferred shading [BHZK05]).
  *
  * Input is vtkPolyData, or a composite data set of them (SetInputDataObject or
- * SetInputConnection): all its points are drawn, whatever its cells, but for hidden and duplicated
- * ghost points and points of a position or radius that is not finite. The points' normals are the
- * active normals; without any the splats face the camera, and a warning says so once. Radii come
- * from the array RadiusArrayName, half-axes of ellipses from SplatAxis1ArrayName and
- * SplatAxis2ArrayName, planes at which splats end from SplatClipArrayName, as
- * vtkScatteredIsopointFilter writes them.
+ * SetInputConnection). All points are rendered, with or without cells, except for hidden and
+ * duplicated ghost points and points whose position or radius is not finite. Normals are the active
+ * point normals; without them splats face the camera, and one warning is given. Radii are in the
+ * array RadiusArrayName, half-axes of ellipses in SplatAxis1ArrayName and SplatAxis2ArrayName, and
+ * clipping planes of single splats in SplatClipArrayName, as vtkScatteredIsopointFilter writes
+ * them.
  *
  * Lights, materials, physically based rendering, scalar coloring, opacity, clipping planes,
  * transforms of the actor, face culling, a back face property, SSAO, FXAA, depth peeling,
  * order-independent translucency, shadows, sub-viewports and hardware selection work as for a
  * mesh: the blended surface passes through the fragment shader that vtkOpenGLPolyDataMapper
- * composes, user replacements and all. Textures of the actor are not applied. A translucent surface
- * shows up to MaximumNumberOfLayers of its layers, with depth peeling and without.
+ * composes, with the user's shader replacements. Textures of the actor are not applied. Of a
+ * translucent surface up to MaximumNumberOfLayers layers are rendered, with depth peeling and
+ * without.
  *
- * A hardware selection finds the splat that is seen at a pixel: among those that reach it at the
- * visible surface, the one whose centre is nearest, in radii. Selecting cells gives the points'
- * vertex cells.
+ * A hardware selection finds the splat that is seen at a pixel: of the splats that cover the pixel
+ * at the visible surface, the one whose centre is nearest, in radii. Selections of cells find the
+ * points' vertex cells.
  *
  * @warning Composite input is colored by coordinates in a color map
- * (InterpolateScalarsBeforeMapping) only where each block has the array.
- * @warning Filters that turn or scale points leave arrays of radii, axes and planes as they were:
- * turn or scale the actor instead. Those that translate points need not change them.
- * @warning A block has at most 2^31 - 1 points; larger ones are an error and not drawn.
+ * (InterpolateScalarsBeforeMapping) only if every block has the array.
+ * @warning Filters that rotate or scale points leave arrays of radii, axes and planes as they were:
+ * rotate or scale the actor instead. Filters that translate points do no harm.
+ * @warning A block has at most 2^31 - 1 points; a larger one is an error and not rendered.
+ * @warning Where memory runs out, one error is reported for the input and nothing of it is
+ * rendered; each later frame tries again.
  *
  * @sa vtkPointGaussianMapper
  */
@@ -55,8 +57,8 @@ public:
 
   ///@{
   /**
-   * Name of the point array of radii, in the units of the points' coordinates. Where the input has
-   * no such array of one component, Radius is taken. Default: "Radius".
+   * Name of the point array of radii: one component, in the units of the points' coordinates. If
+   * the input has no such array, or the name is empty, Radius is used. Default: "Radius".
    */
   vtkSetStringMacro(RadiusArrayName);
   vtkGetStringMacro(RadiusArrayName);
@@ -64,9 +66,10 @@ public:
 
   ///@{
   /**
-   * Radius of splats that have none, in the units of the points' coordinates; 0: one that suits
-   * points spread over a surface as large as the bounding box's diagonal is long, squared: twice
-   * that diagonal by the square root of the number of points. At least 0. Default: 0.
+   * Radius of all splats of input without an array of radii, in the units of the points'
+   * coordinates. 0: twice the diagonal of the bounding box, divided by the square root of the
+   * number of points, which suits points spread over a surface of the diagonal's square. Range: 0
+   * or more. Default: 0.
    */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
@@ -74,7 +77,7 @@ public:
 
   ///@{
   /**
-   * Factor on all radii and half-axes. At least 0. Default: 1.
+   * Factor on all radii and half-axes, without unit. Range: 0 or more. Default: 1.
    */
   vtkSetClampMacro(RadiusScale, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(RadiusScale, double);
@@ -82,9 +85,9 @@ public:
 
   ///@{
   /**
-   * How far behind the nearest splat others still blend with it, in radii. Too little lets splats
-   * of one surface hide each other's edges, too much mixes separate surfaces. At least 0.
-   * Default: 1.
+   * Depth behind the nearest splat within which other splats are blended with it, in radii. If it
+   * is too small, splats of one surface hide each other's rims; if it is too large, separate
+   * surfaces are mixed. Range: 0 or more. Default: 1.
    */
   vtkSetClampMacro(BlendDepth, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(BlendDepth, double);
@@ -98,8 +101,8 @@ public:
 
   ///@{
   /**
-   * Shape of the splats: CIRCLE draws disks of the points' radii, ELLIPSE takes the arrays of
-   * half-axes and draws disks where there are none. Default: ELLIPSE.
+   * Shape of the splats: CIRCLE for disks of the points' radii, ELLIPSE for ellipses of the arrays
+   * of half-axes, and disks where there are none. Default: ELLIPSE.
    */
   vtkSetClampMacro(Shape, int, CIRCLE, ELLIPSE);
   vtkGetMacro(Shape, int);
@@ -109,8 +112,8 @@ public:
 
   ///@{
   /**
-   * Names of the point arrays of half-axes: vectors in the splat's plane, in the units of the
-   * points' coordinates. Default: "SplatAxis1" and "SplatAxis2".
+   * Names of the point arrays of half-axes: vectors of three components in the splat's plane, in
+   * the units of the points' coordinates. Default: "SplatAxis1" and "SplatAxis2".
    */
   vtkSetStringMacro(SplatAxis1ArrayName);
   vtkGetStringMacro(SplatAxis1ArrayName);
@@ -120,15 +123,14 @@ public:
 
   ///@{
   /**
-   * Name of the point array of planes at which splats end, as vtkScatteredIsopointFilter writes it
-   * for the sake of sharp edges: floating-point numbers a, b, c, d, e; of the splat of a point q
-   * only the places p with (a, b, c) . (p - q) + d >= 0 are drawn, in the units of the points'
-   * coordinates. A plane that the splat does not reach cuts nothing off, but still keeps it from
-   * blending with a face before it, on the plane's other side. That face is on the side of the splat
-   * that its normal points to if e is positive, and on the other if it is not, or if the array has
-   * four components, without e. Splats whose a, b, c, d are zeros or not finite are drawn whole;
-   * where the input has no such array, and where the name is empty, all are.
-   * Default: "SplatClip".
+   * Name of the point array of clipping planes of single splats, which vtkScatteredIsopointFilter
+   * computes at creases: floating-point numbers a, b, c, d, e. Of the splat of a point q only the
+   * points p with (a, b, c) . (p - q) + d >= 0 are rendered, in the units of the points'
+   * coordinates. The face across the crease is on the side of the splat that its normal points to
+   * if e > 0, otherwise on the other side, as it is if the array has four components. Where that
+   * face hides the splat, the two are not blended, even if the splat does not extend to its plane.
+   * A splat is not clipped if a, b, c and d are all 0, or one of them is not finite, nor is any if
+   * the input has no such array or the name is empty. Default: "SplatClip".
    */
   vtkSetStringMacro(SplatClipArrayName);
   vtkGetStringMacro(SplatClipArrayName);
@@ -136,9 +138,9 @@ public:
 
   ///@{
   /**
-   * Level of detail: one splat in Stride is drawn, chosen at random but always the same, its radius
-   * times the square root of Stride. Meant for the time of an interaction: a change of it sends
-   * nothing to the graphics card again. At least 1. Default: 1, all splats.
+   * Level of detail: one splat in Stride is rendered, its radius multiplied by the square root of
+   * Stride. The choice is quasi-random and the same at each frame. Meant for interaction: a change
+   * uploads only indices to the graphics card. Range: 1 or more. Default: 1, all splats.
    */
   vtkSetClampMacro(Stride, int, 1, VTK_INT_MAX);
   vtkGetMacro(Stride, int);
@@ -146,9 +148,9 @@ public:
 
   ///@{
   /**
-   * How many layers of a translucent surface are drawn, nearest first. Each costs as much as an
-   * opaque surface and 36 bytes a pixel; those that nothing is seen of cost little. From 1 to 32.
-   * Default: 8.
+   * Number of layers of a translucent surface that are rendered, the nearest first. Each takes the
+   * time of an opaque surface and 36 bytes per pixel of graphics memory; empty layers take little
+   * time. Range: 1 to 32. Default: 8.
    */
   vtkSetClampMacro(MaximumNumberOfLayers, int, 1, 32);
   vtkGetMacro(MaximumNumberOfLayers, int);
@@ -156,10 +158,10 @@ public:
 
   ///@{
   /**
-   * Visibilities and colors of the blocks of composite input, as vtkCompositePolyDataMapper2 takes
-   * them: a block's color replaces scalar colors and the material's; what is said of a block holds
-   * for those in it of which nothing is said. Opacities and pickabilities are not looked at.
-   * Default: none.
+   * Visibilities and colors of the blocks of composite input, as in vtkCompositePolyDataMapper2: a
+   * block's color replaces scalar colors and the material's color, and blocks inherit the
+   * attributes of the innermost block around them that has any. Opacities and pickabilities are
+   * ignored. Default: none, all blocks visible and without colors of their own.
    */
   void SetCompositeDataDisplayAttributes(vtkCompositeDataDisplayAttributes* attributes);
   vtkCompositeDataDisplayAttributes* GetCompositeDataDisplayAttributes();
@@ -179,12 +181,12 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void ComputeBounds() override;
-  void UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void UpdateBufferObjects(vtkRenderer*, vtkActor*) override {} // RenderPiece has done so
   void UpdateMaximumPointCellIds(vtkRenderer* renderer, vtkActor* actor) override;
 
   ///@{
   /**
-   * The blended surface takes the place of interpolated vertices in the superclass's shader.
+   * In the superclass's fragment shader, the blended surface replaces interpolated vertices.
    */
   bool GetNeedToRebuildShaders(
     vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatMapperInternals.h"
 
+#include "vtkIsopointSplatMemory.h"
 #include "vtkIsopointSplatOpenGL.h"
 
 #include "vtkActor.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkFloatArray.h"
+#include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
 #include "vtkOpenGLActor.h"
 #include "vtkOpenGLCamera.h"
@@ -23,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <sstream>
 
 namespace
@@ -38,7 +42,7 @@ const char* orNothing(const char* name)
   return name ? name : "";
 }
 
-/// Of points spread over a surface whose area is the bounding box's diagonal, squared.
+/// Radius for points spread over a surface whose area is the square of the bounding box's diagonal.
 double automaticRadius(vtkPolyData* data)
 {
   const double diagonal = vtkIsopointSplatBounds::OfFinite(data->GetPoints()).GetDiagonalLength();
@@ -46,7 +50,8 @@ double automaticRadius(vtkPolyData* data)
   return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
 }
 
-/// A color of each point, where colors belong to points, to vertex cells or to the field data.
+/// Colors of points from those of points, of vertex cells or of a tuple of the field data.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
   vtkIsopointSplatBlocks::Block& block, vtkUnsignedCharArray* colors, int cellFlag, vtkIdType tuple)
 {
@@ -56,7 +61,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
   }
   const auto result = vtkSmartPointer<vtkUnsignedCharArray>::New();
   result->SetNumberOfComponents(4);
-  result->SetNumberOfTuples(block.Data->GetNumberOfPoints());
+  vtkIsopointSplatMemory::Allocate(result, block.Data->GetNumberOfPoints());
   for (vtkIdType i = 0; i < result->GetNumberOfTuples(); ++i)
   {
     const vtkIdType source =
@@ -83,7 +88,92 @@ bool hasTranslucent(vtkUnsignedCharArray* colors)
   return false;
 }
 
+/// Sets a variable for the duration of a scope.
+class ScopedValue
+{
+public:
+  ScopedValue(vtkTypeBool& variable, vtkTypeBool value)
+    : Variable(variable)
+    , Former(variable)
+  {
+    variable = value;
+  }
+  ~ScopedValue() { this->Variable = this->Former; }
+  ScopedValue(const ScopedValue&) = delete;
+  ScopedValue& operator=(const ScopedValue&) = delete;
+
+private:
+  vtkTypeBool& Variable;
+  const vtkTypeBool Former;
+};
+
 } // namespace
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatMapper::Internals::Try(
+  vtkIsopointSplatMapper* mapper, const std::function<void()>& function)
+{
+  try
+  {
+    function();
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->ReportOutOfMemory(mapper);
+    return false;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::ReportOutOfMemory(vtkIsopointSplatMapper* mapper)
+try
+{
+  vtkDataObject* const input = mapper->GetInputDataObject(0, 0);
+  vtkMTimeType change = input ? input->GetMTime() : 0;
+  vtkIdType points = 0;
+  for (const vtkIsopointSplatLeaf& leaf : vtkIsopointSplatLeaves(input, this->BlockAttributes))
+  {
+    change = std::max(change, leaf.Data->GetMTime());
+    points += leaf.Data->GetNumberOfPoints();
+  }
+  if (this->OutOfMemory != change)
+  {
+    this->OutOfMemory = change;
+    vtkErrorWithObjectMacro(mapper, "Out of memory: the splats of "
+                                      << points << " points are not drawn. Close other data, pass "
+                                      << "fewer points, or make the window smaller.");
+  }
+}
+catch (const std::bad_alloc&)
+{
+  // There is no memory for the message either.
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointSplatMapper::Internals::Prepare(
+  vtkIsopointSplatMapper* mapper, vtkHardwareSelector* selector)
+{
+  const auto prepare = [&]
+  {
+    this->Blocks.SetInput(mapper->GetInputDataObject(0, 0), this->BlockAttributes);
+    this->UpdateGeometry(mapper);
+    this->UpdateColors(mapper);
+    if (selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+    {
+      for (const auto& block : this->Blocks.Get())
+      {
+        vtkIsopointSplatBlocks::CellOfPoint(*block, 0);
+      }
+    }
+  };
+  if (!this->Try(mapper, prepare))
+  {
+    this->Blocks.ReleaseGraphicsResources();
+    return false;
+  }
+  return !this->Blocks.IsEmpty();
+}
 
 //------------------------------------------------------------------------------
 vtkDataArray* vtkIsopointSplatMapper::Internals::Usable(
@@ -100,7 +190,7 @@ vtkDataArray* vtkIsopointSplatMapper::Internals::Usable(
   if (!this->WarnedOfShortArrays)
   {
     vtkWarningWithObjectMacro(
-      mapper, "The array \"" << orNothing(array->GetName()) << "\" is left out: it has "
+      mapper, "The array \"" << orNothing(array->GetName()) << "\" is ignored: it has "
                              << array->GetNumberOfTuples() << " tuples for "
                              << data->GetNumberOfPoints() << " points. Give it one for each.");
     this->WarnedOfShortArrays = true;
@@ -147,32 +237,40 @@ void vtkIsopointSplatMapper::Internals::UpdateGeometry(vtkIsopointSplatMapper* m
           << orNothing(mapper->SplatClipArrayName) << '\n'
           << mapper->Shape << '\n'
           << std::hexfloat << mapper->Radius;
-    if (block->GeometryState == state.str())
+    if (block->GeometryState != state.str())
     {
-      continue;
+      block->GeometryState.clear();
+      this->UpdateGeometry(mapper, *block);
+      block->GeometryState = state.str();
     }
-    block->GeometryState = state.str();
-    block->ColorState.clear();
-    block->CellOfPoint.clear();
-    block->Version = ++this->LastVersion;
-    const vtkIsopointSplatBuffers::Shape shape = this->ShapeOf(mapper, block->Data);
-    if (!shape.Normals && !this->WarnedOfNormals)
-    {
-      vtkWarningWithObjectMacro(mapper,
-        "The input has no point normals: its splats face the camera. Compute normals, for example "
-        "with vtkPCANormalEstimation, and make them the active normals.");
-      this->WarnedOfNormals = true;
-    }
-    if (block->Data->GetNumberOfPoints() > std::numeric_limits<GLsizei>::max())
-    {
-      vtkErrorWithObjectMacro(mapper, "A block of "
-                                        << block->Data->GetNumberOfPoints()
-                                        << " points is not drawn: split it into blocks of at most "
-                                        << std::numeric_limits<GLsizei>::max() << " points.");
-      continue;
-    }
-    block->Buffers.SetSplats(block->Data, shape);
+    block->Buffers.SetStride(mapper->Stride);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::UpdateGeometry(
+  vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block)
+{
+  block.ColorState.clear();
+  block.CellOfPoint.clear();
+  block.Version = ++this->LastVersion;
+  const vtkIsopointSplatBuffers::Shape shape = this->ShapeOf(mapper, block.Data);
+  if (!shape.Normals && !this->WarnedOfNormals)
+  {
+    vtkWarningWithObjectMacro(mapper,
+      "The input has no point normals: its splats face the camera. Compute normals, for example "
+      "with vtkPCANormalEstimation, and make them the active normals.");
+    this->WarnedOfNormals = true;
+  }
+  if (block.Data->GetNumberOfPoints() > std::numeric_limits<GLsizei>::max())
+  {
+    vtkErrorWithObjectMacro(mapper, "A block of "
+                                      << block.Data->GetNumberOfPoints()
+                                      << " points is not drawn: split it into blocks of at most "
+                                      << std::numeric_limits<GLsizei>::max() << " points.");
+    return;
+  }
+  block.Buffers.SetSplats(block.Data, shape);
 }
 
 //------------------------------------------------------------------------------
@@ -193,8 +291,7 @@ bool vtkIsopointSplatMapper::Internals::CanUseColorMap(vtkIsopointSplatMapper* m
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* mapper)
 {
-  const vtkTypeBool interpolates = mapper->InterpolateScalarsBeforeMapping;
-  const bool usesMap = interpolates && this->CanUseColorMap(mapper);
+  const bool usesMap = mapper->InterpolateScalarsBeforeMapping && this->CanUseColorMap(mapper);
   const auto stateOf = [&]()
   {
     vtkScalarsToColors* const table = mapper->LookupTable;
@@ -221,13 +318,14 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(vtkIsopointSplatMapper* map
   }
   this->ColoredBy = Coloring::Material;
   this->HasTranslucentColors = false;
-  mapper->InterpolateScalarsBeforeMapping = usesMap;
-  for (const auto& block : blocks)
   {
-    this->UpdateColors(mapper, *block);
+    const ScopedValue scope(mapper->InterpolateScalarsBeforeMapping, usesMap);
+    for (const auto& block : blocks)
+    {
+      this->UpdateColors(mapper, *block);
+    }
   }
-  mapper->InterpolateScalarsBeforeMapping = interpolates;
-  // Mapping may build the table.
+  // Mapping may build the table, which changes its modified time.
   const std::string newState = stateOf();
   for (const auto& block : blocks)
   {
@@ -247,13 +345,13 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
       array = nullptr;
     }
   };
-  // Else the mapper would take the former block's to be this one's.
+  // MapScalars would take the previous block's colors to be up to date for this one.
   forget(mapper->Colors);
   forget(mapper->ColorCoordinates);
   int cellFlag = 0;
   if (!block.Leaf.HasColor)
   {
-    mapper->MapScalars(block.Data, 1.0, cellFlag);
+    this->MapScalars(mapper, block, cellFlag);
   }
   if (block.Leaf.HasColor)
   {
@@ -276,8 +374,8 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
     if (!this->WarnedOfCells)
     {
       vtkWarningWithObjectMacro(mapper,
-        "Splats have the material's color: cell data colors vertex cells, and there are none. Apply "
-        "vtkCellDataToPointData, or choose a point array.");
+        "The splats are not colored by the cell array: cell data color vertex cells, and the input "
+        "has none. Apply vtkCellDataToPointData, or choose a point array.");
       this->WarnedOfCells = true;
     }
     block.Buffers.SetColors(nullptr);
@@ -296,6 +394,22 @@ void vtkIsopointSplatMapper::Internals::UpdateColors(
   forget(mapper->Colors);
   forget(mapper->ColorCoordinates);
   block.Version = ++this->LastVersion;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatMapper::Internals::MapScalars(
+  vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block, int& cellFlag)
+{
+  vtkAbstractArray* const scalars = vtkAbstractMapper::GetAbstractScalars(block.Data,
+    mapper->ScalarMode, mapper->ArrayAccessMode, mapper->ArrayId, mapper->ArrayName, cellFlag);
+  if (scalars && mapper->ScalarVisibility)
+  {
+    // MapScalars allocates two floats per tuple for coordinates in a color map, half of that for
+    // colors.
+    constexpr std::size_t size = 2 * sizeof(float);
+    vtkIsopointSplatMemory::Require(size * static_cast<std::size_t>(scalars->GetNumberOfTuples()));
+  }
+  mapper->MapScalars(block.Data, 1.0, cellFlag);
 }
 
 //------------------------------------------------------------------------------
@@ -347,8 +461,10 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   if (planes > most && this->TooManyPlanes != mapper->GetClippingPlanes()->GetMTime())
   {
     this->TooManyPlanes = mapper->GetClippingPlanes()->GetMTime();
-    vtkErrorWithObjectMacro(mapper, "Of " << planes << " clipping planes the first " << most
-                                          << " clip: OpenGL has no more. Remove some.");
+    vtkErrorWithObjectMacro(mapper, "Only the first "
+                                      << most << " of " << planes
+                                      << " clipping planes are applied: the shaders "
+                                         "support no more. Remove some.");
   }
 
   vtkProperty* const property = actor->GetProperty();

@@ -7,10 +7,12 @@
 #include "vtkIsopointSplatMapper.h"
 #include "vtkIsopointSplatPasses.h"
 
+#include <functional>
+
 class vtkIsopointSplatMapper::Internals
 {
 public:
-  /// Where a splat's color comes from; the values stand in the resolving shader as well.
+  /// Source of the splats' colors. vtkIsopointSplatResolveColor.glsl uses the same values.
   enum class Coloring
   {
     Material = 0,
@@ -18,8 +20,16 @@ public:
     ColorMap = 2
   };
 
-  void UpdateGeometry(vtkIsopointSplatMapper* mapper);
-  void UpdateColors(vtkIsopointSplatMapper* mapper);
+  /// Calls a function that may throw std::bad_alloc, which is reported once for each input rather
+  /// than at each frame.
+  /// @returns whether the function returned
+  bool Try(vtkIsopointSplatMapper* mapper, const std::function<void()>& function);
+
+  /// Brings the buffers of all blocks up to date, and for a selection of cells the map from points
+  /// to cells.
+  /// @returns whether there is anything to render
+  bool Prepare(vtkIsopointSplatMapper* mapper, vtkHardwareSelector* selector);
+
   void SetUpPasses(vtkIsopointSplatMapper* mapper, vtkRenderer* renderer, vtkActor* actor,
     vtkIsopointSplatPasses::Settings& settings);
   std::vector<vtkIsopointSplatPasses::Block> GetPassBlocks(vtkActor* actor);
@@ -33,18 +43,25 @@ public:
   bool WarnedOfNormals = false;
   bool WarnedOfShortArrays = false;
   bool WarnedOfCells = false;
-  vtkMTimeType TooManyPlanes = 0; // the change of the clipping planes that was an error
+  vtkMTimeType TooManyPlanes = 0; // modified time of the clipping planes last reported as too many
   unsigned long WindowObserver = 0;
-  bool ShaderOfComposite = false; // whether the shader at hand was built for composite input
+  bool ShaderOfComposite = false; // whether the current shader was built for composite input
   int ViewportOrigin[2] = { 0, 0 };
 
 private:
+  void ReportOutOfMemory(vtkIsopointSplatMapper* mapper);
+  void UpdateGeometry(vtkIsopointSplatMapper* mapper);
+  void UpdateGeometry(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
+  void UpdateColors(vtkIsopointSplatMapper* mapper);
   vtkDataArray* Usable(
     vtkIsopointSplatMapper* mapper, vtkPolyData* data, vtkDataArray* array, int components);
   vtkIsopointSplatBuffers::Shape ShapeOf(vtkIsopointSplatMapper* mapper, vtkPolyData* data);
   bool CanUseColorMap(vtkIsopointSplatMapper* mapper) const;
   void UpdateColors(vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block);
+  void MapScalars(
+    vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block, int& cellFlag);
 
+  vtkMTimeType OutOfMemory = 0; // modified time of the input last reported as too large
   unsigned int LastVersion = 0;
 };
 

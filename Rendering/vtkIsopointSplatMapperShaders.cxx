@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the blended surface enters the fragment shader that vtkOpenGLPolyDataMapper composes.
+// Replacements in the fragment shader of vtkOpenGLPolyDataMapper by which it shades the blended
+// surface.
 #include "vtkIsopointSplatMapper.h"
 
 #include "vtkIsopointSplatMapperInternals.h"
@@ -117,7 +118,7 @@ void vtkIsopointSplatMapper::ReplaceShaderRenderPass(std::map<vtkShader::Type, v
   this->Superclass::ReplaceShaderRenderPass(shaders, renderer, actor, prePass);
   if (!prePass)
   {
-    // What the rasteriser knows of the triangle over the viewport is not the surface's.
+    // The built-in variables describe the triangle over the viewport, not the surface.
     vtkShader* const fragment = shaders[vtkShader::Fragment];
     std::string source = fragment->GetSource();
     vtkShaderProgram::Substitute(source, "gl_FrontFacing", "splatFrontFacing");
@@ -145,7 +146,7 @@ void vtkIsopointSplatMapper::ReplaceShaderPicking(
   };
   switch (pass)
   {
-    // A cell is found by its point, see ProcessSelectorPixelBuffers.
+    // Ids of cells follow from those of points, see ProcessSelectorPixelBuffers.
     case vtkHardwareSelector::POINT_ID_LOW24:
     case vtkHardwareSelector::CELL_ID_LOW24:
       substitute(shaders, "//VTK::Picking::Impl", id + lowBytes("splatPoint"));

@@ -20,11 +20,11 @@
 namespace
 {
 
-/// In pixels. Above half of a pixel's diagonal, so that every splat covers the middle of one.
+/// In pixels. More than half of a pixel's diagonal, so that every splat covers a pixel's centre.
 constexpr float minimumHalfAxis = 0.75f;
 
-/// Splats blend over a wider circle than they cover: the surface is smoother and its outline as it
-/// was.
+/// Blended splats are larger than visible ones by this factor: the surface is smoother, its outline
+/// unchanged.
 constexpr double blendingReach = 1.4;
 
 void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
@@ -49,15 +49,21 @@ void prepareDepthTexture(vtkTextureObject* texture, const int size[2])
   texture->Resize(size[0], size[1]);
 }
 
+/// @throws std::bad_alloc where OpenGL had no memory for a texture of the framebuffer
 void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
 {
   framebuffer->Bind();
   framebuffer->DeactivateDrawBuffers();
   framebuffer->ActivateDrawBuffers(buffers);
+  // All formats are required to be renderable: only a lack of memory makes it incomplete.
+  if (glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  {
+    vtkIsopointSplatOutOfGraphicsMemory();
+  }
 }
 
-/// Leaves OpenGL as it was found. vtkOpenGLState::Push and Pop would bind again what was bound when
-/// they last looked, buffers among it that are gone.
+/// Restores OpenGL's state at the end of a scope. vtkOpenGLState::Push and Pop would restore
+/// bindings from VTK's cache, some of them of deleted buffers.
 class StateKeeper
 {
 public:
@@ -75,6 +81,7 @@ public:
     , DepthMask(state)
     , Viewport(state)
   {
+    state->vtkglGetDoublev(GL_DEPTH_CLEAR_VALUE, &this->ClearDepth);
     glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->BlendEquations[0]);
     glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->BlendEquations[1]);
     state->PushFramebufferBindings();
@@ -83,6 +90,7 @@ public:
   ~StateKeeper()
   {
     this->State->PopFramebufferBindings();
+    this->State->vtkglClearDepth(this->ClearDepth);
     this->State->vtkglBlendEquationSeparate(this->BlendEquations[0], this->BlendEquations[1]);
   }
 
@@ -98,10 +106,48 @@ private:
   vtkOpenGLState::ScopedglDepthFunc DepthFunction;
   vtkOpenGLState::ScopedglDepthMask DepthMask;
   vtkOpenGLState::ScopedglViewport Viewport;
+  GLdouble ClearDepth;
   GLint BlendEquations[2];
 };
 
-/// Model coordinates relative to a centre to view coordinates; transposed, as VTK has them.
+/// Enables the first elements of gl_ClipDistance for the duration of a scope.
+class ClipDistances
+{
+public:
+  explicit ClipDistances(std::size_t count)
+    : Count(static_cast<unsigned int>(count))
+  {
+    for (unsigned int i = 0; i < this->Count; ++i)
+    {
+      glEnable(GL_CLIP_DISTANCE0 + i);
+    }
+  }
+
+  ~ClipDistances()
+  {
+    for (unsigned int i = 0; i < this->Count; ++i)
+    {
+      glDisable(GL_CLIP_DISTANCE0 + i);
+    }
+  }
+
+  ClipDistances(const ClipDistances&) = delete;
+  ClipDistances& operator=(const ClipDistances&) = delete;
+
+private:
+  const unsigned int Count;
+};
+
+void clear(vtkOpenGLState* state)
+{
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  state->vtkglClearDepth(1.0);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+/// The matrix from model coordinates relative to a centre to view coordinates, both transposed.
 void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
 {
   vtkNew<vtkMatrix4x4> translation;
@@ -158,10 +204,7 @@ void vtkIsopointSplatPasses::Render(const Settings& settings, const std::vector<
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglViewport(0, 0, settings.Size[0], settings.Size[1]);
-  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
-  {
-    glEnable(GL_CLIP_DISTANCE0 + i);
-  }
+  const ClipDistances clipDistances(settings.ClippingPlanes.size());
   if (!isUpToDate)
   {
     this->RenderLayers(settings, blocks);
@@ -171,10 +214,6 @@ void vtkIsopointSplatPasses::Render(const Settings& settings, const std::vector<
     this->RenderIds(settings, blocks);
   }
   this->HasIds = settings.Ids;
-  for (unsigned int i = 0; i < settings.ClippingPlanes.size(); ++i)
-  {
-    glDisable(GL_CLIP_DISTANCE0 + i);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -247,11 +286,7 @@ bool vtkIsopointSplatPasses::RenderLayer(
 
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  state->vtkglClearDepth(1.0);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  clear(state);
 
   GLuint query = 0;
   if (index > 0)
@@ -261,7 +296,7 @@ bool vtkIsopointSplatPasses::RenderLayer(
   }
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   state->vtkglDepthFunc(GL_LESS);
-  // What is in front of the near plane must not hide anything, though it is drawn further back.
+  // Splats in front of the near plane must not hide anything, though this pass moves them back.
   glEnable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
   this->DrawBlocks(Pass::Visibility, index, settings, blocks);
   glDisable(GL_CLIP_DISTANCE0 + MaximumNumberOfClippingPlanes);
@@ -314,9 +349,8 @@ void vtkIsopointSplatPasses::RenderIds(const Settings& settings, const std::vect
   bind(this->IdFramebuffer, 1);
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
-  state->vtkglDepthMask(GL_TRUE);
+  clear(state);
   state->vtkglDepthFunc(GL_LESS);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   this->DrawBlocks(Pass::Ids, 0, settings, blocks);
 }
 
@@ -350,7 +384,7 @@ void vtkIsopointSplatPasses::DrawBlocks(
       program->SetUniformi(
         pass == Pass::Ids ? "visibleDepth" : "previousDepth", depth->GetTextureUnit());
     }
-    block.Buffers->Draw(program, settings.Stride);
+    block.Buffers->Draw(program);
   }
   if (depth)
   {
@@ -395,7 +429,7 @@ void vtkIsopointSplatPasses::SetUniforms(
 {
   vtkNew<vtkMatrix4x4> centerToView;
   placeCenter(block.Buffers->GetCenter(), settings.ModelToView, centerToView);
-  // Normals take the transposed inverse; matrices reach the shader transposed once more.
+  // Normals are transformed by the transposed inverse; OpenGL transposes matrices once more.
   vtkNew<vtkMatrix3x3> linear;
   for (int row = 0; row < 3; ++row)
   {

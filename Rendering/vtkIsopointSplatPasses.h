@@ -18,12 +18,12 @@ class vtkShaderProgram;
 class vtkTextureObject;
 
 /**
- * The off-screen passes that turn splats into a surface at every pixel: visibility, then weighted
- * blending of what lies within the blend depth of it (Botsch et al., High-Quality Surface Splatting
- * on Today's GPUs, 2005), and, for translucent surfaces, the same for each layer behind.
+ * The off-screen passes that turn splats into a surface at every pixel [BHZK05]: a visibility pass,
+ * then weighted blending of the splats within the blend depth behind the visible ones. For
+ * translucent surfaces both are repeated for each layer behind.
  *
- * Nothing is drawn again where nothing changed: the passes of depth peeling and of hardware
- * selection cost one frame's splats, not one each.
+ * The passes are rendered again only after a change: depth peeling and hardware selection, which
+ * render an actor several times per frame, render its splats once.
  */
 class vtkIsopointSplatPasses
 {
@@ -38,19 +38,19 @@ public:
   struct Block
   {
     vtkIsopointSplatBuffers* Buffers;
-    unsigned int Version; // another one after each change of the buffers
-    unsigned int Index;   // given back with the ids
+    unsigned int Version; // differs after each change of the buffers
+    unsigned int Index;   // written with the ids
     std::array<float, 4> PlainColor;
   };
 
-  /// All that the surface at a pixel depends on, the blocks apart.
+  /// All that the surface at a pixel depends on, except for the blocks.
   struct Settings
   {
     int Size[2] = { 0, 0 };           // of the viewport, in pixels
-    vtkNew<vtkMatrix4x4> ModelToView; // VTK's camera and actor store them, and all of these,
-    vtkNew<vtkMatrix4x4> ViewToClip;  // transposed
+    vtkNew<vtkMatrix4x4> ModelToView; // both transposed, as VTK's cameras and actors store matrices
+    vtkNew<vtkMatrix4x4> ViewToClip;
     bool ParallelProjection = false;
-    std::vector<std::array<double, 4>> ClippingPlanes; // in view coordinates, so many at most
+    std::vector<std::array<double, 4>> ClippingPlanes; // in view coordinates
     double RadiusScale = 1.0;
     double BlendDepth = 1.0;
     int Stride = 1;
@@ -63,7 +63,7 @@ public:
   /// The sums at each pixel of one layer.
   struct Layer
   {
-    vtkNew<vtkTextureObject> Depth; // as far as blending reaches; 1 where nothing is
+    vtkNew<vtkTextureObject> Depth; // up to which splats are blended; 1 where there are none
     vtkNew<vtkTextureObject> Surface;
     vtkNew<vtkTextureObject> Color;
     vtkNew<vtkTextureObject> Opacity;
@@ -71,15 +71,16 @@ public:
     bool HasOpacity = false;
   };
 
-  /// The window to render for; what was made for another one is to be released before. It may go
-  /// away at any time, and is null then.
+  /// The window to render for. Resources of a former window must have been released before. The
+  /// window may be deleted at any time, and is null then.
   void SetWindow(vtkOpenGLRenderWindow* window) { this->Window = window; }
   vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
 
   /// Brings the layers up to date, in the window's context.
+  /// @throws std::bad_alloc, after which ReleaseGraphicsResources is to be called
   void Render(const Settings& settings, const std::vector<Block>& blocks);
 
-  /// Of the last Render, nearest first; layers that nothing was seen of are left out.
+  /// Of the last Render, nearest first, without empty layers.
   int GetNumberOfLayers() const { return this->NumberOfLayers; }
   const Layer& GetLayer(int index) const { return *this->Layers[index]; }
   vtkTextureObject* GetIds() const { return this->Ids; }
@@ -114,8 +115,8 @@ private:
   vtkNew<vtkTextureObject> Ids;
   vtkNew<vtkTextureObject> IdDepth;
   vtkNew<vtkOpenGLFramebufferObject> IdFramebuffer;
-  std::vector<double> State; // what the layers were drawn of
-  bool HasIds = false;       // of these layers
+  std::vector<double> State; // the settings and blocks that the layers show
+  bool HasIds = false;       // whether Ids is of these layers
 };
 
 #endif

@@ -14,8 +14,8 @@
   vec3 splatNormal = dot(splatSurfaceSum.xyz, splatSurfaceSum.xyz) > 0.0
     ? normalize(splatSurfaceSum.xyz)
     : splatTowardsCamera;
-  // Disks stick out over the horizon, where blended normals lean over it, too. Which side is seen
-  // there is what the surface around tells.
+  // Splats extend beyond the horizon of the surface, where blended normals may point away from the
+  // camera. There the visible side is determined from the normals of the surface around.
   float splatSlant = dot(splatNormal, splatTowardsCamera);
   if (splatCovers && abs(splatSlant) < 0.3)
   {

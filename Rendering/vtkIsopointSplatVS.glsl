@@ -1,9 +1,9 @@
 //VTK::System::Dec
 
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns a splat into two conjugate half-axes of its ellipse in view coordinates. They are chosen
-// so that their projections are orthogonal on the screen: where the shorter one falls below a
-// pixel's half it can be lengthened without touching the other, and no splat slips between pixels.
+// Computes two conjugate half-axes of a splat's ellipse in view coordinates whose projections on
+// the screen are orthogonal. Where the shorter one is less than about half a pixel, it is
+// lengthened without a change of the other one, so that no splat falls between pixel centres.
 //VTK::Define::Dec
 
 in vec3 centerMC;
@@ -16,8 +16,8 @@ in vec3 axis1MC;
 in vec3 axis2MC;
 #endif
 #ifdef SPLAT_CLIPS
-in vec4 clipMC; // a plane: its normal over the radius, the centre's distance before it, in radii
-in float clipTurn; // 1 where the surface turns to the normal's side there, or -1
+in vec4 clipMC; // clipping plane: normal divided by the radius, the centre's distance in radii
+in float clipTurn; // 1: the face across the crease is on the normal's side, -1: on the other side
 #endif
 #ifdef SPLAT_COLORS
 in vec4 color;
@@ -28,8 +28,8 @@ uniform mat3 normalMatrix;
 uniform mat4 VCDCMatrix;
 uniform vec2 viewportSize; // in pixels
 uniform float radiusScale;
-uniform float reach; // how much larger splats are drawn, having become large enough to be seen
-uniform float viewScale; // length in view coordinates of a length of 1 in the model's
+uniform float reach; // factor on the half-axes, applied after they were lengthened
+uniform float viewScale; // length in view coordinates of a unit length in model coordinates
 uniform float minimumHalfAxis; // in pixels
 uniform vec4 plainColor; // of splats without a color of their own
 uniform int cameraParallel;
@@ -42,13 +42,13 @@ out vec3 normalVS;
 out vec4 colorVS;
 out float radiusVS; // along the view, in view coordinates
 #ifdef SPLAT_CLIPS
-out vec3 clipVS; // distance before the plane, in radii: at the centre, added along each axis
-flat out int isBehindCreaseVS; // whether the face on the plane's other side hides this one
+out vec3 clipVS; // distance from the plane, in radii: of the centre, and its change along each axis
+flat out int isBehindCreaseVS; // 1 where the face across the crease hides this one
 #endif
 flat out uint pointIdVS;
 
-// Two unit vectors orthogonal to a unit vector and to each other, and continuous but for z = 0
-// (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+// Two unit vectors orthogonal to a unit vector and to each other, continuous except at z = 0
+// [DBC+17].
 void tangents(vec3 n, out vec3 t1, out vec3 t2)
 {
   float s = n.z >= 0.0 ? 1.0 : -1.0;
@@ -58,14 +58,14 @@ void tangents(vec3 n, out vec3 t1, out vec3 t2)
   t2 = vec3(b, s + n.y * n.y * a, -n.y);
 }
 
-// How far on the screen, in pixels, an offset from the centre reaches.
+// The projection of an offset from the centre on the screen, in pixels.
 vec2 toPixels(vec3 offset, vec4 centerDC)
 {
   vec4 offsetDC = VCDCMatrix * vec4(offset, 0.0);
   return 0.5 * viewportSize * (offsetDC.xy - centerDC.xy / centerDC.w * offsetDC.w) / centerDC.w;
 }
 
-// The offset parallel to the screen that reaches that far.
+// The offset parallel to the screen whose projection has a given length in pixels.
 vec3 fromPixels(vec2 pixels, vec4 centerDC)
 {
   return vec3(
@@ -88,7 +88,7 @@ void main()
   axis1 = mat3(MCVCMatrix) * (axis1 * r);
   axis2 = mat3(MCVCMatrix) * (axis2 * r);
 #endif
-  // Also where the transform is singular, or the normal has no length.
+  // False also where the transform is singular or the normal is zero.
   bool hasNormal = dot(normal, normal) > 0.0;
   if (!hasNormal)
   {
@@ -110,7 +110,7 @@ void main()
   {
     vec2 p1 = toPixels(axis1, centerDC);
     vec2 p2 = toPixels(axis2, centerDC);
-    // Half the angle of (difference, 2 x product), without trigonometry.
+    // Cosine and sine of half the angle of the vector (difference, 2 x product).
     float product = dot(p1, p2);
     float halfDifference = 0.5 * (dot(p1, p1) - dot(p2, p2));
     float size = length(vec2(halfDifference, product));
@@ -143,10 +143,11 @@ void main()
   axis1VS = reach * axis1;
   axis2VS = reach * axis2;
   normalVS = normal;
-  // Along the view: where the transform flattens the surface, its sides are as near to each other.
+  // The radius along the view ray: where the transform flattens the surface, the distance between
+  // its two sides shrinks by the same factor.
   radiusVS = culled ? 0.0 : r / length(towardsCamera * normalMatrix);
 #ifdef SPLAT_CLIPS
-  // Planes take the transposed inverse, too.
+  // Planes are transformed by the transposed inverse, as normals are.
   vec3 clip = normalMatrix * clipMC.xyz;
   clipVS = vec3(clipMC.w, dot(clip, axis1VS), dot(clip, axis2VS));
   bool turnsTowardsCamera = hasNormal && facesCamera == (clipTurn > 0.0);

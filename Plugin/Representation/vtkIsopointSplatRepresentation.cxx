@@ -10,6 +10,7 @@
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIsopointSplatMapper.h"
@@ -25,6 +26,9 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 
+#include <cstddef>
+#include <cstdlib>
+#include <new>
 #include <set>
 
 vtkStandardNewMacro(vtkIsopointSplatRepresentation);
@@ -32,24 +36,36 @@ vtkStandardNewMacro(vtkIsopointSplatRepresentation);
 namespace
 {
 
+/// The points of a data set; in double precision where it computes them.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkPoints> pointsOf(vtkDataSet* data)
 {
   if (vtkPointSet* const pointSet = vtkPointSet::SafeDownCast(data))
   {
     return pointSet->GetPoints();
   }
-  const auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetNumberOfPoints(data->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  // VTK's arrays end the program where they find no memory.
+  const vtkIdType count = data->GetNumberOfPoints();
+  auto* const positions =
+    static_cast<double*>(std::malloc(3 * sizeof(double) * static_cast<std::size_t>(count)));
+  if (!positions)
   {
-    double position[3];
-    data->GetPoint(i, position);
-    points->SetPoint(i, position);
+    throw std::bad_alloc();
   }
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    data->GetPoint(i, positions + 3 * i);
+  }
+  vtkNew<vtkDoubleArray> array;
+  array->SetNumberOfComponents(3);
+  array->SetArray(positions, 3 * count, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  const auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(array);
   return points;
 }
 
 /// The points of a data set with their arrays; null where there are none.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
 {
   vtkDataSet* const data = vtkDataSet::SafeDownCast(object);
@@ -60,7 +76,7 @@ vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
   const auto splats = vtkSmartPointer<vtkPolyData>::New();
   if (vtkPolyData* const polyData = vtkPolyData::SafeDownCast(data))
   {
-    // With its vertex cells, which can be selected.
+    // Vertex cells are kept, since they can be selected.
     splats->ShallowCopy(polyData);
     return splats;
   }
@@ -70,8 +86,9 @@ vtkSmartPointer<vtkPolyData> splatsOf(vtkDataObject* object)
   return splats;
 }
 
-/// The same for composite data, block by block; others become one block, since the client of a
-/// server, which has no data, must expect something.
+/// The same for each block of composite data. Other data become one block: the client of a server,
+/// which has no data, expects composite data.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkDataObject> compositeSplatsOf(vtkDataObject* object)
 {
   vtkCompositeDataSet* const input = vtkCompositeDataSet::SafeDownCast(object);
@@ -99,6 +116,7 @@ vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
 {
   this->Actor->SetMapper(this->Mapper);
   this->Mapper->SetCompositeDataDisplayAttributes(this->BlockAttributes);
+  this->SetMapScalars(1);
 }
 
 //------------------------------------------------------------------------------
@@ -121,7 +139,19 @@ int vtkIsopointSplatRepresentation::RequestData(
   this->Splats = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   if (inputVector[0]->GetNumberOfInformationObjects() > 0)
   {
-    this->Splats = compositeSplatsOf(vtkDataObject::GetData(inputVector[0], 0));
+    vtkDataObject* const input = vtkDataObject::GetData(inputVector[0], 0);
+    try
+    {
+      this->Splats = compositeSplatsOf(input);
+    }
+    catch (const std::bad_alloc&)
+    {
+      vtkErrorMacro(
+        "Out of memory: the splats of "
+        << input->GetNumberOfElements(vtkDataObject::POINT)
+        << " points are not shown. Close other data, or pass fewer points, for example through "
+           "Extract Subset.");
+    }
   }
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkIsopointSplatRepresentation
- * @brief   shows the points of any data set as one lit surface
+ * @brief   renders the points of any data set as one lit surface
  *
- * ParaView's representation "Isopoint Splats": a vtkIsopointSplatMapper on the input's points. Data
- * sets other than vtkPolyData give their points and point arrays, composite ones those of each
- * block. While the user interacts with a large data set, one splat in LODStride is drawn.
+ * ParaView's representation "Isopoint Splats": a vtkIsopointSplatMapper on the input's points. Of
+ * data sets other than vtkPolyData the points and point arrays are used, of composite data sets
+ * those of each block. While the user interacts with a large data set, one splat in LODStride is
+ * rendered. Points that a data set computes, as images do, take 24 bytes each; where there is no
+ * memory for them, one error is reported and nothing is rendered.
  *
  * @sa vtkIsopointSplatMapper
  */
@@ -43,7 +45,7 @@ public:
 
   ///@{
   /**
-   * Of the mapper; see vtkIsopointSplatMapper.
+   * Properties of the mapper, with its ranges, units and defaults; see vtkIsopointSplatMapper.
    */
   void SetRadiusArrayName(const char* name);
   void SetRadius(double radius);
@@ -56,14 +58,15 @@ public:
   ///@}
 
   /**
-   * 1: values are mapped through the lookup table; 0: they are colors. Default: 1.
+   * Whether arrays are mapped to colors through the lookup table (1) or contain colors (0).
+   * Default: 1.
    */
   void SetMapScalars(int mapsScalars);
 
   ///@{
   /**
-   * One splat in so many is drawn where the view asks for a lower level of detail. At least 1.
-   * Default: 8.
+   * Stride of the splats that are rendered where the view requests a lower level of detail; see
+   * vtkIsopointSplatMapper::SetStride. Range: 1 or more. Default: 8.
    */
   vtkSetClampMacro(LODStride, int, 1, VTK_INT_MAX);
   vtkGetMacro(LODStride, int);
@@ -71,8 +74,8 @@ public:
 
   ///@{
   /**
-   * Selectors of the blocks that are shown, as of vtkDataAssembly, in the hierarchy of the input's
-   * blocks. Default: "/", all.
+   * Selectors of the visible blocks, paths as in vtkDataAssembly, in the hierarchy of the input.
+   * Default: "/", all blocks.
    */
   void AddBlockSelector(const char* selector);
   void RemoveAllBlockSelectors();
@@ -80,8 +83,8 @@ public:
 
   ///@{
   /**
-   * Colors of the blocks of a selector, instead of any array's; from 0 to 1. Of several for a block
-   * the last one holds. Default: none.
+   * Color of the blocks of a selector, instead of colors by an array. Range of each component: 0 to
+   * 1. Of several colors of a block the last one is used. Default: none.
    */
   void SetBlockColor(const char* selector, double red, double green, double blue);
   void RemoveAllBlockColors();
@@ -89,7 +92,7 @@ public:
 
   ///@{
   /**
-   * Of the actor; see vtkActor.
+   * Properties of the actor; see vtkActor.
    */
   void SetOrientation(double x, double y, double z);
   void SetOrigin(double x, double y, double z);
@@ -100,7 +103,7 @@ public:
 
   ///@{
   /**
-   * Of the actor's material; see vtkProperty.
+   * Properties of the actor's material; see vtkProperty.
    */
   void SetAmbientColor(double red, double green, double blue);
   void SetDiffuseColor(double red, double green, double blue);
@@ -122,8 +125,8 @@ public:
   ///@}
 
   /**
-   * What becomes of splats seen from behind, in ParaView's numbers: 401 leaves those out that turn
-   * their backs, 402 those that turn their fronts; any other draws both. Default: both.
+   * Face culling, by ParaView's constants: 401 culls back faces, 402 culls front faces, any other
+   * value culls none. Default: none.
    */
   void SetBackfaceRepresentation(int representation);
 

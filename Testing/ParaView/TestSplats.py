@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The representation Isopoint Splats. Runs in pvbatch, under MPI too, and in a client of a server:
 
-TestSplats.py PLUGIN [PVSERVER], with a server that the script starts and ends."""
+TestSplats.py PLUGIN [PVSERVER], with a server that the script starts."""
 
 import os
 import socket
@@ -154,7 +154,7 @@ def selection(view, isopoints, display):
 
 
 def sharp_edges(view):
-    """Splats end at creases where the filter says so: the cube does not stick out of its outline."""
+    """With the filter's clipping planes splats end at creases, and do not extend beyond the cube."""
     image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
     distance = "max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))"
     source = simple.Calculator(Input=image, ResultArrayName="r", Function=distance)
@@ -228,41 +228,40 @@ def free_port():
         return probe.getsockname()[1]
 
 
+def connect_to(server):
+    """Starts a server and connects to it. The server ends when this client does; if it ended before,
+    the client would report an error."""
+    port = free_port()
+    # The client listens and the server calls, so that neither has to wait for the other.
+    subprocess.Popen(
+        [server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
+    )
+    simple.ReverseConnect(str(port))
+
+
 def main(plugin, server=None):
-    process = None
     if server:
-        port = free_port()
-        # The client listens and the server calls, so that neither has to wait for the other.
-        process = subprocess.Popen(
-            [server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
-        )
-        simple.ReverseConnect(str(port))
+        connect_to(server)
         simple.LoadPlugin(plugin, remote=True)
-    try:
-        simple.LoadPlugin(plugin, remote=False)
-        simple._DisableFirstRenderCameraReset()
-        view = make_view()
-        source = ball()
-        isopoints = simple.ScatteredIsopoints(Input=source)
-        isopoints.ContourBy = ["POINTS", "r"]
-        isopoints.Isosurfaces = [48.0]
-        display, image = shows_the_ball(view, isopoints)
-        colors(view, isopoints, display)
-        properties(view, isopoints, display, image)
-        ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
-        if ranks == 1:
-            selection(view, isopoints, display)
-        if ranks == 1 and not server:
-            level_of_detail(view, isopoints, display)
-        simple.Hide(isopoints, view)
-        if ranks == 1:
-            sharp_edges(view)  # several ranks' pictures are cut at the points' bounds
-        other_data(view)
-    finally:
-        if process:
-            simple.Disconnect()
-            process.kill()
-            process.wait()
+    simple.LoadPlugin(plugin, remote=False)
+    simple._DisableFirstRenderCameraReset()
+    view = make_view()
+    source = ball()
+    isopoints = simple.ScatteredIsopoints(Input=source)
+    isopoints.ContourBy = ["POINTS", "r"]
+    isopoints.Isosurfaces = [48.0]
+    display, image = shows_the_ball(view, isopoints)
+    colors(view, isopoints, display)
+    properties(view, isopoints, display, image)
+    ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+    if ranks == 1:
+        selection(view, isopoints, display)
+    if ranks == 1 and not server:
+        level_of_detail(view, isopoints, display)
+    simple.Hide(isopoints, view)
+    if ranks == 1:
+        sharp_edges(view)  # several ranks' pictures are cut at the points' bounds
+    other_data(view)
 
 
 if __name__ == "__main__":

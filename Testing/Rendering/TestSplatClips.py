@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Splats that end at a plane: which part of them is drawn, and how sharp the edges of bodies are."""
+"""Splats with clipping planes: which part of them is rendered, and how sharp edges of bodies are."""
 
 import numpy as np
 from scenes import (
@@ -155,7 +155,7 @@ def whole_where_no_plane_is():
 
 
 def ends_there_whichever_way_the_surface_turns():
-    """A fifth component changes nothing of a splat alone, whatever it is; four are as with -1."""
+    """A fifth component does not change a single splat, whatever its value; without it, it is -1."""
     half = plane_through((0.0, 0.0, 0.0), RIGHT)
     expected = parallel_scene(actor_of(disk(half))).image()
     for turn in (1.0, 0.0, -1.0, 1e300, np.nan, -np.inf):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the splat mapper does with each kind of input, good and bad."""
+"""The splat mapper with valid and invalid input of each kind."""
 
+import ctypes
 import gc
 
 import numpy as np
@@ -23,13 +24,14 @@ from scenes import (
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
+    vtkDataObject,
     vtkDataSetAttributes,
     vtkMultiBlockDataSet,
     vtkPlane,
     vtkPolyData,
 )
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkActor, vtkHardwareSelector, vtkPolyDataMapper
 
 UP = [0.0, -1.0, 1.0]  # towards the scene's camera
 
@@ -125,7 +127,7 @@ def leaves_out_only_what_cannot_be_drawn():
     check(np.array_equal(Scene(actor_of(marked)).image(), good), "ghost points")
 
 
-def has_the_size_it_is_told():
+def has_the_given_size():
     scene = Scene(actor_of(disk(radius=0.5)))
     scene.camera.ParallelProjectionOn()
     scene.camera.SetParallelScale(1.0)
@@ -319,7 +321,7 @@ def one_mapper_in_two_windows():
 
 
 def a_mapper_that_outlives_its_window():
-    """Its buffers go with the window: handles are another window's afterwards."""
+    """The window deletes its buffers: later, their handles may be those of another window."""
     source = vtkSphereSource()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
@@ -470,6 +472,34 @@ def does_not_disturb_other_actors():
         check(np.count_nonzero(~same) < 2000 and not same.all(), "only the splat differs")
 
 
+def leaves_the_clear_depth():
+    """A clear depth set by others is neither used nor changed, in rendering and in selection."""
+    depth_clear_value = 0x0B73
+    opengl = ctypes.CDLL("libGL.so.1")
+    actor = actor_of(disk())
+    scene = Scene(actor)
+    expected = scene.image()
+    state = scene.window.GetState()
+    actor.GetMapper().AddObserver("StartEvent", lambda *_: state.vtkglClearDepth(0.25))
+
+    def check_clear_depth(when):
+        depth = ctypes.c_double()
+        scene.window.MakeCurrent()
+        opengl.glGetDoublev(depth_clear_value, ctypes.byref(depth))
+        check(depth.value == 0.25, f"a clear depth of {depth.value} {when}")
+
+    check(np.array_equal(scene.image(), expected), "the same picture")
+    actor.GetMapper().SetRadiusScale(0.9)
+    scene.window.Render()
+    check_clear_depth("after drawing")
+    selector = vtkHardwareSelector()
+    selector.SetRenderer(scene.renderer)
+    selector.SetFieldAssociation(vtkDataObject.FIELD_ASSOCIATION_POINTS)
+    selector.SetArea(300, 300, 300, 300)
+    check(selector.Select().GetNumberOfNodes() == 1, "the splat is selected")
+    check_clear_depth("after selecting")
+
+
 def defaults_and_ranges():
     mapper = vtkIsopointSplatMapper()
     check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
@@ -527,7 +557,7 @@ if __name__ == "__main__":
         leaves_out_only_what_cannot_be_drawn,
         an_infinite_point_changes_nothing,
         clipping_planes_beyond_the_sixth,
-        has_the_size_it_is_told,
+        has_the_given_size,
         draws_ellipses,
         warns_once_without_normals,
         colors_of_every_kind,
@@ -543,6 +573,7 @@ if __name__ == "__main__":
         flattened_by_a_transform,
         fewer_splats_look_alike,
         does_not_disturb_other_actors,
+        leaves_the_clear_depth,
     ):
         print(test.__name__, flush=True)
         test()

@@ -55,8 +55,8 @@ def polydata(points, normals=None, **arrays):
 
 
 def isopoints(field, low, high, count, seed=1, creases=False):
-    """The filter's isopoints where a field is 0, of random samples in a box; on request with what
-    it tells of creases."""
+    """The filter's isopoints where a field is 0, of random samples in a box; on request with fits
+    of creases and clipping planes along them."""
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")

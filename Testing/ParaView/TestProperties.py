@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The XML of the plugin against its classes: TestProperties.py PLUGIN FILTER_XML REPRESENTATION_XML
+
+Properties offer the ranges that the classes accept and have their defaults, and help mentions only
+representations that exist."""
+
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+from paraview import servermanager, simple
+from scatteredisopoints import vtkScatteredIsopointFilter
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("failed: " + message)
+
+
+def vector_properties(root):
+    """Those of one value with a default: name, XML, the name in the class, and the default."""
+    for element in root.iter():
+        if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
+            continue
+        if element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib:
+            check(element.get("command")[:3] == "Set", element.get("command"))
+            yield element.get("name"), element, element.get("command")[3:], default_of(element)
+
+
+def default_of(element):
+    value = element.get("default_values")
+    return value if element.tag == "StringVectorProperty" else float(value)
+
+
+def limits(element):
+    """The least and the greatest value offered, None where there is no such limit."""
+    domain = next((child for child in element if child.tag.endswith("Domain")), None)
+    check(domain is not None, element.get("name") + " has a domain")
+    if domain.tag == "BooleanDomain":
+        return 0, 1
+    if domain.tag == "EnumerationDomain":
+        values = [int(entry.get("value")) for entry in domain]
+        check(values == list(range(values[0], values[-1] + 1)), "consecutive values")
+        return values[0], values[-1]
+    number = int if domain.tag == "IntRangeDomain" else float
+    return [number(domain.get(name)) if domain.get(name) else None for name in ("min", "max")]
+
+
+def check_range(name, element, accepts):
+    """accepts(value): whether the class takes a value as it is."""
+    low, high = limits(element)
+    check(low is not None and accepts(low), f"{name}: the least value, {low}")
+    check(accepts(LARGE[element.tag] if high is None else high), f"{name}: the greatest, {high}")
+    if element.find("BooleanDomain") is None:
+        check(not accepts(low - 1), f"{name}: less than {low}")
+        check(high is None or not accepts(high + 1), f"{name}: more than {high}")
+
+
+def samples():
+    positions = np.random.default_rng(1).random((50, 3))
+    data, points = vtkPolyData(), vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    data.SetPoints(points)
+    data.GetPointData().SetScalars(numpy_to_vtk(positions[:, 0].copy(), deep=True))
+    return data
+
+
+def filter_accepts(name):
+    """A value outside of the range is set to the nearest one, or is an error at the update."""
+    contour = vtkScatteredIsopointFilter()
+    contour.SetInputData(samples())
+    contour.SetValue(0, 0.5)
+    errors = []
+    contour.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+
+    def accepts(value):
+        errors.clear()
+        getattr(contour, "Set" + name)(value)
+        contour.Update()
+        return getattr(contour, "Get" + name)() == value and not errors
+
+    return accepts
+
+
+def check_filter(root):
+    contour = vtkScatteredIsopointFilter()
+    names = []
+    for name, element, name_in_class, default in vector_properties(root):
+        value = getattr(contour, "Get" + name_in_class)()
+        check(value == default, f"{name}: the default {default}, in the class {value}")
+        check_range(name, element, filter_accepts(name_in_class))
+        names.append(name)
+    check(len(names) > 12, f"properties of the filter: {names}")
+
+
+def printed(representation):
+    """What a representation prints of itself and its mapper. Python does not know the class."""
+    values = dict(re.findall(r"^ *(\w+): (\S*)$", str(representation), re.MULTILINE))
+    values["Shape"] = {"circle": 0, "ellipse": 1}[values["Shape"]]
+    return values
+
+
+def value_of(representation, name, like):
+    return type(like)(printed(representation)[name])
+
+
+def check_representation(root):
+    manager = servermanager.ProxyManager()
+    proxy = manager.NewProxy("representations", "IsopointSplatRepresentation")
+    surface = manager.GetPrototypeProxy("representations", "SurfaceRepresentation")
+    representation = proxy.GetClientSideObject()
+    fresh = representation.NewInstance()
+    check(fresh.GetClassName() == "vtkIsopointSplatRepresentation", fresh.GetClassName())
+    check("Color Mode: MapScalars" in str(fresh), "the default of MapScalars")
+    names = []
+    for name, element, name_in_class, default in vector_properties(root):
+        if element.get("panel_visibility") == "never":
+            # Shared, so that the other representation's value is the one that counts.
+            shared = surface.GetProperty(name)
+            value = type(default)(shared.GetElement(0)) if shared else default
+            check(value == default, f"{name}: the default {default}, of surfaces {value}")
+            continue
+        value = value_of(fresh, name_in_class, default)
+        check(value == default, f"{name}: the default {default}, in the class {value}")
+
+        def accepts(value):
+            servermanager.vtkSMPropertyHelper(proxy, name).Set(value)
+            proxy.UpdateVTKObjects()
+            return value_of(representation, name_in_class, value) == value
+
+        if element.tag != "StringVectorProperty":
+            check_range(name, element, accepts)
+        names.append(name)
+    check(len(names) == 7, f"properties of the representation: {names}")
+
+
+def check_mentioned_representations(roots):
+    view = simple.CreateView("RenderView")
+    display = simple.Show(simple.Sphere(), view)
+    known = list(display.GetProperty("Representation").Available)
+    check("Isopoint Splats" in known, f"the representation among {known}")
+    names = r"((?:[A-Z]\w*)(?: [A-Z]\w*)*)"
+    mentioned = []
+    for root in roots:
+        for element in root.iter("Documentation"):
+            texts = [element.text, element.get("short_help"), element.get("long_help")]
+            text = " ".join(" ".join(filter(None, texts)).split())
+            for first, second in re.findall(
+                rf"[Rr]epresentations? {names}(?: and {names})?", text
+            ):
+                mentioned += filter(None, [first, second])
+    print("representations in help:", ", ".join(sorted(set(mentioned))))
+    check("Isopoint Splats" in mentioned, f"the representation among {mentioned}")
+    for name in mentioned:
+        check(name in known, f"{name} among the representations {known}")
+
+
+def main(plugin, *files):
+    simple.LoadPlugin(plugin)
+    of_filter, of_representation = roots = [ElementTree.parse(file).getroot() for file in files]
+    check_filter(of_filter)
+    check_representation(of_representation)
+    check_mentioned_representations(roots)
+
+
+main(*sys.argv[1:])
+print("passed")
