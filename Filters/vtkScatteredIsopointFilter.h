@@ -442,7 +442,6 @@ private:
   class Internals;
   class KeptTree;
 
-  void CheckParameters();
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
