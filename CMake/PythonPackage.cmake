@@ -1,6 +1,6 @@
-# The Python package `scatteredisopoints`: the wrapped modules, and an __init__.py that names their
-# classes. It is importable from the build folder; installed under /usr/local, Debian's python3
-# finds it by itself.
+# The Python package `scatteredisopoints`: the wrapped modules, and an __init__.py that imports their
+# classes. It can be imported from the build folder; installed under /usr/local, it is on the search
+# path of Debian's python3.
 if (EXISTS /etc/debian_version)
   set(python_packages dist-packages)
 else ()
@@ -25,7 +25,7 @@ configure_file("${package_source}"
 install(FILES "${package_source}"
   DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
 
-# From the package's folder to the modules' libraries, wherever the tree is moved to.
+# A relative run path from the package to the libraries, so that the installed tree can be moved.
 file(RELATIVE_PATH libraries_from_package
   "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
 set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointAllocation.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 
 #include <cstddef>
@@ -10,9 +11,9 @@
 void vtkAllocateTuples(vtkAbstractArray* array, vtkIdType tuples)
 {
   auto* const numbers = vtkDataArray::SafeDownCast(array);
-  const bool isPlain =
+  const bool isContiguous =
     numbers && numbers->HasStandardMemoryLayout() && numbers->GetDataType() != VTK_BIT;
-  if (!isPlain || tuples == 0)
+  if (!isContiguous || tuples == 0)
   {
     array->SetNumberOfTuples(tuples);
     return;

@@ -7,8 +7,10 @@
 class vtkAbstractArray;
 
 /**
- * Gives an array so many tuples, of any values. Arrays would do so themselves, but VTK ends the
- * program where there is no memory for it, unless it was built without assertions.
+ * Sets the number of tuples of an array; their values are undefined. Unlike
+ * vtkAbstractArray::SetNumberOfTuples(), it reports a lack of memory: VTK ends the program then,
+ * unless it was built without assertions. (For arrays that are not contiguous in memory, and bit
+ * arrays, VTK allocates all the same.)
  * @throws std::bad_alloc
  */
 void vtkAllocateTuples(vtkAbstractArray* array, vtkIdType tuples);

@@ -3,158 +3,30 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "vtkIsopointCellCenters.h"
-#include "vtkIsopointCompatibility.h"
 #include "vtkIsopointGhosts.h"
+#include "vtkIsopointUsageError.h"
 
-#include "vtkBitArray.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkDataSet.h"
-#include "vtkExplicitStructuredGrid.h"
-#include "vtkHyperTree.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkHyperTreeGrid.h"
-#include "vtkIdTypeArray.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
-#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
-#include "vtkUnstructuredGridBase.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <sstream>
 #include <utility>
 
 namespace
 {
 
-void add(vtkIsopointState& state, vtkObject* object)
-{
-  state.push_back(object ? object->GetMTime() : 0);
-}
-
-void add(vtkIsopointState& state, vtkCellArray* cells)
-{
-  state.push_back(cells ? cells->GetMTime() : 0);
-  add(state, cells ? cells->GetConnectivityArray() : nullptr);
-  add(state, cells ? cells->GetOffsetsArray() : nullptr);
-}
-
-/// Adds what an array of flags holds. Blanking a point or a cell and masking a node change these in
-/// place, and VTK counts that as no modification.
-template <class TArray>
-void addFlags(vtkIsopointState& state, TArray* flags)
-{
-  add(state, static_cast<vtkObject*>(flags));
-  std::uint64_t hash = 14695981039346656037u; // FNV-1a: one changed flag always changes it
-  const vtkIdType count = flags ? flags->GetNumberOfValues() : 0;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    hash = (hash ^ static_cast<unsigned char>(flags->GetValue(i))) * 1099511628211u;
-  }
-  state.push_back(static_cast<vtkMTimeType>(hash));
-}
-
-void addGhosts(vtkIsopointState& state, vtkDataSetAttributes* attributes)
-{
-  addFlags(state,
-    vtkUnsignedCharArray::SafeDownCast(
-      attributes ? attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) : nullptr));
-}
-
-void addGrid(vtkIsopointState& state, vtkUnstructuredGrid* grid)
-{
-  add(state, grid->GetCells());
-  add(state, grid->GetCellTypesArray());
-  const auto faces = vtkGetFacesOfPolyhedra(grid);
-  add(state, faces.first);
-  add(state, faces.second);
-}
-
-void addCoordinates(vtkIsopointState& state, vtkDataArray* x, vtkDataArray* y, vtkDataArray* z)
-{
-  add(state, x);
-  add(state, y);
-  add(state, z);
-}
-
-/// A tree that is subdivided or replaced leaves the grid's modification time as it is.
-void addTrees(vtkIsopointState& state, vtkHyperTreeGrid* trees)
-{
-  addCoordinates(
-    state, trees->GetXCoordinates(), trees->GetYCoordinates(), trees->GetZCoordinates());
-  addFlags(state, trees->GetMask());
-  vtkHyperTreeGrid::vtkHyperTreeGridIterator iterator;
-  trees->InitializeTreeIterator(iterator);
-  while (vtkHyperTree* const tree = iterator.GetNextTree())
-  {
-    add(state, tree);
-    for (const vtkIdType number : { tree->GetTreeIndex(), tree->GetNumberOfVertices(),
-           tree->GetGlobalIndexFromLocal(0), tree->GetGlobalNodeIndexMax() })
-    {
-      state.push_back(static_cast<vtkMTimeType>(number));
-    }
-  }
-}
-
-/// What the positions of a leaf's points and cells, and whether they take part, depend on.
-vtkIsopointState geometryOf(vtkDataObject* leaf)
-{
-  vtkIsopointState state{ leaf->vtkObject::GetMTime() };
-  if (auto* const pointSet = vtkPointSet::SafeDownCast(leaf))
-  {
-    add(state, pointSet->GetPoints());
-    add(state, pointSet->GetPoints() ? pointSet->GetPoints()->GetData() : nullptr);
-  }
-  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(leaf))
-  {
-    addGrid(state, grid);
-  }
-  else if (vtkUnstructuredGridBase::SafeDownCast(leaf))
-  {
-    // Its cells are in memory of another kind, of which it alone knows when it changed.
-    add(state, static_cast<vtkObject*>(leaf));
-  }
-  if (auto* const grid = vtkExplicitStructuredGrid::SafeDownCast(leaf))
-  {
-    add(state, grid->GetCells());
-  }
-  if (auto* const polyData = vtkPolyData::SafeDownCast(leaf))
-  {
-    add(state, polyData->GetVerts());
-    add(state, polyData->GetLines());
-    add(state, polyData->GetPolys());
-    add(state, polyData->GetStrips());
-  }
-  if (auto* const image = vtkImageData::SafeDownCast(leaf))
-  {
-    add(state, image->GetDirectionMatrix());
-  }
-  if (auto* const grid = vtkRectilinearGrid::SafeDownCast(leaf))
-  {
-    addCoordinates(
-      state, grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates());
-  }
-  if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
-  {
-    addTrees(state, trees);
-  }
-  addGhosts(state, leaf->GetAttributes(vtkDataObject::POINT));
-  addGhosts(state, leaf->GetAttributes(vtkDataObject::CELL));
-  return state;
-}
-
-/// The names of arrays, for an error message.
+/// The names of the arrays, for an error message.
 std::string arrayNames(vtkDataSetAttributes* attributes)
 {
   std::ostringstream names;
@@ -167,10 +39,10 @@ std::string arrayNames(vtkDataSetAttributes* attributes)
   return count > 0 ? names.str() : std::string("none");
 }
 
-/// What a leaf offers, for an error message.
-std::string offerOf(vtkDataObject* leaf)
+/// The remedy of an error about the array to process, with the arrays of a leaf.
+std::string remedyFor(vtkDataObject* leaf)
 {
-  return " Choose one with SetInputArrayToProcess(); the point arrays are: " +
+  return " Choose a scalar array with SetInputArrayToProcess(); the point arrays are: " +
          arrayNames(leaf->GetAttributes(vtkDataObject::POINT)) +
          "; the cell arrays are: " + arrayNames(leaf->GetAttributes(vtkDataObject::CELL)) + ".";
 }
@@ -185,7 +57,7 @@ vtkIdType elementCount(vtkDataObject* leaf)
   return trees ? trees->GetNumberOfLeaves() : 0;
 }
 
-/// @throws vtkUnusableIsopointInput if it is none
+/// @throws vtkIsopointUsageError if the array is not numeric or has not one component
 vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
 {
   const std::string described =
@@ -193,15 +65,15 @@ vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
   auto* const scalars = vtkDataArray::SafeDownCast(array);
   if (!scalars)
   {
-    throw vtkUnusableIsopointInput(described + "holds no numbers." + offerOf(leaf));
+    throw vtkIsopointUsageError(described + "holds no numbers." + remedyFor(leaf));
   }
   if (scalars->GetNumberOfComponents() != 1)
   {
-    throw vtkUnusableIsopointInput(described + "has " +
-                                   std::to_string(scalars->GetNumberOfComponents()) +
-                                   " components where a scalar is needed. Take one component or the"
-                                   " magnitude first (vtkArrayCalculator, or ParaView's"
-                                   " Calculator).");
+    throw vtkIsopointUsageError(described + "has " +
+                                std::to_string(scalars->GetNumberOfComponents()) +
+                                " components, but a scalar array has one. Compute a component"
+                                " or the magnitude first, with vtkArrayCalculator or ParaView's"
+                                " Calculator.");
   }
   return scalars;
 }
@@ -215,7 +87,7 @@ vtkIdType vtkIsopointBlock::GetNumberOfSamples() const
 
 vtkIsopointArrayChoice::vtkIsopointArrayChoice(vtkInformation* inputArray)
   : Association(inputArray->Get(vtkDataObject::FIELD_ASSOCIATION()))
-  // ParaView passes an empty name where nothing was chosen.
+  // ParaView passes an empty name if no array was chosen.
   , Name(inputArray->Has(vtkDataObject::FIELD_NAME()) ? inputArray->Get(vtkDataObject::FIELD_NAME())
                                                       : "")
   , Attribute(inputArray->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
@@ -255,33 +127,33 @@ void vtkIsopointBlocks::Collect(
   const isopoint::Execution& execution, vtkDataObject* input, const vtkIsopointArrayChoice& choice)
 {
   this->ReleaseInput();
-  std::string offer;
+  std::string remedy;
   vtkForEachIsopointLeaf(input,
     [&](vtkDataObject* leaf, std::size_t number)
     {
       this->LeafCount = number + 1;
       if (elementCount(leaf) > 0)
       {
-        offer = offer.empty() ? offerOf(leaf) : offer;
+        remedy = remedy.empty() ? remedyFor(leaf) : remedy;
         this->AddLeaf(execution, leaf, number, choice);
       }
     });
   this->KeptCenters.erase(this->KeptCenters.lower_bound(this->LeafCount), this->KeptCenters.end());
-  if (offer.empty())
+  if (remedy.empty())
   {
-    throw vtkUnusableIsopointInput(
-      "The input has no points. Connect a data set with points and a scalar array.");
+    throw vtkIsopointUsageError(
+      "The input has no points or cells. Connect a data set with a scalar array.");
   }
   if (this->Blocks.empty())
   {
-    throw vtkUnusableIsopointInput(choice.DescribeMissing() + offer);
+    throw vtkIsopointUsageError(choice.DescribeMissing() + remedy);
   }
 }
 
 void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf,
   std::size_t number, const vtkIsopointArrayChoice& choice)
 {
-  // A hyper tree grid has cells alone.
+  // A hyper tree grid has cell data only.
   const bool hasPoints = vtkDataSet::SafeDownCast(leaf) != nullptr;
   vtkDataSetAttributes* const points =
     hasPoints ? leaf->GetAttributes(vtkDataObject::POINT) : nullptr;
@@ -299,18 +171,26 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   block.Leaf = number;
   block.Attributes = ofPoints ? points : cells;
   block.Scalars = asScalars(ofPoints ? ofPoints : ofCells, leaf);
-  vtkIsopointState state = geometryOf(leaf);
-  state.push_back(ofPoints ? 0 : 1);
-  this->AddPositions(execution, leaf, ofCells != nullptr, block);
+  vtkIsopointInputState state = vtkGetIsopointGeometryState(leaf);
+  if (ofPoints)
+  {
+    block.Positions = vtkDataSet::SafeDownCast(leaf);
+    block.Ghosts = vtkFindGhostPoints(block.Positions);
+  }
+  else
+  {
+    this->AddCenters(execution, leaf, state, block);
+  }
   if (block.Scalars->GetNumberOfTuples() != block.GetNumberOfSamples())
   {
     std::ostringstream message;
     message << "The array \"" << (block.Scalars->GetName() ? block.Scalars->GetName() : "")
             << "\" has " << block.Scalars->GetNumberOfTuples() << " values for "
-            << block.GetNumberOfSamples() << (ofPoints ? " points." : " cells.") << offerOf(leaf);
-    throw vtkUnusableIsopointInput(message.str());
+            << block.GetNumberOfSamples() << (ofPoints ? " points." : " cells.") << remedyFor(leaf);
+    throw vtkIsopointUsageError(message.str());
   }
-  add(state, block.Scalars);
+  state.push_back(ofPoints ? 0 : 1);
+  vtkAppendIsopointArrayState(state, block.Scalars);
   if (block.GetNumberOfSamples() > 0)
   {
     this->Blocks.push_back(block);
@@ -318,8 +198,8 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   }
 }
 
-void vtkIsopointBlocks::AddPositions(const isopoint::Execution& execution, vtkDataObject* leaf,
-  bool isOfCells, vtkIsopointBlock& block)
+void vtkIsopointBlocks::AddCenters(const isopoint::Execution& execution, vtkDataObject* leaf,
+  const vtkIsopointInputState& geometry, vtkIsopointBlock& block)
 {
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {
@@ -327,22 +207,15 @@ void vtkIsopointBlocks::AddPositions(const isopoint::Execution& execution, vtkDa
     return;
   }
   auto* const dataSet = vtkDataSet::SafeDownCast(leaf);
-  if (!isOfCells)
-  {
-    block.Positions = dataSet;
-    block.Ghosts = vtkFindGhostPoints(dataSet);
-    return;
-  }
   block.Ghosts = vtkFindGhostCells(dataSet);
   block.Positions = vtkMakeDualGrid(dataSet);
   if (!block.Positions)
   {
     Centers& kept = this->KeptCenters[block.Leaf];
-    vtkIsopointState geometry = geometryOf(leaf);
     if (!kept.Points || kept.Geometry != geometry)
     {
       kept.Points = vtkComputeCellCenters(execution, dataSet);
-      kept.Geometry = std::move(geometry);
+      kept.Geometry = geometry;
     }
     vtkNew<vtkPolyData> centers;
     centers->SetPoints(kept.Points);
@@ -350,9 +223,9 @@ void vtkIsopointBlocks::AddPositions(const isopoint::Execution& execution, vtkDa
   }
 }
 
-vtkIsopointState vtkIsopointBlocks::GetState(std::size_t begin, std::size_t end) const
+vtkIsopointInputState vtkIsopointBlocks::GetState(std::size_t begin, std::size_t end) const
 {
-  vtkIsopointState state;
+  vtkIsopointInputState state;
   for (std::size_t i = begin; i < end; ++i)
   {
     state.insert(state.end(), this->States[i].begin(), this->States[i].end());

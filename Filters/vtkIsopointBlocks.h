@@ -3,10 +3,14 @@
 #define vtkIsopointBlocks_h
 
 #include "vtkIsopointBlock.h"
+#include "vtkIsopointInputState.h"
 
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstddef>
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,33 +20,28 @@ struct Execution;
 }
 class vtkAbstractArray;
 class vtkDataObject;
+class vtkDataSetAttributes;
 class vtkInformation;
 class vtkPoints;
 
 /**
- * An input that cannot be contoured; what() is a whole sentence with the remedy.
- */
-struct vtkUnusableIsopointInput : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
-/**
- * The array that is to be contoured, as vtkAlgorithm::SetInputArrayToProcess() chose it.
+ * The array to contour, as chosen by vtkAlgorithm::SetInputArrayToProcess().
  */
 class vtkIsopointArrayChoice
 {
 public:
   explicit vtkIsopointArrayChoice(vtkInformation* inputArray);
 
-  /// Whether the array is one of the points, of the cells, or the first of these that there is.
+  /// Whether the array may be a point array, and a cell array. If it may be either, a point array
+  /// has precedence.
   bool MayBeOfPoints() const;
   bool MayBeOfCells() const;
 
-  /// The array of that name or, where none was chosen, the active scalars; or null.
+  /// The array of the chosen name or, if none was chosen, of the chosen attribute (the active
+  /// scalars by default); null if there is none.
   vtkAbstractArray* Find(vtkDataSetAttributes* attributes) const;
 
-  /// For an error message where no part of an input has the array.
+  /// The cause, for an error message, if no leaf of an input has the array.
   std::string DescribeMissing() const;
 
 private:
@@ -52,57 +51,56 @@ private:
 };
 
 /**
- * Sees a data object as samples: each data set or hyper tree grid of it is a block. Centres of
- * cells are kept from one call to the next as long as the cells stay the same. Arrays that change
- * in place are to be marked by Modified(), other than ghosts and the mask of a hyper tree grid,
- * which are compared by what they hold.
+ * Presents a data object as samples: each of its data sets or hyper tree grids is a block. Computed
+ * cell centres are kept from one call to the next while the cells do not change. Modified() must be
+ * called for arrays that are changed in place, except ghost arrays and the mask of a hyper tree
+ * grid, whose content is compared.
  */
 class vtkIsopointBlocks
 {
 public:
-  /// Collects the blocks of an input. Blocks that lack the array, or have no points or cells, are
-  /// left out.
-  /// @throws vtkUnusableIsopointInput if no block can be contoured, or a block has an array of that
-  /// name which is no scalar; std::bad_alloc; isopoint::Aborted
+  /// Collects the blocks of an input, except those without the array or without points or cells.
+  /// @throws vtkIsopointUsageError if no block remains, or if the array of a block is not a scalar
+  /// array with one value for each point or cell; std::bad_alloc; isopoint::Aborted
   void Collect(const isopoint::Execution& execution, vtkDataObject* input,
     const vtkIsopointArrayChoice& choice);
 
   const std::vector<vtkIsopointBlock>& GetBlocks() const { return this->Blocks; }
 
-  /// What the blocks [begin, end) were read from.
-  vtkIsopointState GetState(std::size_t begin, std::size_t end) const;
+  /// The state of the input that the blocks [begin, end) present.
+  vtkIsopointInputState GetState(std::size_t begin, std::size_t end) const;
 
-  /// Of the input, those without samples included.
+  /// The number of leaves of the input, including those without samples.
   std::size_t GetNumberOfLeaves() const { return this->LeafCount; }
 
-  /// Points (or cells) of blocks without the array.
+  /// The number of points (or cells, where there are more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
-  /// Lets go of the input; centres stay.
+  /// Drops all references to the input. Computed cell centres are kept.
   void ReleaseInput();
 
 private:
   void AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf, std::size_t number,
     const vtkIsopointArrayChoice& choice);
-  void AddPositions(const isopoint::Execution& execution, vtkDataObject* leaf, bool isOfCells,
-    vtkIsopointBlock& block);
+  void AddCenters(const isopoint::Execution& execution, vtkDataObject* leaf,
+    const vtkIsopointInputState& geometry, vtkIsopointBlock& block);
 
   struct Centers
   {
-    vtkIsopointState Geometry;
+    vtkIsopointInputState Geometry; // of the leaf
     vtkSmartPointer<vtkPoints> Points;
   };
 
   std::vector<vtkIsopointBlock> Blocks;
-  std::vector<vtkIsopointState> States; // of each block
+  std::vector<vtkIsopointInputState> States; // one for each block
   std::size_t LeafCount = 0;
   vtkIdType PointsWithoutArray = 0;
   std::map<std::size_t, Centers> KeptCenters; // by leaf
 };
 
 /**
- * Calls visit(leaf, number) for each data set or other leaf of a data object: itself with number 0
- * if it is no composite one.
+ * Calls visit(leaf, number) for each leaf of a composite data object, numbered in the order of
+ * traversal, or for any other data object itself, with the number 0.
  */
 void vtkForEachIsopointLeaf(
   vtkDataObject* input, const std::function<void(vtkDataObject* leaf, std::size_t number)>& visit);

@@ -7,6 +7,10 @@
 #include "vtkIsopointGhosts.h"
 
 #include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
 #include "vtkHyperTreeGrid.h"
@@ -20,6 +24,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -30,7 +35,7 @@ vtkSmartPointer<vtkDataSet> dualOf(vtkImageData* image)
 {
   int extent[6];
   image->GetExtent(extent);
-  double halfway[3]; // in cells, of the sides that have any
+  double halfway[3]; // continuous index of the first cell's centre, from the first point
   for (int axis = 0; axis < 3; ++axis)
   {
     const bool isFlat = extent[2 * axis + 1] <= extent[2 * axis];
@@ -79,7 +84,7 @@ vtkSmartPointer<vtkDataSet> dualOf(vtkRectilinearGrid* grid)
   return dual;
 }
 
-/// Lists the leaves below a cursor's node.
+/// Collects the positions of the leaves below a cursor's node.
 class LeafCollector
 {
 public:
@@ -90,7 +95,7 @@ public:
   {
   }
 
-  void collect(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, bool isBelowMask)
+  void Collect(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, bool isBelowMask)
   {
     const bool isMasked = isBelowMask || cursor->IsMasked();
     if (!cursor->IsLeaf())
@@ -98,7 +103,7 @@ public:
       for (int child = 0; child < cursor->GetNumberOfChildren(); ++child)
       {
         cursor->ToChild(static_cast<unsigned char>(child));
-        this->collect(cursor, isMasked);
+        this->Collect(cursor, isMasked);
         cursor->ToParent();
       }
       return;
@@ -156,7 +161,7 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   {
     return centers;
   }
-  // From several threads cells may be read once a single one has read any.
+  // GetCell() is thread-safe only after a first call from a single thread.
   vtkNew<vtkGenericCell> first;
   input->GetCell(0, first);
   const auto largestCell = static_cast<std::size_t>(std::max(8, input->GetMaxCellSize()));
@@ -202,9 +207,9 @@ void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlo
   while (trees.GetNextTree(index))
   {
     input->InitializeNonOrientedGeometryCursor(cursor, index);
-    collector.collect(cursor, false);
+    collector.Collect(cursor, false);
   }
-  block.Fillers = count - collector.Leaves;
+  block.NumberOfUnusedIds = count - collector.Leaves;
   vtkNew<vtkPolyData> positions;
   positions->SetPoints(points);
   block.Positions = positions;

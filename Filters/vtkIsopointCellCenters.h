@@ -3,6 +3,7 @@
 #define vtkIsopointCellCenters_h
 
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 namespace isopoint
 {
@@ -14,23 +15,24 @@ class vtkPoints;
 struct vtkIsopointBlock;
 
 /**
- * A grid of one point for each cell, the cell's centre, where that takes next to no memory: of an
- * image or a rectilinear grid. Null for other data sets.
+ * The dual grid of an image or a rectilinear grid, whose points are the centres of the cells; it
+ * takes next to no memory. Null for other data sets.
  */
 vtkSmartPointer<vtkDataSet> vtkMakeDualGrid(vtkDataSet* input);
 
 /**
- * The centres of all cells, as vtkCellCenters defines them; not a number for empty cells. Of the
- * type of the data set's points. O(cells), on the execution's threads.
+ * The centres of all cells as vtkCellCenters defines them, NaN for empty cells. They are float if
+ * the points of the data set are, else double. O(cells), on the threads of the execution.
  * @throws std::bad_alloc, isopoint::Aborted
  */
 vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const isopoint::Execution& execution, vtkDataSet* input);
 
 /**
- * Sets a block's positions and ghosts to the leaves of a hyper tree grid: ids are those of its cell
- * data, which also has coarse nodes (vtkIsopointBlock::Fillers). Masked leaves and ghosts are left
- * out.
+ * Sets the positions and ghosts of a block to the leaves of a hyper tree grid. Sample ids are those
+ * of its cell data, `count` in number; masked leaves, ghosts and ids that stand for no leaf take no
+ * part (see vtkIsopointBlock::NumberOfUnusedIds).
+ * @throws std::bad_alloc
  */
 void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlock& block);
 

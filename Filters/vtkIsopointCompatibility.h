@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
- * The one place that knows what differs between the VTK versions supported (9.1 and later).
+ * All differences between the supported versions of VTK (9.1 and later).
  */
 #ifndef vtkIsopointCompatibility_h
 #define vtkIsopointCompatibility_h
@@ -13,7 +13,8 @@
 #include <utility>
 
 /**
- * Whether a filter is to stop: itself, or (where VTK passes that on) an algorithm downstream of it.
+ * Whether an abort was requested of a filter or, if this version of VTK propagates that, of an
+ * algorithm downstream.
  */
 inline bool vtkIsAborted(vtkAlgorithm* filter)
 {
@@ -25,15 +26,15 @@ inline bool vtkIsAborted(vtkAlgorithm* filter)
 }
 
 /**
- * How many threads vtkSMPTools::Initialize() was called with, 0 if it was not.
+ * The number of threads that was passed to vtkSMPTools::Initialize(), 0 if it was not called.
  */
 inline int vtkGetRequestedSMPThreads()
 {
   return vtk::detail::smp::vtkSMPToolsAPI::GetInstance().GetInternalDesiredNumberOfThread();
 }
 
-/// Whether a grid keeps the faces of its polyhedra in cell arrays, as from 9.4 on: found from the
-/// class itself, since development versions of 9.3 differ.
+/// Whether a grid stores the faces of its polyhedra in cell arrays, as from VTK 9.4 on. Derived
+/// from the class, since development versions of 9.3 differ.
 template <class TGrid, class = void>
 struct vtkHasFacesInCellArrays : std::false_type
 {
@@ -45,8 +46,8 @@ struct vtkHasFacesInCellArrays<TGrid,
 };
 
 /**
- * The faces of an unstructured grid's polyhedra and where those of each cell are found: two
- * vtkCellArray or, before 9.4, two vtkIdTypeArray; null where it has none.
+ * The faces of the polyhedra of an unstructured grid, and their locations for each cell: two
+ * vtkCellArray or, before VTK 9.4, two vtkIdTypeArray; null if it has none.
  */
 template <class TGrid>
 auto vtkGetFacesOfPolyhedra(TGrid* grid)

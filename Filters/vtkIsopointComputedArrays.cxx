@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointComputedArrays.h"
 
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Splat/Splat.h"
 #include "vtkIsopointAllocation.h"
 
+#include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 
 namespace
 {
 
-/// An array, or null where it is not wanted.
+/// A new array, or null if it is not to be computed.
 template <class TArray>
 vtkSmartPointer<vtkDataArray> newArray(
-  bool isWanted, const char* name, int components, vtkIdType tuples)
+  bool isComputed, const char* name, int components, vtkIdType tuples)
 {
-  if (!isWanted)
+  if (!isComputed)
   {
     return nullptr;
   }
@@ -30,7 +35,7 @@ vtkSmartPointer<vtkDataArray> newArray(
   return array;
 }
 
-/// A radius within float's range, whatever the scale of the coordinates.
+/// A radius as float, clamped to its positive range.
 float asFloatRadius(double radius)
 {
   using Limits = std::numeric_limits<float>;
@@ -48,16 +53,16 @@ void set(vtkDataArray* array, vtkIdType tuple, const double* values)
 
 } // namespace
 
-vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& wanted, vtkIdType count)
-  : Wanted(wanted)
-  , Normals(newArray<vtkFloatArray>(wanted.Normals, "Normals", 3, count))
-  , Radius(newArray<vtkFloatArray>(wanted.Radius, "Radius", 1, count))
-  , SplatAxis1(newArray<vtkFloatArray>(wanted.SplatAxes, "SplatAxis1", 3, count))
-  , SplatAxis2(newArray<vtkFloatArray>(wanted.SplatAxes, "SplatAxis2", 3, count))
-  , SplatClip(newArray<vtkFloatArray>(wanted.SplatClip, "SplatClip", 5, count))
-  , Gradients(newArray<vtkFloatArray>(wanted.Gradients, "Gradients", 3, count))
+vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& choice, vtkIdType count)
+  : Chosen(choice)
+  , Normals(newArray<vtkFloatArray>(choice.Normals, "Normals", 3, count))
+  , Radius(newArray<vtkFloatArray>(choice.Radius, "Radius", 1, count))
+  , SplatAxis1(newArray<vtkFloatArray>(choice.SplatAxes, "SplatAxis1", 3, count))
+  , SplatAxis2(newArray<vtkFloatArray>(choice.SplatAxes, "SplatAxis2", 3, count))
+  , SplatClip(newArray<vtkFloatArray>(choice.SplatClip, "SplatClip", 5, count))
+  , Gradients(newArray<vtkFloatArray>(choice.Gradients, "Gradients", 3, count))
   , ProjectionOrder(
-      newArray<vtkUnsignedCharArray>(wanted.ProjectionOrder, "ProjectionOrder", 1, count))
+      newArray<vtkUnsignedCharArray>(choice.ProjectionOrder, "ProjectionOrder", 1, count))
 {
 }
 
@@ -95,7 +100,7 @@ void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
 void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit)
 {
   const double order =
-    this->Wanted.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
+    this->Chosen.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
   this->WithoutFit += fit.order ? 0 : 1;
   set(this->Gradients, this->Next, fit.gradient.data());
   set(this->ProjectionOrder, this->Next, &order);

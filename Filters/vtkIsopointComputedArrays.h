@@ -14,7 +14,8 @@ class vtkDataArray;
 class vtkPointData;
 
 /**
- * The arrays that are computed for the isopoints of all surfaces, one surface after the other.
+ * The arrays that are computed for isopoints: normals, splats, gradients and orders of fits. They
+ * hold the isopoints of all surfaces, one surface after the other.
  */
 class vtkIsopointComputedArrays
 {
@@ -27,33 +28,33 @@ public:
     bool SplatClip = false;
     bool Gradients = false;
     bool ProjectionOrder = false;
-    bool IsProjected = false; // whether fits move the points
+    bool IsProjected = false; // whether fits move the isopoints
 
-    /// Whether any array is of splats, and whether one is of more than their normals.
+    /// Whether any array describes splats, and whether any describes more than their normals.
     bool NeedsSplats() const { return this->Normals || this->NeedsShapes(); }
     bool NeedsShapes() const { return this->Radius || this->SplatAxes || this->SplatClip; }
   };
 
   /**
-   * @param choice the arrays that are wanted
-   * @param count of the points of all surfaces
+   * @param choice the arrays to compute
+   * @param count the number of isopoints of all surfaces
    * @throws std::bad_alloc
    */
   vtkIsopointComputedArrays(const Choice& choice, vtkIdType count);
 
   /**
-   * Writes the arrays of the next surface.
+   * Writes the tuples of the next surface.
    */
   void Append(const isopoint::ExtractedIsosurface& extracted);
 
   /**
-   * The number of points so far around which no fit held.
+   * The number of isopoints written so far around which no fit holds.
    */
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
   /**
-   * Adds the arrays that are wanted, the normals as the active ones. Returns the names of those
-   * that took another one's place.
+   * Adds the arrays to the point data, the normals as the active ones.
+   * @returns the names of the arrays that replaced another one
    */
   std::vector<std::string> AddTo(vtkPointData* pointData) const;
 
@@ -61,7 +62,7 @@ private:
   void SetSplat(const isopoint::Splat& splat);
   void SetFit(const isopoint::LocalFit& fit);
 
-  Choice Wanted;
+  Choice Chosen;
   vtkIdType Next = 0;
   vtkIdType WithoutFit = 0;
   vtkSmartPointer<vtkDataArray> Normals;

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointEndSamples.h"
 
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "vtkIsopointAllocation.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDataSetAttributesFieldList.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace
@@ -17,6 +22,7 @@ using isopoint::CoincidentSamples;
 using isopoint::ExtractedIsosurface;
 using isopoint::IsopointEdge;
 
+/// The ids of all samples at ends of edges and of those that coincide with them, ascending.
 std::vector<std::uint64_t> idsOf(const std::vector<ExtractedIsosurface>& surfaces)
 {
   std::vector<std::uint64_t> ids;
@@ -36,6 +42,7 @@ std::vector<std::uint64_t> idsOf(const std::vector<ExtractedIsosurface>& surface
   return ids;
 }
 
+/// Replaces each id by its position among the sorted ids.
 void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
 {
   const auto renumberOne = [&ids](std::uint64_t& id)
@@ -54,19 +61,19 @@ void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std:
   }
 }
 
-/// Consecutive ids that belong to one block.
-struct Stretch
+/// The range of sorted ids that belong to one block.
+struct IdRange
 {
   std::size_t block;
-  std::size_t begin; // among the gathered ids
+  std::size_t begin; // positions among the sorted ids
   std::size_t end;
   std::uint64_t firstId; // of the block's samples
 };
 
-std::vector<Stretch> stretchesOf(
+std::vector<IdRange> idRangesOf(
   const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
 {
-  std::vector<Stretch> stretches;
+  std::vector<IdRange> ranges;
   std::uint64_t firstId = 0;
   std::size_t begin = 0;
   for (std::size_t block = 0; block < blocks.size(); ++block)
@@ -74,11 +81,11 @@ std::vector<Stretch> stretchesOf(
     const auto endId = firstId + static_cast<std::uint64_t>(blocks[block].GetNumberOfSamples());
     const auto end =
       static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), endId) - ids.begin());
-    stretches.push_back({ block, begin, end, firstId });
+    ranges.push_back({ block, begin, end, firstId });
     firstId = endId;
     begin = end;
   }
-  return stretches;
+  return ranges;
 }
 
 bool allHaveFloatScalars(const std::vector<vtkIsopointBlock>& blocks)
@@ -87,7 +94,7 @@ bool allHaveFloatScalars(const std::vector<vtkIsopointBlock>& blocks)
     [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
 }
 
-/// A block's attributes without the arrays that have fewer or more tuples than there are samples.
+/// The attributes of a block that have one tuple for each sample.
 vtkSmartPointer<vtkDataSetAttributes> completeAttributes(const vtkIsopointBlock& block)
 {
   auto complete = vtkSmartPointer<vtkPointData>::New();
@@ -102,9 +109,9 @@ vtkSmartPointer<vtkDataSetAttributes> completeAttributes(const vtkIsopointBlock&
   return complete;
 }
 
-/// Allocates arrays for the attributes that all blocks have and copies the tuples of the ids.
+/// Allocates arrays for the attributes that all blocks have, and copies the tuples with these ids.
 void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
-  const std::vector<Stretch>& stretches, const std::vector<std::uint64_t>& ids,
+  const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids,
   vtkDataSetAttributes* gathered)
 {
   std::vector<vtkSmartPointer<vtkDataSetAttributes>> inputs;
@@ -121,15 +128,15 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   {
     vtkAllocateTuples(gathered->GetAbstractArray(i), count);
   }
-  for (const Stretch& stretch : stretches)
+  for (const IdRange& range : ranges)
   {
-    common.TransformData(static_cast<int>(stretch.block), inputs[stretch.block], gathered,
+    common.TransformData(static_cast<int>(range.block), inputs[range.block], gathered,
       [&](vtkAbstractArray* input, vtkAbstractArray* output)
       {
-        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+        for (std::size_t i = range.begin; i < range.end; ++i)
         {
           output->SetTuple(
-            static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i] - stretch.firstId), input);
+            static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i] - range.firstId), input);
         }
       });
   }
@@ -149,24 +156,24 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(
     return;
   }
   const std::vector<std::uint64_t> ids = idsOf(surfaces);
-  const std::vector<Stretch> stretches = stretchesOf(blocks, ids);
+  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
   const auto scalars = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE));
   scalars->SetName(this->Scalars->GetName());
   vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
-  for (const Stretch& stretch : stretches)
+  for (const IdRange& range : ranges)
   {
-    vtkDataArray* const ofBlock = blocks[stretch.block].Scalars;
-    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+    vtkDataArray* const ofBlock = blocks[range.block].Scalars;
+    for (std::size_t i = range.begin; i < range.end; ++i)
     {
-      const auto from = static_cast<vtkIdType>(ids[i] - stretch.firstId);
+      const auto from = static_cast<vtkIdType>(ids[i] - range.firstId);
       scalars->SetComponent(static_cast<vtkIdType>(i), 0, ofBlock->GetComponent(from, 0));
     }
   }
   renumber(surfaces, ids);
 
   this->Copied = vtkSmartPointer<vtkPointData>::New();
-  gatherAttributes(blocks, stretches, ids, this->Copied);
+  gatherAttributes(blocks, ranges, ids, this->Copied);
   if (scalars->GetName())
   {
     this->Copied->RemoveArray(scalars->GetName());

@@ -5,22 +5,26 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlock.h"
 
+#include "vtkSmartPointer.h"
+
 #include <vector>
 
+class vtkDataArray;
+class vtkDataSetAttributes;
 class vtkPointData;
 
 /**
- * The attributes of the samples at the ends of isopoints' edges. Those of several blocks are copied
- * together, and the surfaces renumbered to ids among the copies; the order of ids stays. Attributes
- * that not all blocks have are then left out, as vtkAppendFilter does. Those of a single block are
- * used as they are. Memory: O(isopoints).
+ * The attributes of the samples at the ends of the isopoints' edges. Those of a single block are
+ * used in place. Those of several blocks are copied together, and the ids in the surfaces replaced
+ * by ids of the copies, in the same order; attributes that not all blocks have are dropped, as by
+ * vtkAppendFilter. O(samples at ends) memory, for several blocks.
  */
 class vtkIsopointEndSamples
 {
 public:
   /**
    * @param blocks at least one; must outlive this
-   * @param surfaces of the blocks, whose samples are numbered one block after the other
+   * @param surfaces extracted from the blocks, whose samples are numbered one block after the other
    * @throws std::bad_alloc
    */
   vtkIsopointEndSamples(const std::vector<vtkIsopointBlock>& blocks,

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointExecution.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkIsopointCompatibility.h"
+
+#include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"
+#include "vtkType.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -24,14 +27,13 @@ void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTa
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
 }
 
-/// Threads that do the same work. They have ended where this goes out of scope, whether it is left
-/// regularly or by an exception.
-class Helpers
+/// Threads that run the same function. The destructor joins them.
+class WorkerThreads
 {
 public:
-  /// Starts so many threads, or as many as the system grants.
+  /// Starts this many threads, or as many as the system grants.
   template <class Work>
-  Helpers(std::size_t count, const Work& work)
+  WorkerThreads(std::size_t count, const Work& work)
   {
     try
     {
@@ -43,18 +45,18 @@ public:
     }
     catch (const std::system_error&)
     {
-      // The system grants no more threads: those there are do the work.
+      // The system grants no more threads: those that were started do the work.
     }
     catch (const std::bad_alloc&)
     {
-      // Neither does memory.
+      // The same for a lack of memory.
     }
   }
 
-  Helpers(const Helpers&) = delete;
-  Helpers& operator=(const Helpers&) = delete;
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
 
-  ~Helpers()
+  ~WorkerThreads()
   {
     for (std::thread& thread : this->Threads)
     {
@@ -66,7 +68,7 @@ private:
   std::vector<std::thread> Threads;
 };
 
-/// Whether nobody chose the sequential backend: it is just what VTK was built with.
+/// Whether the backend is sequential because VTK was built so, and not by choice.
 bool isSequentialByDefault()
 {
   const char* const backend = vtkSMPTools::GetBackend();
@@ -103,7 +105,7 @@ void vtkForIsopointRanges(
       task(begin, std::min(begin + grain, count));
     }
   };
-  const Helpers helpers(std::min(threads, (count + grain - 1) / grain) - 1, work);
+  const WorkerThreads workers(std::min(threads, (count + grain - 1) / grain) - 1, work);
   work();
 }
 

@@ -9,25 +9,25 @@
 class vtkAlgorithm;
 
 /**
- * How the core runs on behalf of a filter: on vtkSMPTools' threads, and asking the filter whether
- * to abort. Where useAllCores is set and vtkSMPTools runs sequentially only because it was built
- * so, on threads of its own (see vtkScatteredIsopointFilter::SetUseAllCores); vtkSMPTools' global
- * state is left alone, since changing it is not safe while other filters run.
+ * How the core runs on behalf of a filter: on the threads of vtkSMPTools, stopping if the filter is
+ * aborted. If useAllCores is set and vtkSMPTools is sequential merely by default, it runs on
+ * threads of its own instead (see vtkScatteredIsopointFilter::SetUseAllCores()). The backend of
+ * vtkSMPTools is not changed, since that is global and unsafe while other filters run.
  */
 isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores);
 
 /**
- * An isopoint::ParallelFor on at most so many threads (1 or more), started for the call; the
- * calling thread is one of them. Where the system or memory grants no more threads, those there are
- * do all the work. An exception that the task throws in the calling thread is passed on once the
- * other threads have ended; in another thread the task must not throw, and isopoint::forRanges()
- * sees to that.
+ * An isopoint::ParallelFor on at most this many threads (1 or more), the calling one included; the
+ * others are started for the call. If the system or memory grants fewer, these do all the work. An
+ * exception of the task in the calling thread is passed on after the other threads have ended; in
+ * other threads the task must not throw, which isopoint::forRanges() ensures.
  */
 void vtkForIsopointRanges(
   std::size_t threads, std::size_t count, std::size_t grain, const isopoint::RangeTask& task);
 
 /**
- * A view of an execution whose progress from 0 to 1 is the filter's from begin to end.
+ * A copy of an execution whose progress from 0 to 1 is reported as that of the filter from `begin`
+ * to `end`.
  */
 isopoint::Execution vtkMakeIsopointStep(
   const isopoint::Execution& execution, vtkAlgorithm* filter, double begin, double end);

@@ -12,12 +12,14 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace
 {
 
-constexpr int invisible = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
+constexpr int hiddenOrCovered =
+  vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
 
 bool hasAny(vtkUnsignedCharArray* ghosts, int bits)
 {
@@ -65,27 +67,28 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input)
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
   vtkUnsignedCharArray* const cells =
     vtkGetIsopointGhosts(input->GetCellData(), input->GetNumberOfCells());
-  // Where the points have a ghost array, it says which of them are duplicates.
-  const int leftOut = own ? invisible : invisible | vtkDataSetAttributes::DUPLICATECELL;
-  if (!hasAny(cells, leftOut))
+  // If the points have a ghost array, it marks the duplicates among them.
+  const int excluding =
+    own ? hiddenOrCovered : hiddenOrCovered | vtkDataSetAttributes::DUPLICATECELL;
+  if (!hasAny(cells, excluding))
   {
     return own;
   }
-  constexpr unsigned char inLeftOut = 1;
-  constexpr unsigned char inSample = 2;
+  constexpr unsigned char inExcludedCell = 1;
+  constexpr unsigned char inSampleCell = 2;
   std::vector<unsigned char> memberships(static_cast<std::size_t>(count), 0);
   forEachCellPoint(input,
     [&](vtkIdType cell, vtkIdType point)
     {
       memberships[static_cast<std::size_t>(point)] |=
-        (cells->GetValue(cell) & leftOut) != 0 ? inLeftOut : inSample;
+        (cells->GetValue(cell) & excluding) != 0 ? inExcludedCell : inSampleCell;
     });
   const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
   for (vtkIdType point = 0; point < count; ++point)
   {
-    const bool isCovered = memberships[static_cast<std::size_t>(point)] == inLeftOut;
+    const bool isExcluded = memberships[static_cast<std::size_t>(point)] == inExcludedCell;
     const int value =
-      (own ? own->GetValue(point) : 0) | (isCovered ? vtkDataSetAttributes::HIDDENPOINT : 0);
+      (own ? own->GetValue(point) : 0) | (isExcluded ? vtkDataSetAttributes::HIDDENPOINT : 0);
     ghosts->SetValue(point, static_cast<unsigned char>(value));
   }
   return ghosts;
@@ -105,7 +108,7 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input)
   const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
   for (vtkIdType cell = 0; own && cell < count; ++cell)
   {
-    if ((own->GetValue(cell) & (invisible | vtkDataSetAttributes::DUPLICATECELL)) != 0)
+    if ((own->GetValue(cell) & (hiddenOrCovered | vtkDataSetAttributes::DUPLICATECELL)) != 0)
     {
       ghosts->SetValue(cell, vtkDataSetAttributes::HIDDENPOINT);
     }

@@ -3,28 +3,30 @@
 #define vtkIsopointGhosts_h
 
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkUnsignedCharArray;
 
 /**
- * The ghost array of points or cells as VTK keeps it, or null if there is none of the right type
- * and at least that many values.
+ * The ghost array of points or cells, or null if there is none with one component and at least
+ * `count` values.
  */
 vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtkIdType count);
 
 /**
- * Which points of a data set are no samples, as vtkIsopointBlock::Ghosts: ghost and hidden ones,
- * and those that belong to cells of which every one is hidden or covered by a finer level or, where
- * the points have no ghost array, is a ghost. Points that belong to no cell are samples. Null if
- * all points are.
+ * The points of a data set that take no part, as vtkIsopointBlock::Ghosts: ghost and hidden points,
+ * and points all of whose cells are hidden, covered by a finer level or, if the points have no
+ * ghost array, ghosts. Points without cells take part. Null only if all points do.
+ * @throws std::bad_alloc
  */
 vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input);
 
 /**
- * Which cells of a data set are no samples: ghost cells, hidden ones, those covered by a finer
- * level, and those with a hidden point. Null if there are none.
+ * The cells of a data set that take no part, as vtkIsopointBlock::Ghosts: ghost and hidden cells,
+ * those covered by a finer level, and those with a hidden point. Null if all cells take part.
+ * @throws std::bad_alloc
  */
 vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input);
 

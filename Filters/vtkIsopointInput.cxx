@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointInput.h"
 
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlock.h"
 
 #include "vtkAOSDataArrayTemplate.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkType.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
+#include <vector>
 
 namespace
 {
 
-/// Coordinates that lie in memory as x y z, x y z, ...
+/// Coordinates stored as x y z, x y z, ...
 template <class T>
 struct PackedPositions
 {
@@ -34,7 +39,7 @@ struct PackedPositions
   }
 };
 
-/// Any others: implicit ones, structures of arrays, integers.
+/// All other positions: implicit ones, structures of arrays, integers.
 struct ComputedPositions
 {
   using Coordinate = double;
@@ -55,7 +60,7 @@ struct PackedValues
   T operator()(std::size_t point) const { return this->Values[point]; }
 };
 
-/// Values of any type, held as one that loses nothing (or, of 64-bit integers, as little as any).
+/// Values of any type, converted to T: exactly, except 64-bit integers beyond 2^53.
 template <class T>
 struct ConvertedValues
 {
@@ -75,7 +80,7 @@ const T* packedArray(vtkDataArray* array)
   return packed ? packed->GetPointer(0) : nullptr;
 }
 
-vtkDataArray* pointsOf(vtkDataSet* input)
+vtkDataArray* coordinatesOf(vtkDataSet* input)
 {
   auto* const pointSet = vtkPointSet::SafeDownCast(input);
   return pointSet && pointSet->GetPoints() ? pointSet->GetPoints()->GetData() : nullptr;
@@ -84,7 +89,7 @@ vtkDataArray* pointsOf(vtkDataSet* input)
 template <class Action>
 void withPositions(vtkDataSet* input, const Action& action)
 {
-  vtkDataArray* const points = pointsOf(input);
+  vtkDataArray* const points = coordinatesOf(input);
   if (const float* const floats = points ? packedArray<float>(points) : nullptr)
   {
     action(PackedPositions<float>{ floats });
@@ -99,8 +104,8 @@ void withPositions(vtkDataSet* input, const Action& action)
   }
 }
 
-/// Whether an array's values, of any type, lose nothing as float.
-bool fitsFloat(vtkDataArray* scalars)
+/// Whether float holds all values of the array's type exactly.
+bool isExactInFloat(vtkDataArray* scalars)
 {
   return scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
 }
@@ -116,7 +121,7 @@ void withValues(vtkDataArray* scalars, const Action& action)
   {
     action(PackedValues<double>{ doubles });
   }
-  else if (fitsFloat(scalars))
+  else if (isExactInFloat(scalars))
   {
     action(ConvertedValues<float>{ scalars });
   }
@@ -126,7 +131,8 @@ void withValues(vtkDataArray* scalars, const Action& action)
   }
 }
 
-constexpr unsigned char leftOut =
+/// Ghost bits of items that take no part.
+constexpr unsigned char excluding =
   vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
 const unsigned char* ghostsOf(const vtkIsopointBlock& block)
@@ -144,7 +150,8 @@ void loadOrReplace(const isopoint::Execution& execution, std::size_t count, cons
   }
 }
 
-void loadOne(const isopoint::Execution& execution, const vtkIsopointBlock& block,
+/// Loads a single block, with the types of its arrays known to the compiler.
+void loadBlock(const isopoint::Execution& execution, const vtkIsopointBlock& block,
   isopoint::IsosurfaceExtractor& extractor)
 {
   const unsigned char* const ghosts = ghostsOf(block);
@@ -158,7 +165,7 @@ void loadOne(const isopoint::Execution& execution, const vtkIsopointBlock& block
           using Value = typename std::decay_t<decltype(values)>::Value;
           const auto read = [&](std::size_t point, auto* position, auto& value)
           {
-            if (ghosts && (ghosts[point] & leftOut) != 0)
+            if (ghosts && (ghosts[point] & excluding) != 0)
             {
               return false;
             }
@@ -172,14 +179,14 @@ void loadOne(const isopoint::Execution& execution, const vtkIsopointBlock& block
     });
 }
 
-/// Positions of any kind.
+/// Positions of any kind, determined at run time.
 class AnyPositions
 {
 public:
   explicit AnyPositions(vtkDataSet* input)
     : Input(input)
   {
-    vtkDataArray* const points = pointsOf(input);
+    vtkDataArray* const points = coordinatesOf(input);
     this->Floats = points ? packedArray<float>(points) : nullptr;
     this->Doubles = points ? packedArray<double>(points) : nullptr;
   }
@@ -206,7 +213,7 @@ private:
   const double* Doubles;
 };
 
-/// Values of any type.
+/// Values of any type, determined at run time.
 class AnyValues
 {
 public:
@@ -230,7 +237,7 @@ private:
   const double* Doubles;
 };
 
-/// Reads the samples of several blocks.
+/// Reads the samples of several blocks, as IsosurfaceExtractor::load() calls for.
 class BlockReader
 {
 public:
@@ -254,13 +261,13 @@ public:
     const auto index = static_cast<std::size_t>(next - this->Firsts.begin()) - 1;
     const Part& part = this->Parts[index];
     const std::size_t point = id - this->Firsts[index];
-    if (part.Ghosts && (part.Ghosts[point] & leftOut) != 0)
+    if (part.Ghosts && (part.Ghosts[point] & excluding) != 0)
     {
       return false;
     }
-    double wide[3];
-    part.Positions(point, wide);
-    std::transform(wide, wide + 3, position,
+    double coordinates[3];
+    part.Positions(point, coordinates);
+    std::transform(coordinates, coordinates + 3, position,
       [](double coordinate) { return static_cast<TCoordinate>(coordinate); });
     value = static_cast<TValue>(part.Values(point));
     return true;
@@ -286,13 +293,13 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
 {
   if (blocks.size() == 1)
   {
-    loadOne(execution, blocks.front(), extractor);
+    loadBlock(execution, blocks.front(), extractor);
     return;
   }
   const BlockReader read(blocks);
   const bool floatPositions = vtkHaveFloatPositions(blocks);
   const bool floatValues = std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block) { return fitsFloat(block.Scalars); });
+    [](const vtkIsopointBlock& block) { return isExactInFloat(block.Scalars); });
   const auto load = [&](auto coordinate, auto value) {
     loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
   };
@@ -305,7 +312,7 @@ bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)
   return std::all_of(blocks.begin(), blocks.end(),
     [](const vtkIsopointBlock& block)
     {
-      vtkDataArray* const points = pointsOf(block.Positions);
+      vtkDataArray* const points = coordinatesOf(block.Positions);
       return points && points->GetDataType() == VTK_FLOAT;
     });
 }

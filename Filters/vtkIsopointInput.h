@@ -12,9 +12,9 @@ class IsosurfaceExtractor;
 struct vtkIsopointBlock;
 
 /**
- * Hands the samples of blocks to an extractor, without converting or copying arrays: ids count
- * through one block after the other. Where the extractor holds the same positions already it gets
- * new values only. Throws what IsosurfaceExtractor::load() throws.
+ * Loads the samples of blocks into an extractor, which reads the arrays in place. Ids count through
+ * one block after the other. If the extractor holds the same positions already, only the values are
+ * replaced, and the tree is kept. Throws what IsosurfaceExtractor::load() throws.
  */
 void vtkLoadIsopointInput(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);

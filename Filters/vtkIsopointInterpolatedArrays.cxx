@@ -3,15 +3,20 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "vtkIsopointAllocation.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -23,8 +28,8 @@ using isopoint::ExtractedIsosurface;
 using isopoint::IsopointEdge;
 using isopoint::Isosurface;
 
-/// A number as an array's type holds it: integers are rounded, and kept within their range, which
-/// a double may leave when 64 bits do not fit it.
+/// Converts a number to an array's type. For integer types it is rounded to the nearest and limited
+/// to their range, which rounding of 64-bit integers to double can exceed.
 template <class T>
 T toArrayType(double value)
 {
@@ -47,7 +52,7 @@ T toArrayType(double value)
   }
 }
 
-/// Calls write(point, component, value) for all isopoints of a surface.
+/// Interpolates at all isopoints of a surface and calls write(isopoint, component, value).
 template <class ComponentOf, class Write>
 void interpolateComponents(const isopoint::Execution& execution, const Isosurface& surface,
   int componentCount, const ComponentOf& componentOf, const Write& write)
@@ -70,7 +75,7 @@ void interpolateComponents(const isopoint::Execution& execution, const Isosurfac
   }
 }
 
-/// Interpolates the arrays whose type is known, in parallel.
+/// Interpolates arrays that VTK can dispatch on, in parallel.
 struct TypedInterpolation
 {
   const isopoint::Execution& Run;
@@ -113,7 +118,8 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
     { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
 }
 
-void copyNearer(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
+/// Copies the tuples of the nearer ends.
+void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
   vtkIdType firstTuple)
 {
   for (std::size_t i = 0; i < surface.size(); ++i)
@@ -124,7 +130,7 @@ void copyNearer(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractA
   }
 }
 
-vtkIdType pointCount(const std::vector<ExtractedIsosurface>& surfaces)
+vtkIdType isopointCount(const std::vector<ExtractedIsosurface>& surfaces)
 {
   std::size_t count = 0;
   for (const ExtractedIsosurface& extracted : surfaces)
@@ -144,7 +150,7 @@ vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdTyp
   return output;
 }
 
-/// Adds an array and makes it the active attribute, where it is one (-1: none).
+/// Adds an array, as the active attribute of this type unless that is -1.
 void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
 {
   const int index = output->AddArray(array);
@@ -154,7 +160,8 @@ void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
   }
 }
 
-bool isLeftOut(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
+/// Whether an array is not to be interpolated.
+bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
          array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
@@ -171,11 +178,11 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
   {
     vtkAbstractArray* const array = input->GetAbstractArray(index);
     const int attribute = input->IsArrayAnAttribute(index);
-    if (isLeftOut(array, attribute, contoured))
+    if (isExcluded(array, attribute, contoured))
     {
       continue;
     }
-    const vtkSmartPointer<vtkAbstractArray> result = newArrayLike(array, pointCount(surfaces));
+    const vtkSmartPointer<vtkAbstractArray> result = newArrayLike(array, isopointCount(surfaces));
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
     vtkIdType firstTuple = 0;
@@ -189,7 +196,7 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       }
       else
       {
-        copyNearer(surface, array, result, firstTuple);
+        copyFromNearerEnd(surface, array, result, firstTuple);
       }
       firstTuple += static_cast<vtkIdType>(surface.size());
     }
@@ -204,7 +211,7 @@ void vtkAddContouredArray(
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
   result->SetName(contoured->GetName());
-  vtkAllocateTuples(result, pointCount(surfaces));
+  vtkAllocateTuples(result, isopointCount(surfaces));
   vtkIdType tuple = 0;
   for (const ExtractedIsosurface& extracted : surfaces)
   {

@@ -15,18 +15,21 @@ class vtkDataSetAttributes;
 class vtkPointData;
 
 /**
- * Fills the output's point data with the input's arrays at the isopoints of all surfaces, one
- * surface after the other: numbers interpolated (integers rounded to the nearest), pedigree ids
- * and strings taken from the nearer end, active attributes kept. Global ids, ghost arrays, arrays
- * that are not as long as the contoured one and the contoured array itself are left out.
+ * Adds the input's arrays at the isopoints of all surfaces, one surface after the other, to the
+ * point data of the output. Numeric arrays are interpolated, integers rounded to the nearest;
+ * pedigree ids and strings are copied from the nearer end. Active attributes remain active. Global
+ * ids, ghost arrays, arrays not as long as the contoured one, and the contoured array itself are
+ * dropped.
+ * @throws std::bad_alloc
  */
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
   vtkPointData* output);
 
 /**
- * Adds the contoured array, each value exactly the isovalue: of the input's type where that is
- * float or double, of type double otherwise. It becomes the active scalars.
+ * Adds the contoured array, whose values are exactly the isovalues, as the active scalars: of type
+ * float if the input's is, else double.
+ * @throws std::bad_alloc
  */
 void vtkAddContouredArray(vtkDataArray* contoured,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPointData* output);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointOutput.h"
 
+#include "Isopoint/Base/Vector.h"
 #include "vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"

@@ -24,20 +24,21 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type);
 
 /**
- * One vertex cell for each of so many points.
+ * One vertex cell for each of `count` points.
  * @throws std::bad_alloc
  */
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
 
 /**
- * An empty output for a composite input whose blocks are contoured by themselves: of the same type,
- * but a vtkMultiBlockDataSet of levels for an AMR.
+ * A new, empty output for a composite input whose blocks are contoured by themselves: an object of
+ * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
  */
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);
 
 /**
- * Gives such an output the structure of the input, with surfaces in place of the leaves.
- * @param surfaces in the order of the leaves' traversal, null for none
+ * Gives an output of vtkNewIsopointComposite() the structure of the input, with surfaces in place
+ * of the leaves.
+ * @param surfaces one for each leaf, in the order of traversal; null for none
  */
 void vtkSetIsopointLeaves(vtkDataObject* input,
   const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output);

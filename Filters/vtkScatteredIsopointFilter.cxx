@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsopointFilter.h"
 
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Splat/Splat.h"
+#include "vtkIsopointBlock.h"
 #include "vtkIsopointBlocks.h"
 #include "vtkIsopointComputedArrays.h"
 #include "vtkIsopointEndSamples.h"
 #include "vtkIsopointExecution.h"
 #include "vtkIsopointInput.h"
+#include "vtkIsopointInputState.h"
 #include "vtkIsopointInterpolatedArrays.h"
+#include "vtkIsopointOptions.h"
 #include "vtkIsopointOutput.h"
+#include "vtkIsopointUsageError.h"
 
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -22,94 +29,36 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <map>
 #include <new>
-#include <optional>
 #include <set>
-#include <sstream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using isopoint::Execution;
 
-/// The tree of one cloud.
+/// The tree of one cloud, and the state of the input it was loaded from.
 class vtkScatteredIsopointFilter::KeptTree
 {
 public:
   isopoint::IsosurfaceExtractor Extractor;
-  vtkIsopointState LoadedFrom;
+  vtkIsopointInputState LoadedFrom;
 };
 
-/// What an update leaves for the next one.
+/// What is kept from one update to the next.
 class vtkScatteredIsopointFilter::Internals
 {
 public:
-  static vtkIsopointComputedArrays::Choice ChosenArrays(const vtkScatteredIsopointFilter& filter)
-  {
-    vtkIsopointComputedArrays::Choice choice;
-    choice.Normals = filter.ComputeNormals != 0;
-    choice.Radius = filter.ComputeRadii != 0;
-    choice.SplatAxes = filter.ComputeSplatAxes != 0;
-    choice.SplatClip = filter.ComputeSplatClips != 0;
-    choice.Gradients = filter.ComputeGradients != 0;
-    choice.ProjectionOrder = filter.ComputeProjectionOrders != 0;
-    choice.IsProjected = filter.Projection != NO_PROJECTION;
-    return choice;
-  }
-
-  /// The fits that the projection or an array needs: splats need the samples' spacing at least, and
-  /// thinning needs a fit.
-  static std::optional<isopoint::FitRequest> FitRequestOf(
-    const vtkScatteredIsopointFilter& filter, const vtkIsopointComputedArrays::Choice& arrays)
-  {
-    using isopoint::FitOrder;
-    using isopoint::FitRequest;
-    switch (filter.Projection)
-    {
-      case LINEAR_FIT:
-        return FitRequest{ FitOrder::Linear, true };
-      case QUADRATIC_FIT:
-        return FitRequest{ FitOrder::Quadratic, true };
-      case CUBIC_FIT:
-        return FitRequest{ FitOrder::Cubic, true };
-      case CREASE_FIT:
-        return FitRequest{ FitOrder::Crease, true };
-      default:
-        if (arrays.Gradients || filter.MinimumSpacing > 0.0 ||
-            (arrays.NeedsSplats() && filter.NormalMethod == NORMALS_FROM_FIELD))
-        {
-          return FitRequest{ FitOrder::Cubic, false };
-        }
-        return arrays.NeedsSplats() || arrays.ProjectionOrder
-                 ? std::optional<FitRequest>({ std::nullopt, false })
-                 : std::nullopt;
-    }
-  }
-
-  static isopoint::ExtractionRequest RequestOf(const vtkScatteredIsopointFilter& filter)
-  {
-    const vtkIsopointComputedArrays::Choice arrays = ChosenArrays(filter);
-    isopoint::ExtractionRequest request;
-    request.isosurface.angle = filter.Angle;
-    request.isosurface.gapFactor = filter.GapFactor;
-    request.isosurface.fit = FitRequestOf(filter, arrays);
-    request.minimumSpacing = filter.MinimumSpacing;
-    if (arrays.NeedsSplats())
-    {
-      request.splats = isopoint::SplatOptions{ filter.NumberOfNeighbors,
-        filter.NormalMethod == NORMALS_FROM_FIELD, arrays.NeedsShapes() };
-    }
-    return request;
-  }
-
   vtkIsopointBlocks Input;
-  std::map<std::size_t, KeptTree> Trees; // by leaf, where blocks are contoured by themselves
+  std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 
   void Clear()
   {
@@ -186,7 +135,7 @@ int vtkScatteredIsopointFilter::FillInputPortInformation(int, vtkInformation* in
 
 int vtkScatteredIsopointFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
-  // Poly data, or a composite of poly data.
+  // A vtkPolyData, or a composite of these (see SetContourBlocks()).
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
   return 1;
 }
@@ -200,13 +149,13 @@ vtkTypeBool vtkScatteredIsopointFilter::ProcessRequest(
   }
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
-  const vtkSmartPointer<vtkDataObject> wanted =
+  const vtkSmartPointer<vtkDataObject> required =
     this->ContourBlocks && vtkCompositeDataSet::SafeDownCast(input)
       ? vtkNewIsopointComposite(input)
       : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPolyData>::New());
-  if (!output || std::strcmp(output->GetClassName(), wanted->GetClassName()) != 0)
+  if (!output || std::strcmp(output->GetClassName(), required->GetClassName()) != 0)
   {
-    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), wanted);
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), required);
   }
   return 1;
 }
@@ -232,7 +181,7 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
   std::string problem;
   try
   {
-    this->CheckParameters();
+    vtkCheckIsopointOptions(this);
     vtkIsopointBlocks& blocks = this->Kept->Input;
     blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
       vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
@@ -263,52 +212,31 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
   catch (const isopoint::Aborted&)
   {
   }
-  catch (const vtkUnusableIsopointInput& error)
+  catch (const vtkIsopointUsageError& error)
   {
     problem = error.what();
   }
   catch (const std::bad_alloc&)
   {
     this->Kept->Clear();
-    problem = "Out of memory. Close other data, set KeepTree off, or pass fewer points.";
+    problem = "Out of memory. Free memory, switch KeepTree off, or reduce the number of samples.";
+  }
+  catch (const std::length_error& error)
+  {
+    this->Kept->Clear();
+    problem = std::string("Cannot build the tree of the samples (") + error.what() +
+              "). Merge coincident samples or reduce the number of samples.";
   }
   catch (const std::exception& error)
   {
     this->Kept->Clear();
-    problem = std::string("Cannot contour these points: ") + error.what() + ".";
+    problem = std::string("The extraction failed unexpectedly (") + error.what() +
+              "). Report this as a bug, with the input.";
   }
   output->Initialize();
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem);
-  }
-}
-
-void vtkScatteredIsopointFilter::CheckParameters()
-{
-  const double* const values = this->ContourValues->GetValues();
-  const vtkIdType valueCount = this->ContourValues->GetNumberOfContours();
-  if (std::any_of(values, values + valueCount, [](double value) { return std::isnan(value); }))
-  {
-    throw vtkUnusableIsopointInput("An isovalue is not a number. See SetValue().");
-  }
-  if (!(this->Angle >= 0.0 && this->Angle <= 180.0))
-  {
-    std::ostringstream message;
-    message << "The angle is " << this->Angle
-            << "; it must be within 0 and 180 degrees. See SetAngle().";
-    throw vtkUnusableIsopointInput(message.str());
-  }
-  if (!(this->GapFactor >= 0.0) || std::isinf(this->GapFactor))
-  {
-    std::ostringstream message;
-    message << "The gap factor is " << this->GapFactor
-            << "; it must be 0, which drops nothing, or a positive number. See SetGapFactor().";
-    throw vtkUnusableIsopointInput(message.str());
-  }
-  if (std::isnan(this->MinimumSpacing))
-  {
-    throw vtkUnusableIsopointInput("The minimum spacing is not a number. See SetMinimumSpacing().");
   }
 }
 
@@ -319,7 +247,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   const std::vector<vtkIsopointBlock>& all = this->Kept->Input.GetBlocks();
   const std::vector<vtkIsopointBlock> blocks(all.begin() + static_cast<std::ptrdiff_t>(begin),
     all.begin() + static_cast<std::ptrdiff_t>(end));
-  const vtkIsopointState state = this->Kept->Input.GetState(begin, end);
+  const vtkIsopointInputState state = this->Kept->Input.GetState(begin, end);
   if (state != kept.LoadedFrom)
   {
     kept.LoadedFrom.clear();
@@ -329,7 +257,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   this->NumberOfSkippedSamples += static_cast<vtkIdType>(kept.Extractor.skippedCount());
   for (const vtkIsopointBlock& block : blocks)
   {
-    this->NumberOfSkippedSamples -= block.Fillers;
+    this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
   }
   this->FillOutput(execution, blocks, this->ExtractIsovalues(execution, kept), output);
   this->UpdateProgress(1.0);
@@ -343,7 +271,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
   const double* const values = this->ContourValues->GetValues();
   const std::set<double> isovalues(values, values + this->ContourValues->GetNumberOfContours());
   const double share = (1.0 - loadingShare) / static_cast<double>(isovalues.size());
-  isopoint::ExtractionRequest request = Internals::RequestOf(*this);
+  isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
   std::vector<isopoint::ExtractedIsosurface> surfaces;
   for (const double isovalue : isovalues)
   {
@@ -378,7 +306,7 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
     vtkAddContouredArray(samples.GetScalars(), surfaces, pointData);
   }
 
-  vtkIsopointComputedArrays computed(Internals::ChosenArrays(*this), count);
+  vtkIsopointComputedArrays computed(vtkChooseIsopointArrays(this), count);
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
   {
     computed.Append(extracted);
@@ -388,9 +316,9 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
     this->Projection == NO_PROJECTION ? count : computed.GetNumberWithoutFit();
   for (const std::string& name : computed.AddTo(pointData))
   {
-    vtkWarningMacro(<< "The input's array \"" << name
-                    << "\" gives way to the computed one of that name. Switch that one off or"
-                    << " rename the input's to keep it.");
+    vtkWarningMacro(<< "The computed array \"" << name
+                    << "\" replaces the input array of this name."
+                    << " To keep that, rename it or switch the computed array off.");
   }
 }
 

@@ -1,95 +1,92 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkScatteredIsopointFilter
- * @brief   extract isosurfaces as points, straight from scattered samples
+ * @brief   extract isosurfaces as points, directly from scattered samples
  *
- * vtkScatteredIsopointFilter takes anything with a scalar at points or cells, ignores how these are
- * connected, and generates points on one or more isosurfaces: no tetrahedra are built and nothing
- * is resampled. The samples are the points of a vtkDataSet of any kind, the centers of its cells
- * where the array is one of cells, or the leaves of a vtkHyperTreeGrid; those of all blocks of a
- * composite data set, or of all levels of an AMR, form one cloud, so that the surface runs across
- * borders, gaps and overlaps (see SetContourBlocks). The output is a vtkPolyData of points, each
- * with a vertex cell, a normal and the radius of a splat; together the splats cover the surface.
+ * vtkScatteredIsopointFilter generates points on one or more isosurfaces of a scalar field that is
+ * given at scattered samples. It neither resamples the field nor builds a tetrahedral mesh, and
+ * ignores the connectivity of the input. The samples are the points of a vtkDataSet, the centers
+ * of its cells if the contoured array is a cell array, or the leaves of a vtkHyperTreeGrid. By
+ * default all blocks of a composite data set, or all levels of an AMR, form one cloud, so that the
+ * surface continues across borders, gaps and overlaps of blocks (see SetContourBlocks()). The
+ * output is a vtkPolyData of points with one vertex cell each. By default every point has a normal
+ * and the radius of a splat; together the splats cover the surface.
  *
- * The algorithm is that of Rosenthal and Linsen, "Direct isosurface extraction from scattered
- * volume data" (EuroVis 2006): a kd-tree parts space until each cell holds one position. Cells that
- * touch are neighbours. A neighbour is dropped if a closer one lies in nearly the same direction
- * (see SetAngle). Where the isovalue lies between a sample and a remaining neighbour, the isopoint
- * is interpolated linearly. Unlike the paper, a node is split along the longest side of its region,
- * and only the part of the tree that surrounds the surface is ever built.
+ * The algorithm is that of P. Rosenthal and L. Linsen, "Direct isosurface extraction from scattered
+ * volume data", EuroVis 2006 [RL06]. A kd-tree partitions the bounding box of the samples into
+ * regions, one for each sample position. Samples whose regions touch are neighbors. A neighbor is
+ * dropped if a closer one lies in nearly the same direction (see SetAngle()). Each edge between a
+ * sample below the isovalue and a remaining neighbor not below it gives one isopoint, by linear
+ * interpolation. Unlike in [RL06], a node of the tree is split along the longest side of its
+ * region, and only the part of the tree around the surface is built.
  *
- * Going past the paper, each isopoint is then moved to the zero of a polynomial, fitted by weighted
- * least squares to the samples of the two cells its edge connects and of those that touch them (see
- * SetProjection). It is of degree two, or of degree three where that leaves residuals. On smooth
- * fields that is twenty to a hundred times closer to the true surface than linear interpolation,
- * and the fit's gradient is a better normal than a plane through nearby isopoints. Where samples
- * are noisy, degree three is no better than degree two, and points stay. On six scanned and
- * simulated volumes, of which it saw a quarter of the voxels, points came 2 to 53 % nearer to the
- * surface of all voxels than linear interpolation puts them, normals as near or nearer: that is why
- * CUBIC_FIT is the default. LINEAR_FIT, which smooths everything, is not safe so. CREASE_FIT also
- * fits two to four functions of degree one or two, of which the largest or the smallest counts, and
- * points go to the nearer sheet: of random samples of a cube, 0.3 % of the normals are then off by
- * more than five degrees instead of 20 %, and 0.1 % instead of 4 % of two balls joined.
+ * By default each isopoint is then moved to the zero of a polynomial, which is fitted by weighted
+ * least squares to the samples around it (see SetProjection()). The gradient of the polynomial
+ * gives the normal. This step, thinning (see SetMinimumSpacing()) and the gap criterion (see
+ * SetGapFactor()) have no counterpart in [RL06]. docs/algorithm.md in the source distribution
+ * defines the result exactly.
  *
- * What is promised:
- * 1. The same samples, isovalues and angle give the same points, bit for bit and in the same order,
- *    whatever the number of threads, the vtkSMPTools backend, and what was asked for before.
- *    Points are ordered by isovalue (ascending), then by the lower and the higher id of the two
- *    samples they lie between.
- * 2. A sample is below an isovalue v if its value is less than v. Each pair of neighbours of which
- *    one is below gives one point. The point's scalar is v exactly, as the array's type holds it:
- *    float and double arrays keep their type, integer arrays become double.
- * 3. Samples with a non-finite coordinate or value, ghosts and hidden ones are left out and counted
- *    (GetNumberOfSkippedSamples). Hidden are also cells with a hidden point, cells covered by a
- *    finer level of an AMR (as its ghost arrays mark them: see vtkAMRUtilities::BlankCells), points
- *    that belong to such cells alone or, where the points have no ghost array, to these and ghost
- *    cells alone, empty cells, masked leaves, and blocks without the array.
- * 4. Samples at exactly one position count as one, with the lowest id among them and the mean of
- *    their values and attributes.
- * 5. All arrays of the points (or cells, if the contoured one is theirs) are interpolated with the
- *    same weight, that of the edge's place nearest to the point; arrays that cannot be (strings,
- * ids) are copied from the nearer end. Global ids, ghost arrays, arrays that are not as long as
- * there are points and, as by vtkAppendFilter, arrays that not all blocks have with the same type
- * are dropped. Arrays with the name of a computed one ("Normals", "Radius", ...) give way to it,
- * with a warning.
- * 6. Wrong use and a lack of memory give one error that says what to do, and an empty output; an
- *    abort gives an empty output. The filter works again afterwards.
+ * The filter guarantees:
+ * 1. The output depends on the input and the options alone, to the last bit and including the order
+ *    of the points: not on the number of threads, the vtkSMPTools backend, or earlier updates.
+ *    Points are ordered by isovalue (ascending), then by the lower and the higher sample id of
+ *    their edge.
+ * 2. A sample is below the isovalue v if its value is less than v; a value equal to v is not below.
+ *    The contoured array of the output is v exactly, as far as its type holds it: an array of float
+ *    or double keeps its type, others become double.
+ * 3. These take no part and are counted (see GetNumberOfSkippedSamples()): samples with a
+ *    non-finite coordinate or value; ghost and hidden points and cells; cells with a hidden point;
+ *    cells covered by a finer level of an AMR, as its ghost arrays mark them (see
+ *    vtkAMRUtilities::BlankCells()); points all of whose cells are hidden or covered or, if there
+ *    is no ghost array of the points, hidden, covered or ghosts; empty cells; masked leaves; and
+ *    blocks without the contoured array.
+ * 4. Coincident samples count as one sample, with the lowest of their ids and the mean of their
+ *    values and attributes.
+ * 5. All attributes of the points (or cells, if the contoured array is a cell array) are
+ *    interpolated with one weight, that of the place on the edge nearest to the isopoint; strings
+ *    and pedigree ids are copied from the nearer end. The following are dropped: global ids, ghost
+ *    arrays, arrays whose length is not the number of points (or cells), and, as by
+ *    vtkAppendFilter, arrays that not all blocks have with the same type. A computed array
+ *    ("Normals", "Radius", ...) replaces an input array of its name, with a warning.
+ * 6. Invalid input, invalid options and a lack of memory give one error and an empty output; an
+ *    abort gives an empty output. The filter can be updated again afterwards.
  *
- * What becomes of degenerate clouds follows from this: no sample is an error; one sample, samples
- * at one position, a constant field, an infinite isovalue and one out of range have no points; two
- * samples have one between them where they lie on either side; collinear samples have one wherever
- * the field crosses along the line, coplanar ones a curve in their plane. -0 is 0, as a coordinate
- * and as a value; a value equal to the isovalue is not below it. A lattice is a cloud like any
- * other. Coordinates may be denormal, have any scale or lie far off the origin: nothing but their
- * order and differences in double counts; radii are kept within float's range. 64-bit integers
- * count as the nearest double. No order of the input changes the surface of samples at different
- * positions, other than in the last bits, and none makes it slow.
+ * Degenerate clouds are no special cases. An input without points or cells is an error. The output
+ * has no points for a single sample, samples that all coincide, a constant field, and an isovalue
+ * that is infinite or out of range. Two samples have one isopoint if the isovalue lies between
+ * them, collinear samples one for each crossing along the line, coplanar samples a curve in their
+ * plane. Lattices need no perturbation. -0 equals 0, as a coordinate and as a value. Coordinates
+ * may be denormal, of any scale, or far from the origin: the tree uses only their order and
+ * differences in double precision. Radii are clamped to the positive range of float.
  *
- * The tree is kept between updates: another isovalue costs only what it adds, another angle or
- * output option nothing, and new values at the same positions (a time series) keep its shape. It
- * takes 20 bytes a sample for float points with a scalar that float holds, up to 40 otherwise, plus
- * what the surface needs, and the centers of cells other than those of images and rectilinear
- * grids. No array of the input is copied. See SetKeepTree.
+ * The tree is kept between updates (see SetKeepTree()). A further isovalue extends it where
+ * necessary, another angle or output option uses it as it is, and new values at the same positions
+ * (a time series) keep its shape. It takes 20 bytes per sample if the points are float and float
+ * holds the values exactly, and up to 40 otherwise, plus memory in proportion to the surface. The
+ * centers of cells are stored as well, except for images and rectilinear grids. Input arrays are
+ * not copied.
  *
  * @warning
- * Regions fill the bounding box of the samples. Samples on both sides of a void are neighbours, as
- * in a Delaunay tetrahedrisation, and can put points into the void. See SetGapFactor.
- *
- * @warning
- * Distances between samples are squared in double: neighbours closer than 1e-150 or farther apart
- * than 1e150 escape the angle criterion.
- *
- * @warning
- * Time grows with the number of cells that touch. That is about 15 for each sample and stays so for
- * all that was found but samples on curves that pass each other, such as two skew lines, where
- * neighbourhoods are searched instead of listed. (A Delaunay tetrahedrisation of them has quadratic
- * size.) Fits take no more than a few hundred samples: where a cell touches more than 256 others,
- * one of those that lie close together as seen from it stands for all.
+ * The regions fill the bounding box of the samples. Samples on both sides of a void are therefore
+ * neighbors, as in a Delaunay tetrahedralization, and can give isopoints in the void. See
+ * SetGapFactor().
  *
  * @warning
  * 64-bit integer values beyond 2^53 are rounded to double.
  *
- * @sa vtkContourFilter vtkPointGaussianMapper
+ * @warning
+ * Squared distances between samples are computed in double precision: neighbors closer than 1e-150
+ * or farther apart than 1e150 escape the angle criterion.
+ *
+ * @warning
+ * Time is proportional to the number of pairs of neighbors, which is about 15 per sample. Samples
+ * on curves that pass each other, such as two skew lines, can have many more, in all up to the
+ * square of their number; large neighborhoods are then searched through bounding boxes instead of
+ * listed. Fits use at most a few hundred samples: of more than 256 neighbors, those close to each
+ * other are represented by one.
+ *
+ * @sa
+ * vtkContourFilter vtkPointGaussianMapper
  */
 
 #ifndef vtkScatteredIsopointFilter_h
@@ -121,8 +118,9 @@ public:
 
   ///@{
   /**
-   * The isovalues, as in vtkContourFilter. Any numbers; repeated ones count once. A value
-   * outside the scalar's range gives no points. Default: one, 0.
+   * The isovalues, in units of the contoured array, as in vtkContourFilter. Repeated values count
+   * once. An infinite value, or one outside the range of the array, gives no points; NaN is an
+   * error. Default: one value, 0.
    */
   void SetValue(int i, double value);
   double GetValue(int i);
@@ -136,10 +134,13 @@ public:
 
   ///@{
   /**
-   * The angle of the neighbourhood's criterion in degrees, 0 up to 180: a neighbour is dropped if
-   * a closer one is seen from the sample within less than this angle of it. Smaller angles keep
-   * more neighbours and give more points, a little farther from the true surface. Default: 54.7,
-   * just under the 54.7356 degrees between an edge and a diagonal of a cube.
+   * The angle of the angle criterion, in degrees: a neighbor of a sample is dropped if a closer
+   * neighbor lies within this angle of its direction. An edge gives an isopoint if it remains at
+   * either end. Smaller angles give more isopoints, at a slightly larger distance from the true
+   * surface. At 0 no neighbor is dropped; at 180 only the nearest remain, and those exactly
+   * opposite to closer ones. Range: 0 to 180; other values are an error in the next update.
+   * Default: 54.7, just below the angle between an edge and a diagonal of a cube (54.7356), so that
+   * diagonals of lattices remain.
    */
   vtkSetMacro(Angle, double);
   vtkGetMacro(Angle, double);
@@ -156,18 +157,23 @@ public:
 
   ///@{
   /**
-   * Whether and how isopoints are moved from their edges to where a least-squares polynomial
-   * through the samples around has the isovalue: NO_PROJECTION (they stay where linear
-   * interpolation puts them), LINEAR_FIT (an affine function, which smooths noise but flattens what
-   * is curved), QUADRATIC_FIT (degree two), CUBIC_FIT (degree two, and three where that leaves
-   * residuals of more than a five hundredth of the samples' distances) or CREASE_FIT (the same, and
-   * where the samples tell of a crease two to four functions that meet there; for bodies with sharp
-   * edges: where there are none it takes longer, and may see some that are not). No point moves
-   * farther than half its edge's length; where no fit describes the samples, as in noise, it stays,
-   * and is counted (GetNumberOfUnprojectedPoints): to tell that takes up to five times as long as
-   * the extraction, with creases up to nine times, and more where there are many. What residuals
-   * tell of is decided together with up to 255 isopoints around: where some of these are dropped,
-   * others may move. Default: CUBIC_FIT.
+   * Whether and how isopoints are moved from their edges to the zero of a polynomial, fitted by
+   * weighted least squares to the samples around:
+   * - NO_PROJECTION: isopoints stay where linear interpolation on the edge puts them.
+   * - LINEAR_FIT: an affine function. It smooths noise, but also flattens curved surfaces.
+   * - QUADRATIC_FIT: degree two.
+   * - CUBIC_FIT: degree two, or three where degree two leaves residuals of more than 1/500 of the
+   *   mean distance of the samples.
+   * - CREASE_FIT: as CUBIC_FIT; where the residuals indicate a crease, the maximum or minimum of
+   *   two to four polynomials of degree one or two. For bodies with sharp edges; in fields without
+   *   creases it takes longer and may detect false ones.
+   *
+   * No isopoint is moved by more than half the length of its edge. Where no fit describes the
+   * samples, as in noise, isopoints stay and are counted (see GetNumberOfUnprojectedPoints()).
+   * Detecting this can take up to five times as long as the extraction itself, with CREASE_FIT up
+   * to nine times. What is tried around an isopoint also depends on how often it succeeded at up to
+   * 255 isopoints nearby: options that drop some of these can move others. Values outside the
+   * enumeration are clamped. Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);
@@ -181,10 +187,14 @@ public:
 
   ///@{
   /**
-   * Where normals come from: NORMALS_FROM_FIELD (the gradient of the fit, which Projection chooses;
-   * that of CUBIC_FIT with NO_PROJECTION; where no fit held, that of an affine function, or else
-   * planes) or NORMALS_FROM_PLANES (the plane through the nearest isopoints, as in the paper; see
-   * SetNumberOfNeighbors). Default: NORMALS_FROM_FIELD.
+   * The source of the normals:
+   * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
+   *   NO_PROJECTION). Where no fit holds, it is that of an affine function if one describes the
+   *   samples, else NORMALS_FROM_PLANES.
+   * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
+   *   SetNumberOfNeighbors()).
+   *
+   * Values outside the enumeration are clamped. Default: NORMALS_FROM_FIELD.
    */
   vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
   vtkGetMacro(NormalMethod, int);
@@ -192,9 +202,10 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "Gradients" (three floats): the contoured array's gradient, in its
-   * units over the points', of the fit; where none held, that of an affine function through the
-   * samples around, or else the slope along the point's edge. Default: off.
+   * Whether to compute the array "Gradients" (three floats): the gradient of the contoured array at
+   * the isopoint, in units of the array per unit of the coordinates. It is that of the fit, as for
+   * NORMALS_FROM_FIELD; where neither a fit nor an affine function describes the samples, it is the
+   * slope along the isopoint's edge. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
@@ -203,9 +214,9 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "ProjectionOrder" (one unsigned char), which tells what moved each
-   * point: 0 nothing, 1 an affine function, 2 a polynomial of degree two, 3 one of degree
-   * three, 4 functions that meet at a crease. Default: off.
+   * Whether to compute the array "ProjectionOrder" (one unsigned char), the kind of fit that moved
+   * the isopoint: 0 none, 1 affine, 2 quadratic, 3 cubic, 4 polynomials that meet at a crease.
+   * Default: off.
    */
   vtkSetMacro(ComputeProjectionOrders, vtkTypeBool);
   vtkGetMacro(ComputeProjectionOrders, vtkTypeBool);
@@ -214,10 +225,10 @@ public:
 
   ///@{
   /**
-   * Whether to compute the arrays "SplatAxis1" and "SplatAxis2" (three floats each, in the units of
-   * the points), the half-axes of elliptical splats: long where the surface is flat, short where it
-   * bends. SplatAxis1 is the longer, of the length Radius; SplatAxis1 x SplatAxis2 is along the
-   * normal. Default: off.
+   * Whether to compute the arrays "SplatAxis1" and "SplatAxis2" (three floats each, in units of the
+   * coordinates): the half-axes of an elliptical splat, long where the surface is flat and short
+   * where it is curved. SplatAxis1 is the longer one, of length Radius; SplatAxis1 x SplatAxis2
+   * points along the normal. Default: off.
    */
   vtkSetMacro(ComputeSplatAxes, vtkTypeBool);
   vtkGetMacro(ComputeSplatAxes, vtkTypeBool);
@@ -226,12 +237,15 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): of a splat beside a
-   * crease, at the point q, only the places p with (a, b, c) . (p - q) + d >= 0 belong to the
-   * surface. (a, b, c) is of length 1; d, in the units of the points and not negative, is the
-   * distance of the point from the plane at which its splat ends. There the surface turns to the
-   * side that the normal points to (e = 1), as in a groove, or to the other (e = -1). All are 0
-   * where nothing is to be clipped. Default: off.
+   * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): the plane at which a
+   * splat beside a crease ends. Of the splat at the isopoint q, only positions p with
+   *
+   *     (a, b, c) . (p - q) + d >= 0
+   *
+   * belong to the surface. (a, b, c) is a unit vector; d >= 0 is the distance of q from the plane,
+   * in units of the coordinates. At the plane the surface turns towards the normal (e = 1), as in a
+   * groove, or away from it (e = -1), as at an edge. All five are 0 for a splat that is not
+   * clipped. Default: off.
    */
   vtkSetMacro(ComputeSplatClips, vtkTypeBool);
   vtkGetMacro(ComputeSplatClips, vtkTypeBool);
@@ -240,18 +254,19 @@ public:
 
   ///@{
   /**
-   * Drops points on edges across gaps in the cloud, as at a free surface or between groups of
-   * boreholes: those longer than this many local spacings, measured behind both ends. Exactly: the
-   * spacing behind the end x of an edge {x, y} is the distance from x to the 2nd nearest position
-   * of a sample within 54.7356 degrees (its cosine is 1 / sqrt 3) of the direction from y to x,
-   * infinite where there are fewer than two. An edge is dropped if it is longer than GapFactor
-   * times the larger one of the spacings behind its ends. So edges stay that lead to a sample far
-   * from all others, from fine regions to coarse ones, and across lines or slices that are farther
-   * apart than their samples; not so where a line's samples scatter sideways as far as they are
-   * apart along it. Sensible is 4: it drops the edges across voids of ten spacings and more, none
-   * from uniform clouds, lattices or the leaf cells of adaptive grids, and up to a tenth from
-   * slices, boreholes and ship casts. Smaller values drop more. 0: nothing is dropped, at no cost.
-   * 0 or more, default: 0.
+   * The factor of the gap criterion, which drops isopoints in gaps of the cloud, as at a free
+   * surface or between groups of boreholes. An edge is dropped if it is longer than GapFactor times
+   * the larger of the sample spacings behind its ends. The sample spacing behind the end x of an
+   * edge {x, y} is the distance from x to the second nearest sample position within 54.7356 degrees
+   * (whose cosine is 1 / sqrt(3)) of the direction from y to x; it is infinite if there are fewer
+   * than two. Edges between a dense and a sparse region, to an isolated sample, and between lines
+   * or slices of samples therefore remain; edges between lines do not if their samples scatter
+   * sideways as far as they are apart along the line.
+   *
+   * 4 is a sensible value: it drops the edges across voids of ten sample spacings and more, none in
+   * uniform clouds, lattices or the leaves of adaptive grids, and up to a tenth in clouds of
+   * slices, boreholes or ship casts. Smaller values drop more. 0 switches the criterion off. Range:
+   * 0 or more, finite; other values are an error in the next update. Default: 0.
    */
   vtkSetMacro(GapFactor, double);
   vtkGetMacro(GapFactor, double);
@@ -259,21 +274,24 @@ public:
 
   ///@{
   /**
-   * Drops isopoints where they stand closer than the samples warrant, so that fewer and larger
-   * splats cover the surface. Exactly: the points of each isovalue are taken in their order, and a
-   * point is dropped if it is close to one that was kept. Two are close if a fit held around both
-   * (see SetProjection; with NO_PROJECTION that of CUBIC_FIT), if their distance is less than the
-   * reach r, MinimumSpacing times the smaller of the samples' spacings around them, if each lies
-   * within r / 4 of the tangent plane of the other's fit, and if the fits' gradients differ by less
-   * than 25 degrees (their cosine is 0.906 or more). A sample's spacing is the distance that two
-   * fifths of its neighbours do not exceed, that around a point the mean over the ends of its edge.
-   * So sheets close by and the two sides of a crease never thin each other out, a surface stays
-   * dense where it bends sharply, and nothing is dropped where no fit holds, as in noise. Of a
-   * sphere in random samples 0.25, 0.5, 0.75 and 1 leave 68, 46, 32 and 22 percent of the points.
-   * Sensible is 0.5: no hole was seen in smooth surfaces of random, clustered or jittered samples,
-   * and hardly more than without in those of samples on lines; larger values open some. At a border
-   * the surface may end that much earlier. 0: nothing is dropped, at no cost. 0 up to 1, default:
-   * 0.
+   * The minimum spacing of isopoints on one sheet of the surface, in units of the sample spacing.
+   * Fewer isopoints with larger splats then cover the surface. Isopoints are taken in the order of
+   * the output, and one is dropped if it is close to one that was kept. Let r be MinimumSpacing
+   * times the smaller of the sample spacings around two isopoints; these are close if
+   * - a fit holds around both (see SetProjection(); that of CUBIC_FIT with NO_PROJECTION),
+   * - their distance is less than r,
+   * - each lies within r / 4 of the tangent plane of the other, and
+   * - the gradients of their fits differ by less than 25 degrees (their cosine is 0.906 or more).
+   *
+   * The sample spacing around an isopoint is the mean, over the ends of its edge, of the distance
+   * within which two fifths of the neighbors lie. Thus neither sheets close to each other nor the
+   * two sides of a crease thin each other out, the surface stays dense where it is strongly curved,
+   * and nothing is dropped where no fit holds, as in noise.
+   *
+   * 0.5 is a sensible value: it keeps about half of the isopoints and opened no holes in smooth
+   * surfaces in tests; larger values open some. About 70 percent remain at 0.25, 20 percent at 1.
+   * The surface may end earlier at its border, by up to the minimum spacing. 0 drops nothing.
+   * Range: 0 to 1; other values are clamped, and NaN is an error in the next update. Default: 0.
    */
   vtkSetClampMacro(MinimumSpacing, double, 0.0, 1.0);
   vtkGetMacro(MinimumSpacing, double);
@@ -281,8 +299,9 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "Normals" (three floats, of length 1, active normals): they point
-   * to falling values, as vtkContourFilter's do. Default: on.
+   * Whether to compute the array "Normals" (three floats, the active normals): unit vectors that
+   * point to decreasing values, as those of vtkContourFilter do. See SetNormalMethod(). Default:
+   * on.
    */
   vtkSetMacro(ComputeNormals, vtkTypeBool);
   vtkGetMacro(ComputeNormals, vtkTypeBool);
@@ -291,10 +310,10 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "Radius" (one float, in the units of the points), half the longer
-   * axis of a splat that covers what of the surface is nearer to this point than to others. It
-   * reaches no farther than the spacing of the samples warrants: where no points bound it, as at
-   * a border or around an isolated point, about that spacing. Default: on.
+   * Whether to compute the array "Radius" (one float, positive, in units of the coordinates): half
+   * the longer axis of a splat that covers the part of the surface nearer to this isopoint than to
+   * others. Where no other isopoints bound that part, as at a border or around an isolated
+   * isopoint, the radius is about the sample spacing. Default: on.
    */
   vtkSetMacro(ComputeRadii, vtkTypeBool);
   vtkGetMacro(ComputeRadii, vtkTypeBool);
@@ -303,8 +322,8 @@ public:
 
   ///@{
   /**
-   * Whether the output has the contoured array, which holds the isovalue of each point. Default:
-   * on.
+   * Whether the output has the contoured array, whose values are the isovalues, as its active
+   * scalars. Default: on.
    */
   vtkSetMacro(ComputeScalars, vtkTypeBool);
   vtkGetMacro(ComputeScalars, vtkTypeBool);
@@ -313,9 +332,9 @@ public:
 
   ///@{
   /**
-   * How many of the nearest isopoints the plane is fitted through that gives a normal where the
-   * field does not (see SetNormalMethod). More make for smoother normals and rounder edges. 3 up to
-   * 1000, default 12.
+   * The number of nearest isopoints to which the plane is fitted that gives a normal
+   * (NORMALS_FROM_PLANES, and where no fit holds). More give smoother normals and rounder edges.
+   * Range: 3 to 1000; other values are clamped. Default: 12.
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
   vtkGetMacro(NumberOfNeighbors, int);
@@ -324,8 +343,9 @@ public:
   ///@{
   /**
    * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, the type of the input's points (double for images and rectilinear grids).
-   * Computation is in double in any case. Default: DEFAULT_PRECISION.
+   * DEFAULT_PRECISION, which is single if the points of all blocks are float, else double (as for
+   * images, rectilinear grids and hyper tree grids). All computation is in double precision. Other
+   * values are clamped. Default: DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
@@ -333,8 +353,8 @@ public:
 
   ///@{
   /**
-   * Whether the tree is kept from one update to the next, so that further isovalues are found in
-   * a fraction of the time, or freed at the end of each update. Default: on.
+   * Whether to keep the tree from one update to the next, which makes further isovalues much
+   * faster, or to free it at the end of each update. The output is the same. Default: on.
    */
   vtkSetMacro(KeepTree, vtkTypeBool);
   vtkGetMacro(KeepTree, vtkTypeBool);
@@ -343,10 +363,10 @@ public:
 
   ///@{
   /**
-   * Whether each block of a composite input is contoured by itself: the output is then a composite
-   * of the same structure with a vtkPolyData in place of each block that has the array (an AMR
-   * becomes a vtkMultiBlockDataSet of levels), which GetOutputDataObject(0) returns. Off: all
-   * blocks form one cloud, and the output is one vtkPolyData. Default: off.
+   * Whether to contour each block of a composite input by itself. If on, the output is a composite
+   * of the same structure, with a vtkPolyData for each block that has the contoured array (for an
+   * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
+   * cloud, and the output is one vtkPolyData. Without effect on other inputs. Default: off.
    */
   vtkSetMacro(ContourBlocks, vtkTypeBool);
   vtkGetMacro(ContourBlocks, vtkTypeBool);
@@ -355,11 +375,11 @@ public:
 
   ///@{
   /**
-   * vtkSMPTools decides on the threads, with one exception: where its backend is "Sequential", as
-   * it is by default in Debian's ParaView, and the environment variable VTK_SMP_BACKEND_IN_USE is
-   * not set, the filter runs on all cores all the same, within VTK_SMP_MAX_THREADS and
-   * vtkSMPTools::Initialize(). Off: "Sequential" is taken at its word. The output is the same in
-   * any case. Default: on.
+   * Whether to run on all cores if vtkSMPTools was merely built with "Sequential" as its default
+   * backend, as in Debian's ParaView. This is assumed if "Sequential" is the active backend and the
+   * environment variable VTK_SMP_BACKEND_IN_USE is not set. The number of threads then stays within
+   * VTK_SMP_MAX_THREADS and the argument of vtkSMPTools::Initialize(). If off, or with any other
+   * backend, vtkSMPTools determines the threads. The output is the same. Default: on.
    */
   vtkSetMacro(UseAllCores, vtkTypeBool);
   vtkGetMacro(UseAllCores, vtkTypeBool);
@@ -367,19 +387,19 @@ public:
   ///@}
 
   /**
-   * Input points (or cells, leaves) that took no part in the last update: non-finite, ghost or
-   * hidden ones, and those of blocks without the array.
+   * The number of input points (or cells, or leaves) that took no part in the last update: see
+   * guarantee 3.
    */
   vtkGetMacro(NumberOfSkippedSamples, vtkIdType);
 
   /**
-   * Isopoints of the output that the last update left where linear interpolation puts them: all of
-   * them with NO_PROJECTION, and those around which no fit held.
+   * The number of points in the output of the last update that no fit moved: all of them with
+   * NO_PROJECTION, otherwise those around which no fit holds.
    */
   vtkGetMacro(NumberOfUnprojectedPoints, vtkIdType);
 
   /**
-   * Also counts changes of the contour values.
+   * The modification time, including that of the contour values.
    */
   vtkMTimeType GetMTime() override;
 
@@ -422,7 +442,6 @@ private:
   class Internals;
   class KeptTree;
 
-  void CheckParameters();
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Isosurfaces straight from scattered samples, as VTK classes."""
+"""VTK classes that extract isosurfaces from scattered samples and render them as splats."""
 
 from .vtkScatteredIsopointFilters import *  # noqa: F401,F403
 from .vtkScatteredIsopointRendering import *  # noqa: F401,F403

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointOptions.h"
+
+#include "vtkIsopointUsageError.h"
+#include "vtkScatteredIsopointFilter.h"
+
+#include "vtkType.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace
+{
+
+/// The fit that the projection or an output requires, if any: thinning and normals from the field
+/// require polynomials, other splats and fit orders at least the sample spacing.
+std::optional<isopoint::FitRequest> fitRequestOf(vtkScatteredIsopointFilter* filter)
+{
+  using isopoint::FitOrder;
+  using isopoint::FitRequest;
+  switch (filter->GetProjection())
+  {
+    case vtkScatteredIsopointFilter::LINEAR_FIT:
+      return FitRequest{ FitOrder::Linear, true };
+    case vtkScatteredIsopointFilter::QUADRATIC_FIT:
+      return FitRequest{ FitOrder::Quadratic, true };
+    case vtkScatteredIsopointFilter::CUBIC_FIT:
+      return FitRequest{ FitOrder::Cubic, true };
+    case vtkScatteredIsopointFilter::CREASE_FIT:
+      return FitRequest{ FitOrder::Crease, true };
+    default:
+      break;
+  }
+  const vtkIsopointComputedArrays::Choice arrays = vtkChooseIsopointArrays(filter);
+  const bool hasFieldNormals =
+    arrays.NeedsSplats() &&
+    filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
+  if (arrays.Gradients || hasFieldNormals || filter->GetMinimumSpacing() > 0.0)
+  {
+    return FitRequest{ FitOrder::Cubic, false };
+  }
+  if (arrays.NeedsSplats() || arrays.ProjectionOrder)
+  {
+    return FitRequest{ std::nullopt, false };
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter)
+{
+  const double* const values = filter->GetValues();
+  const vtkIdType valueCount = filter->GetNumberOfContours();
+  if (std::any_of(values, values + valueCount, [](double value) { return std::isnan(value); }))
+  {
+    throw vtkIsopointUsageError("An isovalue is not a number. Set isovalues with SetValue().");
+  }
+  const double angle = filter->GetAngle();
+  if (!(angle >= 0.0 && angle <= 180.0))
+  {
+    std::ostringstream message;
+    message << "The angle is " << angle
+            << " degrees, which is out of range. Set one within 0 and 180 with SetAngle().";
+    throw vtkIsopointUsageError(message.str());
+  }
+  const double gapFactor = filter->GetGapFactor();
+  if (!(gapFactor >= 0.0) || std::isinf(gapFactor))
+  {
+    std::ostringstream message;
+    message << "The gap factor is " << gapFactor
+            << ", which is negative or not finite. Set 0, which drops nothing, or a positive number"
+               " with SetGapFactor().";
+    throw vtkIsopointUsageError(message.str());
+  }
+  if (std::isnan(filter->GetMinimumSpacing()))
+  {
+    throw vtkIsopointUsageError(
+      "The minimum spacing is not a number. Set one within 0 and 1 with SetMinimumSpacing().");
+  }
+}
+
+vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter)
+{
+  vtkIsopointComputedArrays::Choice choice;
+  choice.Normals = filter->GetComputeNormals() != 0;
+  choice.Radius = filter->GetComputeRadii() != 0;
+  choice.SplatAxes = filter->GetComputeSplatAxes() != 0;
+  choice.SplatClip = filter->GetComputeSplatClips() != 0;
+  choice.Gradients = filter->GetComputeGradients() != 0;
+  choice.ProjectionOrder = filter->GetComputeProjectionOrders() != 0;
+  choice.IsProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
+  return choice;
+}
+
+isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* filter)
+{
+  const vtkIsopointComputedArrays::Choice arrays = vtkChooseIsopointArrays(filter);
+  isopoint::ExtractionRequest request;
+  request.isosurface.angle = filter->GetAngle();
+  request.isosurface.gapFactor = filter->GetGapFactor();
+  request.isosurface.fit = fitRequestOf(filter);
+  request.minimumSpacing = filter->GetMinimumSpacing();
+  if (arrays.NeedsSplats())
+  {
+    request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),
+      filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
+      arrays.NeedsShapes() };
+  }
+  return request;
+}

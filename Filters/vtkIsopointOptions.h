@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointOptions_h
+#define vtkIsopointOptions_h
+
+#include "Isopoint/IsosurfaceExtractor.h"
+#include "vtkIsopointComputedArrays.h"
+
+class vtkScatteredIsopointFilter;
+
+/**
+ * Checks the options of a filter that its setters accept unchecked.
+ * @throws vtkIsopointUsageError
+ */
+void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter);
+
+/**
+ * The arrays that a filter is to compute.
+ */
+vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter);
+
+/**
+ * The request to the core that the options of a filter amount to, without an isovalue.
+ */
+isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* filter);
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointUsageError_h
+#define vtkIsopointUsageError_h
+
+#include <stdexcept>
+
+/**
+ * Invalid input or options. what() is the message for the user: a sentence that names the cause and
+ * one that names the remedy.
+ */
+struct vtkIsopointUsageError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+#endif
