@@ -2,8 +2,6 @@
 #include "vtkIsopointComputedArrays.h"
 
 #include "Isopoint/Base/Vector.h"
-#include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Splat/Splat.h"
 #include "vtkIsopointAllocation.h"
 
 #include "vtkDataArray.h"

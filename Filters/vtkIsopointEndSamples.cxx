@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointEndSamples.h"
 
-#include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Tree/CoincidentSamples.h"
 #include "vtkIsopointAllocation.h"
 
 #include "vtkAbstractArray.h"

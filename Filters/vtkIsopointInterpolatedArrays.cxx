@@ -3,7 +3,6 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/Isosurface.h"
 #include "vtkIsopointAllocation.h"
 
 #include "vtkAbstractArray.h"

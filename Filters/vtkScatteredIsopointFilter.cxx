@@ -3,8 +3,6 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "Isopoint/Neighbors/AngleCriterion.h"
-#include "Isopoint/Splat/Splat.h"
 #include "vtkIsopointBlock.h"
 #include "vtkIsopointBlocks.h"
 #include "vtkIsopointComputedArrays.h"

@@ -42,9 +42,10 @@ struct ExtractedIsosurface
   std::vector<Splat> splats; // one for each isopoint, or empty if none were requested
 };
 
-/// Extracts isosurfaces from one cloud of samples. The tree and the neighbourhoods are kept from
-/// one extraction to the next: the first takes O(n) for each level of the tree whose regions are
-/// not yet smaller than the surface; a further one only what its own narrow band adds.
+/// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
+/// all types that go through it. The tree and the neighbourhoods are kept from one extraction to
+/// the next: the first takes O(n) for each level of the tree whose regions are not yet smaller than
+/// the surface; a further one only what its own narrow band adds.
 class IsosurfaceExtractor
 {
 public:

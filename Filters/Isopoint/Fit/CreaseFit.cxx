@@ -145,8 +145,8 @@ private:
     return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   }
 
-  /// The samples of a piece, by their place in the direction in which residuals increase on both sides
-  /// (decrease, for the smallest of functions).
+  /// The samples of a piece, by their place in the direction in which residuals increase on both
+  /// sides (decrease, for the smallest of functions).
   std::vector<std::pair<double, std::size_t>> alongBend(std::size_t piece) const
   {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
