@@ -1,17 +1,30 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From scattered samples to a picture: ./demo.sh [FILE ARRAY ISOVALUE]
-# Without arguments it makes a million random samples of a sphere's distance field. Writes
-# isopoints.vtp and isosurface.png to the current folder.
+# From scattered samples to a picture; see the usage below.
 set -euo pipefail
 
+usage()
+{
+  cat << END
+usage: $0 [FILE ARRAY ISOVALUE]
+Builds the plugin if necessary, computes the isopoints of a file's point or cell array with ParaView, and
+writes isopoints.vtp and isosurface.png to the current folder. Without arguments the samples are a
+million random ones of the distance to a point; their true isosurface is a sphere, errors are printed,
+and comparison.png is written as well.
+END
+}
+
+if [[ ${1-} == --help ]]; then
+  usage
+  exit
+fi
 if (($# != 0 && $# != 3)) || [[ ${1-samples} == '' || ${1-} == -* ]]; then
-  echo "usage: $0 [FILE ARRAY ISOVALUE]" >&2
+  usage >&2
   exit 2
 fi
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$source_dir/Utilities/prepare.sh" release
-# By the environment: pvbatch would take arguments that begin with a minus for its own.
+# In the environment, since pvbatch interprets arguments that begin with a minus itself.
 export ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
 exec "$source_dir/Utilities/offscreen.sh" pvbatch "$source_dir/Utilities/demo.py" \
   "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"

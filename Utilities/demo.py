@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The main job in one script, for pvbatch: samples in, isopoints.vtp and isosurface.png out.
+"""Computes isopoints of samples and renders them: demo.py PLUGIN, for pvbatch. Writes isopoints.vtp and
+isosurface.png.
 
-Without arguments it makes its own samples: random positions in a cube of side 200, the value being
-the distance to the centre, so that the true surface is known. With ISOPOINTS_FILE, ISOPOINTS_ARRAY and
-ISOPOINTS_ISOVALUE in the environment it takes anything that ParaView reads.
+The samples are those of the file ISOPOINTS_FILE, the array ISOPOINTS_ARRAY and the isovalue
+ISOPOINTS_ISOVALUE in the environment, in any format that ParaView reads. Without these they are random
+positions in a cube of side 200, with the distance to its centre as values, so that errors are known;
+comparison.png is then written as well.
 """
 
 import os
@@ -42,7 +44,7 @@ def sphere_samples():
 
 
 def file_samples(path, array, isovalue):
-    """The point data of a file, blocks merged and cell data moved to the cells' centres."""
+    """The point data of a file, with blocks merged and cell data at the cells' centres."""
     if not os.path.isfile(path):
         fail("there is no file " + path)
     try:
@@ -50,7 +52,7 @@ def file_samples(path, array, isovalue):
     except ValueError:
         finite = False
     if not finite:
-        fail("the isovalue " + isovalue + " is not a number")
+        fail("the isovalue " + isovalue + " is not a finite number")
     try:
         source = simple.OpenDataFile(path)
     except RuntimeError:
@@ -61,13 +63,13 @@ def file_samples(path, array, isovalue):
         source.UpdatePipeline()
     if source.GetDataInformation().GetNumberOfPoints() == 0:
         fail(
-            path + " was read as empty. Debian's ParaView reads no VTK XML file with appended"
-            " data: write it with inline data (SetDataModeToBinary)."
+            path + " contains no points that ParaView can read. Debian's ParaView cannot read VTK XML"
+            " files with appended data: write them with inline data (SetDataModeToBinary)."
         )
     if array not in source.PointData.keys():
         if array not in source.CellData.keys():
             fail(
-                "%s has no array named %s; its point arrays are %s, its cell arrays %s"
+                "%s has no array named %s; its point arrays are %s, its cell arrays are %s"
                 % (path, array, source.PointData.keys(), source.CellData.keys())
             )
         source = simple.CellCenters(Input=source)
@@ -83,8 +85,8 @@ def producer_of(data):
 
 
 def on_a_grid(source, array, isovalue):
-    """What there is without isopoints: the samples resampled to a grid, 100 nodes a side as
-    ParaView has it by default, and contoured there."""
+    """The alternative without isopoints: the samples resampled to a grid of 100^3 nodes, ParaView's
+    default, and contoured there."""
     grid = simple.PointVolumeInterpolator(Input=source, Source="Bounded Volume")
     grid.Kernel = "LinearKernel"
     grid.Kernel.KernelFootprint = "N Closest"
@@ -110,7 +112,7 @@ def show(source, view, representation):
 
 
 def look(view):
-    """From an angle, from the right distance."""
+    """Places the camera obliquely above, with everything in view."""
     simple.ResetCamera(view)
     camera = view.GetActiveCamera()
     camera.Elevation(25)
@@ -132,7 +134,7 @@ def picture(source, representation, path, size):
 
 
 def compare(pictures, path):
-    """Pictures side by side: (source, representation) each."""
+    """Writes pictures of pairs (source, representation), side by side."""
     parts = []
     with tempfile.TemporaryDirectory() as folder:
         for i, (source, representation) in enumerate(pictures):
@@ -175,12 +177,12 @@ def main(plugin):
 
     output = isopoints.GetClientSideObject().GetOutput()
     count = output.GetNumberOfPoints()
-    print("samples          %d" % source.GetDataInformation().GetNumberOfPoints())
-    print("isopoints        %d" % count)
-    print("seconds          %.3f" % seconds)
+    print("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
+    print("isopoints         %d" % count)
+    print("seconds           %.3f" % seconds)
     if count == 0:
         limits = source.PointData[array].GetRange()
-        fail("no isopoints: the values of %s lie within %g and %g" % (array, *limits))
+        fail("there are no isopoints: the values of %s range from %g to %g" % (array, *limits))
     if not path:
         positions = vtk_to_numpy(output.GetPoints().GetData()).astype(float)
         deviation = np.abs(np.linalg.norm(positions - 0.5 * SIDE, axis=1) - RADIUS)
@@ -199,7 +201,10 @@ def main(plugin):
             ),
             "comparison.png",
         )
-        print("wrote comparison.png: splats, Point Gaussian, and Contour on a grid of 100^3 nodes")
+        print(
+            "wrote comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"
+            " resampled to a grid of 100^3 nodes"
+        )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A VTK script from random samples of a gyroid to splats.png, a picture of its isosurface."""
+"""Renders an isosurface of random samples of a gyroid with VTK alone. Writes splats.png."""
 
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, registers the rendering classes
 from scatteredisopoints import vtkIsopointSplatMapper, vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints

@@ -1,6 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs a command with a display of its own: offscreen.sh COMMAND...
-# ParaView opens and closes the display several times. Without -noreset the server starts afresh
-# whenever nobody is connected, and refuses who comes just then.
+# Runs a command with a virtual display of its own: offscreen.sh COMMAND...
+# ParaView connects to the display several times. Without -noreset the server resets whenever its last
+# client disconnects, and refuses connections meanwhile.
+if (($# == 0)) || [[ $1 == --help ]]; then
+  echo "usage: $0 COMMAND..." >&2
+  echo "Runs a command with a virtual display of its own." >&2
+  exit 2
+fi
 exec xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" "$@"

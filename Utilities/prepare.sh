@@ -1,11 +1,26 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing of Debian's packages and builds the project: prepare.sh PRESET
-# prepare.sh check installs what Utilities/check.sh needs and builds nothing.
-# Quick when there is nothing to do. Needs root only where packages are missing.
+# Installs missing Debian packages and builds the project; see the usage below.
 set -euo pipefail
 
-preset=${1:?usage: prepare.sh PRESET, one of CMakePresets.json}
+usage()
+{
+  cat << END
+usage: $0 PRESET
+Installs the Debian packages that are missing, for which it needs root, and builds a preset of
+CMakePresets.json. For the preset "check" it installs what Utilities/check.sh needs and builds nothing.
+END
+}
+
+if [[ ${1-} == --help ]]; then
+  usage
+  exit
+fi
+if (($# != 1)); then
+  usage >&2
+  exit 2
+fi
+preset=$1
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_dir"
 

@@ -1,9 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# sanitize.sh [PRESET...]: all C++ tests under the address and undefined-behaviour sanitizers (preset
-# address) and the thread sanitizer (thread), and a minute of fuzzing each of the core and the filter
-# (fuzz). Without arguments all three: half an hour on two cores.
+# Runs all C++ tests under the sanitizers, and the fuzz targets; see the usage below.
 set -euo pipefail
+
+if [[ ${1-} == --help ]]; then
+  cat << END
+usage: $0 [PRESET...]
+Builds presets and runs their tests:
+  address  all C++ tests with the address and undefined-behaviour sanitizers
+  thread   all C++ tests with the thread sanitizer
+  fuzz     the fuzz targets of the core and of the filter, one minute each
+Without arguments all three, which takes half an hour on two cores.
+END
+  exit
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 (($# > 0)) || set -- address thread fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Accuracy against analytic surfaces, side by side with the alternatives.
+// Accuracy of isopoints and of the alternatives, measured against analytic surfaces.
 #include "AccuracyContestants.h"
 #include "AccuracyMeasure.h"
 #include "AccuracySamples.h"
@@ -30,16 +30,21 @@ using namespace accuracy;
 
 constexpr const char* usage =
   "usage: AccuracyBenchmark [OPTIONS]\n"
-  "Writes a Markdown table of distances from analytic surfaces in the cube [-1, 1]^3.\n"
-  "  --samples N         in each cloud (default 64000)\n"
-  "  --surface-points N  random points of each true surface, for the coverage (default 100000)\n"
+  "Compares isopoints with other methods on samples of analytic fields in the cube [-1, 1]^3 and\n"
+  "writes a Markdown table: distances from the true surface in mean sample spacings, errors of\n"
+  "normals in degrees, the share of the surface that no splat covers, and seconds.\n"
+  "  --samples N         number of samples of each cloud, at least 1000 (default: 64000)\n"
+  "  --surface-points N  number of random points of each true surface on which coverage is measured\n"
+  "                      (default: 100000)\n"
   "  --fields A,B,...    sphere, torus, gyroid, Marschner-Lobb, Gaussian mixture, cube,\n"
   "                      two sheets (default: all)\n"
   "  --samplings A,...   uniform, clustered, jittered, lines (default: all)\n"
-  "  --noise A,...       percent of the field's standard deviation over the cube (default: 0,1,5)\n"
-  "  --threads N         for those that can use them (default 2)\n"
-  "  --output FILE       (default accuracy.md)\n"
-  "  --keep FOLDER       also write samples and surfaces as .vtp files, to look at\n";
+  "  --noise A,...       standard deviations of the noise, in percent of the standard deviation of\n"
+  "                      the field over the cube (default: 0,1,5)\n"
+  "  --threads N         number of threads of the methods that use several (default: 2)\n"
+  "  --output FILE       the table (default: accuracy.md)\n"
+  "  --keep FOLDER       also writes all samples and surfaces to this folder, as .vtp files\n"
+  "  --help              prints this text\n";
 
 struct Options
 {
@@ -79,12 +84,12 @@ double numberOf(const std::string& text, double least)
   }
   catch (const std::exception&)
   {
-    // told below
+    // reported below
   }
   if (used != text.size() || !(number >= least))
   {
     std::ostringstream message;
-    message << "\"" << text << "\" is no number of at least " << least;
+    message << "\"" << text << "\" is not a number of at least " << least;
     throw std::invalid_argument(message.str());
   }
   return number;
@@ -115,7 +120,7 @@ Options parse(int count, char** arguments)
     }
     if (i + 1 == count)
     {
-      throw std::invalid_argument(name + " wants a value; see --help");
+      throw std::invalid_argument(name + " needs a value; see --help");
     }
     const std::string value = arguments[i + 1];
     if (name == "--samples")
@@ -163,7 +168,7 @@ Options parse(int count, char** arguments)
   return options;
 }
 
-/// What a row of the table is about.
+/// What the rows of the table that follow each other have in common.
 struct Subject
 {
   const analytic::Surface& surface;
@@ -172,13 +177,14 @@ struct Subject
   vtkSmartPointer<vtkPolyData> samples;
 };
 
-/// The cube that is measured, two mean spacings inside that of the samples. Closed surfaces lie in
-/// it as a whole.
+/// Half the side of the cube in which errors are measured: its sides are two mean spacings within
+/// those of the samples' cube. Closed surfaces lie entirely within it.
 double innerHalfSide(const Options& options)
 {
   return 1.0 - 2.0 * meanSpacing(options.samples);
 }
 
+/// @returns the formatted value, or a dash for one below 0: not measured
 std::string cell(double value, const char* format)
 {
   char text[64];
@@ -197,7 +203,7 @@ public:
     {
       throw std::runtime_error("cannot write " + options.output);
     }
-    this->Out << "| field | sampling | noise % | what | points | largest | 99.9 % | mean |"
+    this->Out << "| field | sampling | noise % | method | points | largest | 99.9 % | mean |"
                  " normals: largest | mean | uncovered % | rim 99.9 % | seconds |\n"
                  "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   }

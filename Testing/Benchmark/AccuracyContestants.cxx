@@ -22,7 +22,7 @@ namespace
 
 using Surface = vtkSmartPointer<vtkPolyData>;
 
-/// Ours, its properties set by `choose(filter)`.
+/// This project's filter with the properties that `choose(filter)` sets.
 template <class Choose>
 Contestant ours(const std::string& mode, const Choose& choose)
 {

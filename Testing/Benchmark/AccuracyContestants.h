@@ -12,18 +12,19 @@
 namespace accuracy
 {
 
-/// A way from samples to points of an isosurface.
+/// A method that computes points of an isosurface from samples.
 struct Contestant
 {
   std::string name;
 
-  /// @param samples a cloud with the scalars "value"; for those on a grid its nodes, x fastest
-  /// @returns points with active normals; those of splats also with "Radius", and with
-  /// "SplatAxis1" and "SplatAxis2" where they are elliptical
+  /// @param samples a cloud with the scalars "value"; for gridContestant() the nodes of the grid, x
+  /// fastest
+  /// @returns points with active normals; if they are splats, with the array "Radius" or, if these
+  /// are elliptical, with "SplatAxis1" and "SplatAxis2" as well
   std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData* samples, double isovalue)> extract;
 };
 
-/// Those that take scattered samples: ours in each mode, then the peers.
+/// The methods for scattered samples: this project's filter in each mode, then the alternatives.
 std::vector<Contestant> scatteredContestants();
 
 /// Marching cubes, which takes the nodes of a grid over the cube [-1, 1]^3.

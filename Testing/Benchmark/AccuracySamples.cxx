@@ -31,7 +31,7 @@ public:
     return { x, y, this->inSide() };
   }
 
-  /// Of the standard deviation 1, by Box and Muller.
+  /// Normally distributed with the standard deviation 1, by the method of Box and Muller.
   double normal()
   {
     const double size = std::sqrt(-2.0 * std::log(1.0 - (*this)()));

@@ -12,31 +12,30 @@
 #include <string>
 #include <vector>
 
-/// The samples of analytic fields over the cube [-1, 1]^3 that accuracy is measured on, with the
-/// values in the array "value", in double.
+/// Samples of analytic fields over the cube [-1, 1]^3, on which accuracy is measured. Their values
+/// are in the array "value", in double.
 namespace accuracy
 {
 
 /// The ways to place samples, in the order of a report.
 inline const std::array<std::string, 4> samplings{ "uniform", "clustered", "jittered", "lines" };
 
-/// The mean distance of so many samples in the cube: the side of the cube that each has to itself.
+/// The mean spacing of a number of samples in the cube: the cube root of the volume per sample.
 double meanSpacing(std::size_t count);
 
 /// About `count` positions.
-/// - uniform: random, all places equally likely;
-/// - clustered: three tenths so, the others around twelve random places, at a normal distance with
-///   the standard deviation 0.15 on each axis;
-/// - jittered: one sample in each cell of a lattice, within 0.4 cells of its middle on each axis;
-/// - lines: parallels to the z axis at random places, samples on each four times closer than
-///   lines are.
+/// - uniform: random, of constant density;
+/// - clustered: 30 % uniform, the others around twelve random centres, with normally distributed
+///   offsets of standard deviation 0.15 on each axis;
+/// - jittered: one sample in each cell of a lattice, within 0.4 cells of its centre on each axis;
+/// - lines: random lines parallel to the z axis, four times farther apart than samples on a line.
 /// @throws std::invalid_argument for another name
 std::vector<analytic::Vector> positionsOf(const std::string& sampling, std::size_t count);
 
-/// The standard deviation of the field over the cube, which noise is relative to.
+/// The standard deviation of the field over the cube, in units of which noise is given.
 double deviationOf(const analytic::Surface& surface);
 
-/// The field's values at positions, and normal noise of that standard deviation added.
+/// The field's values at positions, plus normally distributed noise of a standard deviation.
 vtkSmartPointer<vtkPolyData> sampled(const analytic::Surface& surface,
   const std::vector<analytic::Vector>& positions, double noiseDeviation);
 

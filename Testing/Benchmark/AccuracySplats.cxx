@@ -20,7 +20,7 @@ using analytic::dot;
 using analytic::length;
 using analytic::Vector;
 
-/// Any two axes of a length across a normal.
+/// Two axes of a length, perpendicular to a normal and to each other.
 std::array<Vector, 2> axesAcross(const Vector& normal, double radius)
 {
   const auto least = std::min_element(

@@ -17,21 +17,21 @@ class vtkPolyData;
 namespace accuracy
 {
 
-/// An ellipse in space, or what a plane leaves of it.
+/// An ellipse in space, or the part of it on one side of a clip plane.
 struct Splat
 {
   analytic::Vector center;
   analytic::Vector normal; // of length 1
-  analytic::Vector axis1;  // half-axes, across the normal
+  analytic::Vector axis1;  // half-axes, perpendicular to the normal
   analytic::Vector axis2;
   /// a, b, c, d, e: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
   std::array<double, 5> clip{};
 
-  double radius() const; // half the major axis
+  double radius() const; // of the longer half-axis
 
   bool isClippedAt(const analytic::Vector& offset) const; // from the centre
 
-  /// The ends of both axes, or where they meet the clipping plane.
+  /// The ends of both axes, or where these meet the clip plane.
   std::array<analytic::Vector, 4> ends() const;
 };
 
@@ -39,26 +39,24 @@ struct Splat
 analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
 /// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
-/// "SplatAxis2", none where there is neither; clipped as an array "SplatClip" of five components
-/// tells.
+/// "SplatAxis2", clipped by the planes in the array "SplatClip" if there is one. Empty without
+/// normals, or without radii and axes.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
-/// Answers which places splats cover.
+/// Determines whether splats cover places.
 class Coverage
 {
 public:
-  /// @param leastTolerance how far from its plane a splat covers, at least; more where half its
-  /// radius is
+  /// @param leastTolerance a splat covers places up to this distance from its plane, or up to half
+  /// its radius if that is more
   Coverage(const std::vector<Splat>& splats, double leastTolerance);
 
-  /// O(splats around the place)
+  /// Complexity: linear in the number of splats around the place.
   bool covers(const analytic::Vector& place) const;
 
 private:
-  using Cell = std::array<std::int64_t, 3>;
-
-  /// The splats of about one size, by the cell of their centre; cells are as wide as any of them
-  /// reaches.
+  /// Splats of similar size, by the cell of their centre. Cells are at least as wide as the
+  /// distance up to which these splats cover places.
   struct Level
   {
     double cellSize;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Speed, side by side with the alternatives, in one run on the same samples.
+// The speed of isopoints and of the alternatives, in one run on the same samples.
 #include "BenchmarkClouds.h"
 #include "Rows.h"
 
@@ -23,10 +23,15 @@ namespace
 constexpr const char* usage =
   "usage: IsopointBenchmark [--threads N] [--largest MILLIONS] [--file IMAGE.vti ISOVALUE]\n"
   "       IsopointBenchmark --paper\n"
-  "Writes benchmark.md and benchmark.csv (with --paper: paper.md) to the current folder.\n"
-  "  --threads N        for everyone that can use them (default 2)\n"
-  "  --largest MILLIONS of samples in a uniform cloud, ours alone from 8 on (default 64)\n"
-  "  --file ...         also a volume, resampled to 16 million random positions\n";
+  "Times isopoints and other methods on clouds of several kinds and sizes, and writes benchmark.md and\n"
+  "benchmark.csv to the current folder.\n"
+  "  --threads N             number of threads of the methods that use several (default: 2)\n"
+  "  --largest MILLIONS      size of the largest uniform cloud, in millions of samples (default: 64);\n"
+  "                          the other methods run on up to 4 million\n"
+  "  --file IMAGE ISOVALUE   also contours a volume, interpolated at 16 million random positions\n"
+  "  --paper                 repeats Tables 1 and 2 of [RL06] (docs/references.md) instead, and writes\n"
+  "                          paper.md\n"
+  "  --help                  prints this text\n";
 
 struct Options
 {
@@ -136,10 +141,10 @@ void compare(const Options& options)
   }
 }
 
-/// The paper's Tables 1 and 2 with its figures: a core of 3.06 GHz.
+/// Tables 1 and 2 of [RL06], beside the numbers given there: those of a core of 3.06 GHz.
 void repeatPaper(const Options& options)
 {
-  struct PaperRow
+  struct PublishedRow
   {
     double millions;
     double angle;
@@ -147,7 +152,7 @@ void repeatPaper(const Options& options)
     double seconds;   // 0: not given
     double deviation; // 0: not given
   };
-  const std::vector<PaperRow> table{ { 4, 54.7, 45000, 70, 0 }, { 8, 54.7, 71000, 151, 0 },
+  const std::vector<PublishedRow> table{ { 4, 54.7, 45000, 70, 0 }, { 8, 54.7, 71000, 151, 0 },
     { 12, 54.7, 100000, 243, 0 }, { 16, 54.7, 113000, 318, 0 }, { 8, 15, 437473, 0, 0.0425 },
     { 8, 35, 227588, 0, 0.0355 }, { 8, 55, 77512, 0, 0.0320 }, { 8, 80, 64165, 0, 0.0182 } };
   vtkSMPTools::Initialize(options.threads);
@@ -156,18 +161,22 @@ void repeatPaper(const Options& options)
   {
     throw std::runtime_error("cannot write paper.md");
   }
-  std::fprintf(out, "Ours on %d threads, a single run each.\n\n", options.threads);
-  std::fprintf(out, "| samples, million | angle | paper: points | ours | paper: seconds | linear |"
-                    " quadratic | paper: largest deviation | linear | quadratic |\n"
+  std::fprintf(out,
+    "Columns marked [RL06] are the numbers given there. The others are those of a single run on %d"
+    " threads, with isopoints on their edges (linear) and moved to quadratic fits (quadratic).\n\n",
+    options.threads);
+  std::fprintf(out, "| samples, million | angle | points [RL06] | points | seconds [RL06] |"
+                    " seconds, linear | seconds, quadratic | largest deviation [RL06] |"
+                    " largest deviation, linear | largest deviation, quadratic |\n"
                     "|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const PaperRow& paper : table)
+  for (const PublishedRow& published : table)
   {
-    const auto samples = clouds::uniform(static_cast<std::size_t>(paper.millions * 1e6));
+    const auto samples = clouds::uniform(static_cast<std::size_t>(published.millions * 1e6));
     const auto measured = [&](int projection)
     {
       vtkNew<vtkScatteredIsopointFilter> filter;
       filter->SetInputData(samples);
-      filter->SetAngle(paper.angle);
+      filter->SetAngle(published.angle);
       filter->SetValue(0, 70.0);
       filter->SetProjection(projection);
       filter->ComputeNormalsOff();
@@ -180,9 +189,9 @@ void repeatPaper(const Options& options)
     const Row linear = measured(vtkScatteredIsopointFilter::NO_PROJECTION);
     const Row quadratic = measured(vtkScatteredIsopointFilter::QUADRATIC_FIT);
     std::fprintf(out, "| %g | %g | %.0f | %zu | %g | %.2f | %.2f | %g | %.4f | %.5f |\n",
-      paper.millions, paper.angle, paper.points, linear.surfacePoints, paper.seconds,
-      linear.seconds, quadratic.seconds, paper.deviation, linear.largestDeviation,
-      quadratic.largestDeviation);
+      published.millions, published.angle, published.points, linear.surfacePoints,
+      published.seconds, linear.seconds, quadratic.seconds, published.deviation,
+      linear.largestDeviation, quadratic.largestDeviation);
   }
   std::fclose(out);
 }

@@ -105,7 +105,7 @@ vtkSmartPointer<vtkPolyData> uniform(std::size_t count)
 
 vtkSmartPointer<vtkPolyData> clustered(std::size_t count)
 {
-  // Distances from the cluster's middle are drawn so that density falls with their square.
+  // Distances from the cluster's centre are uniform, so that density decreases with their square.
   Random random;
   const Position middle{ 70.0, 0.0, 0.0 };
   const auto positionAt = [&](std::size_t)
@@ -163,7 +163,7 @@ vtkSmartPointer<vtkPolyData> resampled(const std::string& file, std::size_t coun
   image->GetDimensions(dimensions);
   if (!values || *std::min_element(dimensions, dimensions + 3) < 2)
   {
-    throw std::runtime_error(file + " is no VTK XML image of a volume with point data");
+    throw std::runtime_error(file + " is not a VTK XML image of a volume with point data");
   }
   Random random;
   const auto positionAt = [&](std::size_t)

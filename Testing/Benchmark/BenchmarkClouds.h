@@ -8,14 +8,14 @@
 #include <cstddef>
 #include <string>
 
-/// The clouds measured. All but those of files hold, in the array "value", the distance to the
-/// centre of a cube of side 200 around the origin, as the paper's sphere does.
+/// The clouds that are timed. The array "value" of all but those of files has the distance to the
+/// centre of a cube of side 200 around the origin, as for the sphere of [RL06], section 9.
 namespace clouds
 {
 
 constexpr double side = 200.0;
 
-/// Random positions, all places equally likely.
+/// Random positions of constant density.
 vtkSmartPointer<vtkPolyData> uniform(std::size_t count);
 
 /// Random positions whose density varies ten-thousandfold, highest at a point of the sphere.
@@ -24,11 +24,11 @@ vtkSmartPointer<vtkPolyData> clustered(std::size_t count);
 /// Random positions in a slab twenty times thinner than wide, through the centre.
 vtkSmartPointer<vtkPolyData> slab(std::size_t count);
 
-/// A regular lattice of about so many samples, in the order of an image's points.
+/// A regular lattice of about `count` samples, in the order of an image's points.
 vtkSmartPointer<vtkPolyData> lattice(std::size_t count);
 
-/// Random positions in the box of a VTK XML image file, its first point array interpolated, as the
-/// paper did with its engine. @throws std::runtime_error if the file is no such image
+/// Random positions in the bounds of a VTK XML image file, with its first point array interpolated,
+/// as [RL06] does with a volume. @throws std::runtime_error if the file is no such image
 vtkSmartPointer<vtkPolyData> resampled(const std::string& file, std::size_t count);
 
 } // namespace clouds

@@ -9,15 +9,15 @@
 #include <array>
 #include <vector>
 
-/// The peer: CGAL's Delaunay triangulation of the cloud and the points on its edges that cross the
+/// CGAL's Delaunay triangulation of a cloud, and the points on those of its edges that cross the
 /// isovalue, found in one pass over the cells. The triangulation runs on TBB's threads if
-/// `parallel`; the pass runs in one.
+/// `parallel`; the pass runs on one.
 vtkSmartPointer<vtkPolyData> contourDelaunay(vtkPolyData* cloud, double isovalue, bool parallel);
 
-/// Four ids of points.
+/// The ids of its four corners.
 using Tetrahedron = std::array<vtkIdType, 4>;
 
-/// The finite cells of CGAL's Delaunay triangulation of the cloud, in one thread.
+/// The finite cells of CGAL's Delaunay triangulation of a cloud, computed on one thread.
 std::vector<Tetrahedron> tetrahedra(vtkPolyData* cloud);
 
 #endif

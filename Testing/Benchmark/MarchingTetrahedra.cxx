@@ -48,7 +48,7 @@ public:
     {
       return;
     }
-    // A triangle, or a quadrilateral whose corners a, b follow each other around it.
+    // A triangle, or a quadrilateral with its corners in order around it.
     std::vector<std::size_t> corners;
     for (std::size_t a = 0; a < above.size(); ++a)
     {
@@ -58,14 +58,14 @@ public:
         corners.push_back(this->vertexOn(above[a], below[reversed ? below.size() - 1 - b : b]));
       }
     }
-    const Vector falling = difference(this->positionOf(below[0]), this->positionOf(above[0]));
+    const Vector decreasing = difference(this->positionOf(below[0]), this->positionOf(above[0]));
     for (std::size_t i = 2; i < corners.size(); ++i)
     {
       const Vector& origin = this->Positions[corners[0]];
       Vector area = cross(difference(this->Positions[corners[i - 1]], origin),
         difference(this->Positions[corners[i]], origin));
-      // All of a cell's corners above lie on one side of the plane.
-      area = dot(area, falling) < 0.0 ? analytic::scaled(area, -1.0) : area;
+      // All corners of the cell that are above lie on one side of the plane.
+      area = dot(area, decreasing) < 0.0 ? analytic::scaled(area, -1.0) : area;
       for (const std::size_t corner : { corners[0], corners[i - 1], corners[i] })
       {
         this->Areas[corner] = analytic::sum(this->Areas[corner], area);

@@ -8,9 +8,9 @@
 namespace accuracy
 {
 
-/// The peer: CGAL's Delaunay tetrahedrisation of a cloud and the isosurface of its linear
-/// interpolation, as points with normals, each the mean of its triangles' by area, to falling
-/// values. Runs in one thread.
+/// The isosurface of the linear interpolation on CGAL's Delaunay tetrahedrisation of a cloud: its
+/// vertices, with the area-weighted means of the normals of their triangles, which point to
+/// decreasing values. Runs on one thread.
 vtkSmartPointer<vtkPolyData> marchingTetrahedra(vtkPolyData* cloud, double isovalue);
 
 } // namespace accuracy

@@ -90,7 +90,8 @@ void measureSphere(Row& row, vtkPolyData* points, double radius)
 void writeMarkdown(const std::vector<Row>& rows, const std::string& path)
 {
   std::ofstream out(path);
-  out << "| cloud | samples | threads | what | seconds | times ours | copies | surface points |"
+  out << "| cloud | samples | threads | method | seconds | relative to isopoints |"
+         " relative to a copy | surface points |"
          " largest deviation | mean deviation | peak memory, bytes/sample |\n"
          "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows)

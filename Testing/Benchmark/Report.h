@@ -20,13 +20,13 @@ struct Row
   std::size_t surfacePoints = 0;
   double largestDeviation = -1.0; // from the sphere; below 0: not known
   double meanDeviation = -1.0;
-  double peakBytes = 0.0; // beyond what was held before the row began
+  double peakBytes = 0.0; // in addition to the memory in use before
   double copySeconds = 0.0;
-  double oursSeconds = 0.0; // of the same samples: what ratios refer to
+  double oursSeconds = 0.0; // of isopoints of the same samples, to which others are related
 };
 
-/// Runs a piece of work, measures time and the growth of resident memory, and tells standard error
-/// what is going on.
+/// Runs a piece of work, measures its time and the growth of resident memory, and reports progress
+/// to standard error.
 Row measure(const Row& description, const std::function<void()>& work);
 
 /// Fills in the points and their distances from the sphere of that radius around the origin.

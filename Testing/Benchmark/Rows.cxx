@@ -52,7 +52,7 @@ Row measureUpdate(const Task& task, const std::string& what, double copy,
   return row;
 }
 
-/// What is computed besides the isopoints that linear interpolation gives.
+/// What is computed in addition to isopoints on their edges.
 enum class Extras
 {
   None,
@@ -84,7 +84,7 @@ Row fasterOfTwo(const Measurement& measurement)
   return second.seconds < first.seconds ? second : first;
 }
 
-Row measureFromNothing(const Task& task, const std::string& what, double copy, Extras extras)
+Row measureNewFilter(const Task& task, const std::string& what, double copy, Extras extras)
 {
   return fasterOfTwo(
     [&]()
@@ -105,7 +105,7 @@ void tilt(vtkPolyData* samples, double slope)
   values->Modified();
 }
 
-/// A grid with about as many surface points as asked for: a sphere of radius r crosses
+/// Resamples to a grid that yields about `surfacePoints` points: a sphere of radius r crosses
 /// 6 pi (r / spacing)^2 edges of a grid.
 Row measureResampling(const Task& task, double copy, std::size_t surfacePoints)
 {
@@ -196,12 +196,11 @@ std::vector<Row> measureOurs(const Task& task, double copy)
 {
   std::vector<Row> rows;
   vtkSMPTools::Initialize(task.threads);
-  const Row first = measureFromNothing(task, "isopoints", copy, Extras::None);
+  const Row first = measureNewFilter(task, "isopoints", copy, Extras::None);
   rows.push_back(first);
   rows.push_back(
-    measureFromNothing(task, "isopoints, projected, gradients", copy, Extras::Projection));
-  rows.push_back(
-    measureFromNothing(task, "isopoints, projected, normals, radii", copy, Extras::All));
+    measureNewFilter(task, "isopoints, projected, gradients", copy, Extras::Projection));
+  rows.push_back(measureNewFilter(task, "isopoints, projected, normals, radii", copy, Extras::All));
 
   const auto filter = newFilter(task, Extras::None);
   measureUpdate(task, "(first, to be kept)", copy, filter, task.isovalue);
@@ -211,7 +210,7 @@ std::vector<Row> measureOurs(const Task& task, double copy)
     rows.push_back(measureUpdate(task, "then isovalue 30", copy, filter, 30.0));
     rows.push_back(measureUpdate(task, "then isovalue 70 again", copy, filter, 70.0));
   }
-  // Another surface, by as much as the next step of a simulation would move it, or more.
+  // Moves the surface at least as far as the next step of a simulation would.
   constexpr double slope = 0.125;
   Task tilted = task;
   tilted.isSphere = false;
@@ -225,9 +224,9 @@ std::vector<Row> measureOurs(const Task& task, double copy)
     vtkSMPTools::Initialize(1);
     Task alone = task;
     alone.threads = 1;
-    rows.push_back(measureFromNothing(alone, "isopoints", copy, Extras::None));
+    rows.push_back(measureNewFilter(alone, "isopoints", copy, Extras::None));
     rows.push_back(
-      measureFromNothing(alone, "isopoints, projected, normals, radii", copy, Extras::All));
+      measureNewFilter(alone, "isopoints, projected, normals, radii", copy, Extras::All));
     vtkSMPTools::Initialize(task.threads);
   }
   for (Row& row : rows)

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What is measured of one cloud, and how.
+/// A cloud to contour, and how.
 struct Task
 {
   std::string cloud;
@@ -20,14 +20,16 @@ struct Task
   bool isSphere = true; // whether the true surface is the sphere of the isovalue's radius
 };
 
-/// The floor: seconds for one copy of positions and values in one thread, memory touched before.
+/// A lower bound: the seconds of one copy of positions and values on one thread, into memory that
+/// is already mapped.
 double copySeconds(vtkPolyData* samples);
 
-/// Ours: isopoints by linear interpolation, projected, the same with normals and radii, further
-/// isovalues, new values, one thread.
+/// This project's filter: isopoints on their edges, projected, projected with normals and radii;
+/// with a kept tree at other isovalues and with new values; on one thread.
 std::vector<Row> measureOurs(const Task& task, double copy);
 
-/// CGAL, VTK's resampling route, and vtkDelaunay3D where it is expected to end within a minute.
+/// The alternatives: VTK's resampling to a grid, CGAL's Delaunay triangulation, and vtkDelaunay3D
+/// where it takes less than a minute.
 std::vector<Row> measurePeers(const Task& task, double copy, const Row& ours);
 
 #endif

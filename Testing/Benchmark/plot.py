@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plots time over samples from benchmark.csv: plot.py [FOLDER]. Writes benchmark.png there and prints
-how time and memory grow."""
+"""Plots the times in FOLDER/benchmark.csv over the number of samples to FOLDER/benchmark.png, and
+prints how the time and the memory of isopoints grow."""
 
+import argparse
 import os
-import sys
 
 import matplotlib
 
@@ -13,7 +13,7 @@ import numpy as np
 
 LABELS = {
     "isopoints": "isopoints",
-    "isopoints, normals, radii": "isopoints, normals, radii",
+    "isopoints, projected, normals, radii": "isopoints, projected, normals, radii",
     "then isovalue 69.9": "another isovalue",
     "VTK: resample to a grid (8 closest) + Flying Edges": "VTK: resample + contour",
     "CGAL: Delaunay, parallel + crossing edges": "CGAL: Delaunay, parallel",
@@ -32,7 +32,7 @@ def series(rows, what, threads):
 
 def main(folder):
     with open(os.path.join(folder, "benchmark.csv")) as file:
-        # What was measured may hold commas; the other columns do not.
+        # Names of methods may contain commas; the other columns do not.
         lines = [line.rstrip("\n").split(",") for line in file]
     names = lines[0]
     rows = [
@@ -55,9 +55,11 @@ def main(folder):
     ours = series(rows, "isopoints", threads)
     ours = ours[ours[:, 0] >= 1e6]
     exponent, _ = np.polyfit(np.log(ours[:, 0]), np.log(ours[:, 1]), 1)
-    print("seconds grow as samples ^ %.2f from a million samples on" % exponent)
+    print("from a million samples on, time grows as samples ^ %.2f" % exponent)
     for samples, seconds, peak in ours:
-        print("%9d samples: %4.0f ns and %5.1f bytes a sample" % (samples, 1e9 * seconds / samples, peak))
+        print("%9d samples: %4.0f ns and %5.1f bytes per sample" % (samples, 1e9 * seconds / samples, peak))
 
 
-main(sys.argv[1] if len(sys.argv) > 1 else ".")
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("folder", metavar="FOLDER", nargs="?", default=".", help="default: the current one")
+main(parser.parse_args().folder)

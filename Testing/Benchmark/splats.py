@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long a frame of splats takes beside one of stock Point Gaussian's plain disks: the same
-points and radii, the same window, one run.
+"""Times a frame of splats and one of VTK's Point Gaussian mapper with plain disks, for the same points
+and radii, in windows of the same size, in one run.
 
     PYTHONPATH=... Utilities/offscreen.sh /usr/bin/python3 Testing/Benchmark/splats.py [COUNT...]
 
-Prints a Markdown table: splats of a torus that fills most of a window of 600 x 600 pixels,
-milliseconds a frame (the median of nine, the camera moving), and splats a second.
+Prints a Markdown table for COUNT splats of a torus that fills most of a window of 600 x 600 pixels:
+milliseconds per frame (the median of nine, with a moving camera) and splats per second.
 """
 
-import sys
+import argparse
 import time
 
 import numpy as np
@@ -34,7 +34,7 @@ if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0)
 
 
 def torus(count):
-    """Random splats, evenly spread, each as large as its 12 nearest ones are far away."""
+    """Random splats of constant density, with a radius within which 12 others are expected."""
     random = np.random.default_rng(1)
     u, v = random.uniform(0, 2 * np.pi, (2, 3 * count))
     kept = random.uniform(0, RING + TUBE, 3 * count) < RING + TUBE * np.cos(v)
@@ -67,7 +67,7 @@ def point_gaussian():
     return mapper
 
 
-def seconds_a_frame(mapper, data):
+def seconds_per_frame(mapper, data):
     mapper.SetInputDataObject(data)
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
@@ -96,12 +96,12 @@ def seconds_a_frame(mapper, data):
 
 def main(counts):
     report = None
-    print("| splats | Point Gaussian, ms | splats, ms | times | million splats a second |")
+    print("| number | Point Gaussian, ms | splats, ms | ratio | million splats per second |")
     print("|---|---|---|---|---|")
     for count in counts:
         data = torus(count)
-        stock, report = seconds_a_frame(point_gaussian(), data)
-        ours, report = seconds_a_frame(splats(), data)
+        stock, report = seconds_per_frame(point_gaussian(), data)
+        ours, report = seconds_per_frame(splats(), data)
         print(
             f"| {count:,} | {1e3 * stock:.0f} | {1e3 * ours:.0f} | {ours / stock:.2f}"
             f" | {count / ours / 1e6:.1f} |"
@@ -110,4 +110,15 @@ def main(counts):
 
 
 if __name__ == "__main__":
-    main([int(count) for count in sys.argv[1:]] or [20_000, 100_000, 500_000])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "counts",
+        metavar="COUNT",
+        nargs="*",
+        type=int,
+        default=[20_000, 100_000, 500_000],
+        help="number of splats; default: 20000 100000 500000",
+    )
+    main(parser.parse_args().counts)

@@ -54,7 +54,7 @@ inline Surface torus()
   return surface;
 }
 
-/// One period of the gyroid, a saddle everywhere; it leaves the cube.
+/// One period of the gyroid, of negative curvature everywhere; it leaves the cube.
 inline Surface gyroid()
 {
   Surface surface;
@@ -166,8 +166,8 @@ inline Surface gaussianMixture()
   return surface;
 }
 
-/// The greatest of three coordinates along turned axes: a cube askew to axes and grids. The
-/// gradient jumps at its edges.
+/// The largest magnitude among three coordinates along rotated axes: a cube that is aligned with no
+/// grid. The gradient is discontinuous at its edges.
 inline Surface cube()
 {
   constexpr double half = 0.5;
@@ -252,7 +252,7 @@ inline Surface twoSheets(double separation)
 }
 
 /// All of them.
-/// @param spacing the mean distance of the samples, which the two sheets are twice apart
+/// @param spacing mean distance of the samples; the two sheets are twice that apart
 inline std::vector<Surface> allSurfaces(double spacing)
 {
   return { sphere(), torus(), gyroid(), marschnerLobb(), gaussianMixture(), cube(),

@@ -61,7 +61,7 @@ struct Foot
 {
   Vector point;
   double distance;
-  std::vector<Vector> normals; // of length 1, to falling values; several at an edge or a corner
+  std::vector<Vector> normals; // of length 1, to decreasing values; several at an edge or corner
 };
 
 inline Foot footAt(const Vector& position, const Vector& foot, const Vector& normal)
@@ -76,7 +76,7 @@ struct Surface
   double isovalue = 0.0;
   bool isSmooth = true;   // the field, near the isosurface
   bool isClosed = true;   // within the cube
-  double thickness = 0.2; // of the thinnest sheet or ripple: what a search must not step over
+  double thickness = 0.2; // of the thinnest sheet or ripple: searches take shorter steps
   std::function<double(const Vector&)> value;
   std::function<Vector(const Vector&)> gradient;
   std::function<Foot(const Vector&)> footOf; // may be called from any thread
@@ -84,7 +84,7 @@ struct Surface
 
 /// Random points of an isosurface within a cube around the origin, uniform by area: where random
 /// lines, uniform among those that meet the ball around the cube, cross it (Cauchy and Crofton).
-/// A line that only grazes the surface, closer than an eighth of its thickness, may be missed.
+/// Two crossings of a line that are closer than an eighth of the thickness may be missed.
 /// @param halfSide of the cube
 inline std::vector<Vector> randomSurfacePoints(
   const Surface& surface, std::size_t count, double halfSide, std::uint64_t seed)
@@ -143,9 +143,10 @@ inline std::vector<Vector> randomSurfacePoints(
   return points;
 }
 
-/// Where the graph of a function of the distance to an axis is closest to a position at the
-/// distance `r` from the axis and the height `z`: at which distance from the axis, 0 or more.
-/// @param resolution of the first search, well below the shortest wave
+/// The nearest point of the graph z = height(s), s being the distance to an axis, to a position at
+/// the distance `r` from the axis and the height `z`.
+/// @returns s there, 0 or more
+/// @param resolution step of the first search, well below the shortest wavelength
 template <class Height>
 double nearestOnGraph(const Height& height, double r, double z, double resolution)
 {
@@ -169,15 +170,15 @@ double nearestOnGraph(const Height& height, double r, double z, double resolutio
   return 0.5 * (lower + upper);
 }
 
-/// The point of the surface that Newton's method finds from a start, in short steps.
-inline Vector settled(const Surface& surface, Vector p)
+/// The point of the surface to which Newton's method converges from a start, in short steps.
+inline Vector nearSurface(const Surface& surface, Vector p)
 {
   constexpr double longest = 0.1;
   for (int step = 0; step < 50; ++step)
   {
     const Vector gradient = surface.gradient(p);
-    const double lack = surface.isovalue - surface.value(p);
-    const Vector move = scaled(gradient, lack / std::max(dot(gradient, gradient), 1e-12));
+    const double difference = surface.isovalue - surface.value(p);
+    const Vector move = scaled(gradient, difference / std::max(dot(gradient, gradient), 1e-12));
     const double size = length(move);
     p = sum(p, size > longest ? scaled(move, longest / size) : move);
     if (size < 1e-14)
@@ -188,9 +189,9 @@ inline Vector settled(const Surface& surface, Vector p)
   return p;
 }
 
-/// Walks from a start to the surface, then along it to where it is closest to the position: steps
-/// down the slope of the distance, of the length that Barzilai and Borwein give.
-inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vector& start)
+/// Gradient descent of the distance to the position along the surface, from where Newton's method
+/// meets the surface, with the step lengths of Barzilai and Borwein.
+inline Foot descendToFoot(const Surface& surface, const Vector& position, const Vector& start)
 {
   const auto alongSurface = [&](const Vector& foot)
   {
@@ -199,7 +200,7 @@ inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vec
     return difference(towards, scaled(normal, dot(towards, normal)));
   };
   constexpr double longest = 0.1;
-  Vector foot = settled(surface, start);
+  Vector foot = nearSurface(surface, start);
   Vector along = alongSurface(foot);
   Vector best = foot;
   double stride = 0.5;
@@ -208,8 +209,8 @@ inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vec
     const Vector before = foot;
     const Vector alongBefore = along;
     const double size = stride * length(along);
-    foot =
-      settled(surface, sum(foot, scaled(along, size > longest ? stride * longest / size : stride)));
+    foot = nearSurface(
+      surface, sum(foot, scaled(along, size > longest ? stride * longest / size : stride)));
     along = alongSurface(foot);
     if (length(difference(position, foot)) < length(difference(position, best)))
     {
@@ -222,20 +223,20 @@ inline Foot walkToFoot(const Surface& surface, const Vector& position, const Vec
   return footAt(position, best, scaled(directionOf(surface.gradient(best)), -1.0));
 }
 
-/// Gives a smooth surface the nearest foot that walks find: one from the position itself, and
-/// where that ends far away, others from the nearest of random points of the surface.
-/// @param halfSide of the cube within which the random points are taken
+/// Sets footOf of a smooth surface to the nearest foot that descents find: one from the position
+/// itself and, where that ends far away, others from the nearest of random surface points.
+/// @param halfSide of the cube within which the random points lie
 inline void findFeetByNewton(Surface& surface, double halfSide)
 {
   constexpr double near = 0.05;
   constexpr std::size_t startCount = 6000;
-  constexpr std::size_t walks = 4;
+  constexpr std::size_t descents = 4;
   const Surface plain = surface;
   const auto starts = std::make_shared<const std::vector<Vector>>(
     randomSurfacePoints(plain, startCount, halfSide, 7));
   surface.footOf = [plain, starts](const Vector& p)
   {
-    Foot best = walkToFoot(plain, p, p);
+    Foot best = descendToFoot(plain, p, p);
     if (best.distance <= near)
     {
       return best;
@@ -245,10 +246,10 @@ inline void findFeetByNewton(Surface& surface, double halfSide)
     {
       byDistance.emplace_back(length(difference(p, (*starts)[i])), i);
     }
-    std::partial_sort(byDistance.begin(), byDistance.begin() + walks, byDistance.end());
-    for (std::size_t i = 0; i < walks; ++i)
+    std::partial_sort(byDistance.begin(), byDistance.begin() + descents, byDistance.end());
+    for (std::size_t i = 0; i < descents; ++i)
     {
-      const Foot other = walkToFoot(plain, p, (*starts)[byDistance[i].second]);
+      const Foot other = descendToFoot(plain, p, (*starts)[byDistance[i].second]);
       best = other.distance < best.distance ? other : best;
     }
     return best;

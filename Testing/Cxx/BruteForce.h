@@ -7,50 +7,98 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-/// The definition of the canonical result, written down as plainly as possible and independently
-/// of the core: the whole tree by sorting, all pairs of cells, all angles. Quadratic.
+/// The canonical result, written down from docs/algorithm.md alone, independently of the core: the
+/// whole tree by sorting, all pairs of cells, all angles. Quadratic. Sections are those of that
+/// page; all arithmetic is in double, in the order in which section 1 and the formulas write it.
 namespace bruteforce
 {
 
-struct Point
+/// An isopoint (section 7): its edge, whose end i has the lower id, and its parameter.
+struct Isopoint
 {
-  std::uint64_t first;
-  std::uint64_t second;
-  double parameter;
+  std::uint64_t first;  // i
+  std::uint64_t second; // j
+  double parameter;     // t
 };
 
+using Vector = std::array<double, 3>;
+
+/// Section 1.
+inline double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// |a| of section 1.
+inline double lengthOf(const Vector& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+/// p_y - p_x, componentwise.
+inline Vector difference(const Vector& y, const Vector& x)
+{
+  return { y[0] - x[0], y[1] - x[1], y[2] - x[2] };
+}
+
+/// Section 3: a closed axis-parallel box.
+struct Region
+{
+  Vector lower;
+  Vector upper;
+};
+
+/// The region of a leaf (section 3), with the position, the value and the id of its sample or, of
+/// its coincident samples, those of section 2.
 struct Cell
 {
-  std::array<double, 3> lower;
-  std::array<double, 3> upper;
-  std::array<double, 3> position;
+  Region region;
+  Vector position;
   std::uint64_t id;
   double value;
 };
 
-inline double halfway(double a, double b)
+/// Section 2: the mean of coincident samples' values, given in ascending order of ids. A sample
+/// that coincides with no other one keeps its value as it is.
+inline double meanOf(const std::vector<double>& values)
 {
-  return std::isfinite(a + b) ? 0.5 * (a + b) : 0.5 * a + 0.5 * b;
+  if (values.size() == 1)
+  {
+    return values[0];
+  }
+  double sum = 0.0;
+  double lowest = values[0];
+  double highest = values[0];
+  for (const double value : values)
+  {
+    sum = sum + value;
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  return std::min(std::max(sum / static_cast<double>(values.size()), lowest), highest);
 }
 
-/// Where on the edge the isovalue lies; halves where the values' difference overflows.
-inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
+/// Section 3, step 5: the plane between the coordinates of the last sample of the lower child and
+/// of the first one of the upper child.
+inline double planeBetween(double c, double d)
 {
-  return std::isfinite(j.value - i.value)
-           ? (isovalue - i.value) / (j.value - i.value)
-           : (0.5 * isovalue - 0.5 * i.value) / (0.5 * j.value - 0.5 * i.value);
+  const double plane = 0.5 * (c + d);
+  return std::isfinite(plane) ? plane : 0.5 * c + 0.5 * d;
 }
 
+/// Section 3: the tree over all samples, coincident ones counted separately.
 class Tree
 {
 public:
+  /// The root has all samples and, as its region, their bounding box.
   explicit Tree(const clouds::Cloud& cloud)
     : Samples(cloud)
   {
@@ -60,105 +108,125 @@ public:
     }
     std::vector<std::size_t> ids(cloud.size());
     std::iota(ids.begin(), ids.end(), std::size_t{ 0 });
-    Cell box;
-    box.lower = box.upper = this->positionOf(0);
+    Region box{ this->positionOf(0), this->positionOf(0) };
     for (const std::size_t id : ids)
     {
-      for (int axis = 0; axis < 3; ++axis)
+      const Vector position = this->positionOf(id);
+      for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        box.lower[axis] = std::min(box.lower[axis], this->positionOf(id)[axis]);
-        box.upper[axis] = std::max(box.upper[axis], this->positionOf(id)[axis]);
+        box.lower[axis] = std::min(box.lower[axis], position[axis]);
+        box.upper[axis] = std::max(box.upper[axis], position[axis]);
       }
     }
-    this->split(ids, box);
+    this->build(ids, box);
   }
 
-  std::vector<Cell> cells;
+  std::vector<Cell> cells; // of the leaves from left to right, the lower child before the upper one
 
 private:
-  std::array<double, 3> positionOf(std::size_t id) const
+  Vector positionOf(std::size_t id) const
   {
     return { this->Samples.positions[3 * id], this->Samples.positions[3 * id + 1],
       this->Samples.positions[3 * id + 2] };
   }
 
-  void addCell(std::vector<std::size_t> ids, Cell cell)
+  /// Section 2: whether all three coordinates are equal; -0 and 0 are.
+  bool coincide(std::size_t a, std::size_t b) const
   {
-    std::sort(ids.begin(), ids.end());
-    cell.position = this->positionOf(ids[0]);
-    cell.id = ids[0];
-    double sum = 0.0;
-    double minimum = this->Samples.values[ids[0]];
-    double maximum = minimum;
-    for (const std::size_t id : ids)
-    {
-      sum += this->Samples.values[id];
-      minimum = std::min(minimum, this->Samples.values[id]);
-      maximum = std::max(maximum, this->Samples.values[id]);
-    }
-    cell.value = ids.size() == 1
-                   ? minimum
-                   : std::clamp(sum / static_cast<double>(ids.size()), minimum, maximum);
-    this->cells.push_back(cell);
+    return this->positionOf(a) == this->positionOf(b);
   }
 
-  void split(std::vector<std::size_t> ids, const Cell& region)
+  /// A node whose samples all coincide is a leaf; any other one is split.
+  void build(std::vector<std::size_t> ids, const Region& region)
   {
-    const auto samePosition = [&](std::size_t a, std::size_t b)
-    { return this->positionOf(a) == this->positionOf(b); };
-    if (std::all_of(
-          ids.begin(), ids.end(), [&](std::size_t id) { return samePosition(id, ids[0]); }))
+    const auto coincidesWithFirst = [&](std::size_t id) { return this->coincide(id, ids[0]); };
+    if (std::all_of(ids.begin(), ids.end(), coincidesWithFirst))
     {
       this->addCell(ids, region);
       return;
     }
-    int axis = 0;
-    for (int other = 1; other < 3; ++other)
-    {
-      if (region.upper[other] - region.lower[other] > region.upper[axis] - region.lower[axis])
-      {
-        axis = other;
-      }
-    }
-    std::sort(ids.begin(), ids.end(),
-      [&](std::size_t a, std::size_t b)
-      {
-        const auto p = this->positionOf(a);
-        const auto q = this->positionOf(b);
-        return std::make_tuple(p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3], a) <
-               std::make_tuple(q[axis], q[(axis + 1) % 3], q[(axis + 2) % 3], b);
-      });
-    std::size_t middle = ids.size() / 2;
-    while (middle < ids.size() && samePosition(ids[middle - 1], ids[middle]))
-    {
-      ++middle;
-    }
-    if (middle == ids.size())
-    {
-      while (samePosition(ids[middle - 1], ids.back()))
-      {
-        --middle;
-      }
-    }
-    const double plane =
-      halfway(this->positionOf(ids[middle - 1])[axis], this->positionOf(ids[middle])[axis]);
-    Cell lower = region;
+    const std::size_t axis = longestSideOf(region);
+    this->sortAlong(axis, ids);
+    const std::size_t lowerCount = this->lowerCountOf(ids);
+    const double plane = planeBetween(
+      this->positionOf(ids[lowerCount - 1])[axis], this->positionOf(ids[lowerCount])[axis]);
+    Region lower = region;
     lower.upper[axis] = plane;
-    Cell upper = region;
+    Region upper = region;
     upper.lower[axis] = plane;
-    const auto cut = ids.begin() + static_cast<std::ptrdiff_t>(middle);
-    this->split({ ids.begin(), cut }, lower);
-    this->split({ cut, ids.end() }, upper);
+    const auto firstOfUpper = ids.begin() + static_cast<std::ptrdiff_t>(lowerCount);
+    this->build({ ids.begin(), firstOfUpper }, lower);
+    this->build({ firstOfUpper, ids.end() }, upper);
+  }
+
+  /// Section 2: coincident samples have the lowest id among them, the coordinates of that sample
+  /// and the mean of their values.
+  void addCell(std::vector<std::size_t> ids, const Region& region)
+  {
+    std::sort(ids.begin(), ids.end());
+    std::vector<double> values;
+    for (const std::size_t id : ids)
+    {
+      values.push_back(this->Samples.values[id]);
+    }
+    this->cells.push_back({ region, this->positionOf(ids[0]), ids[0], meanOf(values) });
+  }
+
+  /// Step 1: the axis of the region's longest side, the lowest among equal ones.
+  static std::size_t longestSideOf(const Region& region)
+  {
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      if (region.upper[axis] - region.lower[axis] > region.upper[longest] - region.lower[longest])
+      {
+        longest = axis;
+      }
+    }
+    return longest;
+  }
+
+  /// Step 2: by the coordinates on the axis a, (a + 1) mod 3 and (a + 2) mod 3, then by id.
+  void sortAlong(std::size_t a, std::vector<std::size_t>& ids) const
+  {
+    const auto keyOf = [this, a](std::size_t id)
+    {
+      const Vector p = this->positionOf(id);
+      return std::make_tuple(p[a], p[(a + 1) % 3], p[(a + 2) % 3], id);
+    };
+    std::sort(ids.begin(), ids.end(),
+      [&](std::size_t one, std::size_t other) { return keyOf(one) < keyOf(other); });
+  }
+
+  /// Steps 3 and 4: the first half goes to the lower child, and with it all samples that coincide
+  /// with its last one; if that leaves the upper child empty, these go to the upper child instead.
+  std::size_t lowerCountOf(const std::vector<std::size_t>& ids) const
+  {
+    std::size_t count = ids.size() / 2;
+    while (count < ids.size() && this->coincide(ids[count - 1], ids[count]))
+    {
+      ++count;
+    }
+    if (count == ids.size())
+    {
+      while (this->coincide(ids[count - 1], ids.back()))
+      {
+        --count;
+      }
+    }
+    return count;
   }
 
   const clouds::Cloud& Samples;
 };
 
-inline bool touch(const Cell& a, const Cell& b)
+/// Section 4: whether two cells share a point.
+inline bool touch(const Cell& c, const Cell& other)
 {
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis])
+    if (!(c.region.lower[axis] <= other.region.upper[axis] &&
+          other.region.lower[axis] <= c.region.upper[axis]))
     {
       return false;
     }
@@ -166,7 +234,7 @@ inline bool touch(const Cell& a, const Cell& b)
   return true;
 }
 
-/// All neighbourhoods: for each cell the indices of those that touch it.
+/// Section 4: the neighbourhood of each cell, as indices of all other cells that touch it.
 inline std::vector<std::vector<std::size_t>> neighborhoods(const std::vector<Cell>& cells)
 {
   std::vector<std::vector<std::size_t>> neighbors(cells.size());
@@ -184,83 +252,87 @@ inline std::vector<std::vector<std::size_t>> neighborhoods(const std::vector<Cel
   return neighbors;
 }
 
-inline double product(const Cell& from, const Cell& a, const Cell& b)
-{
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    sum += (a.position[axis] - from.position[axis]) * (b.position[axis] - from.position[axis]);
-  }
-  return sum;
-}
-
-inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size_t>& neighbors,
+/// Section 5: whether the neighbour y of x survives at x. It is dropped if any other neighbour z,
+/// itself dropped or not, is strictly closer and lies within the angle. At 0 nothing is dropped.
+/// @param angle alpha, in degrees, 0 to 180
+inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size_t>& neighborsOfX,
   std::size_t x, std::size_t y, double angle)
 {
   const double cosine = std::cos(angle * 3.14159265358979323846 / 180.0);
-  const double yy = product(cells[x], cells[y], cells[y]);
-  return std::none_of(neighbors.begin(), neighbors.end(),
-    [&](std::size_t z)
-    {
-      const double zz = product(cells[x], cells[z], cells[z]);
-      return angle > 0.0 && zz < yy &&
-             product(cells[x], cells[y], cells[z]) > cosine * (std::sqrt(yy) * std::sqrt(zz));
-    });
-}
-
-/// The distance from the end x of an edge {x, y} to the 2nd nearest cell's position in the cone of
-/// 54.7356 degrees behind it, infinite where there are fewer.
-inline double spacingBehind(const std::vector<Cell>& cells, std::size_t x, std::size_t y)
-{
-  const double cosine = 1.0 / std::sqrt(3.0);
-  const double length = std::sqrt(product(cells[x], cells[y], cells[y]));
-  std::vector<double> distances(2, std::numeric_limits<double>::infinity());
-  for (const Cell& z : cells)
+  const Vector u = difference(cells[y].position, cells[x].position);
+  const auto drops = [&](std::size_t z)
   {
-    const double distance = std::sqrt(product(cells[x], z, z));
-    if (-product(cells[x], z, cells[y]) > cosine * (distance * length))
-    {
-      distances.push_back(distance);
-    }
-  }
-  std::sort(distances.begin(), distances.end());
-  return distances[1];
+    const Vector w = difference(cells[z].position, cells[x].position);
+    return dot(w, w) < dot(u, u) && dot(u, w) > cosine * (lengthOf(u) * lengthOf(w));
+  };
+  return angle == 0.0 || std::none_of(neighborsOfX.begin(), neighborsOfX.end(), drops);
 }
 
-inline bool spansGap(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
+/// Section 6: whether the end x of the edge {x, y} is crowded. It is if among all samples,
+/// coincident ones once, at least two lie in the cone behind x, nearer than the edge's length over
+/// the gap factor.
+/// @param gapFactor g, above 0
+inline bool isCrowded(
+  const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
 {
-  return gapFactor > 0.0 &&
-         std::sqrt(product(cells[x], cells[y], cells[y])) >
-           gapFactor * std::max(spacingBehind(cells, x, y), spacingBehind(cells, y, x));
+  constexpr double cosine = 1.0 / 1.7320508075688772; // C, of 54.7356 degrees
+  const Vector u = difference(cells[y].position, cells[x].position);
+  const auto counts = [&](const Cell& z)
+  {
+    const Vector w = difference(z.position, cells[x].position);
+    return gapFactor * lengthOf(w) < lengthOf(u) &&
+           -dot(w, u) > cosine * (lengthOf(w) * lengthOf(u));
+  };
+  return std::count_if(cells.begin(), cells.end(), counts) >= 2;
 }
 
-/// @param gapFactor 0, or how many times the larger spacing behind its ends an edge may be long
-inline std::vector<Point> extract(
+/// Section 6: the gap criterion drops an edge if both its ends are crowded; at 0 nothing is
+/// dropped.
+inline bool isDroppedByGap(
+  const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
+{
+  return gapFactor > 0.0 && isCrowded(cells, x, y, gapFactor) && isCrowded(cells, y, x, gapFactor);
+}
+
+/// Section 7: the parameter of the isopoint on the edge from i, the end of the lower id, to j.
+inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
+{
+  return std::isfinite(j.value - i.value)
+           ? (isovalue - i.value) / (j.value - i.value)
+           : (0.5 * isovalue - 0.5 * i.value) / (0.5 * j.value - 0.5 * i.value);
+}
+
+/// Section 7: the isopoints of one isovalue, one on each edge, ordered by (i, j).
+/// @param angle of section 5, in degrees, 0 to 180
+/// @param gapFactor of section 6, 0 or more
+inline std::vector<Isopoint> extract(
   const clouds::Cloud& cloud, double isovalue, double angle, double gapFactor = 0.0)
 {
   const Tree tree(cloud);
   const std::vector<Cell>& cells = tree.cells;
   const auto neighbors = neighborhoods(cells);
-  std::map<std::pair<std::uint64_t, std::uint64_t>, double> points;
+  const auto isBelow = [&](std::size_t cell) { return cells[cell].value < isovalue; };
+  std::map<std::pair<std::uint64_t, std::uint64_t>, double> parameters;
   for (std::size_t x = 0; x < cells.size(); ++x)
   {
+    // An edge is kept if y survives at x or x at y: it is visited from both its ends.
     for (const std::size_t y : neighbors[x])
     {
-      if ((cells[x].value < isovalue) != (cells[y].value < isovalue) &&
-          survives(cells, neighbors[x], x, y, angle) && !spansGap(cells, x, y, gapFactor))
+      if (isBelow(x) != isBelow(y) && survives(cells, neighbors[x], x, y, angle) &&
+          !isDroppedByGap(cells, x, y, gapFactor))
       {
         const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
         const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];
-        points[{ i.id, j.id }] = parameterOf(i, j, isovalue);
+        parameters[{ i.id, j.id }] = parameterOf(i, j, isovalue);
       }
     }
   }
-  std::vector<Point> result;
-  for (const auto& [edge, parameter] : points)
+  std::vector<Isopoint> isopoints;
+  for (const auto& [edge, parameter] : parameters)
   {
-    result.push_back({ edge.first, edge.second, parameter });
+    isopoints.push_back({ edge.first, edge.second, parameter });
   }
-  return result;
+  return isopoints;
 }
 
 } // namespace bruteforce

@@ -101,7 +101,7 @@ inline Cloud coarse(std::size_t count, int steps, std::uint64_t seed)
   return cloud;
 }
 
-/// Keeps only so many of the three coordinates; the others become constant.
+/// Keeps the first coordinates, as many as `dimensions`; the others become constant.
 inline Cloud flattened(Cloud cloud, int dimensions)
 {
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -127,8 +127,8 @@ inline Cloud coincident(Cloud cloud, double share)
   return cloud;
 }
 
-/// Heaps at one position inside each other: each holds half of the samples that are left, and
-/// three more stand around it so that parting it off takes four levels of the tree.
+/// Nested groups of coincident samples: each group has half of the samples that remain, and three
+/// more samples around it, so that separating it from the rest takes four levels of the tree.
 inline Cloud nestedCoincident(std::size_t count)
 {
   Cloud cloud;
@@ -149,8 +149,8 @@ inline Cloud nestedCoincident(std::size_t count)
   return cloud;
 }
 
-/// A layer of samples, one in front of its middle, and as many far behind: the cell of the lone
-/// one, whose id is 0, touches the cell of each in the layer.
+/// A layer of samples, a single one in front of its middle, and as many again far behind that one.
+/// The cell of the single one, whose id is 0, touches the cells of all in the layer.
 inline Cloud layerBeforeOne(std::size_t count, std::uint64_t seed)
 {
   Random random(seed);
@@ -167,9 +167,9 @@ inline Cloud layerBeforeOne(std::size_t count, std::uint64_t seed)
   return cloud;
 }
 
-/// Samples on straight lines along the axes, each with values of its own around 0, so that cells of
-/// one line touch most of those of others.
-/// @param steps how many places there are on a line, so that samples meet; 0: any
+/// Samples on straight lines along the axes, so that cells of one line touch most of those of the
+/// others. The values of each line have both signs.
+/// @param steps number of possible positions along an axis, so that samples coincide; 0: any
 inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uint64_t seed)
 {
   Random random(seed);
@@ -190,7 +190,7 @@ inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uin
   return cloud;
 }
 
-/// Two rows of parallel lines, one above the other and across it.
+/// Two layers of parallel lines, one above the other, at right angles to each other.
 inline Cloud combs(std::size_t count, int teeth, std::uint64_t seed)
 {
   Random random(seed);
@@ -206,7 +206,7 @@ inline Cloud combs(std::size_t count, int teeth, std::uint64_t seed)
   return cloud;
 }
 
-/// Linked circles, one of them around a straight line, with values that change along them.
+/// Two linked circles and a straight line through one of them, with values that vary along them.
 inline Cloud curves(std::size_t count, std::uint64_t seed)
 {
   Random random(seed);
@@ -233,7 +233,7 @@ inline Cloud curves(std::size_t count, std::uint64_t seed)
   return cloud;
 }
 
-/// As many threads as asked for, whatever the machine has.
+/// Runs on exactly this number of threads, whatever the machine has.
 inline isopoint::Execution executionOn(std::size_t threads)
 {
   isopoint::Execution execution;

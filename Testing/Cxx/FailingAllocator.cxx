@@ -51,8 +51,8 @@ long stop()
 
 #ifdef __SANITIZE_ADDRESS__
 
-/// CGAL::Kd_tree::build() of CGAL 5.5 forgets the 56 bytes of its bounding box where it runs out of
-/// memory later on; nothing outside it can reach them.
+/// CGAL::Kd_tree::build() of CGAL 5.5 leaks the 56 bytes of its bounding box if it runs out of
+/// memory after allocating them; its callers cannot free them.
 extern "C" const char* __lsan_default_suppressions()
 {
   return "leak:CGAL/Kd_tree.h";

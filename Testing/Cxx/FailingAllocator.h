@@ -4,20 +4,20 @@
 
 #include <cstddef>
 
-/// Allocations of the whole program can be made to fail, one by one. Takes the place of the C
-/// library's malloc and its kin; with the address sanitizer, which does so itself, of operator new
-/// and of realloc (by the linker's --wrap).
+/// Makes chosen allocations of the whole program fail. It replaces malloc, realloc and calloc of
+/// the C library; under the address sanitizer, which replaces these itself, operator new and
+/// realloc (by the linker's --wrap).
 namespace failingallocator
 {
 
-/// Of allocations, those of at least so many bytes grow with the number of samples.
+/// In bytes. Allocations whose size depends on the number of samples are at least this large.
 constexpr std::size_t largeSize = std::size_t{ 1 } << 12;
 
-/// From now on the n-th allocation of at least so many bytes fails (from 1), and all later ones as
-/// well if so wanted.
+/// From now on the n-th allocation (from 1) of at least `smallest` bytes fails and, if
+/// `andAllLater`, so do all later ones.
 void failAt(long n, bool andAllLater, std::size_t smallest = largeSize);
 
-/// No more failures. @returns how many such allocations there were since failAt()
+/// Ends the failures. @returns the number of such allocations since failAt()
 long stop();
 
 } // namespace failingallocator

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-/// What the tests of the filter share.
+/// Shared by the tests of the filter.
 namespace filtertesting
 {
 
@@ -34,8 +34,8 @@ vtkSmartPointer<TArray> newArray(const char* name, vtkIdType tuples, int compone
   return array;
 }
 
-/// Random points in a cube of side 2 around the origin; "distance" to the origin, "x" and
-/// "position".
+/// Random points in a cube of side 2 around the origin, with the arrays "distance" (to the origin,
+/// the active scalars), "x" and "position".
 inline vtkSmartPointer<vtkPolyData> newCloud(vtkIdType count, int pointType = VTK_FLOAT)
 {
   vtkNew<vtkPoints> points;

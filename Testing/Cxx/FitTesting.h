@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-/// What the tests of fits share.
+/// Shared by the tests of fits.
 namespace fittesting
 {
 
@@ -55,7 +55,8 @@ inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge,
     rates);
 }
 
-/// The rate after so many tests, with a detection at some of them.
+/// The detection rate after `tested` isopoints, at the first `detected` of which the feature was
+/// detected.
 inline isopoint::DetectionRate rateOf(int detected, int tested)
 {
   isopoint::DetectionRate rate;
@@ -66,7 +67,7 @@ inline isopoint::DetectionRate rateOf(int detected, int tested)
   return rate;
 }
 
-/// A vertical edge of length 2 on which linear interpolation is at the origin.
+/// A vertical edge of length 2, on which linear interpolation places the isopoint at the origin.
 inline FitEdge upwards(double increase = 2.0)
 {
   return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, increase, 1.0 };
@@ -78,7 +79,8 @@ inline isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double iso
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return clouds::extractFrom(extractor, execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
+  return clouds::extractFrom(
+    extractor, execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
 }
 
 inline clouds::Cloud cloudOf(const Field& field, std::size_t count, double side)
@@ -102,8 +104,8 @@ inline Field gyroid(double waveNumber)
   };
 }
 
-/// The gradient of a field, by differences.
-inline Vector slopeOf(const Field& field, const Vector& p)
+/// The gradient of a field, by forward differences.
+inline Vector gradientOf(const Field& field, const Vector& p)
 {
   constexpr double step = 1e-5;
   const double value = field(p);
@@ -112,8 +114,8 @@ inline Vector slopeOf(const Field& field, const Vector& p)
       field({ p[0], p[1], p[2] + step }) - value });
 }
 
-/// The mean distance of points from a gyroid, by its value over its slope, away from the cloud's
-/// border. There is one sample in each unit of volume.
+/// The mean distance of isopoints from a gyroid, estimated as the error of the field over the
+/// length of its gradient, away from the cloud's border. There is one sample per unit of volume.
 inline double meanDistanceFromGyroid(double waveNumber, std::optional<FitOrder> highest)
 {
   const Field field = gyroid(waveNumber);
@@ -122,12 +124,12 @@ inline double meanDistanceFromGyroid(double waveNumber, std::optional<FitOrder> 
     extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
   double sum = 0.0;
   std::size_t count = 0;
-  for (const LocalFit& at : surface.fits)
+  for (const LocalFit& fit : surface.fits)
   {
-    const Vector& p = at.position;
+    const Vector& p = fit.position;
     if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
     {
-      sum += std::abs(field(p) - isovalue) / lengthOf(slopeOf(field, p));
+      sum += std::abs(field(p) - isovalue) / lengthOf(gradientOf(field, p));
       ++count;
     }
   }

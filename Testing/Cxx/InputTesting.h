@@ -32,8 +32,8 @@
 #include <functional>
 #include <limits>
 
-/// What the tests of the filter's inputs share: data sets of every kind, and the samples that they
-/// stand for.
+/// Shared by the tests of the filter's inputs: data sets of every kind, and the samples that they
+/// represent.
 namespace inputtesting
 {
 
@@ -46,7 +46,7 @@ inline double fieldAt(const double p[3])
   return p[0] * p[0] + 0.7 * p[1] + 0.3 * p[2] * p[2] * p[0];
 }
 
-/// Samples put together by a test, in the order of their ids.
+/// Samples that a test composes, in the order of their ids.
 struct Samples
 {
   std::vector<std::array<double, 3>> positions;
@@ -104,7 +104,7 @@ inline vtkNew<vtkScatteredIsopointFilter> newFilter(
   return filter;
 }
 
-/// The input gives, to the last bit, what the samples give.
+/// Expects the same output, to the last bit, from the input as from the samples.
 inline void expectSame(vtkDataObject* input, int association, const Samples& samples)
 {
   const auto expected = newFilter(cloudOf(samples));
@@ -178,8 +178,8 @@ inline vtkSmartPointer<vtkUnsignedCharArray> newGhosts(vtkIdType count)
   return ghosts;
 }
 
-/// A box of cells of side `spacing`. All coordinates are exact, so that the same position reached
-/// along another way is the same to the last bit.
+/// A box of cells of side `spacing`. All coordinates are exact, so that a position computed in
+/// another way is the same to the last bit.
 template <class TImage = vtkImageData>
 inline vtkSmartPointer<TImage> newImage(int cells, double spacing, double x, double y, double z)
 {
@@ -233,7 +233,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> unstructuredOf(vtkDataSet* input)
   return grid;
 }
 
-/// A box of cells as every kind of data set with cells.
+/// The same box of cells as every kind of data set with cells.
 inline std::vector<vtkSmartPointer<vtkDataSet>> everyGrid()
 {
   const auto image = newImage(8, 0.25, -1.0, -1.0, -1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracles themselves: gradients against differences, feet against dense sampling, random points
-// of the surface against known areas.
+// The oracles themselves: gradients against differences, nearest points against dense sampling,
+// random points of the surface against known areas.
 #include "AnalyticFields.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ double share(const Surface& surface, const Condition& condition)
 
 } // namespace
 
-TEST(AnalyticFields, GradientsAreThoseOfTheValues)
+TEST(AnalyticFields, GradientsEqualDifferencesOfValues)
 {
   constexpr double step = 1e-6;
   for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
@@ -86,7 +86,7 @@ TEST(AnalyticFields, SurfacePointsHaveTheIsovalueAndAreTheirOwnFeet)
   }
 }
 
-TEST(AnalyticFields, FeetLieOnTheSurfaceAndTheirNormalsFall)
+TEST(AnalyticFields, FeetLieOnTheSurfaceAndNormalsPointToDecreasingValues)
 {
   for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
   {
@@ -112,7 +112,7 @@ TEST(AnalyticFields, FeetLieOnTheSurfaceAndTheirNormalsFall)
       ASSERT_GT(moved(-1e-5), surface.isovalue);
       if (foot.normals.size() == 1)
       {
-        // The way to the foot runs along the normal; 1e-5 beside it is 1e-10 farther at most.
+        // The offset is parallel to the normal: its part across is at most 1e-5, here squared.
         const double along = dot(way, foot.normals[0]);
         ASSERT_LT(foot.distance * foot.distance - along * along, 1e-10);
       }
@@ -143,7 +143,7 @@ TEST(AnalyticFields, FeetAreTheNearestPointsOfTheSurface)
       ASSERT_LE(found, nearest + 1e-9);
       largestExcess = std::max(largestExcess, nearest - found);
     }
-    // The oracle is about as dense as this.
+    // About the distance of the points that it was compared with.
     EXPECT_LT(largestExcess, 0.08);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Composite data: all blocks as one cloud, or one by one.
+// Composite data: all blocks as one cloud, or each by itself.
 #include "InputTesting.h"
 
 using namespace inputtesting;
@@ -7,7 +7,7 @@ using namespace inputtesting;
 namespace
 {
 
-/// Blocks of several kinds that abut: shared faces are doubled.
+/// Adjacent blocks of several kinds: the points of shared faces are in two of them.
 std::vector<vtkSmartPointer<vtkDataSet>> abuttingBlocks()
 {
   auto second = rectilinearOf(newImage(4, 0.25, 0.0, -1.0, -1.0));
@@ -63,7 +63,7 @@ TEST(Blocks, AllBlocksFormOneCloud)
   }
 }
 
-TEST(Blocks, BlocksOfCellData)
+TEST(Blocks, CellDataOfAllBlocksFormOneCloud)
 {
   auto blocks = abuttingBlocks();
   Samples samples;
@@ -83,7 +83,7 @@ TEST(Blocks, BlocksOfCellData)
   }
 }
 
-TEST(Blocks, BlockByBlockKeepsTheStructure)
+TEST(Blocks, ContouringEachBlockKeepsTheStructure)
 {
   const auto blocks = abuttingBlocks();
   for (vtkCompositeDataSet* const composite : everyTree(blocks))
@@ -117,7 +117,7 @@ TEST(Blocks, BlockByBlockKeepsTheStructure)
   }
 }
 
-TEST(Blocks, OnlyArraysOfAllBlocksSurvive)
+TEST(Blocks, OnlyArraysOfAllBlocksAreInTheOutput)
 {
   const auto blocks = abuttingBlocks();
   const auto addTo = [&](std::size_t block, vtkAbstractArray* array, const char* name)
@@ -145,7 +145,6 @@ TEST(Blocks, OnlyArraysOfAllBlocksSurvive)
   addTo(1, whole, "of several types");
   vtkNew<vtkFloatArray> real;
   addTo(2, real, "of several types");
-  blocks[2]->GetPointData()->GetArray("everywhere")->SetNumberOfComponents(1);
   const auto tooShort = newArray("short", 2);
   for (vtkDataSet* const block : blocks)
   {
@@ -153,7 +152,7 @@ TEST(Blocks, OnlyArraysOfAllBlocksSurvive)
   }
 
   const auto filter = newFilter(everyTree(blocks)[0]);
-  // Arrays are interpolated along edges, where points that are projected do not lie.
+  // Arrays are interpolated along edges; projected points do not lie on these.
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
   const auto errors = watchErrors(filter);
   filter->Update();
@@ -214,7 +213,7 @@ TEST(Blocks, BlocksWithoutTheArrayTakeNoPartAndAreCounted)
   EXPECT_NE(errors->Last.find("no point array named \"f\""), std::string::npos);
 }
 
-TEST(Blocks, ATimeSeriesOfBlocksIsRightAtEachStep)
+TEST(Blocks, EachStepOfATimeSeriesIsAsIfComputedAlone)
 {
   std::vector<vtkSmartPointer<vtkDataSet>> blocks = abuttingBlocks();
   for (vtkDataSet* const block : blocks)
@@ -282,7 +281,7 @@ TEST(Blocks, ATimeSeriesOfBlocksIsRightAtEachStep)
   points->Modified();
   expectFreshForBoth();
 
-  // Samples become ghosts, the array of a block vanishes, blocks change places, one goes.
+  // Samples become ghosts; blocks are exchanged; one is removed.
   const auto ghosts = newGhosts(blocks[0]->GetNumberOfPoints());
   blocks[0]->GetPointData()->AddArray(ghosts);
   for (vtkIdType i = 0; i < 30; ++i)
@@ -296,7 +295,7 @@ TEST(Blocks, ATimeSeriesOfBlocksIsRightAtEachStep)
   expectFreshForBoth();
 }
 
-TEST(Blocks, MixedTypesOfPointsAndScalarsLoseNothing)
+TEST(Blocks, MixedTypesOfPointsAndScalarsLoseNoPrecision)
 {
   auto cloud = newCloud(4000);
   cloud->GetPointData()->GetArray("distance")->SetName("f");
@@ -340,7 +339,7 @@ TEST(Blocks, MixedTypesOfPointsAndScalarsLoseNothing)
   expectSame(blocks, vtkDataObject::FIELD_ASSOCIATION_POINTS, samples);
 }
 
-TEST(Blocks, ACompositeWithoutPointsIsOneError)
+TEST(Blocks, ACompositeWithoutPointsYieldsOneError)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   vtkNew<vtkPolyData> nothing;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The accuracy benchmark's coverage: reading splats, and the search against all splats. What the
-// filter's splats cover where isopoints are thinned out, where samples stand in lines and at edges,
-// and how far they reach at borders.
+// Coverage by splats: that of the accuracy benchmark against a test of all splats; that of the
+// filter's splats after thinning, for samples on lines and at edges; how far splats extend over
+// borders.
 #include "AccuracySplats.h"
 #include "AnalyticFields.h"
 #include "FilterTesting.h"
@@ -64,8 +64,8 @@ bool covers(const Splat& splat, const Vector& place)
          std::hypot(u, v) <= 1.0;
 }
 
-/// How many of the nearest points of a surface to random places no splat covers, but those on
-/// edges: there splats of both sides meet up to rounding.
+/// The number of random surface points, nearest to random places, that no splat covers. Points on
+/// edges do not count: there the splats of both sides meet up to rounding only.
 int countUncovered(
   vtkPolyData* isopoints, double meanSpacing, const analytic::Surface& surface, int places = 50000)
 {
@@ -81,7 +81,7 @@ int countUncovered(
   return uncovered;
 }
 
-/// The largest distance of a place on a splat's rim.
+/// The largest distance of a place on the rim of any splat.
 template <class Distance>
 double farthestRim(vtkPolyData* isopoints, const Distance& distanceOf)
 {
@@ -99,8 +99,8 @@ double farthestRim(vtkPolyData* isopoints, const Distance& distanceOf)
   return farthest;
 }
 
-/// Samples on vertical lines, several times as far apart as samples on them, with "distance" from
-/// the origin.
+/// Samples on vertical lines that are several times farther apart than samples on a line, with
+/// "distance" from the origin.
 vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
 {
   clouds::Random random(static_cast<std::uint64_t>(seed));
@@ -125,7 +125,7 @@ vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
   return cloud;
 }
 
-/// Gives each point the value of a field there.
+/// Sets the scalars to the values of a field.
 void setValues(vtkPolyData* cloud, const std::function<double(const Vector&)>& field)
 {
   vtkNew<vtkFloatArray> values;
@@ -140,7 +140,7 @@ void setValues(vtkPolyData* cloud, const std::function<double(const Vector&)>& f
 
 } // namespace
 
-TEST(Coverage, IsThatOfAllSplats)
+TEST(Coverage, AgreesWithATestOfAllSplats)
 {
   const std::vector<Splat> splats = randomSplats(300);
   const Coverage coverage(splats, tolerance);
@@ -195,10 +195,11 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   vtkNew<vtkFloatArray> clip;
   clip->SetName("SplatClip");
   clip->SetNumberOfComponents(5);
-  const std::array<float, 5> before{ 0.0f, -1.0f, 0.0f, 0.5f, -1.0f };
-  clip->InsertNextTypedTuple(before.data());
+  const std::array<float, 5> plane{ 0.0f, -1.0f, 0.0f, 0.5f, -1.0f };
+  clip->InsertNextTypedTuple(plane.data());
   cloud->GetPointData()->AddArray(clip);
   const std::vector<Splat> clipped = accuracy::splatsOf(cloud);
+  ASSERT_EQ(clipped.size(), 1u);
   const Vector center = clipped.at(0).center;
   const auto beside = [&](double x, double y) {
     return analytic::sum(center, Vector{ x, y, 0.0 });
@@ -211,7 +212,7 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   EXPECT_TRUE(coverage.covers(beside(0.0, -1.9)));
 }
 
-TEST(Coverage, ThinnedPointsStillCoverASphere)
+TEST(Coverage, ThinnedPointsCoverASphere)
 {
   const analytic::Surface sphere = analytic::sphere();
   constexpr vtkIdType samples = 50000;
@@ -280,9 +281,9 @@ TEST(Coverage, ClippedSplatsMeetAtACubesEdges)
   EXPECT_LT(uncoveredOf(newLines(640, 100, 2)), places / 10000);
 }
 
-// At the border of a ball of samples, one in each unit of volume, the sheets next to a splat's own
-// do not make it reach out.
-TEST(Coverage, SplatsDoNotReachOverABorderBesideOtherSheets)
+// At the border of a ball of samples, one per unit of volume, parallel sheets close to a splat's
+// own do not make it extend farther.
+TEST(Coverage, SplatsDoNotExtendFarOverABorderBesideOtherSheets)
 {
   constexpr double ball = 14.0;
   clouds::Random random(5);
@@ -311,9 +312,9 @@ TEST(Coverage, SplatsDoNotReachOverABorderBesideOtherSheets)
   EXPECT_LT(farthest, 4.5);
 }
 
-// A gyroid leaves the samples' cube all around: beside gaps between the points at its border cells
-// are open, or bounded far outside, and splats are not to grow into them.
-TEST(Coverage, SplatsDoNotReachFarOutOfTheSamples)
+// A gyroid leaves the samples' cube on all sides. Tangent cells of isopoints at the border are open
+// there, or bounded far outside by other isopoints of the border; splats do not fill them.
+TEST(Coverage, SplatsDoNotExtendFarBeyondTheSamples)
 {
   constexpr vtkIdType samples = 20000;
   const auto cloud = filtertesting::newCloud(samples);
@@ -330,9 +331,10 @@ TEST(Coverage, SplatsDoNotReachFarOutOfTheSamples)
   filter->ComputeSplatAxesOn();
   filter->Update();
   const double spacing = 2.0 / std::cbrt(static_cast<double>(samples));
-  EXPECT_LT(farthestRim(filter->GetOutput(),
-              [](const Vector& p) {
-                return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 1.0;
-              }),
-    2.3 * spacing);
+  const double farthest = farthestRim(filter->GetOutput(),
+    [](const Vector& p) {
+      return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 1.0;
+    });
+  EXPECT_GT(farthest, 0.0);
+  EXPECT_LT(farthest, 2.3 * spacing);
 }

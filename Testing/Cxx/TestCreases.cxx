@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits beside the edges and corners of bodies whose sides are known.
+// Fits near the edges and corners of bodies whose sides are known.
 #include "FitTesting.h"
 
 #include "Isopoint/Fit/FitNeighborhood.h"
@@ -17,8 +17,8 @@ using namespace fittesting;
 namespace
 {
 
-/// A body of several sides: where all of them are negative, or where any is. There is one sample in
-/// each unit of volume, in a cube of side 46.4.
+/// A body bounded by several sides: the intersection of the half-spaces where these are negative,
+/// or their union. There is one sample per unit of volume, in a cube of side 46.4.
 struct Body
 {
   std::vector<Field> sides;
@@ -34,28 +34,28 @@ struct Body
     return result;
   }
 
-  /// The least angle between a gradient and those of the sides that are there, in degrees.
-  double degreesOff(const Vector& p, const Vector& gradient) const
+  /// The least angle between a gradient and those of the sides that the place is on, in degrees.
+  double angleToSides(const Vector& p, const Vector& gradient) const
   {
-    constexpr double there = 0.3;
+    constexpr double tolerance = 0.3;
     double least = 180.0;
     for (const Field& side : this->sides)
     {
-      if (std::abs(side(p) - this->value(p)) < there)
+      if (std::abs(side(p) - this->value(p)) < tolerance)
       {
-        least = std::min(least, degreesBetween(gradient, slopeOf(side, p)));
+        least = std::min(least, degreesBetween(gradient, gradientOf(side, p)));
       }
     }
     return least;
   }
 };
 
-/// How many isopoints of a body are far from it, and have normals far from its, in thousands of
-/// all.
+/// The isopoints with an error of more than 0.1 in position, and of more than 5 degrees in the
+/// normal, per thousand.
 struct Errors
 {
-  double far;
-  double turned;
+  double position;
+  double normal;
 };
 
 Errors errorsOf(const Body& body, FitOrder highest = FitOrder::Crease)
@@ -64,15 +64,16 @@ Errors errorsOf(const Body& body, FitOrder highest = FitOrder::Crease)
   const isopoint::Isosurface surface =
     extractFitted(cloudOf(field, 100000, 46.4), 0.0, true, 2, highest);
   EXPECT_GT(surface.fits.size(), 500u);
-  std::size_t far = 0;
+  std::size_t misplaced = 0;
   std::size_t turned = 0;
-  for (const LocalFit& at : surface.fits)
+  for (const LocalFit& fit : surface.fits)
   {
-    far += std::abs(field(at.position)) > 0.1 ? 1 : 0;
-    turned += body.degreesOff(at.position, at.gradient) > 5.0 ? 1 : 0;
+    misplaced += std::abs(field(fit.position)) > 0.1 ? 1 : 0;
+    turned += body.angleToSides(fit.position, fit.gradient) > 5.0 ? 1 : 0;
   }
   const double perThousand = 1000.0 / static_cast<double>(surface.fits.size());
-  return { perThousand * static_cast<double>(far), perThousand * static_cast<double>(turned) };
+  return { perThousand * static_cast<double>(misplaced),
+    perThousand * static_cast<double>(turned) };
 }
 
 Field ball(const Vector& center, double radius)
@@ -80,7 +81,7 @@ Field ball(const Vector& center, double radius)
   return [=](const Vector& p) { return lengthOf(difference(p, center)) - radius; };
 }
 
-/// All within so many units of the origin, in the direction of an axis of a frame that is turned
+/// The two sides of a slab of thickness 2 * half, normal to an axis of a frame that is rotated
 /// against the samples' cube.
 std::vector<Field> slab(std::size_t axis, double half)
 {
@@ -106,15 +107,15 @@ Body box(double x, double y, double z)
 std::size_t countCreases(const isopoint::Isosurface& surface)
 {
   return static_cast<std::size_t>(std::count_if(surface.fits.begin(), surface.fits.end(),
-    [](const LocalFit& at) { return at.order == FitOrder::Crease; }));
+    [](const LocalFit& fit) { return fit.order == FitOrder::Crease; }));
 }
 
-/// The share of places at which residuals of random samples of a field have a pattern.
-double shareOfPatterns(const Field& field, double noise)
+/// The share of trials with random samples of a field in which residuals are coherent.
+double shareOfCoherentResiduals(const Field& field, double noise)
 {
   constexpr int trials = 200;
   clouds::Random random(3);
-  int patterns = 0;
+  int coherent = 0;
   for (int trial = 0; trial < trials; ++trial)
   {
     std::vector<FitSample> samples;
@@ -127,14 +128,14 @@ double shareOfPatterns(const Field& field, double noise)
       }
     }
     isopoint::FitNeighborhood neighborhood(upwards(), 0.0, samples, 1.2);
-    patterns += neighborhood.leavesPattern() ? 1 : 0;
+    coherent += neighborhood.leavesPattern() ? 1 : 0;
   }
-  return static_cast<double>(patterns) / trials;
+  return static_cast<double>(coherent) / trials;
 }
 
 } // namespace
 
-TEST(Creases, TheNearerSheetIsFound)
+TEST(Creases, TheNearestSideIsFound)
 {
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
   const LocalFit found = fit(samplesOf(field, 80), upwards(), FitOrder::Crease);
@@ -146,16 +147,16 @@ TEST(Creases, TheNearerSheetIsFound)
 TEST(Creases, ACubesPointsLieOnItsFaces)
 {
   const Errors errors = errorsOf(box(12.0, 12.0, 12.0));
-  EXPECT_LT(errors.far, 1.0);
-  EXPECT_LT(errors.turned, 5.0);
+  EXPECT_LT(errors.position, 1.0);
+  EXPECT_LT(errors.normal, 5.0);
 }
 
-// Neighbourhoods reach through it: its sides are not two functions anywhere near its rim.
+// Neighbourhoods extend through the plate: near its rim they hold samples of three sides or more.
 TEST(Creases, AThinPlatesPointsLieOnItsFaces)
 {
   const Errors errors = errorsOf(box(12.0, 12.0, 1.5));
-  EXPECT_LT(errors.far, 5.0);
-  EXPECT_LT(errors.turned, 50.0);
+  EXPECT_LT(errors.position, 5.0);
+  EXPECT_LT(errors.normal, 50.0);
 }
 
 TEST(Creases, SidesMayBeCurved)
@@ -166,12 +167,12 @@ TEST(Creases, SidesMayBeCurved)
     { Body{ balls, true }, Body{ balls, false }, Body{ { balls[0], outside }, true } })
   {
     const Errors errors = errorsOf(body);
-    EXPECT_LT(errors.far, 4.0);
-    EXPECT_LT(errors.turned, 15.0);
+    EXPECT_LT(errors.position, 4.0);
+    EXPECT_LT(errors.normal, 15.0);
   }
 }
 
-// A quadratic through samples on both sides would round a curved edge off; its sides do not.
+// A single quadratic through samples of both sides would round a curved edge off.
 TEST(Creases, CurvedSidesKeepTheirCurvature)
 {
   const Field field = [](const Vector& p)
@@ -186,7 +187,7 @@ TEST(Creases, CurvedSidesKeepTheirCurvature)
   EXPECT_NEAR(found.hessian[2], 0.0, 1e-8);
 }
 
-TEST(Creases, AreNotFoundInNoise)
+TEST(Creases, AreNotDetectedInNoise)
 {
   clouds::Random random(5);
   const Field field = [&](const Vector& p) { return lengthOf(p) - 12.0 + 0.2 * (random() - 0.5); };
@@ -196,8 +197,8 @@ TEST(Creases, AreNotFoundInNoise)
   EXPECT_LT(countCreases(surface), surface.fits.size() / 100);
 }
 
-// Detail that is resolved thinly leaves patterns, too.
-TEST(Creases, AreRareWhereThereIsDetail)
+// Residuals of an under-resolved field are coherent, too.
+TEST(Creases, AreRarelyDetectedInAnUnderResolvedField)
 {
   const isopoint::Isosurface surface =
     extractFitted(cloudOf(gyroid(0.6), 20000, 27.0), 0.3, true, 2, FitOrder::Crease);
@@ -205,24 +206,25 @@ TEST(Creases, AreRareWhereThereIsDetail)
   EXPECT_LT(countCreases(surface), surface.fits.size() / 500);
 }
 
-// Where next to none are found the search takes many times as long as the extraction.
-TEST(Creases, AreNotLookedForWhereTheyAreRare)
+// Where next to none are detected, testing everywhere would take many times as long as the
+// extraction.
+TEST(Creases, AreNotTestedForWhereTheyAreRare)
 {
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const auto orderAfter = [&](int found)
+  const auto orderAfter = [&](int detected)
   {
-    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, rateOf(found, 16) })
+    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, rateOf(detected, 16) })
       .order;
   };
   EXPECT_EQ(orderAfter(2), FitOrder::Crease);
   EXPECT_NE(orderAfter(1), FitOrder::Crease);
 }
 
-TEST(Creases, LeaveAPatternOfResidualsAndNoiseDoesNot)
+TEST(Creases, LeaveCoherentResidualsAndNoiseDoesNot)
 {
   const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
   const Field bend = [](const Vector& p) { return p[2] + 0.1 * p[0] * p[0]; };
-  EXPECT_GT(shareOfPatterns(wedge, 0.0), 0.95);
-  EXPECT_GT(shareOfPatterns(wedge, 0.1), 0.95);
-  EXPECT_LT(shareOfPatterns(bend, 0.1), 0.15);
+  EXPECT_GT(shareOfCoherentResiduals(wedge, 0.0), 0.95);
+  EXPECT_GT(shareOfCoherentResiduals(wedge, 0.1), 0.95);
+  EXPECT_LT(shareOfCoherentResiduals(bend, 0.1), 0.15);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Detail that samples resolve thinly, told from noise and from steps.
+// Under-resolved fields (details of few samples to a wavelength), distinguished from noise and
+// steps.
 #include "FitTesting.h"
 
 #include "Isopoint/Fit/DetectionRate.h"
@@ -15,40 +16,40 @@
 using namespace fittesting;
 using isopoint::DetectionRate;
 
-TEST(Detail, TalliesTellWhetherItIsCommon)
+TEST(Detail, RatesIndicateWhetherItIsCommon)
 {
   EXPECT_FALSE(rateOf(15, 15).isCommon());
   EXPECT_FALSE(rateOf(4, 16).isCommon());
   EXPECT_TRUE(rateOf(5, 16).isCommon());
 }
 
-TEST(Detail, FewAreAskedWhereItIsRare)
+TEST(Detail, FewIsopointsAreTestedWhereItIsRare)
 {
-  const auto asked = [](DetectionRate tally)
+  const auto countTested = [](DetectionRate rate)
   {
     int count = 0;
     for (int i = 0; i < 80; ++i)
     {
-      count += tally.isWorthTesting() ? 1 : 0;
+      count += rate.isWorthTesting() ? 1 : 0;
     }
     return count;
   };
-  EXPECT_EQ(asked(rateOf(0, 15)), 80);
-  EXPECT_EQ(asked(rateOf(0, 16)), 10);
-  EXPECT_EQ(asked(rateOf(1, 16)), 10);
-  EXPECT_EQ(asked(rateOf(2, 16)), 80);
+  EXPECT_EQ(countTested(rateOf(0, 15)), 80);
+  EXPECT_EQ(countTested(rateOf(0, 16)), 10);
+  EXPECT_EQ(countTested(rateOf(1, 16)), 10);
+  EXPECT_EQ(countTested(rateOf(2, 16)), 80);
 }
 
-// Residuals are as large as those of noise here, six samples to a wave; but they fall with the
-// degree.
-TEST(Detail, IsToldFromNoiseWhereItIsThinlySampled)
+// With six samples to a wavelength residuals are as large as those of noise, but they decrease with
+// the degree.
+TEST(Detail, IsDistinguishedFromNoise)
 {
   const double linear = meanDistanceFromGyroid(1.0, std::nullopt);
   EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Cubic), 0.5 * linear);
   EXPECT_LT(meanDistanceFromGyroid(1.0, FitOrder::Crease), 0.5 * linear);
 }
 
-TEST(Detail, IsNotLookedForAcrossGaps)
+TEST(Detail, IsNotTestedForAcrossGaps)
 {
   const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
   FitEdge edge = upwards();
@@ -65,9 +66,9 @@ TEST(Detail, StepsAreNotMadeWorse)
     const isopoint::Isosurface surface =
       extractFitted(cloudOf(field, 50000, 36.8), 0.5, true, 2, highest);
     double sum = 0.0;
-    for (const LocalFit& at : surface.fits)
+    for (const LocalFit& fitted : surface.fits)
     {
-      sum += std::abs(lengthOf(at.position) - 12.0);
+      sum += std::abs(lengthOf(fitted.position) - 12.0);
     }
     return sum / static_cast<double>(surface.fits.size());
   };
@@ -80,16 +81,16 @@ TEST(Detail, NoiseMovesFewPoints)
   const Field field = [&](const Vector& p) { return lengthOf(p) + 0.5 * (random() - 0.5); };
   const isopoint::Isosurface surface = extractFitted(cloudOf(field, 50000, 36.8), 12.0, true);
   std::size_t moved = 0;
-  for (const LocalFit& at : surface.fits)
+  for (const LocalFit& fitted : surface.fits)
   {
-    moved += at.order != std::nullopt ? 1 : 0;
+    moved += fitted.order != std::nullopt ? 1 : 0;
   }
   ASSERT_GT(surface.fits.size(), 2000u);
   EXPECT_LT(moved, surface.fits.size() / 50);
 }
 
-// In noise it takes the time of several fits to no avail.
-TEST(Detail, IsNotLookedForWhereItIsRare)
+// In noise the test takes the time of several fits and detects nothing.
+TEST(Detail, IsNotTestedForWhereItIsRare)
 {
   const Field field = [](const Vector& p) { return std::sin(p[2]) + 0.8 * std::sin(1.2 * p[0]); };
   const auto orderAfter = [&](const DetectionRate& rate) {
@@ -99,7 +100,7 @@ TEST(Detail, IsNotLookedForWhereItIsRare)
   EXPECT_EQ(orderAfter(rateOf(1, 16)), std::nullopt);
 }
 
-// Samples that tell of a bend, but not of more.
+// Samples from which a curvature can be determined, but no derivative of higher order.
 TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
 {
   const Field field = [](const Vector& p) { return p[2] + 0.2 * p[0] * p[0]; };
@@ -110,7 +111,7 @@ TEST(Detail, IsBelievedOnLessEvidenceWhereItIsCommon)
   EXPECT_EQ(orderAfter(rateOf(8, 16)), FitOrder::Cubic);
 }
 
-// Isopoints share rates; ranges of threads must not cut these.
+// Isopoints share detection rates in groups, which the ranges of threads must not divide.
 TEST(Detail, DoesNotDependOnThreads)
 {
   clouds::Random random(8);
@@ -118,6 +119,7 @@ TEST(Detail, DoesNotDependOnThreads)
   { return lengthOf(p) + std::sin(p[0]) + 0.2 * (random() - 0.5); };
   const clouds::Cloud cloud = cloudOf(field, 15000, 24.6);
   const isopoint::Isosurface one = extractFitted(cloud, 8.0, true, 1);
+  ASSERT_GT(one.fits.size(), 1000u);
   for (const std::size_t threads : { 2, 3 })
   {
     const isopoint::Isosurface several = extractFitted(cloud, 8.0, true, threads);

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Errors about the input name the cause, and what to do.
+// Errors name the cause and, for arrays, the remedy; there is one for each update, and the output
+// is empty.
 #include "InputTesting.h"
+
+#include "vtkStringArray.h"
+
+#include <limits>
+#include <string>
+#include <vector>
 
 using namespace inputtesting;
 
@@ -25,7 +32,7 @@ void expectError(
 
 } // namespace
 
-TEST(ErrorMessages, AMissingArrayIsNamedWithWhereItWasSoughtAndWhatThereIs)
+TEST(ErrorMessages, AMissingArrayIsNamedWithItsAssociationAndTheArraysPresent)
 {
   const auto image = newImage(4, 0.25, -1.0, -1.0, -1.0);
   addPointField(image);
@@ -47,4 +54,64 @@ TEST(ErrorMessages, AnArrayOfAnotherLengthIsNamedWithBothLengths)
   image->GetPointData()->AddArray(newArray<vtkDoubleArray>("f", 7));
   expectError(image, vtkDataObject::FIELD_ASSOCIATION_POINTS, "f",
     { "\"f\" has 7 values for 125 points", "SetInputArrayToProcess()" });
+}
+
+TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
+{
+  const auto cloud = newCloud(500);
+  vtkNew<vtkStringArray> names;
+  names->SetName("names");
+  names->SetNumberOfValues(500);
+  cloud->GetPointData()->AddArray(names);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetValue(0, 0.7);
+  const auto errors = watchErrors(filter);
+  const auto expectError = [&](const char* words)
+  {
+    errors->Count = 0;
+    filter->Update();
+    EXPECT_EQ(errors->Count, 1) << words;
+    EXPECT_NE(errors->Last.find(words), std::string::npos) << errors->Last;
+    expectEmpty(filter->GetOutput());
+  };
+  const auto choose = [&](const char* name)
+  { filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name); };
+
+  filter->SetInputData(cloud);
+  choose("missing");
+  expectError("no point array named \"missing\"");
+  choose("position");
+  expectError("has 3 components");
+  choose("names");
+  expectError("holds no numbers");
+  choose("distance");
+  for (const double angle : { -1.0, 180.5, std::numeric_limits<double>::quiet_NaN() })
+  {
+    filter->SetAngle(angle);
+    expectError("within 0 and 180");
+  }
+  filter->SetAngle(54.7);
+  for (const double factor :
+    { -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
+  {
+    filter->SetGapFactor(factor);
+    expectError("gap factor");
+  }
+  filter->SetGapFactor(0.0);
+  filter->SetMinimumSpacing(std::numeric_limits<double>::quiet_NaN());
+  expectError("minimum spacing");
+  filter->SetMinimumSpacing(0.0);
+  filter->SetNumberOfContours(2);
+  filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());
+  filter->SetValue(1, 0.7);
+  expectError("not a number");
+  filter->SetNumberOfContours(1);
+  filter->SetValue(0, 0.7);
+  vtkNew<vtkPolyData> nothing;
+  filter->SetInputData(nothing);
+  expectError("no points");
+
+  filter->SetInputData(cloud);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of ghost cells: which are samples where only the cells say what is a ghost.
+// Points of ghost cells: which of them are samples if only the cells have a ghost array.
 #include "InputTesting.h"
 
 using namespace inputtesting;
@@ -7,7 +7,7 @@ using namespace inputtesting;
 namespace
 {
 
-/// Cells of a box of 8 x 8 x 8 are ghosts of one sort or another by their place along x.
+/// Gives each cell of a box of 8 x 8 x 8 the ghost bits of its index along x.
 void addCellGhosts(vtkDataSet* input, const std::array<unsigned char, 8>& bitsAlongX)
 {
   const auto ghosts = newGhosts(input->GetNumberOfCells());
@@ -18,7 +18,7 @@ void addCellGhosts(vtkDataSet* input, const std::array<unsigned char, 8>& bitsAl
   input->GetCellData()->AddArray(ghosts);
 }
 
-/// Points of a box of 9 x 9 x 9 by their place along x.
+/// The points of a box of 9 x 9 x 9 that are samples, by their index along x.
 Samples samplesAlongX(vtkDataSet* input, const std::array<bool, 9>& isSample)
 {
   Samples samples;
@@ -42,11 +42,11 @@ void expectSkipped(vtkDataSet* input, vtkIdType count)
 constexpr unsigned char duplicate = vtkDataSetAttributes::DUPLICATECELL;
 constexpr unsigned char hidden = vtkDataSetAttributes::HIDDENCELL;
 constexpr unsigned char refined = vtkDataSetAttributes::REFINEDCELL;
-constexpr vtkIdType layer = 81; // points of one place along x
+constexpr vtkIdType layer = 81; // points of one index along x
 
 } // namespace
 
-TEST(Ghosts, PointsOfGhostCellsAloneAreLeftOutAndCounted)
+TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOutAndCounted)
 {
   for (vtkDataSet* const input : everyGrid())
   {
@@ -59,7 +59,7 @@ TEST(Ghosts, PointsOfGhostCellsAloneAreLeftOutAndCounted)
   }
 }
 
-TEST(Ghosts, CellsThatAreLeftOutForDifferentReasonsAddUp)
+TEST(Ghosts, PointsOfCellsWithDifferentGhostBitsAreLeftOut)
 {
   for (vtkDataSet* const input : everyGrid())
   {
@@ -72,7 +72,7 @@ TEST(Ghosts, CellsThatAreLeftOutForDifferentReasonsAddUp)
   }
 }
 
-TEST(Ghosts, AGhostArrayOfThePointsSaysWhichAreDuplicates)
+TEST(Ghosts, AGhostArrayOfThePointsDeterminesTheDuplicates)
 {
   for (vtkDataSet* const input : everyGrid())
   {

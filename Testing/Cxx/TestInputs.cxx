@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every kind of data set gives what the same samples as a plain cloud give.
+// Every kind of data set yields the same output as a point cloud of the same samples.
 #include "InputTesting.h"
 
 using namespace inputtesting;
@@ -38,7 +38,7 @@ TEST(Inputs, CellDataAreSamplesAtTheCellsCenters)
   }
 }
 
-// Cells of every size, a flat image, one that is turned, one of a single row.
+// Cells of different types, a flat image, one of a single row, a rotated one.
 TEST(Inputs, CellCentersAreThoseOfVtkCellCenters)
 {
   const auto check = [](vtkDataSet* input, double tolerance)
@@ -130,7 +130,7 @@ TEST(Inputs, GhostAndHiddenCellsAreLeftOut)
   }
 }
 
-TEST(Inputs, CellsWithAHiddenPointAndPointsOfHiddenCellsAloneAreLeftOut)
+TEST(Inputs, CellsWithAHiddenPointAndPointsOfHiddenCellsOnlyAreLeftOut)
 {
   const auto image = newImage(8, 0.25, -1.0, -1.0, -1.0);
   addCellField(image);
@@ -169,8 +169,8 @@ TEST(Inputs, CellsWithAHiddenPointAndPointsOfHiddenCellsAloneAreLeftOut)
   expectSame(image, vtkDataObject::FIELD_ASSOCIATION_POINTS, visible);
 }
 
-// The array of one step is not there in the next, and back again.
-TEST(Inputs, ArraysThatVanishAndComeBack)
+// An array that is removed in one step and added again in the next.
+TEST(Inputs, ArraysMayBeRemovedAndAddedAgain)
 {
   const auto image = newImage(8, 0.25, -1.0, -1.0, -1.0);
   addPointField(image);
@@ -179,6 +179,7 @@ TEST(Inputs, ArraysThatVanishAndComeBack)
   const auto errors = watchErrors(filter);
   filter->Update();
   const auto expected = everythingOf(filter->GetOutput());
+  EXPECT_FALSE(expected.empty());
   image->GetPointData()->RemoveArray("f");
   filter->Update();
   expectEmpty(filter->GetOutput());

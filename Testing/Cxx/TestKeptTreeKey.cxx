@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a kept tree was read from changes in place: the next update reads it again. Nothing of it
-// changes the modification time of the data set itself.
+// Parts of the input that a kept tree depends on change in place: the next update reads them again,
+// although the modification time of the data set itself stays as it was.
 #include "InputTesting.h"
 
 #include "vtkIsopointCompatibility.h"
@@ -18,8 +18,8 @@ namespace
 constexpr int ofPoints = vtkDataObject::FIELD_ASSOCIATION_POINTS;
 constexpr int ofCells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
 
-/// Updates a filter, changes its input, and expects of the next update what a filter gives that has
-/// seen nothing else.
+/// Updates a filter, changes its input, and expects from the next update the output of a new
+/// filter.
 void expectReadAgain(
   vtkDataObject* input, int association, const std::vector<std::function<void()>>& changes)
 {
@@ -60,8 +60,8 @@ void addScatteredFields(vtkDataSet* input)
   addScatteredField(input, vtkDataObject::CELL, input->GetNumberOfCells());
 }
 
-/// Polyhedra in a row: cubes with one side pressed in, the lower (0) or the upper one (1), to a
-/// ninth point. All have the same points either way.
+/// A block of polyhedra: cubes with one side, the lower (0) or the upper one (1), pressed in to a
+/// ninth point at the centre. Both kinds have the same points.
 vtkSmartPointer<vtkUnstructuredGrid> newPolyhedra(int pressedSide)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -104,8 +104,8 @@ vtkSmartPointer<vtkUnstructuredGrid> newPolyhedra(int pressedSide)
   return grid;
 }
 
-/// Moves points as no modification time shows.
-void moveSecretly(vtkPoints* points)
+/// Moves points without a change of any modification time.
+void moveUnnoticed(vtkPoints* points)
 {
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
@@ -115,7 +115,7 @@ void moveSecretly(vtkPoints* points)
   }
 }
 
-/// Tetrahedra whose corners an object of its own lists, as a simulation's memory would.
+/// Tetrahedra whose corners are computed, as those of a grid in a simulation's memory may be.
 class CellsElsewhere : public vtkObject
 {
 public:
@@ -154,10 +154,10 @@ vtkStandardNewMacro(CellsElsewhere);
 vtkMakeExportedMappedUnstructuredGrid(GridOfCellsElsewhere, CellsElsewhere, );
 vtkStandardNewMacro(GridOfCellsElsewhere);
 
-/// The ids of a node, its children, and those of one of them.
+/// The number of ids of a node, its children, and the children of one of these.
 constexpr vtkIdType idsOfTree = 1 + 8 + 8;
 
-/// Trees of one node each, with ids enough for three levels.
+/// Hyper trees of one node each, with enough ids for three levels.
 vtkSmartPointer<vtkHyperTreeGrid> newTrees()
 {
   auto trees = vtkSmartPointer<vtkHyperTreeGrid>::New();
@@ -202,8 +202,8 @@ void subdivide(vtkHyperTreeGrid* trees, vtkIdType treeCount, unsigned char child
 
 } // namespace
 
-// Where VTK takes the centre of a polyhedron's box for its own, the faces do not change it: points
-// that move unseen show that the cells were read again.
+// In VTK versions that use the centre of a polyhedron's bounding box its faces do not affect its
+// centre. Points that move unnoticed show that the cells were read again.
 TEST(KeptTreeKey, FacesOfPolyhedra)
 {
   const auto grid = newPolyhedra(0);
@@ -214,12 +214,12 @@ TEST(KeptTreeKey, FacesOfPolyhedra)
         auto* const faces = vtkGetFacesOfPolyhedra(grid.Get()).first;
         faces->DeepCopy(vtkGetFacesOfPolyhedra(other.Get()).first);
         faces->Modified();
-        moveSecretly(grid->GetPoints());
+        moveUnnoticed(grid->GetPoints());
       },
       [&]()
       {
         vtkGetFacesOfPolyhedra(grid.Get()).second->Modified();
-        moveSecretly(grid->GetPoints());
+        moveUnnoticed(grid->GetPoints());
       } });
 }
 
@@ -320,7 +320,7 @@ TEST(KeptTreeKey, BlankedCellsAndPoints)
   {
     SCOPED_TRACE(grid->GetClassName());
     addScatteredFields(grid);
-    grid->BlankCell(0); // this alone adds an array, and so modifies the cell data
+    grid->BlankCell(0); // the first one adds an array, which modifies the cell data
     expectReadAgain(grid, ofCells,
       { [&]()
         {

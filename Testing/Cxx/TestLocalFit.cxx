@@ -130,7 +130,7 @@ TEST(LocalFit, DoesNotDependOnUnits)
   }
 }
 
-TEST(LocalFit, StaysWhereSamplesDoNotTell)
+TEST(LocalFit, PointsStayWhereNoFitHolds)
 {
   const Field plane = [](const Vector& p) { return p[2] + 0.1; };
   const Field step = [](const Vector& p) { return p[2] < 0.1 ? -1.0 : 1.0; };
@@ -142,7 +142,7 @@ TEST(LocalFit, StaysWhereSamplesDoNotTell)
   for (const std::vector<FitSample>& samples :
     { samplesOf(plane, 2), samplesOf(plane, 4), flat, samplesOf(step, 30),
       samplesOf(plane, 30, 4.0), samplesOf([](const Vector&) { return 0.0; }, 30),
-      samplesOf([](const Vector& p) { return -p[2]; }, 30),      // falls where the edge rises
+      samplesOf([](const Vector& p) { return -p[2]; }, 30), // decreases where the edge increases
       samplesOf([](const Vector& p) { return p[2] + 1.5; }, 30), // too far away
       samplesOf([](const Vector& p) { return 1e308 * p[2]; }, 30) })
   {
@@ -157,48 +157,48 @@ TEST(LocalFit, StaysWhereSamplesDoNotTell)
 }
 
 // Gathering a wider neighbourhood costs ten times as much as a fit.
-TEST(LocalFit, WiderNeighborhoodsAreAskedForWhereTheyMayTellMore)
+TEST(LocalFit, WiderNeighborhoodsAreGatheredOnlyWhereTheyMayImproveTheFit)
 {
-  const auto asksForMore = [](FitOrder highest, const Field& field, double noise)
+  const auto isWiderGathered = [](FitOrder highest, const Field& field, double noise)
   {
-    bool asked = false;
+    bool isGathered = false;
     const std::vector<FitSample> samples = samplesOf(field, 30, noise);
     isopoint::DetectionRates rates;
     isopoint::fitAround(
       upwards(), 0.0, samples,
       [&]() -> const std::vector<FitSample>&
       {
-        asked = true;
+        isGathered = true;
         return samples;
       },
       highest, rates);
-    return asked;
+    return isGathered;
   };
   const Field plane = [](const Vector& p) { return p[2]; };
-  EXPECT_FALSE(asksForMore(FitOrder::Crease, plane, 0.0));
-  EXPECT_FALSE(asksForMore(FitOrder::Quadratic, plane, 10.0));
+  EXPECT_FALSE(isWiderGathered(FitOrder::Crease, plane, 0.0));
+  EXPECT_FALSE(isWiderGathered(FitOrder::Quadratic, plane, 10.0));
   const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
   const Field fold = [](const Vector& p) { return std::abs(p[2] + 0.5) - 0.5; };
-  EXPECT_TRUE(asksForMore(FitOrder::Crease, wedge, 0.0));
-  EXPECT_TRUE(asksForMore(FitOrder::Crease, fold, 0.0));
-  EXPECT_TRUE(asksForMore(FitOrder::Cubic, fold, 0.0));
+  EXPECT_TRUE(isWiderGathered(FitOrder::Crease, wedge, 0.0));
+  EXPECT_TRUE(isWiderGathered(FitOrder::Crease, fold, 0.0));
+  EXPECT_TRUE(isWiderGathered(FitOrder::Cubic, fold, 0.0));
 }
 
 TEST(LocalFit, MovesASpheresPointsOntoIt)
 {
   const Field field = [](const Vector& p) { return lengthOf(p); };
   const isopoint::Isosurface surface = extractFitted(cloudOf(field, 100000, 46.4), 16.0, true);
-  ASSERT_GT(surface.edges.size(), 3000u);
+  ASSERT_GT(surface.fits.size(), 3000u);
   for (std::size_t i = 0; i < surface.fits.size(); ++i)
   {
-    const LocalFit& at = surface.fits[i];
-    ASSERT_NEAR(lengthOf(at.position), 16.0, 0.005);
-    ASSERT_LT(degreesBetween(at.gradient, at.position), 0.6);
+    const LocalFit& found = surface.fits[i];
+    ASSERT_NEAR(lengthOf(found.position), 16.0, 0.005);
+    ASSERT_LT(degreesBetween(found.gradient, found.position), 0.6);
   }
 }
 
-// A field too wavy for degree two alone.
-TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
+// A field whose wavelength is too short for degree two alone.
+TEST(LocalFit, ErrorsDecreaseWithTheDegree)
 {
   const double linear = meanDistanceFromGyroid(0.2, std::nullopt);
   const double quadratic = meanDistanceFromGyroid(0.2, FitOrder::Quadratic);
@@ -207,8 +207,8 @@ TEST(LocalFit, DegreeThreeIsNearerThanTwoAndOne)
   EXPECT_LT(cubic, 0.2 * quadratic);
 }
 
-// Half an edge farther would be beyond double's range.
-TEST(LocalFit, PointsAtTheEndOfTheRangeStayInIt)
+// A point moved by half its edge would be beyond double's range.
+TEST(LocalFit, PointsAtTheLimitOfDoubleStayFinite)
 {
   const double most = std::numeric_limits<double>::max();
   clouds::Random random(7);
@@ -227,7 +227,7 @@ TEST(LocalFit, PointsAtTheEndOfTheRangeStayInIt)
   }
 }
 
-TEST(LocalFit, LeavesTheExtractionAsItIs)
+TEST(LocalFit, DoesNotChangeTheEdges)
 {
   const clouds::Cloud cloud = clouds::uniform(20000, 3);
   const isopoint::Isosurface plain = clouds::extract(cloud, 0.5, 54.7);
@@ -240,19 +240,20 @@ TEST(LocalFit, LeavesTheExtractionAsItIs)
   {
     ASSERT_EQ(fitted.edges[i].parameter, plain.edges[i].parameter);
     held += moved.fits[i].order != std::nullopt ? 1 : 0;
-    const double edge = lengthOf(difference(moved.fits[i].position, fitted.fits[i].position));
-    ASSERT_TRUE(moved.fits[i].order != std::nullopt || edge == 0.0);
+    const double distance = lengthOf(difference(moved.fits[i].position, fitted.fits[i].position));
+    ASSERT_TRUE(moved.fits[i].order != std::nullopt || distance == 0.0);
     ASSERT_GE(moved.edges[i].parameter, 0.0);
     ASSERT_LE(moved.edges[i].parameter, 1.0);
   }
   EXPECT_GT(held, plain.edges.size() * 9 / 10);
 }
 
-// Neither threads nor what was extracted before: neighbourhoods are complete in any case.
-TEST(LocalFit, IsTheSameForAnyThreadsAndAnyTree)
+// Neighbourhoods are complete whatever was extracted before.
+TEST(LocalFit, DependsNeitherOnThreadsNorOnAKeptTree)
 {
   const clouds::Cloud cloud = clouds::coarse(20000, 18, 5);
   const isopoint::Isosurface expected = extractFitted(cloud, 5.0, true, 1);
+  ASSERT_GT(expected.fits.size(), 1000u);
   isopoint::IsosurfaceExtractor extractor;
   const isopoint::Execution execution = clouds::executionOn(3);
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each large allocation of an update fails once: one error, an empty output, and a filter that
-// works again.
+// Each large allocation of an update is made to fail: there is one error, the output is empty, and
+// the next update of the filter works.
 #include "FailingAllocator.h"
 #include "FilterTesting.h"
 
@@ -19,7 +19,7 @@ namespace
 
 using Prepare = std::function<void(vtkScatteredIsopointFilter*)>;
 
-/// @returns what is in the output, of all blocks
+/// @returns positions and arrays of the output, of all blocks
 std::vector<double> everythingOf(vtkScatteredIsopointFilter* filter)
 {
   std::vector<double> all;
@@ -50,14 +50,14 @@ std::vector<double> everythingOf(vtkScatteredIsopointFilter* filter)
   return all;
 }
 
-/// Lets the n-th large allocation of the update after `prepare` fail, for each n.
-/// @param prepare leaves a filter that is to be updated
+/// Makes the n-th large allocation of the update after `prepare` fail, for each n.
+/// @param prepare sets a filter up, ready to be updated
 void failEach(const Prepare& prepare)
 {
-  vtkNew<vtkScatteredIsopointFilter> untroubled;
-  prepare(untroubled);
-  untroubled->Update();
-  const std::vector<double> expected = everythingOf(untroubled);
+  vtkNew<vtkScatteredIsopointFilter> undisturbed;
+  prepare(undisturbed);
+  undisturbed->Update();
+  const std::vector<double> expected = everythingOf(undisturbed);
   ASSERT_FALSE(expected.empty());
   int failures = 0;
   for (const bool andAllLater : { false, true })
@@ -75,7 +75,7 @@ void failEach(const Prepare& prepare)
       failed = failingallocator::stop() >= n;
       if (errors->Count == 0)
       {
-        // All went well, or only what would have sped up a later update was given up.
+        // No allocation failed, or only one of what would speed a later update up.
         ASSERT_EQ(everythingOf(filter), expected);
       }
       else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What may happen around an update: aborts, inputs that go or change, filters side by side.
+// Events around an update: progress and aborts, inputs that are freed or change, filters side by
+// side.
 #include "FilterTesting.h"
 
 #include "vtkCellData.h"
@@ -16,7 +17,7 @@ using namespace filtertesting;
 namespace
 {
 
-/// Notes a filter's progress and aborts it at the n-th event.
+/// Records a filter's progress and aborts it at the n-th event.
 class ProgressWatcher : public vtkCommand
 {
 public:
@@ -48,8 +49,8 @@ vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
   return grid;
 }
 
-/// Filters with inputs of every sort.
-std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> everySort()
+/// Filters with inputs of points, of cells and of blocks.
+std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filtersOfEveryInput()
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, newVertexCells(12000));
@@ -73,9 +74,9 @@ std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> everySort()
 
 } // namespace
 
-TEST(Robustness, ProgressRisesFromZeroToOne)
+TEST(Robustness, ProgressIncreasesFromZeroToOne)
 {
-  for (vtkScatteredIsopointFilter* const filter : everySort())
+  for (vtkScatteredIsopointFilter* const filter : filtersOfEveryInput())
   {
     const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
     filter->AddObserver(vtkCommand::ProgressEvent, watcher);
@@ -94,16 +95,17 @@ TEST(Robustness, ProgressRisesFromZeroToOne)
 
 TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
 {
-  for (vtkScatteredIsopointFilter* const filter : everySort())
+  for (vtkScatteredIsopointFilter* const filter : filtersOfEveryInput())
   {
     const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
     const auto errors = watchErrors(filter);
     filter->AddObserver(vtkCommand::ProgressEvent, watcher);
-    filter->KeepTreeOff(); // so that each update starts from nothing
+    filter->KeepTreeOff(); // so that each update builds its tree
     filter->Update();
     const vtkIdType expected = filter->GetOutputDataObject(0)->GetNumberOfElements(0);
     EXPECT_GT(expected, 500);
-    // The last two events tell that all is done.
+    // The last two events report the end of the update.
+    ASSERT_GT(watcher->Seen.size(), 4u);
     const std::size_t events = watcher->Seen.size() - 2;
     for (std::size_t event = 1; event <= events; event += 1 + events / 12)
     {
@@ -141,8 +143,8 @@ TEST(Robustness, AnInputMayBeFreedBetweenUpdates)
   }
 }
 
-// A kept tree holds no array of an input that went.
-TEST(Robustness, AnInputIsNotHeldAfterAnUpdate)
+// A kept tree holds no reference to an array of the input.
+TEST(Robustness, AnInputIsNotReferencedAfterAnUpdate)
 {
   for (const bool ofCells : { false, true })
   {
@@ -165,7 +167,7 @@ TEST(Robustness, AnInputIsNotHeldAfterAnUpdate)
   }
 }
 
-TEST(Robustness, AnInputThatShrinksIsReadAnew)
+TEST(Robustness, AnInputThatShrinksIsReadAgain)
 {
   const auto cloud = newCloud(10000);
   vtkNew<vtkScatteredIsopointFilter> filter;
@@ -178,6 +180,7 @@ TEST(Robustness, AnInputThatShrinksIsReadAnew)
   fresh->SetInputData(newCloud(100));
   fresh->SetValue(0, 0.7);
   fresh->Update();
+  EXPECT_GT(fresh->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
 }
 
@@ -188,6 +191,7 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
   alone->SetValue(0, 0.7);
   alone->Update();
   const std::vector<double> expected = pointsOf(alone->GetOutput());
+  EXPECT_FALSE(expected.empty());
   // Each has a data set of its own, as VTK demands; arrays are shared.
   const auto cloud = newCloud(30000);
   std::vector<vtkSmartPointer<vtkPolyData>> inputs;
@@ -223,24 +227,24 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
   }
 }
 
-TEST(Robustness, AFilterMayGoWhileAnotherSharesItsInput)
+TEST(Robustness, AFilterMayBeFreedWhileAnotherSharesItsInput)
 {
   const auto cloud = newCloud(10000);
-  vtkNew<vtkScatteredIsopointFilter> stays;
-  stays->SetInputData(cloud);
-  stays->SetValue(0, 0.7);
+  vtkNew<vtkScatteredIsopointFilter> kept;
+  kept->SetInputData(cloud);
+  kept->SetValue(0, 0.7);
   {
-    vtkNew<vtkScatteredIsopointFilter> goes;
-    goes->SetInputData(cloud);
-    goes->SetValue(0, 0.7);
-    goes->Update();
-    stays->Update();
+    vtkNew<vtkScatteredIsopointFilter> freed;
+    freed->SetInputData(cloud);
+    freed->SetValue(0, 0.7);
+    freed->Update();
+    kept->Update();
   }
-  const std::vector<double> before = pointsOf(stays->GetOutput());
-  stays->SetAngle(50.0);
-  stays->Update();
-  stays->SetAngle(54.7);
-  stays->Update();
+  const std::vector<double> before = pointsOf(kept->GetOutput());
+  kept->SetAngle(50.0);
+  kept->Update();
+  kept->SetAngle(54.7);
+  kept->Update();
   EXPECT_FALSE(before.empty());
-  EXPECT_EQ(pointsOf(stays->GetOutput()), before);
+  EXPECT_EQ(pointsOf(kept->GetOutput()), before);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must not change the result: threads, the order of questions, a kept tree.
+// What must not change the result: threads, the order of extractions, a kept tree, an abort.
 #include "Clouds.h"
 
-#include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Extraction/NarrowBand.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 
@@ -62,22 +62,25 @@ TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
   const clouds::Cloud cloud = clouds::uniform(60000, 3);
   const isopoint::Execution execution = clouds::executionOn(2);
   IsosurfaceExtractor kept = loaded(cloud);
+  std::size_t isopoints = 0;
   for (const double isovalue : { 0.5, 0.45, -1.5, 0.5, 9.0, 1.9, -1.5 })
   {
     for (const double angle : { 54.7, 20.0 })
     {
       IsosurfaceExtractor fresh = loaded(cloud);
-      expectSameBytes(
-        clouds::extractFrom(fresh, execution, isovalue, angle), clouds::extractFrom(kept, execution, isovalue, angle));
+      const Isosurface expected = clouds::extractFrom(fresh, execution, isovalue, angle);
+      expectSameBytes(expected, clouds::extractFrom(kept, execution, isovalue, angle));
+      isopoints += expected.edges.size();
     }
   }
+  EXPECT_GT(isopoints, 1000u);
 }
 
-// Of many neighbours only some are fitted to: which ones must not depend on what was asked before.
-TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
+// Fits use representatives of large neighbourhoods; these must not depend on earlier extractions.
+TEST(SameResult, OfFitsInLargeNeighborhoods)
 {
   const isopoint::FitRequest quadratic{ isopoint::FitOrder::Quadratic, true };
-  // This one looks further afield.
+  // Fits of this order gather wider neighbourhoods.
   const isopoint::FitRequest crease{ isopoint::FitOrder::Crease, true };
   for (const clouds::Cloud& cloud : { clouds::lines(6000, 3, 0, 5), clouds::curves(6000, 6) })
   {
@@ -87,7 +90,8 @@ TEST(SameResult, OfFitsWhereCellsTouchManyOthers)
       const isopoint::FitRequest request = isovalue < 0.0 ? quadratic : crease;
       const Isosurface expected =
         clouds::extractFrom(loaded(cloud), clouds::executionOn(1), isovalue, 30.0, 0.0, request);
-      const Isosurface found = clouds::extractFrom(kept, clouds::executionOn(3), isovalue, 30.0, 0.0, request);
+      const Isosurface found =
+        clouds::extractFrom(kept, clouds::executionOn(3), isovalue, 30.0, 0.0, request);
       expectSameBytes(expected, found);
       ASSERT_EQ(expected.fits.size(), expected.edges.size());
       ASSERT_EQ(found.fits.size(), expected.edges.size());
@@ -121,7 +125,7 @@ TEST(SameResult, ForNewValuesAtKeptPositions)
   expectSameBytes(expected, clouds::extractFrom(kept, execution, 0.1, 54.7));
 }
 
-TEST(SameResult, OtherPositionsAreNotTakenForTheSame)
+TEST(SameResult, ValuesAreReplacedOnlyAtEqualPositions)
 {
   clouds::Cloud cloud = clouds::uniform(1000, 5);
   const isopoint::Execution execution;
@@ -142,7 +146,7 @@ TEST(SameResult, OtherPositionsAreNotTakenForTheSame)
 TEST(SameResult, WithSamplesLeftOut)
 {
   const clouds::Cloud cloud = clouds::uniform(200000, 6);
-  clouds::Cloud holey = cloud;
+  clouds::Cloud partlyInvalid = cloud;
   const double bad[3] = { std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
   clouds::Cloud remaining;
@@ -151,7 +155,7 @@ TEST(SameResult, WithSamplesLeftOut)
   {
     if (i % 5 == 2)
     {
-      (i % 2 ? holey.values[i] : holey.positions[3 * i + i % 3]) = bad[i % 3];
+      (i % 2 ? partlyInvalid.values[i] : partlyInvalid.positions[3 * i + i % 3]) = bad[i % 3];
     }
     else
     {
@@ -160,19 +164,20 @@ TEST(SameResult, WithSamplesLeftOut)
       ids.push_back(i);
     }
   }
-  IsosurfaceExtractor extractor = loaded(holey, 3);
+  IsosurfaceExtractor extractor = loaded(partlyInvalid, 3);
   EXPECT_EQ(extractor.skippedCount(), cloud.size() - remaining.size());
   const isopoint::Execution execution;
   Isosurface expected = clouds::extractFrom(loaded(remaining), execution, 0.5, 54.7);
-  for (isopoint::IsopointEdge& point : expected.edges)
+  EXPECT_FALSE(expected.edges.empty());
+  for (isopoint::IsopointEdge& edge : expected.edges)
   {
-    point.first = ids[point.first];
-    point.second = ids[point.second];
+    edge.first = ids[edge.first];
+    edge.second = ids[edge.second];
   }
   expectSameBytes(expected, clouds::extractFrom(extractor, execution, 0.5, 54.7));
 }
 
-// Deeper than the 64 levels that a machine word could name.
+// Deeper than the 64 levels that a binary index of one machine word can represent.
 TEST(SameResult, ForVeryDeepTrees)
 {
   const clouds::Cloud cloud = clouds::nestedCoincident(std::size_t{ 1 } << 21);
@@ -196,13 +201,14 @@ TEST(SameResult, AfterAnAbort)
   const clouds::Cloud cloud = clouds::uniform(manySamples, 7);
   IsosurfaceExtractor fresh = loaded(cloud);
   const Isosurface expected = clouds::extractFrom(fresh, clouds::executionOn(1), 0.5, 54.7);
-  for (int patience = 0; patience < 12; ++patience)
+  EXPECT_FALSE(expected.edges.empty());
+  for (int abortAt = 0; abortAt < 12; ++abortAt)
   {
-    isopoint::Execution impatient = clouds::executionOn(2);
-    int asked = 0;
-    impatient.aborted = [&]() { return asked++ >= patience; };
+    isopoint::Execution aborting = clouds::executionOn(2);
+    int queries = 0;
+    aborting.aborted = [&]() { return queries++ >= abortAt; };
     IsosurfaceExtractor extractor = loaded(cloud);
-    EXPECT_THROW(clouds::extractFrom(extractor, impatient, 0.5, 54.7), isopoint::Aborted);
+    EXPECT_THROW(clouds::extractFrom(extractor, aborting, 0.5, 54.7), isopoint::Aborted);
     expectSameBytes(expected, clouds::extractFrom(extractor, clouds::executionOn(2), 0.5, 54.7));
   }
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// How far samples extend ahead of a place, against the definition (docs/algorithm.md,
+// section 12.4).
 #include "Clouds.h"
 
 #include "Isopoint/Base/TangentFrame.h"
@@ -27,7 +29,7 @@ Tree loaded(const clouds::Cloud& cloud)
     clouds::executionOn(2), cloud.size(), clouds::readerOf(cloud));
 }
 
-/// The definition, written down as plainly as possible.
+/// E of section 12.4, over all samples; no more than the query's `enough`.
 double extentByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& query)
 {
   double above = 0.0;
@@ -70,15 +72,15 @@ std::vector<ExtentQuery> randomQueries(const clouds::Cloud& cloud, int count)
 
 } // namespace
 
-TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
+TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
 {
-  int cutShort = 0;
+  int limited = 0;
   for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
          clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
   {
     Tree tree = loaded(cloud);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);
-    // No isosurface refines the tree, then one, then one elsewhere.
+    // The first isosurface is empty and refines nothing; two others refine different parts.
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
       isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, clouds::executionOn(2)).refine();
@@ -87,15 +89,15 @@ TEST(SampleExtent, IsThatOfBruteForceHoweverMuchIsRefined)
       {
         const double expected = extentByBruteForce(cloud, query);
         EXPECT_DOUBLE_EQ(extents.at(query), expected);
-        cutShort += expected > 0.0 && expected < query.enough ? 1 : 0;
+        limited += expected > 0.0 && expected < query.enough ? 1 : 0;
       }
     }
   }
-  EXPECT_GT(cutShort, 300);
+  EXPECT_GT(limited, 300);
 }
 
-// Where a surface leaves the samples at a grazing angle, they stand ahead on one side of it alone.
-TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
+// Where a surface leaves the samples at a grazing angle, they are ahead on one side of it only.
+TEST(SampleExtent, IsTheSmallerOneOfBothSidesOfTheTangentPlane)
 {
   clouds::Cloud cloud;
   for (int x = -5; x <= 5; ++x)
@@ -118,7 +120,7 @@ TEST(SampleExtent, IsThatOfTheSideWhereSamplesStandLessFar)
   EXPECT_DOUBLE_EQ(extentTowards({ -1.0, 0.0, 0.0 }), 3.5);
 }
 
-TEST(SampleExtent, OfNoSamplesIsNone)
+TEST(SampleExtent, OfNoSamplesIsZero)
 {
   const Tree none;
   EXPECT_EQ(isopoint::SampleExtents(none).at(

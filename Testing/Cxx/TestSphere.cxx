@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The paper's sphere (section 9) in small, against the analytic surface.
+// The sphere of [RL06], section 9, with fewer samples, against the analytic surface.
 #include "Clouds.h"
 
 #include "Isopoint/Base/Interpolation.h"
@@ -14,7 +14,7 @@ namespace
 struct TableRow
 {
   double angle;
-  double deviation; // of 8 million samples, in the paper's Table 2
+  double deviation; // the largest one, for 8 million samples ([RL06], Table 2)
 };
 
 constexpr double radius = 70.0;
@@ -37,13 +37,13 @@ clouds::Cloud sphereCloud()
 double largestDeviation(const clouds::Cloud& cloud, const isopoint::Isosurface& surface)
 {
   double largest = 0.0;
-  for (const isopoint::IsopointEdge& point : surface.edges)
+  for (const isopoint::IsopointEdge& edge : surface.edges)
   {
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double coordinate = isopoint::interpolate(cloud.positions[3 * point.first + axis],
-        cloud.positions[3 * point.second + axis], point.parameter);
+      const double coordinate = isopoint::interpolate(cloud.positions[3 * edge.first + axis],
+        cloud.positions[3 * edge.second + axis], edge.parameter);
       squared += coordinate * coordinate;
     }
     largest = std::max(largest, std::abs(std::sqrt(squared) - radius));
@@ -53,8 +53,8 @@ double largestDeviation(const clouds::Cloud& cloud, const isopoint::Isosurface& 
 
 } // namespace
 
-// Deviation grows with the square of the samples' spacing.
-TEST(Sphere, DeviatesNoMoreThanThePaperSays)
+// Deviations are proportional to the square of the sample spacing.
+TEST(Sphere, DeviatesNoMoreThanInTheTableOfRL06)
 {
   const clouds::Cloud cloud = sphereCloud();
   const double coarser = std::pow(8e6 / static_cast<double>(sampleCount), 2.0 / 3.0);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fast halving against the definition, in orders that selection algorithms dislike.
+// The fast halving against the definition, in orders that are hard on selection algorithms.
 #include "Clouds.h"
 
 #include "Isopoint/Tree/Splitting.h"
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <functional>
+#include <optional>
 
 namespace
 {
@@ -63,9 +63,9 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
       EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
         sortedIds(begin + lower, end));
     };
-    isopoint::SelectionScratch<float> scratch;
+    isopoint::SelectionScratch<float> reused;
     std::vector<FloatSample> alone = samples;
-    check(alone, isopoint::halve(alone.data(), alone.size(), axis, scratch));
+    check(alone, isopoint::halve(alone.data(), alone.size(), axis, reused));
     std::vector<FloatSample> together = samples;
     check(together,
       isopoint::halveTogether(clouds::executionOn(3), together.data(), together.size(), axis));
@@ -97,17 +97,17 @@ TEST(Splitting, AnyOrder)
   }
 }
 
-TEST(Splitting, OnePositionIsNotSplit)
+TEST(Splitting, CoincidentSamplesAreNotSplit)
 {
   for (const std::size_t count : { 2, 500, 70000 })
   {
     std::vector<FloatSample> samples = samplesOf(count, [](std::size_t, int) { return 0.5; });
-    isopoint::SelectionScratch<float> scratch;
-    EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, scratch));
+    isopoint::SelectionScratch<float> reused;
+    EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, reused));
   }
 }
 
-TEST(Splitting, SignedZerosAreOnePosition)
+TEST(Splitting, SignedZerosCoincide)
 {
   std::vector<FloatSample> samples =
     samplesOf(2, [](std::size_t i, int) { return i == 0 ? 0.0 : -0.0; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What changes of the input do to the result, on random clouds in general position: coordinates are
-// multiples of 2^-20, so that moving and turning them is exact.
+// How transformations of the input change the result, on random clouds in general position.
+// Coordinates are multiples of 2^-20, so that translations and rotations are exact.
 #include "Clouds.h"
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
@@ -20,8 +20,8 @@ namespace
 using clouds::Cloud;
 using isopoint::IsopointEdge;
 
-// A power of two: at each split both halves are then of equal size. Of an odd number the lower half
-// gets one sample less, so that a mirrored cloud is parted elsewhere.
+// A power of two, so that both halves of each split are of equal size. Of an odd number the lower
+// half has one sample less, so that a reflected cloud would be split elsewhere.
 constexpr std::size_t sampleCount = 2048;
 
 Cloud dyadicCloud(std::uint64_t seed)
@@ -35,7 +35,7 @@ Cloud dyadicCloud(std::uint64_t seed)
     {
       coordinate = std::floor(0x1p20 * random()) * 0x1p-20;
     }
-    // Boxes of three different sides, so that none is as long as another.
+    // Three different sides of the bounding box, so that the longest one is unique.
     cloud.add(p[0], 0.875 * p[1], 0.75 * p[2], clouds::waves(p[0], p[1], p[2]));
   }
   return cloud;
@@ -50,7 +50,7 @@ Cloud moved(Cloud cloud, const std::function<void(double*)>& move)
   return cloud;
 }
 
-std::vector<IsopointEdge> pointsOf(const Cloud& cloud, double isovalue = 0.3)
+std::vector<IsopointEdge> edgesOf(const Cloud& cloud, double isovalue = 0.3)
 {
   return clouds::extract(cloud, isovalue, isopoint::defaultAngle).edges;
 }
@@ -77,13 +77,13 @@ TEST(Symmetries, Translation)
     const Cloud cloud = dyadicCloud(seed);
     for (const double shift : { 1.0, -3.0, 1024.0, 0x1p30 })
     {
-      expectSame(pointsOf(cloud), pointsOf(moved(cloud,
-                                    [shift](double* p)
-                                    {
-                                      p[0] += shift;
-                                      p[1] -= 2.0 * shift;
-                                      p[2] += 0.5 * shift;
-                                    })));
+      expectSame(edgesOf(cloud), edgesOf(moved(cloud,
+                                   [shift](double* p)
+                                   {
+                                     p[0] += shift;
+                                     p[1] -= 2.0 * shift;
+                                     p[2] += 0.5 * shift;
+                                   })));
     }
   }
 }
@@ -107,9 +107,9 @@ TEST(Symmetries, RotationByNinetyDegreesAndReflection)
       for (int turn = 0; turn < 4; ++turn)
       {
         turned = moved(turned, quarterTurn(axis));
-        expectSame(pointsOf(cloud), pointsOf(turned));
+        expectSame(edgesOf(cloud), edgesOf(turned));
       }
-      expectSame(pointsOf(cloud), pointsOf(moved(cloud, [axis](double* p) { p[axis] *= -1.0; })));
+      expectSame(edgesOf(cloud), edgesOf(moved(cloud, [axis](double* p) { p[axis] *= -1.0; })));
     }
   }
 }
@@ -123,11 +123,11 @@ TEST(Symmetries, ScalingByPowersOfTwo)
     {
       const auto scaling = [scale](double* p)
       { std::transform(p, p + 3, p, [scale](double c) { return scale * c; }); };
-      expectSame(pointsOf(cloud), pointsOf(moved(cloud, scaling)));
+      expectSame(edgesOf(cloud), edgesOf(moved(cloud, scaling)));
       Cloud steeper = cloud;
       std::transform(steeper.values.begin(), steeper.values.end(), steeper.values.begin(),
         [scale](double value) { return scale * value; });
-      expectSame(pointsOf(cloud), pointsOf(steeper, scale * 0.3));
+      expectSame(edgesOf(cloud), edgesOf(steeper, scale * 0.3));
     }
   }
 }
@@ -140,11 +140,11 @@ TEST(Symmetries, NegationOfFieldAndIsovalue)
     Cloud negated = cloud;
     std::transform(
       negated.values.begin(), negated.values.end(), negated.values.begin(), std::negate<double>());
-    expectSame(pointsOf(cloud), pointsOf(negated, -0.3));
+    expectSame(edgesOf(cloud), edgesOf(negated, -0.3));
   }
 }
 
-// The edges stay; where along them a point lies is computed from the other end.
+// Edges stay; parameters are computed from the other end where the lower id is now there.
 TEST(Symmetries, PermutationOfIds)
 {
   for (const std::uint64_t seed : seeds)
@@ -164,19 +164,20 @@ TEST(Symmetries, PermutationOfIds)
       permuted.add(p[0], p[1], p[2], cloud.values[id]);
     }
     std::map<std::pair<std::uint64_t, std::uint64_t>, double> expected;
-    for (const IsopointEdge& point : pointsOf(cloud))
+    for (const IsopointEdge& edge : edgesOf(cloud))
     {
-      expected[{ point.first, point.second }] = point.parameter;
+      expected[{ edge.first, edge.second }] = edge.parameter;
     }
-    const std::vector<IsopointEdge> found = pointsOf(permuted);
+    const std::vector<IsopointEdge> found = edgesOf(permuted);
+    ASSERT_GT(found.size(), 200u);
     ASSERT_EQ(found.size(), expected.size());
-    for (const IsopointEdge& point : found)
+    for (const IsopointEdge& edge : found)
     {
-      const std::uint64_t first = order[point.first];
-      const std::uint64_t second = order[point.second];
-      const auto edge = expected.find(std::minmax(first, second));
-      ASSERT_TRUE(edge != expected.end());
-      ASSERT_NEAR(first < second ? point.parameter : 1.0 - point.parameter, edge->second, 1e-12);
+      const std::uint64_t first = order[edge.first];
+      const std::uint64_t second = order[edge.second];
+      const auto same = expected.find(std::minmax(first, second));
+      ASSERT_TRUE(same != expected.end());
+      ASSERT_NEAR(first < second ? edge.parameter : 1.0 - edge.parameter, same->second, 1e-12);
     }
   }
 }

@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thinning: against the definition, and on sheets and creases of known shape.
-#include "Clouds.h"
-
-#include "Isopoint/Neighbors/AngleCriterion.h"
-#include "Isopoint/Extraction/Thinning.h"
-
-#include <gtest/gtest.h>
+// Thinning against the definition (docs/algorithm.md, section 11); threads and aborts.
+#include "ThinningTesting.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <set>
+
+using namespace thinningtesting;
 
 namespace
 {
 
-using isopoint::FitOrder;
-using isopoint::FitRequest;
-using isopoint::Isosurface;
-using isopoint::LocalFit;
-using isopoint::Vector;
+const double minimumSpacings[] = { 1.0, 0.5, 0.1, 1e-3 };
 
-const double spacings[] = { 1.0, 0.5, 0.1, 1e-3 };
-
-/// The definition, as plainly as can be.
+/// Whether two points are close (docs/algorithm.md, section 11).
 bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
 {
   const double reach = minimumSpacing * std::min(a.spacing, b.spacing);
@@ -56,24 +46,19 @@ std::vector<std::size_t> keptByDefinition(const std::vector<LocalFit>& fits, dou
   return kept;
 }
 
-Isosurface thinned(Isosurface surface, double minimumSpacing)
-{
-  isopoint::thin(isopoint::Execution(), minimumSpacing, surface);
-  return surface;
-}
-
-/// Compares bytes, for numbers that are not a number.
+/// Compares bytes, so that NaN equals itself.
 template <class T>
 bool isSame(const T& a, const T& b)
 {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// @returns the share of points that the thinning at half a spacing keeps
+/// @returns the share of points that thinning with the minimum spacing 0.5 keeps
 double expectTheDefinition(const Isosurface& surface)
 {
   double share = 1.0;
-  for (const double minimumSpacing : spacings)
+  EXPECT_FALSE(surface.edges.empty());
+  for (const double minimumSpacing : minimumSpacings)
   {
     SCOPED_TRACE(testing::Message() << "minimum spacing " << minimumSpacing);
     const std::vector<std::size_t> expected = keptByDefinition(surface.fits, minimumSpacing);
@@ -93,7 +78,7 @@ double expectTheDefinition(const Isosurface& surface)
         return share;
       }
     }
-    if (minimumSpacing == 0.5 && !surface.edges.empty())
+    if (minimumSpacing == 0.5)
     {
       share = static_cast<double>(found.edges.size()) / static_cast<double>(surface.edges.size());
     }
@@ -101,31 +86,8 @@ double expectTheDefinition(const Isosurface& surface)
   return share;
 }
 
-Isosurface extracted(const clouds::Cloud& cloud, double isovalue, FitOrder order = FitOrder::Cubic,
-  std::size_t threads = 1, bool move = true)
-{
-  const isopoint::Execution execution = clouds::executionOn(threads);
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
-  return clouds::extractFrom(extractor, 
-    execution, isovalue, isopoint::defaultAngle, 0.0, FitRequest{ order, move });
-}
-
-/// A surface of any fits.
-Isosurface surfaceOf(std::vector<LocalFit> fits)
-{
-  Isosurface surface;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-  {
-    surface.edges.push_back({ i, i + 1, 0.5 });
-    surface.positions.push_back(fits[i].position);
-    surface.decreasingEdges.push_back({ 0.0, 0.0, 1.0 });
-  }
-  surface.fits = std::move(fits);
-  return surface;
-}
-
-/// Points in a cube, with gradients mostly along one axis and spacings that vary by a factor.
+/// Points in a flat box, with gradients mostly along its short axis and sample spacings that vary
+/// by a factor.
 std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, std::uint64_t seed)
 {
   clouds::Random random(seed);
@@ -144,39 +106,9 @@ std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, 
   return fits;
 }
 
-clouds::Cloud sampled(std::size_t count, const std::function<double(double, double, double)>& value)
-{
-  clouds::Cloud cloud = clouds::uniform(count, 61);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    cloud.values[i] = value(p[0], p[1], p[2]);
-  }
-  return cloud;
-}
-
-/// Each point that was dropped has one of its own sheet that was kept within its reach.
-/// @param sheetOf tells sheets apart by their places
-void expectThinnedBySheets(const Isosurface& surface, double minimumSpacing,
-  const std::function<int(const Vector&)>& sheetOf)
-{
-  const Isosurface kept = thinned(surface, minimumSpacing);
-  EXPECT_LT(kept.edges.size(), surface.edges.size());
-  for (const LocalFit& fit : surface.fits)
-  {
-    ASSERT_TRUE(std::any_of(kept.fits.begin(), kept.fits.end(),
-      [&](const LocalFit& other)
-      {
-        return sheetOf(other.position) == sheetOf(fit.position) &&
-               isopoint::lengthOf(isopoint::difference(other.position, fit.position)) <
-                 minimumSpacing * fit.spacing;
-      }));
-  }
-}
-
 } // namespace
 
-TEST(Thinning, IsThatOfTheDefinition)
+TEST(Thinning, FollowsTheDefinition)
 {
   constexpr std::size_t count = 2000;
   for (const FitOrder order : { FitOrder::Linear, FitOrder::Cubic, FitOrder::Crease })
@@ -189,10 +121,10 @@ TEST(Thinning, IsThatOfTheDefinition)
     expectTheDefinition(extracted(clouds::flattened(clouds::uniform(count, 66), 2), 0.4, order));
   }
   expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, 1, false));
-  expectTheDefinition(extracted(clouds::uniform(count, 67), 9.0));
+  EXPECT_TRUE(thinned(extracted(clouds::uniform(count, 67), 9.0), 1.0).edges.empty());
 }
 
-TEST(Thinning, IsThatOfTheDefinitionForAnySpacings)
+TEST(Thinning, FollowsTheDefinitionForAnySpacings)
 {
   for (const double factor : { 1.0, 1e3, 1e12 })
   {
@@ -200,7 +132,7 @@ TEST(Thinning, IsThatOfTheDefinitionForAnySpacings)
   }
 }
 
-TEST(Thinning, IsThatOfTheDefinitionAtAnyScale)
+TEST(Thinning, FollowsTheDefinitionAtAnyScale)
 {
   for (const double side : { 1e-320, 1e-300, 1e-100, 1e100, 1e289, 1e292, 1e308 })
   {
@@ -209,8 +141,8 @@ TEST(Thinning, IsThatOfTheDefinitionAtAnyScale)
   }
 }
 
-// Coordinates have few digits left for what lies between the points.
-TEST(Thinning, IsThatOfTheDefinitionFarOffTheOrigin)
+// Few significant bits of the coordinates differ between points.
+TEST(Thinning, FollowsTheDefinitionFarFromTheOrigin)
 {
   for (const double side : { 1.0, 1e-6, 1e-10, 1e-15, 1e-18, 1e-300 })
   {
@@ -227,8 +159,8 @@ TEST(Thinning, IsThatOfTheDefinitionFarOffTheOrigin)
   }
 }
 
-// Distances that are exactly the reach, at the borders of any grid.
-TEST(Thinning, IsThatOfTheDefinitionOnALattice)
+// Distances that equal the reach, and positions on the borders of any grid's cells.
+TEST(Thinning, FollowsTheDefinitionOnALattice)
 {
   std::vector<LocalFit> fits;
   for (int i = 0; i < 2000; ++i)
@@ -243,7 +175,7 @@ TEST(Thinning, IsThatOfTheDefinitionOnALattice)
   EXPECT_LT(expectTheDefinition(surfaceOf(fits)), 0.9);
 }
 
-TEST(Thinning, PointsThatTellOfNoSheetAreLeftAlone)
+TEST(Thinning, PointsWithoutATangentPlaneAreKept)
 {
   LocalFit usable{};
   usable.gradient = { 1.0, 0.0, 0.0 };
@@ -280,7 +212,7 @@ TEST(Thinning, PointsThatTellOfNoSheetAreLeftAlone)
   expectKept(fit);
 }
 
-TEST(Thinning, NothingGoesAtZeroOrWithoutFits)
+TEST(Thinning, DropsNothingAtZeroOrWithoutFits)
 {
   Isosurface surface = surfaceOf(randomFits(1000, 1.0, 10.0, 71));
   EXPECT_EQ(thinned(surface, 0.0).edges.size(), 1000u);
@@ -288,7 +220,7 @@ TEST(Thinning, NothingGoesAtZeroOrWithoutFits)
   EXPECT_EQ(thinned(surface, 1.0).edges.size(), 1000u);
 }
 
-TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
+TEST(Thinning, KeepsTheCoincidentSamplesAtTheEndsOfEdges)
 {
   const clouds::Cloud cloud = clouds::coarse(4000, 12, 72);
   clouds::Cloud smooth = cloud;
@@ -300,9 +232,9 @@ TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
   const Isosurface few = thinned(surface, 1.0);
   ASSERT_LT(few.edges.size(), surface.edges.size());
   std::set<std::uint64_t> ends;
-  for (const isopoint::IsopointEdge& point : few.edges)
+  for (const isopoint::IsopointEdge& edge : few.edges)
   {
-    ends.insert({ point.first, point.second });
+    ends.insert({ edge.first, edge.second });
   }
   std::vector<std::vector<std::uint64_t>> expected;
   for (const isopoint::CoincidentSamples& group : surface.coincident)
@@ -312,91 +244,12 @@ TEST(Thinning, KeepsTheMergedSamplesThatPointsEndAt)
       expected.push_back(group.ids);
     }
   }
+  ASSERT_FALSE(expected.empty());
   ASSERT_LT(expected.size(), surface.coincident.size());
   ASSERT_EQ(few.coincident.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
     EXPECT_EQ(few.coincident[i].ids, expected[i]);
-  }
-}
-
-// Sheets a third, or a tenth, of the samples' mean spacing apart.
-TEST(Thinning, SheetsCloseByDoNotThinEachOther)
-{
-  constexpr std::size_t count = 20000;
-  const double meanSpacing = 1.0 / std::cbrt(static_cast<double>(count));
-  for (const double gap : { 0.33 * meanSpacing, 0.1 * meanSpacing })
-  {
-    const Isosurface two =
-      extracted(sampled(count, [](double, double, double z) { return (z - 0.5) * (z - 0.5); }),
-        0.25 * gap * gap);
-    const auto half = [](const Vector& p) { return p[2] < 0.5 ? 0 : 1; };
-    EXPECT_GT(two.edges.size(), 100u);
-    for (const double minimumSpacing : { 1.0, 0.5 })
-    {
-      expectThinnedBySheets(two, minimumSpacing, half);
-    }
-  }
-}
-
-// The outer ones have equal gradients.
-TEST(Thinning, ThreeSheetsCloseByDoNotThinEachOther)
-{
-  constexpr double gap = 0.2;
-  clouds::Random random(75);
-  std::vector<LocalFit> fits(3000);
-  for (std::size_t i = 0; i < fits.size(); ++i)
-  {
-    const double sheet = static_cast<double>(i % 3);
-    const double x = 10.0 * random();
-    fits[i].position = { x, 10.0 * random(), gap * (sheet + 0.2 * random()) };
-    fits[i].gradient = { 0.0, 0.0, i % 3 == 1 ? -1.0 : 1.0 };
-    fits[i].spacing = 1.0;
-    fits[i].order = FitOrder::Cubic;
-  }
-  const auto third = [](const Vector& p) { return static_cast<int>(p[2] / gap); };
-  for (const double minimumSpacing : { 1.0, 0.5 })
-  {
-    expectThinnedBySheets(surfaceOf(fits), minimumSpacing, third);
-  }
-}
-
-// A roof whose sides meet at an angle of 140 degrees.
-TEST(Thinning, SidesOfACreaseDoNotThinEachOther)
-{
-  const double slope = std::tan(20.0 * 3.14159265358979323846 / 180.0);
-  const Isosurface roof = extracted(sampled(20000, [slope](double x, double, double z)
-                                      { return z - 0.5 + slope * std::abs(x - 0.5); }),
-    0.0, FitOrder::Crease);
-  Isosurface sides = roof;
-  sides.edges.clear();
-  sides.positions.clear();
-  sides.decreasingEdges.clear();
-  sides.fits.clear();
-  for (std::size_t i = 0; i < roof.edges.size(); ++i)
-  {
-    if (roof.fits[i].order != std::nullopt)
-    {
-      sides.edges.push_back(roof.edges[i]);
-      sides.positions.push_back(roof.positions[i]);
-      sides.decreasingEdges.push_back(roof.decreasingEdges[i]);
-      sides.fits.push_back(roof.fits[i]);
-    }
-  }
-  const Isosurface kept = thinned(sides, 1.0);
-  EXPECT_LT(kept.edges.size(), sides.edges.size() / 2);
-  const auto facesTo = [](const LocalFit& fit) { return fit.gradient[0] < 0.0; };
-  for (const LocalFit& fit : sides.fits)
-  {
-    if (std::abs(fit.gradient[0]) > 0.3 * isopoint::lengthOf(fit.gradient))
-    {
-      EXPECT_TRUE(std::any_of(kept.fits.begin(), kept.fits.end(),
-        [&](const LocalFit& other)
-        {
-          return facesTo(other) == facesTo(fit) && isopoint::lengthOf(isopoint::difference(
-                                                     other.position, fit.position)) <= fit.spacing;
-        }));
-    }
   }
 }
 
@@ -421,13 +274,13 @@ TEST(Thinning, IsTheSameForAnyNumberOfThreads)
 TEST(Thinning, AnAbortLeavesTheSurfaceAsItWas)
 {
   const Isosurface all = surfaceOf(randomFits(20000, 1.0, 10.0, 74));
-  for (int patience = 0; patience < 2; ++patience)
+  for (int abortAt = 0; abortAt < 2; ++abortAt)
   {
     Isosurface surface = all;
-    isopoint::Execution impatient;
-    int asked = 0;
-    impatient.aborted = [&]() { return asked++ >= patience; };
-    EXPECT_THROW(isopoint::thin(impatient, 0.5, surface), isopoint::Aborted);
+    isopoint::Execution aborting;
+    int queries = 0;
+    aborting.aborted = [&]() { return queries++ >= abortAt; };
+    EXPECT_THROW(isopoint::thin(aborting, 0.5, surface), isopoint::Aborted);
     EXPECT_EQ(surface.edges.size(), all.edges.size());
     EXPECT_EQ(surface.fits.size(), all.fits.size());
   }

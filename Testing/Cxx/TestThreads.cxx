@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads of the filter's own: what memory or the system do not grant is done by the others, and an
-// exception leaves no thread behind.
+// The filter's own threads: where one cannot be started the others do its work, and no thread
+// outlives an exception.
 #include "FailingAllocator.h"
 #include "vtkIsopointExecution.h"
 
@@ -19,8 +19,8 @@ constexpr std::size_t threads = 4;
 constexpr std::size_t count = 1003;
 constexpr std::size_t grain = 10;
 
-/// How often each item is worked on while the n-th allocation of any size fails. More threads than
-/// elsewhere, since the system keeps the memory of those that ended for later ones.
+/// Counts how often each item is processed while the n-th allocation of any size fails. More
+/// threads than in other tests, since the system reuses the memory of threads that ended.
 /// @returns the number of allocations
 long countVisits(std::vector<std::atomic<int>>& visits, long n, bool andAllLater)
 {
@@ -38,7 +38,7 @@ long countVisits(std::vector<std::atomic<int>>& visits, long n, bool andAllLater
 
 } // namespace
 
-TEST(Threads, EachItemIsDoneOnce)
+TEST(Threads, EachItemIsProcessedOnce)
 {
   for (const std::size_t items : { 0u, 1u, 10u, 11u, 1003u })
   {
@@ -58,7 +58,7 @@ TEST(Threads, EachItemIsDoneOnce)
   }
 }
 
-TEST(Threads, WhereMemoryLacksForAThreadTheOthersDoTheWork)
+TEST(Threads, IfMemoryForAThreadIsLackingTheOthersDoTheWork)
 {
   for (const bool andAllLater : { false, true })
   {
@@ -75,11 +75,11 @@ TEST(Threads, WhereMemoryLacksForAThreadTheOthersDoTheWork)
         ASSERT_EQ(visit, 1);
       }
     }
-    EXPECT_GT(n, static_cast<long>(2 * threads)); // their list, and one for each but the first
+    EXPECT_GT(n, static_cast<long>(2 * threads)); // the list of threads, and each but the first
   }
 }
 
-TEST(Threads, AnExceptionInTheCallingThreadPassesOnceTheOthersHaveEnded)
+TEST(Threads, AnExceptionInTheCallingThreadIsThrownAfterTheOthersHaveEnded)
 {
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> thrown{ false };

@@ -9,8 +9,8 @@ using namespace inputtesting;
 namespace
 {
 
-/// Two levels: a coarse box and a fine one over its lower half along x. Values are the samples'
-/// positions' field, so that cells of both levels lie on one surface.
+/// Two levels: a coarse box and a fine one over its lower half along x. The values of both are
+/// those of one field.
 vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
 {
   auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
@@ -48,7 +48,7 @@ vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
 
 } // namespace
 
-TEST(Trees, OverlappingAmrCountsEachPlaceOnce)
+TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
 {
   const auto amr = newOverlapping();
   Samples cells;
@@ -117,7 +117,8 @@ TEST(Trees, NonOverlappingAmr)
 namespace
 {
 
-/// Trees of one to three levels; coarse nodes have values far off, which must not count.
+/// Hyper trees of one to three levels. Nodes that are not leaves have values out of the field's
+/// range, which must not be used.
 vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhosts)
 {
   auto trees = vtkSmartPointer<vtkHyperTreeGrid>::New();
@@ -204,7 +205,8 @@ TEST(Trees, LeavesOfHyperTrees)
     expected->Update();
     const auto filter = newFilter(trees, vtkDataObject::FIELD_ASSOCIATION_CELLS);
     filter->Update();
-    // Ids differ, and with them the order of the points, where coarse nodes stand between leaves.
+    // Nodes that are not leaves take ids, too, so that ids and with them the order of points
+    // differ.
     const auto sorted = [](vtkPolyData* output)
     {
       std::vector<std::array<double, 3>> points(
@@ -214,7 +216,7 @@ TEST(Trees, LeavesOfHyperTrees)
         output->GetPoint(static_cast<vtkIdType>(i), points[i].data());
         for (double& coordinate : points[i])
         {
-          coordinate = 1e-10 * std::round(1e10 * coordinate); // sums of fits are in the ids' order
+          coordinate = 1e-10 * std::round(1e10 * coordinate); // fits sum samples in order of ids
         }
       }
       std::sort(points.begin(), points.end());

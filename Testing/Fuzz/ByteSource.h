@@ -9,8 +9,8 @@
 #include <cstring>
 #include <limits>
 
-/// Reads decisions and numbers off a fuzzer's bytes; once these are used up, off random ones that
-/// they are the seed of, so that a few bytes make a whole cloud.
+/// Reads decisions and numbers from a fuzzer's bytes; once these are used up, from random ones with
+/// these as the seed, so that a few bytes yield a whole cloud.
 class ByteSource
 {
 public:
@@ -32,12 +32,12 @@ public:
     return *this->Data++;
   }
 
-  /// A whole number below the limit, at most 256.
+  /// A whole number from 0 to limit - 1. @param limit at most 256
   int below(int limit) { return this->byte() % limit; }
 
   bool flag() { return this->below(2) == 1; }
 
-  /// Any bits.
+  /// A value of any bits.
   template <class T>
   T raw()
   {
@@ -48,8 +48,8 @@ public:
     return value;
   }
 
-  /// A number of the kind that a whole cloud is made of: small and whole (so that many are equal),
-  /// of 16 bits, special, or any bits.
+  /// A number of one kind, 0 to 3: small and whole (so that many are equal), of 16 bits, special,
+  /// or of any bits.
   double number(int kind)
   {
     static const std::array<double, 16> special{ 0.0, -0.0, 1.0, -1.0, 0.5, 1e-3, 1e9, 1e9 + 1e-3,

@@ -24,7 +24,7 @@ using clouds::Cloud;
 template <class T>
 double asHeld(double number)
 {
-  // Beyond a narrower type's range lies infinity, as where a file is read.
+  // Numbers beyond the range of a narrower type become infinite, as in readers of files.
   return std::abs(number) > static_cast<double>(std::numeric_limits<T>::max())
            ? std::copysign(std::numeric_limits<double>::infinity(), number)
            : static_cast<double>(static_cast<T>(number));
@@ -48,8 +48,8 @@ Cloud readCloud(ByteSource& bytes, std::size_t count)
   return cloud;
 }
 
-/// The finite samples alone, and which ids they have among all.
-std::vector<std::uint64_t> dropOthers(const Cloud& all, Cloud& finite)
+/// Copies the finite samples alone. @returns their ids among all
+std::vector<std::uint64_t> copyFinite(const Cloud& all, Cloud& finite)
 {
   std::vector<std::uint64_t> ids;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -69,21 +69,21 @@ void compare(
   const Cloud& all, double isovalue, double angle, const std::vector<isopoint::IsopointEdge>& found)
 {
   Cloud finite;
-  const std::vector<std::uint64_t> ids = dropOthers(all, finite);
-  const std::vector<bruteforce::Point> expected = bruteforce::extract(finite, isovalue, angle);
+  const std::vector<std::uint64_t> ids = copyFinite(all, finite);
+  const std::vector<bruteforce::Isopoint> expected = bruteforce::extract(finite, isovalue, angle);
   if (expected.size() != found.size())
   {
-    fail("number of points");
+    fail("the number of isopoints");
   }
   for (std::size_t i = 0; i < found.size(); ++i)
   {
     if (ids[expected[i].first] != found[i].first || ids[expected[i].second] != found[i].second)
     {
-      fail("edges");
+      fail("an edge");
     }
     if (std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)) != 0)
     {
-      fail("parameters");
+      fail("a parameter");
     }
   }
 }
@@ -105,7 +105,8 @@ void run(ByteSource& bytes)
     {
       isovalue = cloud.values[static_cast<std::size_t>(bytes.below(100)) % count];
     }
-    compare(cloud, isovalue, angle, clouds::extractFrom(extractor, execution, isovalue, angle).edges);
+    compare(
+      cloud, isovalue, angle, clouds::extractFrom(extractor, execution, isovalue, angle).edges);
     if (bytes.flag())
     {
       // New values at the same positions, some of them perhaps not finite.

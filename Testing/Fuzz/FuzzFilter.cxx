@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Data objects made of a fuzzer's bytes: the filter must give the points of brute force on the
-// samples that they stand for, or one error and an empty output.
+// Data objects made of a fuzzer's bytes: the filter must yield the isopoints that brute force finds
+// among the samples that they represent, or one error and an empty output.
 #include "ByteSource.h"
+#include "FuzzInput.h"
 
 #include "../Cxx/BruteForce.h"
 #include "../Cxx/Clouds.h"
@@ -9,28 +10,21 @@
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
+#include "vtkDataSet.h"
 #include "vtkIdList.h"
-#include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
-#include "vtkObject.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkScatteredIsopointFilter.h"
 #include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 namespace
 {
@@ -51,161 +45,6 @@ public:
   int Count = 0;
 };
 
-/// A number that an array of this type holds exactly.
-double fitting(double number, int type)
-{
-  if (type == VTK_DOUBLE)
-  {
-    return number;
-  }
-  if (type == VTK_FLOAT)
-  {
-    return std::abs(number) > static_cast<double>(std::numeric_limits<float>::max())
-             ? std::copysign(std::numeric_limits<double>::infinity(), number)
-             : static_cast<double>(static_cast<float>(number));
-  }
-  // An integer of any type, signed or not.
-  return std::isfinite(number) ? std::fmod(std::floor(std::abs(number)), 120.0) : 7.0;
-}
-
-vtkSmartPointer<vtkDataArray> newArray(
-  ByteSource& bytes, const char* name, vtkIdType tuples, int type)
-{
-  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  array->SetName(name);
-  array->SetNumberOfTuples(tuples);
-  const int kind = bytes.below(4);
-  for (vtkIdType i = 0; i < tuples; ++i)
-  {
-    array->SetComponent(i, 0, fitting(bytes.number(kind), type));
-  }
-  return array;
-}
-
-int scalarType(ByteSource& bytes)
-{
-  const int types[8] = { VTK_DOUBLE, VTK_FLOAT, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_INT,
-    VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG };
-  return types[bytes.below(8)];
-}
-
-void addArrays(ByteSource& bytes, vtkDataSetAttributes* attributes, vtkIdType count)
-{
-  if (bytes.below(8) != 0)
-  {
-    attributes->AddArray(newArray(bytes, "f", count, scalarType(bytes)));
-  }
-  if (bytes.below(4) == 0)
-  {
-    attributes->AddArray(newArray(bytes, "other", count, scalarType(bytes)));
-  }
-  if (bytes.below(8) == 0)
-  {
-    attributes->AddArray(newArray(bytes, "short", count / 2, VTK_DOUBLE));
-  }
-  if (bytes.below(8) == 0)
-  {
-    vtkNew<vtkStringArray> names;
-    names->SetName("names");
-    names->SetNumberOfValues(count);
-    attributes->AddArray(names);
-  }
-  if (bytes.below(3) == 0)
-  {
-    vtkNew<vtkUnsignedCharArray> ghosts;
-    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghosts->SetNumberOfValues(count);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      ghosts->SetValue(i, bytes.below(3) == 0 ? bytes.byte() : 0);
-    }
-    attributes->AddArray(ghosts);
-  }
-}
-
-vtkSmartPointer<vtkPoints> newPoints(ByteSource& bytes, vtkIdType count)
-{
-  const int type = bytes.flag() ? VTK_FLOAT : VTK_DOUBLE;
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(type);
-  points->SetNumberOfPoints(count);
-  const int kind = bytes.below(4);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      points->GetData()->SetComponent(i, axis, fitting(bytes.number(kind), type));
-    }
-  }
-  return points;
-}
-
-vtkSmartPointer<vtkDataSet> newDataSet(ByteSource& bytes)
-{
-  vtkSmartPointer<vtkDataSet> result;
-  switch (bytes.below(4))
-  {
-    case 0:
-    {
-      vtkNew<vtkPolyData> cloud;
-      cloud->SetPoints(newPoints(bytes, bytes.below(40)));
-      result = cloud;
-      break;
-    }
-    case 1:
-    {
-      vtkNew<vtkImageData> image;
-      const int x = bytes.below(4);
-      const int y = bytes.below(4);
-      const int z = bytes.below(4);
-      image->SetDimensions(x, y, z);
-      image->SetOrigin(bytes.below(4), bytes.below(4), bytes.below(4));
-      image->SetSpacing(1.0 + bytes.below(2), 1.0, 0.5);
-      result = image;
-      break;
-    }
-    case 2:
-    {
-      vtkNew<vtkRectilinearGrid> grid;
-      int dimensions[3];
-      vtkNew<vtkDoubleArray> coordinates[3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        dimensions[axis] = 1 + bytes.below(4);
-        double coordinate = bytes.below(8);
-        for (int i = 0; i < dimensions[axis]; ++i)
-        {
-          coordinates[axis]->InsertNextValue(coordinate);
-          coordinate += 0.25 * bytes.below(16);
-        }
-      }
-      grid->SetDimensions(dimensions);
-      grid->SetXCoordinates(coordinates[0]);
-      grid->SetYCoordinates(coordinates[1]);
-      grid->SetZCoordinates(coordinates[2]);
-      result = grid;
-      break;
-    }
-    default:
-    {
-      vtkNew<vtkUnstructuredGrid> grid;
-      const int count = 1 + bytes.below(30);
-      grid->SetPoints(newPoints(bytes, count));
-      const int cells = bytes.below(20);
-      for (int cell = 0; cell < cells; ++cell)
-      {
-        // Vertices alone: how the centres of others are rounded is not defined.
-        const vtkIdType corner = bytes.below(count);
-        grid->InsertNextCell(VTK_VERTEX, 1, &corner);
-      }
-      result = grid;
-    }
-  }
-  addArrays(bytes, result->GetPointData(), result->GetNumberOfPoints());
-  addArrays(bytes, result->GetCellData(), result->GetNumberOfCells());
-  return result;
-}
-
 int ghostAt(vtkDataSetAttributes* attributes, vtkIdType i)
 {
   vtkDataArray* const ghosts = attributes->GetArray(vtkDataSetAttributes::GhostArrayName());
@@ -214,7 +53,7 @@ int ghostAt(vtkDataSetAttributes* attributes, vtkIdType i)
 
 constexpr int invisibleCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
 
-/// By the filter's documentation, a point at a time.
+/// As the filter's documentation defines it, for one point.
 bool isPointLeftOut(vtkDataSet* input, vtkIdType point)
 {
   if ((ghostAt(input->GetPointData(), point) &
@@ -259,7 +98,7 @@ bool isCellLeftOut(vtkDataSet* input, vtkIdType cell)
   return false;
 }
 
-/// What a data set's samples are, and how many of its points or cells are none.
+/// The samples of data sets, and the number of points or cells that are none.
 struct Expectation
 {
   Cloud samples;
@@ -312,43 +151,16 @@ struct Expectation
   }
 };
 
-vtkSmartPointer<vtkDataObject> newInput(
-  ByteSource& bytes, std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
-{
-  const int kind = bytes.below(4);
-  if (kind <= 1)
-  {
-    leaves.push_back(newDataSet(bytes));
-    return leaves.back();
-  }
-  const int blocks = bytes.below(4);
-  vtkNew<vtkMultiBlockDataSet> multi;
-  vtkNew<vtkPartitionedDataSetCollection> collection;
-  for (int block = 0; block < blocks; ++block)
-  {
-    if (bytes.below(6) == 0)
-    {
-      multi->SetNumberOfBlocks(static_cast<unsigned int>(block) + 1);
-      continue;
-    }
-    leaves.push_back(newDataSet(bytes));
-    multi->SetBlock(static_cast<unsigned int>(block), leaves.back());
-    collection->SetPartition(static_cast<unsigned int>(block), 0, leaves.back());
-  }
-  return kind == 2 ? vtkSmartPointer<vtkDataObject>(multi)
-                   : vtkSmartPointer<vtkDataObject>(collection);
-}
-
 void checkPoints(
   vtkScatteredIsopointFilter* filter, vtkPolyData* output, const Cloud& samples, double isovalue)
 {
   const double angle = filter->GetAngle();
   const bool isProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
-  const std::vector<bruteforce::Point> expected = bruteforce::extract(samples, isovalue, angle);
+  const std::vector<bruteforce::Isopoint> expected = bruteforce::extract(samples, isovalue, angle);
   if (output->GetNumberOfPoints() != static_cast<vtkIdType>(expected.size()) ||
       output->GetNumberOfCells() != output->GetNumberOfPoints())
   {
-    fail("number of points");
+    fail("the number of isopoints");
   }
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
@@ -369,7 +181,7 @@ void checkPoints(
   }
 }
 
-/// The thinned points are some of all, in their order.
+/// Thinned points are a subset of all, in the same order.
 void checkThinned(vtkPolyData* all, vtkPolyData* thinned)
 {
   vtkIdType next = 0;
@@ -392,7 +204,7 @@ void checkThinned(vtkPolyData* all, vtkPolyData* thinned)
   }
 }
 
-/// Updates the filter again, with thinning.
+/// Updates the filter again, with thinning, and compares with its former output.
 void checkThinning(double minimumSpacing, vtkScatteredIsopointFilter* filter)
 {
   vtkDataObject* const output = filter->GetOutputDataObject(0);
@@ -416,27 +228,27 @@ void checkThinning(double minimumSpacing, vtkScatteredIsopointFilter* filter)
   }
 }
 
-/// Compares the filter's output with what brute force finds in the input's leaves.
-void check(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* input,
+/// Compares the filter's output with the isopoints that brute force finds in the input's data sets.
+void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObject* input,
   bool ofCells, int errorCount, vtkScatteredIsopointFilter* filter)
 {
   const double isovalue = filter->GetValue(0);
   Expectation expected;
-  for (vtkDataSet* const leaf : leaves)
+  for (vtkDataSet* const dataSet : dataSets)
   {
-    expected.add(leaf, ofCells);
+    expected.add(dataSet, ofCells);
   }
   const bool isUsable = expected.hasArray && !std::isnan(isovalue);
   if (errorCount != (isUsable ? 0 : 1))
   {
-    fail("number of errors");
+    fail("the number of errors");
   }
   if (auto* const output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)))
   {
     checkPoints(filter, output, isUsable ? expected.samples : Cloud(), isovalue);
     if (isUsable && filter->GetNumberOfSkippedSamples() != expected.skipped)
     {
-      fail("skipped samples");
+      fail("the number of skipped samples");
     }
     return;
   }
@@ -444,7 +256,7 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject
   auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
   if (!blocks || !composite)
   {
-    fail("type of the output");
+    fail("the type of the output");
   }
   if (!isUsable)
   {
@@ -458,7 +270,7 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject
     auto* const output = vtkPolyData::SafeDownCast(blocks->GetDataSet(iterator));
     if ((output != nullptr) != alone.hasArray)
     {
-      fail("structure of the blocks");
+      fail("the structure of the blocks");
     }
     if (output)
     {
@@ -469,8 +281,8 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject
 
 void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter* errors)
 {
-  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
-  const vtkSmartPointer<vtkDataObject> input = newInput(bytes, leaves);
+  std::vector<vtkSmartPointer<vtkDataSet>> dataSets;
+  const vtkSmartPointer<vtkDataObject> input = newInput(bytes, dataSets);
   const bool ofCells = bytes.flag();
   const double angle = bytes.flag() ? 54.7 : static_cast<double>(bytes.below(181));
   double isovalue = bytes.number(bytes.below(4));
@@ -496,7 +308,7 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetComputeSplatClips(bytes.below(2) != 0);
   errors->Count = 0;
   filter->Update();
-  check(leaves, input, ofCells, errors->Count, filter);
+  check(dataSets, input, ofCells, errors->Count, filter);
   const int percent = bytes.below(101);
   if (errors->Count == 0)
   {

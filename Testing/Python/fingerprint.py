@@ -4,13 +4,13 @@
     PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 \
         Testing/Python/fingerprint.py [N] [FIRST]
 
-Two builds whose lists agree give the same bytes: positions, cells and all arrays in their order,
-and the numbers of skipped samples and unprojected points. Each combination depends on its number
-alone. See docs/testing.md.
+Two builds whose lists are equal produce the same bytes: positions, cells and all arrays in their
+order, and the numbers of skipped samples and unprojected points. Each combination depends only on
+its number, from FIRST on. See docs/testing.md.
 """
 
+import argparse
 import hashlib
-import sys
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter
@@ -211,9 +211,13 @@ def update(isopoints, digest):
 
 
 def main():
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    for number in range(first, first + count):
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("count", metavar="N", nargs="?", type=int, default=200, help="default: 200")
+    parser.add_argument("first", metavar="FIRST", nargs="?", type=int, default=0, help="default: 0")
+    arguments = parser.parse_args()
+    for number in range(arguments.first, arguments.first + arguments.count):
         isopoints, random = configured(number)
         digest = hashlib.sha256()
         points = update(isopoints, digest)

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef SplatTesting_h
+#define SplatTesting_h
+
+#include "Clouds.h"
+
+#include "Isopoint/Splat/SplatGeometry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+/// Shared by the tests of splats.
+namespace splattesting
+{
+
+using isopoint::cross;
+using isopoint::difference;
+using isopoint::dot;
+using isopoint::lengthOf;
+using isopoint::Splat;
+using isopoint::Vector;
+
+/// Samples that end at the plane x = 0.
+struct HalfSpace
+{
+  double at(const isopoint::ExtentQuery& query) const
+  {
+    const double along = query.direction[0];
+    return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
+  }
+};
+
+/// The isopoints of a surface, one entry each.
+struct Points
+{
+  std::vector<Vector> positions;
+  std::vector<Vector> decreasingEdges;
+  std::vector<isopoint::LocalFit> fits;
+};
+
+/// a, b, c, d, e as in the array SplatClip.
+inline std::array<double, 5> clipOf(const Splat& splat)
+{
+  return splat.clip ? std::array<double, 5>{ splat.clip->inward[0], splat.clip->inward[1],
+    splat.clip->inward[2], splat.clip->distance, splat.clip->turn }
+                    : std::array<double, 5>{};
+}
+
+/// The splats of points, one for each.
+template <class TExtents = HalfSpace>
+std::vector<Splat> splatsOf(const Points& points, const TExtents* extents = nullptr)
+{
+  const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
+    { points.positions, points.decreasingEdges, points.fits }, extents, isopoint::SplatOptions());
+  EXPECT_EQ(splats.size(), points.positions.size());
+  return splats;
+}
+
+inline std::vector<Splat> splatsOf(
+  const std::vector<Vector>& positions, const std::vector<Vector>& edges)
+{
+  Points points;
+  points.positions = positions;
+  points.decreasingEdges = edges;
+  return splatsOf(points);
+}
+
+/// Random points of the unit sphere, scaled and moved, with oblique edges that decrease outwards.
+struct Sphere
+{
+  std::vector<Vector> positions;
+  std::vector<Vector> outwards;
+  std::vector<Vector> edges;
+
+  Sphere(std::size_t count, double scale, double offset)
+  {
+    clouds::Random random(3);
+    while (this->positions.size() < count)
+    {
+      const Vector v{ 2.0 * random() - 1.0, 2.0 * random() - 1.0, 2.0 * random() - 1.0 };
+      const double length = std::sqrt(dot(v, v));
+      if (length > 0.1 && length < 1.0)
+      {
+        const Vector n{ v[0] / length, v[1] / length, v[2] / length };
+        this->outwards.push_back(n);
+        this->positions.push_back(
+          { offset + scale * n[0], offset + scale * n[1], offset + scale * n[2] });
+        const double oblique = 1.2 * (random() - 0.5);
+        this->edges.push_back(
+          { scale * 0.1 * (n[0] + oblique), scale * 0.1 * n[1], scale * 0.1 * (n[2] - oblique) });
+      }
+    }
+  }
+};
+
+/// A fit with a gradient, among samples of a spacing.
+inline isopoint::LocalFit fitAmong(
+  double spacing, std::optional<isopoint::FitOrder> order, const Vector& gradient)
+{
+  isopoint::LocalFit fit{};
+  fit.order = order;
+  fit.isGradientFitted = true;
+  fit.gradient = gradient;
+  fit.spacing = spacing;
+  return fit;
+}
+
+/// Adds a point with a fit among samples of spacing 1.
+inline void addFitted(Points& points, const Vector& position,
+  std::optional<isopoint::FitOrder> order, const Vector& gradient)
+{
+  points.positions.push_back(position);
+  points.decreasingEdges.push_back(isopoint::scaled(-1.0, gradient));
+  points.fits.push_back(fitAmong(1.0, order, gradient));
+}
+
+/// Adds a point on one of two planes that meet at the y axis at a right angle.
+/// @param along coordinate along the axis
+/// @param off coordinate across it, at most 0
+/// @param tilt added to the fit's gradient
+inline void addOnWedge(
+  Points& points, bool top, double along, double off, isopoint::FitOrder order, const Vector& tilt)
+{
+  addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off }, order,
+    isopoint::sum(top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+}
+
+/// Negates the field.
+inline void negate(Points& points)
+{
+  for (std::size_t i = 0; i < points.positions.size(); ++i)
+  {
+    points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
+    points.decreasingEdges[i] = isopoint::scaled(-1.0, points.decreasingEdges[i]);
+  }
+}
+
+} // namespace splattesting
+
+#endif

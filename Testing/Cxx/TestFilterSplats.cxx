@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The filter's splat arrays: axes and clip planes.
+#include "FilterTesting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace filtertesting;
+
+namespace
+{
+
+/// Samples with a spacing of 1 whose scalars are 0 on the faces of a cube.
+vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
+{
+  const auto cloud = newCloud(64000, VTK_DOUBLE);
+  const auto height = newArray<vtkDoubleArray>("height", cloud->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = 20.0 * p[axis] + center[axis];
+      largest = std::max(largest, std::abs(p[axis] - center[axis]));
+    }
+    cloud->GetPoints()->SetPoint(i, p);
+    height->SetValue(i, 12.0 - largest);
+  }
+  cloud->GetPointData()->SetScalars(height);
+  return cloud;
+}
+
+/// Whether the clip plane of a splat is the tangent plane of some point or, if the splat's own
+/// point lies beyond that, passes through its own point. If no crease was fitted at its own point
+/// the plane is farther off by a hundredth of U (docs/algorithm.md, section 12.5), at most 0.02
+/// here.
+bool isClippedAtATangentPlane(vtkPolyData* points, vtkIdType point, const double* clip)
+{
+  const bool isCreasePoint =
+    points->GetPointData()->GetArray("ProjectionOrder")->GetComponent(point, 0) ==
+    vtkScatteredIsopointFilter::CREASE_FIT;
+  const double largestShift = isCreasePoint ? 0.0 : 0.02;
+  double center[3];
+  points->GetPoint(point, center);
+  for (vtkIdType other = 0; other < points->GetNumberOfPoints(); ++other)
+  {
+    double p[3];
+    double normal[3];
+    points->GetPoint(other, p);
+    points->GetPointData()->GetNormals()->GetTuple(other, normal);
+    double cosine = 0.0;
+    double distance = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cosine += clip[axis] * normal[axis];
+      distance += clip[axis] * (center[axis] - p[axis]);
+    }
+    constexpr double tolerance = 1e-5;
+    const double shift = clip[3] - std::max(0.0, distance);
+    if (std::abs(cosine) > 1.0 - 1e-6 && shift > -tolerance && shift < largestShift + tolerance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+TEST(FilterSplats, ArraysArePresentIfRequested)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(5000));
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  for (const char* const name : { "SplatAxis1", "SplatAxis2", "SplatClip", "Gradients" })
+  {
+    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
+  }
+  filter->ComputeSplatAxesOn();
+  filter->ComputeSplatClipsOn();
+  for (const int method : { vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
+         vtkScatteredIsopointFilter::NORMALS_FROM_PLANES })
+  {
+    filter->SetNormalMethod(method);
+    filter->Update();
+    vtkPointData* const data = filter->GetOutput()->GetPointData();
+    ASSERT_TRUE(data->HasArray("SplatClip"));
+    ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      double a[3];
+      double b[3];
+      double p[3];
+      data->GetArray("SplatAxis1")->GetTuple(i, a);
+      data->GetArray("SplatAxis2")->GetTuple(i, b);
+      filter->GetOutput()->GetPoint(i, p);
+      ASSERT_NEAR(std::hypot(a[0], a[1], a[2]), data->GetArray("Radius")->GetComponent(i, 0), 1e-6);
+      const double outwards = (a[1] * b[2] - a[2] * b[1]) * p[0] +
+                              (a[2] * b[0] - a[0] * b[2]) * p[1] +
+                              (a[0] * b[1] - a[1] * b[0]) * p[2];
+      ASSERT_LT(outwards, 0.0); // distances decrease inwards
+    }
+  }
+}
+
+// Far from the origin, coordinates in single precision have errors of several sample spacings.
+TEST(FilterSplats, ClipPlanesAreRelativeToThePoints)
+{
+  for (const std::array<double, 3> center :
+    { std::array<double, 3>{ 0.0, 0.0, 0.0 }, std::array<double, 3>{ 1e8, 2e8, -1e8 } })
+  {
+    vtkNew<vtkScatteredIsopointFilter> filter;
+    filter->SetInputData(newCubeCloud(center));
+    filter->SetValue(0, 0.0);
+    filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
+    filter->ComputeSplatClipsOn();
+    filter->ComputeProjectionOrdersOn();
+    filter->Update();
+    vtkDataArray* const clips = filter->GetOutput()->GetPointData()->GetArray("SplatClip");
+    int clipped = 0;
+    for (vtkIdType i = 0; i < clips->GetNumberOfTuples(); ++i)
+    {
+      double clip[5];
+      clips->GetTuple(i, clip);
+      ASSERT_GE(clip[3], 0.0);
+      if (clip[0] != 0.0 || clip[1] != 0.0 || clip[2] != 0.0)
+      {
+        ASSERT_NEAR(std::hypot(clip[0], clip[1], clip[2]), 1.0, 1e-6);
+        ASSERT_EQ(clip[4], -1.0); // a convex edge
+        ASSERT_TRUE(isClippedAtATangentPlane(filter->GetOutput(), i, clip)) << i;
+        clipped += clip[3] > 0.0 ? 1 : 0;
+      }
+      else
+      {
+        ASSERT_EQ(clip[3], 0.0);
+        ASSERT_EQ(clip[4], 0.0);
+      }
+    }
+    EXPECT_GT(clipped, 500);
+  }
+}
