@@ -30,6 +30,31 @@ void expectSameBytes(const Isosurface& expected, const Isosurface& found)
   }
 }
 
+void expectSameFit(const isopoint::LocalFit& expected, const isopoint::LocalFit& found)
+{
+  EXPECT_EQ(expected.position, found.position);
+  EXPECT_EQ(expected.gradient, found.gradient);
+  EXPECT_EQ(expected.isGradientFitted, found.isGradientFitted);
+  EXPECT_EQ(expected.hessian, found.hessian);
+  EXPECT_EQ(expected.spacing, found.spacing);
+  EXPECT_EQ(expected.order, found.order);
+}
+
+void expectSameSplat(const isopoint::Splat& expected, const isopoint::Splat& found)
+{
+  EXPECT_EQ(expected.normal, found.normal);
+  EXPECT_EQ(expected.radius, found.radius);
+  EXPECT_EQ(expected.axis1, found.axis1);
+  EXPECT_EQ(expected.axis2, found.axis2);
+  ASSERT_EQ(expected.clip.has_value(), found.clip.has_value());
+  if (expected.clip)
+  {
+    EXPECT_EQ(expected.clip->inward, found.clip->inward);
+    EXPECT_EQ(expected.clip->distance, found.clip->distance);
+    EXPECT_EQ(expected.clip->turn, found.clip->turn);
+  }
+}
+
 IsosurfaceExtractor loaded(const clouds::Cloud& cloud, std::size_t threads = 1)
 {
   IsosurfaceExtractor extractor;
@@ -53,6 +78,38 @@ TEST(SameResult, ForAnyNumberOfThreads)
     {
       SCOPED_TRACE(threads);
       expectSameBytes(expected, clouds::extract(cloud, 0.2, isopoint::defaultAngle, threads));
+    }
+  }
+}
+
+// Everything that leaves the core.
+TEST(SameResult, OfFitsAndSplatsForAnyNumberOfThreads)
+{
+  const clouds::Cloud cloud = clouds::coincident(clouds::uniform(40000, 9), 0.02);
+  isopoint::ExtractionRequest request;
+  request.isosurface.isovalue = 0.3;
+  request.splats = isopoint::SplatOptions();
+  for (const isopoint::FitOrder order : { isopoint::FitOrder::Cubic, isopoint::FitOrder::Crease })
+  {
+    request.isosurface.fit = isopoint::FitRequest{ order, true };
+    request.minimumSpacing = order == isopoint::FitOrder::Crease ? 0.5 : 0.0;
+    const isopoint::ExtractedIsosurface expected =
+      loaded(cloud).extract(clouds::executionOn(1), request);
+    ASSERT_GT(expected.surface.size(), 1000u);
+    for (const std::size_t threads : { 2, 5 })
+    {
+      const isopoint::ExtractedIsosurface found =
+        loaded(cloud, threads).extract(clouds::executionOn(threads), request);
+      expectSameBytes(expected.surface, found.surface);
+      EXPECT_EQ(expected.surface.positions, found.surface.positions);
+      EXPECT_EQ(expected.surface.decreasingEdges, found.surface.decreasingEdges);
+      ASSERT_EQ(expected.surface.size(), found.surface.fits.size());
+      ASSERT_EQ(expected.splats.size(), found.splats.size());
+      for (std::size_t i = 0; i < found.splats.size(); ++i)
+      {
+        expectSameFit(expected.surface.fits[i], found.surface.fits[i]);
+        expectSameSplat(expected.splats[i], found.splats[i]);
+      }
     }
   }
 }

@@ -39,8 +39,7 @@ bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth
 }
 
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
-/// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, "Narrow
-/// band").
+/// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, section 9).
 template <class TSample>
 class NarrowBand
 {
@@ -301,9 +300,8 @@ private:
       none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
   }
 
-  /// Marks the nodes of a depth in a subtree that touch the region, and those above that depth all
-  /// of whose descendants are marked. The next search ends at the latter: where many crossing nodes
-  /// touch the same many others, each would mark them all again.
+  /// Marks the nodes of a depth in a subtree that touch the region, and a parent once all below it
+  /// are marked, so that later searches stop there: many crossing nodes may touch the same others.
   /// @returns whether all are marked
   bool markBelow(FoundNode top, int depth, const Region& region)
   {

@@ -26,8 +26,8 @@ struct CreaseFit
   /// How many coefficients all pieces have.
   std::size_t coefficients() const;
 
-  /// The root of the mean square of the residuals, were there no fewer of them than samples, over
-  /// the gentlest gradient at the origin.
+  /// The root of the residuals' mean square, corrected for the degrees of freedom, over the
+  /// smallest gradient of a piece at the origin.
   double relativeResidual() const;
 
   /// Whether a point on the zero surface of a piece is one of the whole function's, up to a

@@ -56,8 +56,8 @@ public:
   bool leavesPattern() const;
 
   /// The degree, two or three, of the polynomial that the criterion ranks first among those of
-  /// degree one to three and creases; nothing if it ranks another one first, or if the samples do
-  /// not determine all three polynomials.
+  /// degree one to three and creases; nothing if degree one or a crease ranks first, or if the
+  /// samples do not determine all three polynomials.
   std::optional<int> bestDegree() const;
 
   /// The fit that the criterion ranks first.

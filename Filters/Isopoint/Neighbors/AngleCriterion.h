@@ -23,14 +23,14 @@ inline void nearestFirst(std::vector<Offset>& offsets)
     [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
 }
 
-/// The angle criterion ([RL06] section 6; docs/algorithm.md, "Angle criterion"): a neighbour is
+/// The angle criterion ([RL06] section 6; docs/algorithm.md, section 5): a neighbour is
 /// dropped if the angle between it and any strictly closer one, dropped itself or not, is smaller
 /// than the given one. Neighbours at the same distance do not drop each other.
 class AngleCriterion
 {
 public:
-  /// @param degrees 0 (nothing is dropped) up to 180 (the nearest neighbour remains, and what lies
-  /// exactly opposite)
+  /// @param degrees 0 (nothing is dropped) up to 180 (all nearest neighbours survive, and of the
+  /// others what stands exactly opposite, as far as rounding permits)
   explicit AngleCriterion(double degrees)
     : DropsNothing(degrees <= 0.0)
     , Cosine(std::cos(degrees * 3.14159265358979323846 / 180.0))

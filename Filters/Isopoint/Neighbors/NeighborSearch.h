@@ -18,9 +18,9 @@ struct FoundNode
   int depth;
 };
 
-/// Visits the nodes of the depth `nodeDepth`, and those above it that are not split, in the subtree
-/// at `top`, whose region touches the given one.
-/// Precondition: the region of `top` does; then each plane takes a single comparison.
+/// Visits, in the subtree at `top`, the nodes of the depth `nodeDepth`, and those above it that are
+/// not split, whose regions touch the given one. That of `top` must touch it: then each splitting
+/// plane takes a single comparison.
 /// @param enter(node) whether the node and its descendants are of interest
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did

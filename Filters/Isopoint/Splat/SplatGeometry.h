@@ -33,9 +33,8 @@ namespace isopoint
 /// do not stick out of it.
 ///
 /// Where the fits of two points found a crease between them, their cells do not end halfway but at
-/// the other side's plane, and their splats are clipped there. A cell of another fit ends halfway
-/// to a point of a crease's other side, but not before it; its splat is clipped if two points there
-/// agree on the plane.
+/// the other side's plane, and their splats are clipped there. Other cells end halfway, but not
+/// on this side of the crease; their splats are clipped if two points across it agree on the plane.
 ///
 /// @param extents of the samples, or null: then no border is known; see SplatBorder
 /// @throws std::bad_alloc, Aborted

@@ -30,8 +30,8 @@ inline bool isBendKnown(const Hessian& hessian)
   return hessian != Hessian{};
 }
 
-/// The curvatures in the two directions of a cell's plane in which the surface bends most and
-/// least.
+/// The magnitudes of the curvatures in the two directions of a cell's plane in which the surface
+/// bends least and most, in this order.
 /// @param hessian, gradientLength of the field (see LocalFit); a Hessian of 0 for a plane
 std::array<Curvature, 2> principalCurvatures(
   const TangentCell& cell, const Hessian& hessian, double gradientLength);

@@ -84,9 +84,10 @@ private:
   static constexpr double overlapOfBend = 0.5;
   static constexpr double mostOverlap = 1.2;
 
-  /// How far a cell may reach, in spacings of the samples: where other points bound it on all
-  /// sides; where they do so around a gap in a smooth surface; where they do not, beside the border
-  /// of a smooth surface; and the same where no fit determines a surface.
+  /// How far a cell may reach, in units of spacingAt() (gapReach: of the samples' spacing): where
+  /// other points bound it on all sides; where they do so around a gap in a smooth surface; where
+  /// they do not, beside the border of a smooth surface; and the same where no fit determines a
+  /// surface.
   static constexpr double closedReach = 2.5;
   static constexpr double gapReach = 4.5;
   static constexpr double borderReach = 1.2;
@@ -96,8 +97,8 @@ private:
   /// with one: the normal of the former is an estimate, and its splat may miss what lies beyond.
   static constexpr double unfittedDistance = 0.5;
 
-  /// The error of fits at creases, in spacings: planes across a crease whose distances differ by no
-  /// more are taken to be the same.
+  /// The error of fits at creases, in units of spacingAt(): planes across a crease whose distances
+  /// differ by no more are taken to be the same.
   static constexpr double agreement = 0.01;
 
   /// The order of the fit that held, if any.

@@ -40,7 +40,7 @@ struct Node
 };
 
 /// The samples in the order of the tree, and as much of the kd-tree as the isovalues so far needed
-/// ([RL06] section 4; docs/algorithm.md, "Tree" and "Narrow band"). Splitting a node only permutes
+/// ([RL06] section 4; docs/algorithm.md, sections 3 and 9). Splitting a node only permutes
 /// the samples inside it, so a tree may be refined further at any time.
 /// Memory: sizeof(TSample) for each sample and sizeof(Node) for each node.
 template <class TSample>

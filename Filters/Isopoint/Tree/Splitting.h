@@ -24,8 +24,8 @@ struct Halves
   double plane;
 };
 
-/// Halves by the definition (docs/algorithm.md, "Tree"), with the standard library's selection, for
-/// nodes where coincident samples stand on both sides of the middle.
+/// Halves by the definition (docs/algorithm.md, section 3), with the standard library's selection,
+/// for nodes where coincident samples stand on both sides of the middle.
 /// @returns nothing if all samples share one position
 /// Complexity: O(n) on average, O(n log n) at worst.
 template <class TSample>

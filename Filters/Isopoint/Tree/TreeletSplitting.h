@@ -31,8 +31,9 @@ inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
   return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
 }
 
-/// Splits nodes by the definition of the canonical tree (docs/algorithm.md, "Tree"; [RL06] section
-/// 4). The node itself becomes a parent last of all, so that an exception leaves it unsplit.
+/// Splits nodes by the definition of the canonical tree (docs/algorithm.md, section 3; [RL06]
+/// section 4). The node itself becomes a parent last of all, so that an exception leaves it
+/// unsplit.
 template <class TSample>
 class TreeletSplitter
 {
