@@ -28,7 +28,10 @@ README_LINES = 130
 SOURCES = (".h", ".cxx", ".glsl", ".py", ".sh", ".cmake")  # in backticks, these are the tree's
 INSTALLED_PLUGIN = "/usr/local/lib/ScatteredIsopoints/ScatteredIsopoints.so"
 UNWANTED = (
-    re.compile(r"\b(?:[Tt]ell|[Tt]ells|[Tt]old|[Hh]eaps?|[Ss]lots?|DESIGN|PLATFORM)\b|\.\./shared\b"),
+    # words of no field, where it has its own
+    re.compile(r"\b(?:[Tt]ell|[Tt]ells|[Tt]old|[Hh]eaps?|[Ss]lots?)\b"),
+    # relative paths that leave the repository
+    re.compile(r"\.\./(?:\.\./|[a-z][\w-]*/)"),
     # absolute paths
     re.compile(r"(?<![\w/.:<>*)\]}])/(?!usr/(?:local|bin)\b)[A-Za-z][\w.-]*(?:/[\w.-]+)*"),
 )

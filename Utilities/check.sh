@@ -57,7 +57,7 @@ for path in sorted(entries, key=lambda path: (not path.startswith("Filters/Isopo
     print(path, end="\0")
 END
     xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/ci/lint 2>&1 |
-    sed -E '/^[0-9]+ warnings? .*generated\.$/d'
+    sed -E '/warnings? .*generated\.$/d'
 }
 
 (($# > 0)) || set -- format lint documents

@@ -75,6 +75,23 @@ inline vtkSmartPointer<vtkPolyData> cloudOf(const Samples& samples)
   return cloud;
 }
 
+/// A grid of 4 x 4 x 4 hyper trees between -1 and 1, without nodes yet.
+inline vtkSmartPointer<vtkHyperTreeGrid> newHyperTreeGrid()
+{
+  auto trees = vtkSmartPointer<vtkHyperTreeGrid>::New();
+  trees->SetDimensions(5, 5, 5);
+  trees->SetBranchFactor(2);
+  vtkNew<vtkDoubleArray> coordinates;
+  for (int i = 0; i < 5; ++i)
+  {
+    coordinates->InsertNextValue(-1.0 + 0.5 * i);
+  }
+  trees->SetXCoordinates(coordinates);
+  trees->SetYCoordinates(coordinates);
+  trees->SetZCoordinates(coordinates);
+  return trees;
+}
+
 /// Positions, normals, radii and scalars of a surface.
 inline std::vector<double> everythingOf(vtkPolyData* output)
 {

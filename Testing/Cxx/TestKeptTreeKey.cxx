@@ -160,17 +160,7 @@ constexpr vtkIdType idsOfTree = 1 + 8 + 8;
 /// Hyper trees of one node each, with enough ids for three levels.
 vtkSmartPointer<vtkHyperTreeGrid> newTrees()
 {
-  auto trees = vtkSmartPointer<vtkHyperTreeGrid>::New();
-  trees->SetDimensions(5, 5, 5);
-  trees->SetBranchFactor(2);
-  vtkNew<vtkDoubleArray> coordinates;
-  for (int i = 0; i < 5; ++i)
-  {
-    coordinates->InsertNextValue(-1.0 + 0.5 * i);
-  }
-  trees->SetXCoordinates(coordinates);
-  trees->SetYCoordinates(coordinates);
-  trees->SetZCoordinates(coordinates);
+  vtkSmartPointer<vtkHyperTreeGrid> trees = inputtesting::newHyperTreeGrid();
   vtkNew<vtkBitArray> mask;
   for (vtkIdType tree = 0; tree < 64; ++tree)
   {

@@ -121,17 +121,7 @@ namespace
 /// range, which must not be used.
 vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhosts)
 {
-  auto trees = vtkSmartPointer<vtkHyperTreeGrid>::New();
-  trees->SetDimensions(5, 5, 5);
-  trees->SetBranchFactor(2);
-  vtkNew<vtkDoubleArray> coordinates;
-  for (int i = 0; i < 5; ++i)
-  {
-    coordinates->InsertNextValue(-1.0 + 0.5 * i);
-  }
-  trees->SetXCoordinates(coordinates);
-  trees->SetYCoordinates(coordinates);
-  trees->SetZCoordinates(coordinates);
+  vtkSmartPointer<vtkHyperTreeGrid> trees = inputtesting::newHyperTreeGrid();
   vtkIdType offset = 0;
   for (vtkIdType tree = 0; tree < 64; ++tree)
   {
