@@ -4,8 +4,8 @@
 # ParaView connects to the display several times. Without -noreset the server resets whenever its last
 # client disconnects, and refuses connections meanwhile.
 if (($# == 0)) || [[ $1 == --help ]]; then
-  echo "usage: $0 COMMAND..." >&2
-  echo "Runs a command with a virtual display of its own." >&2
-  exit 2
+  echo "usage: $0 COMMAND..."
+  echo "Runs a command with a virtual display of its own."
+  exit $(($# == 0 ? 2 : 0))
 fi
 exec xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" "$@"

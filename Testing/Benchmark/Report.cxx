@@ -15,7 +15,7 @@
 namespace
 {
 
-/// A number of kilobytes from the process's status.
+/// An entry of the process's status that is given there in kilobytes, in bytes.
 double statusBytes(const std::string& key)
 {
   std::ifstream status("/proc/self/status");

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Plots the times in FOLDER/benchmark.csv over the number of samples to FOLDER/benchmark.png, and
-prints how the time and the memory of isopoints grow."""
+prints how the time and the memory of isopoints grow. Needs matplotlib."""
 
 import argparse
 import os

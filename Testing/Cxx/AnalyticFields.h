@@ -54,7 +54,7 @@ inline Surface torus()
   return surface;
 }
 
-/// One period of the gyroid, of negative curvature everywhere; it leaves the cube.
+/// One period of the gyroid, saddle-shaped everywhere; it leaves the cube.
 inline Surface gyroid()
 {
   Surface surface;

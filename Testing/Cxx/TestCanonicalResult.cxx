@@ -2,30 +2,19 @@
 // The core against the definition (BruteForce.h): every isopoint is equal, bit for bit.
 #include "BruteForce.h"
 #include "Clouds.h"
+#include "IsopointTesting.h"
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 #include <numeric>
 
 namespace
 {
 
-void expectSameIsopoints(const std::vector<bruteforce::Isopoint>& expected,
-  const std::vector<isopoint::IsopointEdge>& found)
-{
-  ASSERT_EQ(expected.size(), found.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    ASSERT_EQ(expected[i].first, found[i].first) << "point " << i;
-    ASSERT_EQ(expected[i].second, found[i].second) << "point " << i;
-    ASSERT_EQ(0, std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)))
-      << "point " << i;
-  }
-}
+using isopointtesting::expectSameIsopoints;
 
 /// @returns the number of isopoints compared
 std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isovalues,

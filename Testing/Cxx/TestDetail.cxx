@@ -162,7 +162,7 @@ TEST(Detail, DoesNotDependOnTheOrderOfSamples)
   const auto countOf = [&expected](std::optional<FitOrder> order)
   {
     return std::count_if(expected.begin(), expected.end(),
-      [order](const auto& point) { return point.second == order; });
+      [order](const auto& entry) { return entry.second == order; });
   };
   EXPECT_GT(countOf(std::nullopt), 200);
   EXPECT_GT(countOf(FitOrder::Cubic), 200);

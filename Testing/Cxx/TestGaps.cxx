@@ -2,6 +2,7 @@
 // The gap criterion: against the definition, and against voids and domains of known shape.
 #include "BruteForce.h"
 #include "Clouds.h"
+#include "IsopointTesting.h"
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
 
@@ -9,15 +10,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace
 {
 
 using isopoint::defaultAngle;
+using isopointtesting::expectSameIsopoints;
 
 constexpr double isovalue = 0.3;
-constexpr double sensibleFactor = 4.0; // as the filter's documentation says
+constexpr double sensibleFactor = 4.0; // recommended by the filter's documentation
 
 /// The samples of a cloud for whose positions a condition does not hold.
 template <class Condition>
@@ -38,18 +39,6 @@ clouds::Cloud without(const clouds::Cloud& cloud, const Condition& condition)
 bool isInSlab(const double* p)
 {
   return p[0] > 0.3 && p[0] < 0.7;
-}
-
-void expectSameIsopoints(const std::vector<bruteforce::Isopoint>& expected,
-  const std::vector<isopoint::IsopointEdge>& found)
-{
-  ASSERT_EQ(expected.size(), found.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    ASSERT_EQ(expected[i].first, found[i].first);
-    ASSERT_EQ(expected[i].second, found[i].second);
-    ASSERT_EQ(0, std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)));
-  }
 }
 
 /// @returns the number of isopoints that the smallest factor drops

@@ -55,7 +55,7 @@ TEST(KeptTree, YieldsTheOutputOfANewOne)
   compare();
 }
 
-// Only the data set itself is marked as modified; only the coordinates of a grid are.
+// Only the data set itself is marked as modified or, of a grid, only an array of coordinates.
 TEST(KeptTree, IsNotUsedAfterPositionsChangedInPlace)
 {
   const auto expectFresh = [](vtkScatteredIsopointFilter* kept, vtkDataSet* input, double isovalue)

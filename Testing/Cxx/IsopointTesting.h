@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef IsopointTesting_h
+#define IsopointTesting_h
+
+#include "BruteForce.h"
+
+#include "Isopoint/Extraction/Isosurface.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+/// Shared by the tests that compare isopoints with brute force.
+namespace isopointtesting
+{
+
+/// Expects the same edges in the same order and, bit for bit, the same parameters.
+inline void expectSameIsopoints(const std::vector<bruteforce::Isopoint>& expected,
+  const std::vector<isopoint::IsopointEdge>& found)
+{
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    ASSERT_EQ(expected[i].first, found[i].first) << "isopoint " << i;
+    ASSERT_EQ(expected[i].second, found[i].second) << "isopoint " << i;
+    ASSERT_EQ(0, std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)))
+      << "isopoint " << i;
+  }
+}
+
+} // namespace isopointtesting
+
+#endif
