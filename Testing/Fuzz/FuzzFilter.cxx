@@ -61,21 +61,26 @@ bool isPointLeftOut(vtkDataSet* input, vtkIdType point)
   {
     return true;
   }
-  bool inInvisible = false;
+  // A ghost array of the points marks the duplicates among them; without one the cells' does.
+  const bool hasGhosts =
+    input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()) != nullptr;
+  const int excluding =
+    hasGhosts ? invisibleCell : invisibleCell | vtkDataSetAttributes::DUPLICATECELL;
+  bool isInExcludedCell = false;
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {
     input->GetCellPoints(cell, corners);
     if (corners->IsId(point) >= 0)
     {
-      if ((ghostAt(input->GetCellData(), cell) & invisibleCell) == 0)
+      if ((ghostAt(input->GetCellData(), cell) & excluding) == 0)
       {
         return false;
       }
-      inInvisible = true;
+      isInExcludedCell = true;
     }
   }
-  return inInvisible;
+  return isInExcludedCell;
 }
 
 bool isCellLeftOut(vtkDataSet* input, vtkIdType cell)
