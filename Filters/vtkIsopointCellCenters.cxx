@@ -13,6 +13,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
+#include "vtkHyperTree.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkHyperTreeGridNonOrientedGeometryCursor.h"
 #include "vtkImageData.h"
@@ -95,27 +96,32 @@ public:
   {
   }
 
-  void Collect(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, bool isBelowMask)
+  void Collect(vtkHyperTreeGridNonOrientedGeometryCursor* cursor)
   {
-    const bool isMasked = isBelowMask || cursor->IsMasked();
+    if (cursor->IsMasked())
+    {
+      // No cursor may enter a masked node.
+      this->CountLeaves(cursor->GetTree(), cursor->GetVertexId());
+      return;
+    }
     if (!cursor->IsLeaf())
     {
       for (int child = 0; child < cursor->GetNumberOfChildren(); ++child)
       {
         cursor->ToChild(static_cast<unsigned char>(child));
-        this->Collect(cursor, isMasked);
+        this->Collect(cursor);
         cursor->ToParent();
       }
       return;
     }
     const vtkIdType id = cursor->GetGlobalNodeIndex();
-    if (id < 0 || id >= this->Points->GetNumberOfPoints())
+    if (!this->IsUsedId(id))
     {
       return;
     }
     ++this->Leaves;
     const bool isGhost = this->InputGhosts && this->InputGhosts->GetValue(id) != 0;
-    if (!isMasked && !isGhost)
+    if (!isGhost)
     {
       double center[3];
       cursor->GetPoint(center);
@@ -127,6 +133,21 @@ public:
   vtkIdType Leaves = 0;
 
 private:
+  bool IsUsedId(vtkIdType id) const { return id >= 0 && id < this->Points->GetNumberOfPoints(); }
+
+  void CountLeaves(vtkHyperTree* tree, vtkIdType vertex)
+  {
+    if (tree->IsLeaf(vertex))
+    {
+      this->Leaves += this->IsUsedId(tree->GetGlobalIndexFromLocal(vertex)) ? 1 : 0;
+      return;
+    }
+    for (int child = 0; child < tree->GetNumberOfChildren(); ++child)
+    {
+      this->CountLeaves(tree, tree->GetElderChildIndex(vertex) + child);
+    }
+  }
+
   vtkPoints* const Points;
   vtkUnsignedCharArray* const Ghosts;
   vtkUnsignedCharArray* const InputGhosts;
@@ -207,7 +228,7 @@ void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlo
   while (trees.GetNextTree(index))
   {
     input->InitializeNonOrientedGeometryCursor(cursor, index);
-    collector.Collect(cursor, false);
+    collector.Collect(cursor);
   }
   block.NumberOfUnusedIds = count - collector.Leaves;
   vtkNew<vtkPolyData> positions;

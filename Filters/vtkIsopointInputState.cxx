@@ -18,6 +18,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkUniformHyperTreeGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkUnstructuredGridBase.h"
@@ -39,19 +40,30 @@ void add(vtkIsopointInputState& state, vtkCellArray* cells)
   add(state, cells ? cells->GetOffsetsArray() : nullptr);
 }
 
+/// A hash, FNV-1a, that changing one number always changes.
+class Hash
+{
+public:
+  void Add(std::uint64_t number) { this->Value = (this->Value ^ number) * 1099511628211u; }
+  vtkMTimeType Get() const { return static_cast<vtkMTimeType>(this->Value); }
+
+private:
+  std::uint64_t Value = 14695981039346656037u;
+};
+
 /// Adds a hash of the flags in an array. Blanking a point or a cell and masking a node change flags
 /// in place without a new modification time.
 template <class TArray>
 void addFlags(vtkIsopointInputState& state, TArray* flags)
 {
   add(state, static_cast<vtkObject*>(flags));
-  std::uint64_t hash = 14695981039346656037u; // FNV-1a: changing one flag always changes it
+  Hash hash;
   const vtkIdType count = flags ? flags->GetNumberOfValues() : 0;
   for (vtkIdType i = 0; i < count; ++i)
   {
-    hash = (hash ^ static_cast<unsigned char>(flags->GetValue(i))) * 1099511628211u;
+    hash.Add(static_cast<unsigned char>(flags->GetValue(i)));
   }
-  state.push_back(static_cast<vtkMTimeType>(hash));
+  state.push_back(hash.Get());
 }
 
 void addGhosts(vtkIsopointInputState& state, vtkDataSetAttributes* attributes)
@@ -77,22 +89,30 @@ void addCoordinates(vtkIsopointInputState& state, vtkDataArray* x, vtkDataArray*
   add(state, z);
 }
 
-/// Subdividing or replacing a tree does not change the grid's modification time.
+/// Subdividing or replacing a tree, or numbering its nodes, does not change the grid's modification
+/// time.
 void addTrees(vtkIsopointInputState& state, vtkHyperTreeGrid* trees)
 {
-  addCoordinates(
-    state, trees->GetXCoordinates(), trees->GetYCoordinates(), trees->GetZCoordinates());
+  // A uniform grid has no coordinates, and is modified where its origin and scale are.
+  if (!vtkUniformHyperTreeGrid::SafeDownCast(trees))
+  {
+    addCoordinates(
+      state, trees->GetXCoordinates(), trees->GetYCoordinates(), trees->GetZCoordinates());
+  }
   addFlags(state, trees->GetMask());
   vtkHyperTreeGrid::vtkHyperTreeGridIterator iterator;
   trees->InitializeTreeIterator(iterator);
   while (vtkHyperTree* const tree = iterator.GetNextTree())
   {
     add(state, tree);
-    for (const vtkIdType number : { tree->GetTreeIndex(), tree->GetNumberOfVertices(),
-           tree->GetGlobalIndexFromLocal(0), tree->GetGlobalNodeIndexMax() })
+    Hash hash;
+    hash.Add(static_cast<std::uint64_t>(tree->GetTreeIndex()));
+    for (vtkIdType vertex = 0; vertex < tree->GetNumberOfVertices(); ++vertex)
     {
-      state.push_back(static_cast<vtkMTimeType>(number));
+      hash.Add(static_cast<std::uint64_t>(tree->GetGlobalIndexFromLocal(vertex)));
     }
+    state.push_back(static_cast<vtkMTimeType>(tree->GetNumberOfVertices()));
+    state.push_back(hash.Get());
   }
 }
 

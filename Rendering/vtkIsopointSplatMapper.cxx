@@ -135,9 +135,11 @@ void vtkIsopointSplatMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   }
   // The superclass's shader depends on one input; the first block represents all that are drawn.
   this->CurrentInput = this->Internal->Blocks.Get().front()->Data;
+  this->Internal->BeginFrame();
   this->RenderPieceStart(renderer, actor);
   this->RenderPieceDraw(renderer, actor);
   this->RenderPieceFinish(renderer, actor);
+  this->Internal->EndFrame();
 }
 
 //------------------------------------------------------------------------------

@@ -120,6 +120,7 @@ bool vtkIsopointSplatMapper::Internals::Try(
   }
   catch (const std::bad_alloc&)
   {
+    this->HasLackedMemory = true;
     this->ReportOutOfMemory(mapper);
     return false;
   }

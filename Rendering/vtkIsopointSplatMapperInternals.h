@@ -25,6 +25,12 @@ public:
   /// @returns whether the function returned
   bool Try(vtkIsopointSplatMapper* mapper, const std::function<void()>& function);
 
+  ///@{
+  /// Around the drawing of a frame: once one is drawn, a later lack of memory is reported again.
+  void BeginFrame() { this->HasLackedMemory = false; }
+  void EndFrame() { this->OutOfMemory = this->HasLackedMemory ? this->OutOfMemory : 0; }
+  ///@}
+
   /// Brings the buffers of all blocks up to date, and for a selection of cells the map from points
   /// to cells.
   /// @returns whether there is anything to render
@@ -62,6 +68,7 @@ private:
     vtkIsopointSplatMapper* mapper, vtkIsopointSplatBlocks::Block& block, int& cellFlag);
 
   vtkMTimeType OutOfMemory = 0; // modified time of the input last reported as too large
+  bool HasLackedMemory = false; // in the present frame
   unsigned int LastVersion = 0;
 };
 

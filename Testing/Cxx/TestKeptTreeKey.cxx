@@ -370,6 +370,32 @@ TEST(KeptTreeKey, NodesAndMaskOfHyperTrees)
       } });
 }
 
+TEST(KeptTreeKey, IdsOfNodesOfHyperTrees)
+{
+  const vtkSmartPointer<vtkHyperTreeGrid> trees = inputtesting::newHyperTreeGrid();
+  constexpr vtkIdType ids = 1 + 8;
+  for (vtkIdType tree = 0; tree < 64; ++tree)
+  {
+    vtkNew<vtkHyperTreeGridNonOrientedCursor> cursor;
+    trees->InitializeNonOrientedCursor(cursor, tree, true);
+    cursor->SubdivideLeaf();
+    for (vtkIdType vertex = 0; vertex < ids; ++vertex)
+    {
+      trees->GetTree(tree)->SetGlobalIndexFromLocal(vertex, ids * tree + vertex);
+    }
+  }
+  addScatteredField(trees, vtkDataObject::CELL, ids * 64);
+  expectReadAgain(trees, ofCells,
+    { [&]()
+      {
+        for (vtkIdType tree = 0; tree < 64; ++tree)
+        {
+          trees->GetTree(tree)->SetGlobalIndexFromLocal(2, ids * tree + 5);
+          trees->GetTree(tree)->SetGlobalIndexFromLocal(5, ids * tree + 2);
+        }
+      } });
+}
+
 TEST(KeptTreeKey, DirectionOfAnImage)
 {
   const auto image = newImage(8, 0.25, -1.0, -1.0, -1.0);

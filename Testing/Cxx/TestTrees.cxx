@@ -142,13 +142,21 @@ vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhos
   const auto ghosts = newGhosts(offset);
   vtkNew<vtkBitArray> mask;
   mask->SetNumberOfValues(offset);
+  for (vtkIdType id = 0; id < offset; ++id)
+  {
+    mask->SetValue(id, 0);
+  }
   const std::function<void(vtkHyperTreeGridNonOrientedGeometryCursor*)> visit =
     [&](vtkHyperTreeGridNonOrientedGeometryCursor* cursor)
   {
     const vtkIdType id = cursor->GetGlobalNodeIndex();
-    mask->SetValue(id, 0);
     if (!cursor->IsLeaf())
     {
+      if (withMaskAndGhosts && id % 5 == 1)
+      {
+        mask->SetValue(id, 1); // and with it all leaves below
+        return;
+      }
       for (unsigned char child = 0; child < cursor->GetNumberOfChildren(); ++child)
       {
         cursor->ToChild(child);

@@ -163,6 +163,10 @@ def draws_as_soon_as_there_is_memory(many, few):
     with LimitedMemory(COUNT):
         check(not subject.draws(), "nothing is drawn")
     check(subject.draws() and subject.errors == 1, "the same input, later")
+    colors(subject.mapper)
+    with LimitedMemory(COUNT):
+        check(not subject.draws(), "nothing is drawn in colors")
+    check(subject.errors == 2, f"an error for each time that memory lacks, not {subject.errors}")
 
 
 def selects_cells_or_nothing(many, few):

@@ -2,6 +2,7 @@
 #ifndef isopoint_TreeletSplitting_h
 #define isopoint_TreeletSplitting_h
 
+#include "Isopoint/Tree/BinaryIndex.h"
 #include "Isopoint/Tree/SampleTree.h"
 #include "Isopoint/Tree/Splitting.h"
 
