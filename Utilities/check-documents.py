@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks README.md, CONTRIBUTING.md, CHANGELOG.md and docs/*.md of a source tree.
+"""Checks README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md of a source tree.
 
-Links, anchors and paths in backticks exist; commands in blocks marked bash or sh parse and name
-scripts, presets and targets that exist; blocks marked python or pvpython compile and, where asked
-for, run; words and places that do not belong into a document are not there. Prints
-file:line: message for each defect and exits with 1 if there is any.
+Links, anchors, and paths and identifiers in backticks exist; commands in blocks marked bash parse
+and name scripts, presets, targets, options and tests that exist; blocks marked python or pvpython
+compile and, where asked for, run; all code is fenced; words and places that do not belong into a
+document are not there. Prints file:line: message for each defect and exits with 1 if there is any.
 
 A comment before a block, <!-- setup: FILE.py --> or <!-- setup: code -->, runs before it.
 """
@@ -23,9 +23,21 @@ import tempfile
 
 from markdown_document import Document, read
 
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
 README_LINES = 130
 SOURCES = (".h", ".cxx", ".glsl", ".py", ".sh", ".cmake")  # in backticks, these are the tree's
+LANGUAGES = ("bash", "cmake", "pvpython", "python", "text")
+STANDARD_TARGETS = {"all", "clean", "install", "test"}
+PLACEHOLDERS = {"GetX", "SetX", "XOff", "XOn"}  # stand for identifiers
+WITH_IDENTIFIERS = (".h", ".cxx", ".xml", ".py", ".glsl", ".cmake", ".in", "CMakeLists.txt")
+OF_THIS_CHECK = ("check-documents.py", "TestCheckDocuments.py")  # name what does not exist
+LINKS = re.compile(
+    r"""\]\(\s*<?([^)\s>]+)"""  # [text](target "title")
+    r"""|^\ {0,3}\[[^\]^]+\]:\s*<?([^\s>]+)"""  # [label]: target
+    r"""|<\w+\s[^>]*?\b(?:src|href)\s*=\s*["']?([^"'\s>]+)""",  # <img src="target">
+    re.MULTILINE,
+)
+IDENTIFIERS = re.compile(r"\b(?:vtk\w+|(?=\w*[a-z])[A-Za-z]\w*[A-Z]\w*)\b")
 INSTALLED_PLUGIN = "/usr/local/lib/ScatteredIsopoints/ScatteredIsopoints.so"
 UNWANTED = (
     # words of no field, where it has its own
@@ -37,19 +49,68 @@ UNWANTED = (
 )
 
 
+class BuildNames:
+    """Targets, options and tests, as far as CMake's files and the C++ sources name them."""
+
+    def __init__(self):
+        self.targets, self.options, self.tests = set(STANDARD_TARGETS), set(), set()
+
+    def add_cmake(self, text):
+        text = re.sub(r"#.*", "", text)
+        self.targets.update(re.findall(r"\badd_(?:executable|library|custom_target)\s*\(\s*(\w+)", text))
+        for wrapper in re.findall(r"\bfunction\s*\((\w+) name\)\s*add_executable\b", text):
+            self.targets.update(re.findall(r"\b%s\s*\((\w+)" % wrapper, text))
+        for names in re.findall(r"\bforeach\s*\(name ([\w\s]+)\)\s*add_\w+_test\b", text):
+            self.targets.update(names.split())
+        self.options.update(re.findall(r"\boption\s*\(\s*(\w+)", text))
+        self.options.update(re.findall(r"\bset\s*\(\s*(\w+)[^()]*\sCACHE\s", text))
+        self.tests.update(re.findall(r"\badd_test\s*\(NAME \"?([\w.]+)[\"\s]", text))
+        for prefix in re.findall(r'\badd_test\s*\(NAME "([\w.]+)\$\{name\}"', text):
+            names = re.findall(r"\badd_\w+_(?:test|target)\s*\((\w+)", text)
+            self.tests.update(prefix + name for name in names)
+
+    def add_module(self, text):
+        self.targets.update(re.findall(r"^NAME\s+(?:\w+::)?(\w+)", text, re.MULTILINE))
+
+    def add_cxx(self, program, text):
+        for suite, test in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\((\w+),\s*(\w+)\)", text, re.MULTILINE):
+            self.tests.add("%s.%s.%s" % (program, suite, test))
+
+    def has_test(self, pattern):
+        """Whether each alternative of a pattern, as those in ^(a|b), is found in a test's name."""
+        before, group, after = re.fullmatch(r"([^()]*)(?:\(([^()]*)\))?(.*)", pattern).groups()
+        patterns = [before + choice + after for choice in group.split("|")] if group else [pattern]
+        try:
+            return all(any(re.search(one, test) for test in self.tests) for one in patterns)
+        except re.error:
+            return False
+
+
 class Checker:
     def __init__(self, root, python_path=None, plugin=None):
         self.root, self.python_path, self.plugin = os.path.abspath(root), python_path, plugin
         self.defects, self.documents = [], {}
         self.entries = set(os.listdir(self.root)) - {"build"}
-        self.file_names, self.cmake_lists = set(), ""
+        self.file_names, self.names, self.identifiers = set(), BuildNames(), set(PLACEHOLDERS)
         for folder, folders, names in os.walk(self.root):
             folders[:] = [name for name in folders if name != ".git" and not name.startswith("build")]
             self.file_names.update(names)
-            if "CMakeLists.txt" in names:
-                self.cmake_lists += read(os.path.join(folder, "CMakeLists.txt"))
+            for name in names:
+                self.add_source(name, os.path.join(folder, name))
         presets = json.loads(read(os.path.join(self.root, "CMakePresets.json")))["configurePresets"]
         self.presets = {preset["name"] for preset in presets if not preset.get("hidden")}
+
+    def add_source(self, name, path):
+        self.identifiers.update(re.findall(r"\w+", name))
+        if name == "vtk.module":
+            self.names.add_module(read(path))
+        elif name.endswith(WITH_IDENTIFIERS) and name not in OF_THIS_CHECK:
+            text = read(path)
+            self.identifiers.update(re.findall(r"\w+", text))
+            if name.endswith((".cmake", "CMakeLists.txt")):
+                self.names.add_cmake(text)
+            elif name.endswith(".cxx"):
+                self.names.add_cxx(name[: -len(".cxx")], text)
 
     def report(self, name, number, message):
         self.defects.append("%s:%d: %s" % (name, number, message))
@@ -61,7 +122,7 @@ class Checker:
 
     def run(self):
         for pattern in DOCUMENTS:
-            found = sorted(glob.glob(os.path.join(self.root, pattern)))
+            found = sorted(glob.glob(os.path.join(self.root, pattern), recursive=True))
             if not found:
                 self.report(pattern, 0, "is missing")
             for path in found:
@@ -74,17 +135,21 @@ class Checker:
         for number, line in enumerate(document.lines, 1):
             for word in (word for pattern in UNWANTED for word in pattern.findall(line)):
                 self.report(name, number, '"%s" does not belong into a document' % word)
-        for number, line in document.prose:
-            for target in re.findall(r"\]\(([^)\s]+)\)", line):
-                self.check_link(name, number, target)
-            for code in re.findall(r"`([^`]+)`", line):
-                for word in code.split():
-                    self.check_path(name, number, word)
-                self.check_presets(name, number, code.split())
+        for number, message in document.defects:
+            self.report(name, number, message)
+        for first, text in document.paragraphs:
+            prose = re.sub(r"`[^`]+`", lambda code: re.sub(r"\S", "x", code.group()), text)
+            for match in LINKS.finditer(prose):
+                number = first + text.count("\n", 0, match.start(match.lastindex))
+                self.check_link(name, number, match.group(match.lastindex))
+            for match in re.finditer(r"`([^`]+)`", text):
+                self.check_code(name, first + text.count("\n", 0, match.start()), match.group(1))
         for language, first, code, setup in document.blocks:
             if not language:
                 self.report(name, first, "a block without a language")
-            elif language in ("bash", "sh"):
+            elif language not in LANGUAGES:
+                self.report(name, first, "a block in the unknown language %s" % language)
+            elif language == "bash":
                 self.check_commands(name, first, code)
             elif language in ("python", "pvpython"):
                 self.check_script(name, first, language, code, setup)
@@ -118,30 +183,63 @@ class Checker:
             if not any(glob.glob(os.path.join(self.root, folder, word)) for folder in folders):
                 self.report(name, number, "no file %s" % word)
 
-    def check_presets(self, name, number, words):
-        for option, value in zip(words, words[1:]):
-            if option == "--preset" and value not in self.presets and not value.isupper():
-                self.report(name, number, "no preset %s" % value)
-            if option == "--target" and not re.search(r"\b%s\b" % re.escape(value), self.cmake_lists):
-                self.report(name, number, "no target %s" % value)
+    def check_code(self, name, number, code):
+        """Code in backticks."""
+        for word in code.split():
+            self.check_path(name, number, word)
+        self.check_options(name, number, code.split())
+        for word in IDENTIFIERS.findall(code):
+            if word not in self.identifiers:
+                self.report(name, number, "no identifier %s in the sources" % word)
+
+    def check_options(self, name, number, words):
+        """Presets, targets, CMake's options and tests that the words of a command name."""
+        values = re.compile(r"(?:(--preset|--target|--tests-regex)=|(-D))(.+)")
+        option = ""
+        for word in words:
+            match = values.fullmatch(word)
+            if match:
+                option, word = match.group(1) or match.group(2), match.group(3)
+            elif re.match(r"-|[;&|()]+$", word):
+                option = word
+                continue
+            if option == "--preset" and word not in self.presets and not word.isupper():
+                self.report(name, number, "no preset %s" % word)
+            elif option == "--target" and word not in self.names.targets:
+                self.report(name, number, "no target %s" % word)
+            elif option == "--tests-regex" and not self.names.has_test(word.strip("\"'")):
+                self.report(name, number, "no test for %s" % word)
+            elif option == "-D" and re.match("SCATTEREDISOPOINTS_", word):
+                if re.match(r"\w+", word).group() not in self.names.options:
+                    self.report(name, number, "no option %s" % word)
+            if option != "--target":  # which alone takes several
+                option = ""
 
     def check_commands(self, name, first, code):
         syntax = subprocess.run(["bash", "-n"], input=code, text=True, stderr=subprocess.PIPE)
         if syntax.returncode != 0:
             self.report(name, first, syntax.stderr.strip())
             return
-        for number, line in enumerate(code.splitlines(), first + 1):
+        number = first + 1
+        for line in re.findall(r"(?:[^\\\n]|\\(?:.|\n))*\n", code):  # with those that continue it
             try:
-                words = shlex.split(line, comments=True)
+                lexer = shlex.shlex(line.replace("\\\n", " "), posix=True, punctuation_chars=";&|()")
+                lexer.whitespace_split = True
+                words = list(lexer)
             except ValueError:  # part of a longer quotation
-                continue
-            self.check_presets(name, number, words)
-            for word in words:
-                self.check_path(name, number, word)
-            commands = [word for word in words if not re.match(r"\w+=", word)]
-            script = os.path.join(self.root, commands[0]) if commands else self.root
-            if os.path.isfile(script) and not os.access(script, os.X_OK):
-                self.report(name, number, "%s is not executable" % commands[0])
+                words = []
+            self.check_line(name, number, words)
+            number += line.count("\n")
+
+    def check_line(self, name, number, words):
+        """The words of one line of commands."""
+        self.check_options(name, number, words)
+        for word in words:
+            self.check_path(name, number, word)
+        commands = [word for word in words if not re.match(r"\w+=", word)]
+        script = os.path.join(self.root, commands[0]) if commands else self.root
+        if os.path.isfile(script) and not os.access(script, os.X_OK):
+            self.report(name, number, "%s is not executable" % commands[0])
 
     def check_script(self, name, first, language, code, setup):
         if setup.endswith(".py") and "\n" not in setup:

@@ -10,31 +10,67 @@ def read(path):
 
 
 class Document:
-    """The prose lines of a file, its headings and its fenced blocks, with their line numbers."""
+    """The paragraphs of a file, its headings and its fenced blocks, with their line numbers.
+
+    A paragraph is all text between blank lines, fences and comments. What cannot be taken apart,
+    or would hide text from the checks, is in defects.
+    """
 
     def __init__(self, path):
         self.lines = read(path).splitlines()
-        self.prose, self.anchors, self.blocks = [], set(), []
-        language, first, setup, comment = None, 0, "", None
+        self.paragraphs, self.anchors, self.blocks, self.defects = [], set(), [], []
+        self.list_indent, self.continues = 0, False
+        fence, comment, language, first, setup = None, None, "", 0, ""
         for number, line in enumerate(self.lines, 1):
-            fence = re.match(r" *```+ *([\w-]*)", line)
-            if language is not None:
-                if fence:
+            if fence:
+                if re.fullmatch(r" *%s+ *" % fence, line):
                     code = "\n".join(self.lines[first : number - 1]) + "\n"
                     self.blocks.append((language, first, code, setup))
-                    language, setup = None, ""
-            elif comment is not None or line.startswith("<!--"):
-                comment = line if comment is None else comment + "\n" + line
-                if "-->" in line:
-                    found = re.fullmatch(r"<!--\s*setup:(.*)-->\s*", comment, re.DOTALL)
-                    setup, comment = found.group(1).strip() if found else "", None
-            elif fence:
-                language, first = fence.group(1), number
+                    fence, setup = None, ""
+                continue
+            if comment is not None or line.startswith("<!--"):
+                if comment is None:
+                    comment, first = "", number
+                comment += line + "\n"
+                if "-->" not in line:
+                    continue
+                comment, line = comment.split("-->", 1)
+                found = re.match(r"<!--\s*setup:(.*)", comment, re.DOTALL)
+                setup, comment, self.continues = found.group(1).strip() if found else "", None, False
+                if line.strip():
+                    self.add_line(number, line.strip("\n"))
+                continue
+            found = re.match(r" *(`{3,}|~{3,})([^`]*)$", line)
+            if found:
+                fence, first, self.continues = found.group(1), number, False
+                language = (found.group(2).split() or [""])[0]
+                if fence[0] == "~":
+                    self.defects.append((number, "a fence of ~ instead of backticks"))
             else:
                 setup = setup if not line else ""
-                self.prose.append((number, line))
-                if re.match(r"#+ ", line):
-                    self.add_anchor(line.lstrip("#"))
+                self.add_line(number, line)
+        if fence or comment is not None:
+            self.defects.append((first, "a %s without an end" % ("fence" if fence else "comment")))
+
+    def add_line(self, number, line):
+        if not line.strip():
+            self.continues = False
+            return
+        item = re.match(r" *(?:[-*+]|\d+[.)]) +(?=\S)", line)
+        indent = len(line.expandtabs(4)) - len(line.expandtabs(4).lstrip())
+        if self.continues:
+            self.paragraphs[-1][1] += "\n" + line
+        else:
+            if indent < self.list_indent:
+                self.list_indent = indent if item else 0
+            if indent >= self.list_indent + 4:
+                self.defects.append((number, "indented code instead of a fenced block"))
+            self.paragraphs.append([number, line])
+        if item and indent < self.list_indent + 4:
+            self.list_indent = item.end()
+        self.continues = True
+        if re.match(r"#+ ", line):
+            self.add_anchor(line.lstrip("#"))
 
     def add_anchor(self, heading):
         text = re.sub(r"\]\([^)]*\)", "", heading).strip().lower()

@@ -11,6 +11,18 @@ SOURCE_DIR = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__f
 CHECKER = os.path.join(SOURCE_DIR, "Utilities", "check-documents.py")
 PRESETS = '{"configurePresets": [{"name": "base", "hidden": true}, {"name": "release"}]}'
 
+CMAKE = """
+add_executable(Program Program.cxx)
+function (add_own_test name)
+  add_executable(${name} ${name}.cxx)
+  add_test(NAME "Own.${name}" COMMAND ${name})
+endfunction ()
+add_own_test(TestThing)
+option(SCATTEREDISOPOINTS_A "of Nothing" ON)
+set(SCATTEREDISOPOINTS_B "" CACHE STRING "")
+set(SCATTEREDISOPOINTS_C "")
+"""
+
 
 def block(language, code):
     return "```%s\n%s\n```\n" % (language, code)
@@ -22,8 +34,10 @@ class CheckDocuments(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         for name, text in {
             "CMakePresets.json": PRESETS,
-            "CMakeLists.txt": "add_executable(Program Program.cxx)\n",
-            "Program.cxx": "",
+            "CMakeLists.txt": CMAKE,
+            "Program.cxx": "class vtkThing { void SetValue(); };\n",
+            "TestThing.cxx": "TEST(Suite, Works)\n{\n}\n",
+            "Module/vtk.module": "NAME\n  Project::vtkModule\n",
             "run.sh": "#!/bin/sh\n",
             "README.md": "# Title\n\n## Two words\n",
             "CONTRIBUTING.md": "",
@@ -63,6 +77,17 @@ class CheckDocuments(unittest.TestCase):
         self.expect("[a](#nowhere)\n", 1, "no heading")
         self.expect("[a](../../outside.md)\n", 1, "no file for the link")
 
+    def test_other_links(self):
+        self.expect_clean('[a](../README.md "title"), `[a](missing.md)`\n\n[b]: ../README.md\n')
+        for text in (
+            '[a](missing.md "title")\n',
+            "[b]: missing.md\n",
+            '<img width="1" src="missing.md">\n',
+            "<!-- c --> [a](missing.md)\n",
+        ):
+            self.expect("\n" + text, 2, "no file for the link missing.md")
+        self.expect("\n[a\nb](\nmissing.md)\n", 4, "no file for the link missing.md")
+
     def test_paths_in_backticks(self):
         self.expect_clean("`Program.cxx`, `docs/page.md`, `docs/*.md`, `build/release/bin/Program`, `a/b`\n")
         self.expect("`docs/missing.md`\n", 1, "no file docs/missing.md")
@@ -74,12 +99,54 @@ class CheckDocuments(unittest.TestCase):
     def test_commands(self):
         self.expect_clean(block("bash", "A=1 ./run.sh X  # comment\ncmake --preset release --target Program"))
         self.expect(block("bash", "ls\ncmake --preset base"), 3, "no preset base")
-        self.expect(block("sh", "cmake --build x --target Missing"), 2, "no target Missing")
+        self.expect(block("bash", "cmake --build x --target Missing"), 2, "no target Missing")
         self.expect(block("bash", "./missing.sh"), 2, "no file missing.sh")
         self.expect(block("bash", "if true"), 1, "syntax error")
         self.write("docs/plain.sh", "")
         self.expect(block("bash", "docs/plain.sh"), 2, "not executable")
+
+    def test_presets_and_targets(self):
+        self.expect_clean(block("bash", "cmake --preset=release && ctest --preset \\\n  release"))
+        self.expect("`cmake --preset=debug`\n", 1, "no preset debug")
+        self.expect(block("bash", "ls\ncmake --preset=debug"), 3, "no preset debug")
+        self.expect(block("bash", "ls\ncmake --preset \\\n  debug\nls"), 3, "no preset debug")
+        self.expect(block("bash", "ls \\\n .\n\ncmake --preset debug"), 5, "no preset debug")
+        target = "cmake --build x --target "
+        self.expect_clean(block("bash", target + "Program vtkModule TestThing all; ls x"))
+        for missing in ("Program Missing", "of", "Nothing", "Suite"):
+            self.expect(block("bash", target + missing), 2, "no target " + missing.split()[-1])
+        self.expect(block("bash", target[:-1] + "=Missing"), 2, "no target Missing")
+
+    def test_options(self):
+        for option in ("-DSCATTEREDISOPOINTS_A=ON", "-D SCATTEREDISOPOINTS_B:STRING=x", "-DOTHER=1"):
+            self.expect_clean(block("bash", "cmake " + option))
+        for option in ("-DSCATTEREDISOPOINTS_C=ON", "-D SCATTEREDISOPOINTS_D=ON"):
+            self.expect(block("bash", "cmake " + option), 2, "no option SCATTEREDISOPOINTS_")
+        self.expect("`-DSCATTEREDISOPOINTS_D=ON`\n", 1, "no option SCATTEREDISOPOINTS_D")
+
+    def test_tests(self):
+        for pattern in ("Own", "^(TestThing|Own\\.Test)", "^TestThing.Suite.Works$"):
+            self.expect_clean(block("bash", "ctest --tests-regex '%s'" % pattern))
+        for pattern in ("Missing", "^(TestThing|Other)", "^Works", "["):
+            self.expect(block("bash", "ctest --tests-regex '%s'" % pattern), 2, "no test for")
+
+    def test_blocks(self):
+        self.expect_clean(block("text", "a") + "````text\n```\n````\n" + block("cmake", "a"))
         self.expect(block("", "ls"), 1, "a block without a language")
+        self.expect(block("fortran", "a"), 1, "unknown language fortran")
+        self.expect("a\n```bash\nls\n", 2, "a fence without an end")
+        self.expect("```text\n```bash\nls\n", 1, "a fence without an end")
+        self.expect("a\n<!-- b\nc\n", 2, "a comment without an end")
+        self.expect("\n~~~bash\nls\n~~~\n", 2, "a fence of ~")
+        self.expect("a\n\n    ls\n", 3, "indented code")
+        self.expect("1. a\n\n       ls\n", 3, "indented code")
+        self.expect_clean("1. a\n\n   b\n   - c\n\n     d\n\ne\n    f\n")
+
+    def test_identifiers_in_backticks(self):
+        self.expect_clean("`vtkThing`, `vtkThing::SetValue()`, `SetX()`, `NAME`, `word`\n")
+        self.expect("a\n`vtkmissing`\n", 2, "no identifier vtkmissing")
+        self.expect("`vtkThing::GetValue()`\n", 1, "no identifier GetValue")
+        self.expect("`camelCase`\n", 1, "no identifier camelCase")
 
     def test_scripts(self):
         self.expect_clean(block("python", "import missing"))
@@ -110,6 +177,10 @@ class CheckDocuments(unittest.TestCase):
         self.expect_clean("")
         self.write("README.md", "\n" * 131)
         self.assertIn("README.md:131: more than 130 lines", self.check(""))
+
+    def test_documents_in_folders(self):
+        self.write("docs/a/b/page.md", "`Missing.cxx`\n")
+        self.assertIn("docs/a/b/page.md:1: no file Missing.cxx", self.check(""))
 
     def test_documents_are_there(self):
         os.remove(os.path.join(self.folder.name, "CHANGELOG.md"))

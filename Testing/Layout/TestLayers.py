@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Includes go in one direction only: docs/architecture.md, "Folders". TestLayers.py ROOT"""
 
+import contextlib
 import pathlib
 import re
 import sys
@@ -27,12 +28,23 @@ FOLDERS = {
     "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
 }
 
+# The folder of the core that alone may include a library.
+LIBRARIES = {"Eigen": CORE + "/Fit", "CGAL": CORE + "/Splat"}
+
+TOP_FOLDERS = ("Filters", "Rendering", "Plugin")
 MOST_FILES = 14
-RENDERING = re.compile(r"vtk\w*(OpenGL|Render|Mapper|Actor|Shader|Camera|Texture|Light|Prop3D|View)")
+SOURCES = (".h", ".cxx")
+OTHER_SUFFIXES = (".c", ".cc", ".cpp", ".c++", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".txx")
+RENDERING = re.compile(
+    r"vtk\w*(OpenGL|Render|Mapper|Actor|Shader|Camera|Texture|Light|View|HardwareSelector)"
+    r"|vtk(Prop|Volume)|vtk\w*Window\b"
+)
+PARAVIEW = re.compile(r"vtk(PV|SM(?!P[A-Z])|SI(?!L)|ClientServer|ProcessModule|ParaView)|pq[A-Z]")
 
 
 def included(path):
-    return re.findall(r'^\s*#\s*include\s*["<]([^">]+)[">]', path.read_text(), re.MULTILINE)
+    pattern = r'^\s*#\s*(?:include|import)\s*["<]([^">]+)[">]'
+    return re.findall(pattern, path.read_text(), re.MULTILINE)
 
 
 class Project:
@@ -44,8 +56,12 @@ class Project:
             path.relative_to(self.root).as_posix(): path
             for folder in folders
             for path in sorted((self.root / folder).glob("*"))
-            if path.suffix in (".h", ".cxx")
+            if path.suffix in SOURCES
         }
+        self.folders = folders
+        self.test_headers = [
+            path.relative_to(self.root).as_posix() for path in (self.root / "Testing").glob("**/*.h*")
+        ]
         self.headers = {}  # by the last part of their names
         for name in self.files:
             if name.endswith(".h"):
@@ -61,14 +77,32 @@ class Project:
         for name, path in self.files.items():
             folder = name.rsplit("/", 1)[0]
             check = self.check_core if folder.startswith(CORE) else self.check_module
+            if re.search(r"^\s*#\s*import\b", path.read_text(), re.MULTILINE):
+                self.report(name, "#import instead of #include")
             for include in included(path):
                 check(name, folder, include, self.own(include))
-        self.check_unknown_folders()
+                self.check_everywhere(name, folder, include)
+        self.check_all_files()
+        self.check_core_folders()
         self.check_circles()
         return self.problems
 
     def report(self, name, problem):
         self.problems.append(f"{name}: {problem}")
+
+    def check_everywhere(self, name, folder, include):
+        if include.endswith((".cxx", ".cpp", ".cc", ".c")):
+            self.report(name, f"includes {include}: not a header")
+        for library, home in LIBRARIES.items():
+            if library in include.split("/")[:-1] and folder != home:
+                self.report(name, f"includes {include}: {library} belongs into {home}")
+        path = "/" + re.sub(r"^(\.\.?/)+", "", include)
+        if any(("/" + header).endswith(path) for header in self.test_headers) and (
+            "Testing/" in include or not self.own(include)
+        ):
+            self.report(name, f"includes {include}: a header of the tests")
+        if PARAVIEW.match(include.rsplit("/", 1)[-1]) and not folder.startswith("Plugin"):
+            self.report(name, f"includes {include}: ParaView belongs into Plugin")
 
     def check_core(self, name, folder, include, own):
         if include.startswith("vtk") or ".." in include:
@@ -85,10 +119,18 @@ class Project:
         allowed = FOLDERS[folder]
         if own and not any(pathlib.PurePath(own).match(pattern) for pattern in allowed):
             self.report(name, f"includes {include}: {folder} may not know it")
-        elif folder == "Filters" and RENDERING.match(include):
+        elif folder == "Filters" and RENDERING.match(include.rsplit("/", 1)[-1]):
             self.report(name, f"includes {include}: filters know no rendering")
 
-    def check_unknown_folders(self):
+    def check_all_files(self):
+        for path in sorted(path for top in TOP_FOLDERS for path in (self.root / top).glob("**/*")):
+            name = path.relative_to(self.root).as_posix()
+            if path.suffix in OTHER_SUFFIXES:
+                self.report(name, "an unexpected suffix: sources are .h and .cxx")
+            elif path.suffix in SOURCES and name.rsplit("/", 1)[0] not in self.folders:
+                self.report(name, "in a folder that no rule names")
+
+    def check_core_folders(self):
         for folder in sorted(path for path in (self.root / CORE).glob("**") if path.is_dir()):
             name = folder.relative_to(self.root / CORE).as_posix().replace(".", "")
             count = sum(path.suffix in (".h", ".cxx") for path in folder.glob("*"))
@@ -109,7 +151,7 @@ class Project:
                 active.append(name)
                 for include in included(self.files[name]):
                     target = self.own(include)
-                    if target and target != name:
+                    if target:
                         visit(target)
                 active.pop()
                 done.add(name)
@@ -120,6 +162,7 @@ class Project:
 
 class LayersTest(unittest.TestCase):
     root = "."
+    maxDiff = None
 
     def test_includes_go_in_one_direction(self):
         self.assertEqual(Project(self.root).check(), [])
@@ -129,7 +172,16 @@ class LayersTest(unittest.TestCase):
         for folder in list(FOLDERS) + [CORE] + [f"{CORE}/{name}" for name in CORE_FOLDERS if name]:
             self.assertTrue(any(name.startswith(folder + "/") for name in names), folder)
 
+    def problems(self, files):
+        with self.project(files) as root:
+            return "\n".join(Project(root).check())
+
     def check_defect(self, files, expected):
+        self.assertIn(expected, self.problems(files))
+
+    @contextlib.contextmanager
+    def project(self, files):
+        """The root of a project of plain files and those given, by their names."""
         with tempfile.TemporaryDirectory() as root:
             for folder in list(CORE_FOLDERS):
                 path = pathlib.Path(root) / CORE / folder / f"Plain{folder}.h"
@@ -139,8 +191,7 @@ class LayersTest(unittest.TestCase):
                 path = pathlib.Path(root) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
-            problems = "\n".join(Project(root).check())
-            self.assertIn(expected, problems)
+            yield root
 
     def test_each_defect_is_found(self):
         core = CORE + "/"
@@ -159,6 +210,46 @@ class LayersTest(unittest.TestCase):
                           "may not know")
         self.check_defect({"Rendering/vtkA.h": "\n",
                            "Plugin/Representation/b.cxx": '#include "vtkA.h"\n'}, "may not know")
+        self.check_defect({"Rendering/a.cxx": '#import "vtkType.h"\n'}, "#import")
+        for name in (core + "Fit/A.h", "Rendering/A.h"):
+            include = name.replace("Filters/", "")
+            self.check_defect({name: f'#include "{include}"\n'}, f"a circle: {name} > {name}")
+        for suffix in ("cpp", "hxx", "hpp", "cc", "c"):
+            for folder in (core + "Fit", "Filters", "Rendering", "Plugin/Representation"):
+                self.check_defect({f"{folder}/a.{suffix}": "\n"}, "an unexpected suffix")
+        for name in ("Filters/New/a.cxx", "Rendering/New/a.h", "Plugin/a.cxx", "Plugin/New/a.h"):
+            self.check_defect({name: "\n"}, f"{name}: in a folder that no rule names")
+
+    def test_unwanted_includes_are_found(self):
+        places = (CORE + "/Fit/a.cxx", "Filters/a.cxx", "Rendering/a.cxx", "Plugin/Representation/a.cxx")
+        for name in places:
+            self.check_defect({name: '#include "b.cxx"\n'}, "not a header")
+            for path in ("Random.h", "Cxx/Random.h", "../Testing/Cxx/Random.h"):
+                self.check_defect({name: f'#include "{path}"\n', "Testing/Cxx/Random.h": "\n"},
+                                  "a header of the tests")
+            for library, home in (("Eigen", "Fit"), ("CGAL", "Splat")):
+                include = f"#include <{library}/Core>\n"
+                self.assertEqual(self.problems({f"{CORE}/{home}/a.cxx": include}), "")
+                if not name.startswith(f"{CORE}/{home}/"):
+                    self.check_defect({name: include}, f"{library} belongs into")
+        for header in ("vtkPVView.h", "vtkSMProxy.h", "vtkSMPropertyHelper.h", "pqView.h"):
+            include = f'#include "{header}"\n'
+            self.check_defect({"Filters/a.cxx": include}, "ParaView belongs into")
+            self.check_defect({"Rendering/a.cxx": include}, "ParaView belongs into")
+            self.assertEqual(self.problems({"Plugin/Representation/a.cxx": include}), "")
+        for name in ("HardwareSelector", "Prop", "Window", "Volume", "Property", "Camera", "Viewport"):
+            self.check_defect({"Filters/a.cxx": f'#include "vtk{name}.h"\n'}, "no rendering")
+        for header in ("vtkSMPTools.h", "vtkSMPThreadLocal.h", "vtkType.h", "CGAL_a/Random.h"):
+            self.assertEqual(self.problems({"Filters/a.cxx": f'#include "{header}"\n'}), "")
+
+    def test_all_problems_are_shown(self):
+        names = [f"Filters/a{i}.cxx" for i in range(100)]
+        with self.project({name: '#include "vtkProp.h"\n' for name in names}) as root:
+            test = LayersTest("test_includes_go_in_one_direction")
+            test.root, result = root, unittest.TestResult()
+            test.run(result)
+        for name in names:
+            self.assertIn(f"{name}: ", result.failures[0][1])
 
 
 if __name__ == "__main__":
