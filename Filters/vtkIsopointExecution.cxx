@@ -126,15 +126,7 @@ isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCo
       static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
     execution.parallelFor = forOnSMPTools;
   }
+  execution.progress = [filter](double fraction) { filter->UpdateProgress(fraction); };
   execution.aborted = [filter]() { return vtkIsAborted(filter); };
   return execution;
-}
-
-isopoint::Execution vtkMakeIsopointStep(
-  const isopoint::Execution& execution, vtkAlgorithm* filter, double begin, double end)
-{
-  isopoint::Execution step = execution;
-  step.progress = [filter, begin, end](double fraction)
-  { filter->UpdateProgress(begin + fraction * (end - begin)); };
-  return step;
 }

@@ -9,10 +9,11 @@
 class vtkAlgorithm;
 
 /**
- * How the core runs on behalf of a filter: on the threads of vtkSMPTools, stopping if the filter is
- * aborted. If useAllCores is set and vtkSMPTools is sequential merely by default, it runs on
- * threads of its own instead (see vtkScatteredIsopointFilter::SetUseAllCores()). The backend of
- * vtkSMPTools is not changed, since that is global and unsafe while other filters run.
+ * How the core runs on behalf of a filter: on the threads of vtkSMPTools, reporting progress as the
+ * filter's and stopping if the filter is aborted. If useAllCores is set and vtkSMPTools is
+ * sequential merely by default, it runs on threads of its own instead (see
+ * vtkScatteredIsopointFilter::SetUseAllCores()). The backend of vtkSMPTools is not changed, since
+ * that is global and unsafe while other filters run.
  */
 isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores);
 
@@ -24,12 +25,5 @@ isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCo
  */
 void vtkForIsopointRanges(
   std::size_t threads, std::size_t count, std::size_t grain, const isopoint::RangeTask& task);
-
-/**
- * A copy of an execution whose progress from 0 to 1 is reported as that of the filter from `begin`
- * to `end`.
- */
-isopoint::Execution vtkMakeIsopointStep(
-  const isopoint::Execution& execution, vtkAlgorithm* filter, double begin, double end);
 
 #endif

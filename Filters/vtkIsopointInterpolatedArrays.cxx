@@ -4,6 +4,7 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
 #include "vtkIsopointAllocation.h"
+#include "vtkIsopointOutput.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
@@ -129,16 +130,6 @@ void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAb
   }
 }
 
-vtkIdType isopointCount(const std::vector<ExtractedIsosurface>& surfaces)
-{
-  std::size_t count = 0;
-  for (const ExtractedIsosurface& extracted : surfaces)
-  {
-    count += extracted.surface.size();
-  }
-  return static_cast<vtkIdType>(count);
-}
-
 vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdType tuples)
 {
   auto output = vtkSmartPointer<vtkAbstractArray>::Take(input->NewInstance());
@@ -181,7 +172,8 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
     {
       continue;
     }
-    const vtkSmartPointer<vtkAbstractArray> result = newArrayLike(array, isopointCount(surfaces));
+    const vtkSmartPointer<vtkAbstractArray> result =
+      newArrayLike(array, vtkCountIsopoints(surfaces));
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
     vtkIdType firstTuple = 0;
@@ -210,7 +202,7 @@ void vtkAddContouredArray(
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
   result->SetName(contoured->GetName());
-  vtkAllocateTuples(result, isopointCount(surfaces));
+  vtkAllocateTuples(result, vtkCountIsopoints(surfaces));
   vtkIdType tuple = 0;
   for (const ExtractedIsosurface& extracted : surfaces)
   {

@@ -16,7 +16,8 @@ namespace
 
 /// The fit that the projection or an output requires, if any: thinning and normals from the field
 /// require polynomials, other splats and fit orders at least the sample spacing.
-std::optional<isopoint::FitRequest> fitRequestOf(vtkScatteredIsopointFilter* filter)
+std::optional<isopoint::FitRequest> fitRequestOf(
+  vtkScatteredIsopointFilter* filter, const vtkIsopointComputedArrays::Choice& arrays)
 {
   using isopoint::FitOrder;
   using isopoint::FitRequest;
@@ -33,7 +34,6 @@ std::optional<isopoint::FitRequest> fitRequestOf(vtkScatteredIsopointFilter* fil
     default:
       break;
   }
-  const vtkIsopointComputedArrays::Choice arrays = vtkChooseIsopointArrays(filter);
   const bool hasFieldNormals =
     arrays.NeedsSplats() &&
     filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
@@ -101,7 +101,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   isopoint::ExtractionRequest request;
   request.isosurface.angle = filter->GetAngle();
   request.isosurface.gapFactor = filter->GetGapFactor();
-  request.isosurface.fit = fitRequestOf(filter);
+  request.isosurface.fit = fitRequestOf(filter, arrays);
   request.minimumSpacing = filter->GetMinimumSpacing();
   if (arrays.NeedsSplats())
   {

@@ -18,17 +18,22 @@
 
 #include <cstddef>
 
+vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  std::size_t count = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    count += extracted.surface.size();
+  }
+  return static_cast<vtkIdType>(count);
+}
+
 vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type)
 {
-  vtkIdType count = 0;
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
-  {
-    count += static_cast<vtkIdType>(extracted.surface.size());
-  }
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(type);
-  vtkAllocateTuples(points->GetData(), count);
+  vtkAllocateTuples(points->GetData(), vtkCountIsopoints(surfaces));
   vtkIdType next = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
   {

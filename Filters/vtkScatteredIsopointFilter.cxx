@@ -276,7 +276,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
     const double begin = loadingShare + share * static_cast<double>(surfaces.size());
     request.isosurface.isovalue = isovalue;
     surfaces.push_back(
-      kept.Extractor.extract(vtkMakeIsopointStep(execution, this, begin, begin + share), request));
+      kept.Extractor.extract(isopoint::partOf(execution, begin, begin + share), request));
     isopoint::throwIfAborted(execution);
   }
   return surfaces;

@@ -8,19 +8,6 @@
 
 namespace isopoint
 {
-namespace
-{
-
-/// An execution that reports the progress of a part of the work.
-Execution partOf(const Execution& execution, double begin, double end)
-{
-  Execution part = execution;
-  part.progress = [&execution, begin, end](double fraction)
-  { execution.progress(begin + fraction * (end - begin)); };
-  return part;
-}
-
-} // namespace
 
 void IsosurfaceExtractor::clear()
 {

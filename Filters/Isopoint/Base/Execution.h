@@ -48,6 +48,16 @@ struct Execution
   std::function<bool()> aborted = []() { return false; };
 };
 
+/// A copy of an execution for a part of the work, whose progress from 0 to 1 is that of the whole
+/// from `begin` to `end`.
+inline Execution partOf(const Execution& execution, double begin, double end)
+{
+  Execution part = execution;
+  part.progress = [whole = execution.progress, begin, end](double fraction)
+  { whole(begin + fraction * (end - begin)); };
+  return part;
+}
+
 /// @throws Aborted if the execution is to stop.
 inline void throwIfAborted(const Execution& execution)
 {

@@ -23,10 +23,6 @@ struct IsopointEdge
   /// attributes are interpolated there.
   double parameter;
 
-  bool operator<(const IsopointEdge& other) const
-  {
-    return this->first != other.first ? this->first < other.first : this->second < other.second;
-  }
   bool operator==(const IsopointEdge& other) const
   {
     return this->first == other.first && this->second == other.second;
