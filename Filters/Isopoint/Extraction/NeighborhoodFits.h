@@ -8,8 +8,8 @@
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/SampleGatherer.h"
-#include "Isopoint/Fit/DetectionRate.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Fit/LocalFitter.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,11 +28,11 @@ public:
     : Isovalue(context.isovalue)
     , Request(request)
     , Gatherer(context)
+    , Fitter(context.isovalue, request)
   {
   }
 
-  /// @param rates of detection among the isopoints fitted before; updated
-  LocalFit fit(const CrossingEdge<TSample>& crossing, DetectionRates& rates)
+  LocalFit fit(const CrossingEdge<TSample>& crossing)
   {
     this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
     const FitSample first = this->Gatherer.sampleAt(crossing.firstLeaf);
@@ -44,11 +44,19 @@ public:
                                 : difference(first.position, second.position);
     edge.increase = increases ? second.value - first.value : first.value - second.value;
     edge.spacing = this->Gatherer.spacing();
-    LocalFit fit = fitAround(
-      edge, this->Isovalue, this->Gatherer.samples(),
-      [&]() -> const std::vector<FitSample>& { return this->Gatherer.widerSamples(); },
-      this->Request.highest, rates);
+    LocalFit fit{};
+    fit.position = edge.position;
     fit.spacing = edge.spacing;
+    if (!this->Request.highest)
+    {
+      const double length = lengthOf(edge.increasing);
+      fit.gradient = scaled(edge.increase / length / length, edge.increasing);
+      return fit;
+    }
+    if (!this->Fitter.fitSmooth(edge, this->Gatherer.samples(), fit))
+    {
+      fit = this->Fitter.fit(edge, this->Gatherer.widerSamples());
+    }
     if (!this->Request.move)
     {
       fit.position = edge.position;
@@ -60,6 +68,7 @@ private:
   const double Isovalue;
   const FitRequest Request;
   SampleGatherer<TSample> Gatherer;
+  LocalFitter Fitter;
 };
 
 /// Where an edge stands in the order of the tree.
@@ -121,12 +130,11 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
       NeighborhoodFitter<TSample> fitter(context, request);
       for (std::size_t group = begin; group < end; ++group)
       {
-        DetectionRates rates;
         const std::size_t groupEnd = std::min((group + 1) * groupSize, places.size());
         for (std::size_t i = group * groupSize; i < groupEnd; ++i)
         {
           const std::size_t edge = places[i].edge;
-          fits[edge] = fitter.fit(edges[edge], rates);
+          fits[edge] = fitter.fit(edges[edge]);
         }
       }
     });

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/PolynomialFit.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace isopoint
@@ -11,161 +10,177 @@ namespace isopoint
 namespace
 {
 
-/// The reciprocal condition number of normal equations below which samples are taken not to
-/// determine a polynomial: coefficients keep about six digits of double's sixteen there.
-constexpr double leastCondition = 1e-9;
-
-/// The products of coordinates that coefficients belong to.
-template <int Degree>
-Eigen::Matrix<double, coefficientCount(Degree), 1> basisAt(const Eigen::Vector3d& p)
+/// The polynomial at the same place in all lanes.
+double squaredLength(const Vector& a)
 {
-  Eigen::Matrix<double, coefficientCount(Degree), 1> basis;
-  const double x = p.x();
-  const double y = p.y();
-  const double z = p.z();
-  basis.template head<4>() << 1.0, x, y, z;
-  if constexpr (Degree > 1)
-  {
-    basis.template segment<6>(4) << x * x, y * y, z * z, x * y, x * z, y * z;
-  }
-  if constexpr (Degree > 2)
-  {
-    basis.template tail<10>() << x * x * x, y * y * y, z * z * z, x * x * y, x * x * z, y * y * x,
-      y * y * z, z * z * x, z * z * y, x * y * z;
-  }
-  return basis;
+  return dot(a, a);
 }
 
-/// See fitPolynomial().
-/// @param isTaken of the number of a sample, whether to fit to it
-template <int Degree, class IsTaken>
-std::optional<Polynomial> fit(const std::vector<FrameSample>& samples, const IsTaken& isTaken)
+/// Fewer samples leave too few residuals to estimate an error from.
+bool areEnough(std::size_t count, int degree)
 {
-  constexpr int count = coefficientCount(Degree);
-  // Without residuals nothing shows whether the fit describes the samples.
-  constexpr std::size_t fewestSamples = count + 1 + count / 5;
-  std::size_t taken = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  return 4 * count >= 5 * coefficientCount(degree);
+}
+
+/// The samples nearest to the origin.
+struct NearestSamples
+{
+  static constexpr std::size_t most = 16;
+  FrameSamples samples;
+  FrameWeights weights;
+
+  NearestSamples(const FrameSamples& all, const FrameWeights& allWeights)
   {
-    taken += isTaken(i) ? 1 : 0;
-  }
-  if (taken < fewestSamples)
-  {
-    return std::nullopt;
-  }
-  using Matrix = Eigen::Matrix<double, count, count>;
-  using Vector = Eigen::Matrix<double, count, 1>;
-  Matrix matrix = Matrix::Zero();
-  Vector rightSide = Vector::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i)
-  {
-    if (isTaken(i))
+    std::array<double, mostFitSamples> distances;
+    for (std::size_t i = 0; i < all.count; ++i)
     {
-      const Vector basis = basisAt<Degree>(samples[i].position);
-      const Vector weighted = samples[i].weight * basis;
-      matrix.noalias() += weighted * basis.transpose();
-      rightSide += samples[i].value * weighted;
+      distances[i] = FrameSamples::at(all.squaredDistance, i);
+    }
+    double limit = 0.0;
+    const std::size_t wanted = std::min(most, all.count);
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
+    std::nth_element(distances.begin(), last,
+      distances.begin() + static_cast<std::ptrdiff_t>(all.count));
+    limit = *last;
+    for (const bool isEqual : { false, true })
+    {
+      for (std::size_t i = 0; i < all.count && this->samples.count < wanted; ++i)
+      {
+        const double distance = FrameSamples::at(all.squaredDistance, i);
+        if (isEqual ? distance == limit : distance < limit)
+        {
+          const std::size_t at = this->samples.count++;
+          FrameSamples::at(this->samples.x, at) = FrameSamples::at(all.x, i);
+          FrameSamples::at(this->samples.y, at) = FrameSamples::at(all.y, i);
+          FrameSamples::at(this->samples.z, at) = FrameSamples::at(all.z, i);
+          FrameSamples::at(this->samples.value, at) = FrameSamples::at(all.value, i);
+          FrameSamples::at(this->weights, at) = FrameSamples::at(allWeights, i);
+        }
+      }
+    }
+    for (std::size_t at = wanted; at < laneCount * this->samples.groupCount(); ++at)
+    {
+      FrameSamples::at(this->samples.x, at) = 0.0;
+      FrameSamples::at(this->samples.y, at) = 0.0;
+      FrameSamples::at(this->samples.z, at) = 0.0;
+      FrameSamples::at(this->samples.value, at) = 0.0;
+      FrameSamples::at(this->weights, at) = 0.0;
     }
   }
-  const Eigen::LDLT<Matrix> factors(matrix);
-  // The estimate of the condition passes over pivots of 0.
-  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0.0) ||
-      !(factors.rcond() > leastCondition))
-  {
-    return std::nullopt;
-  }
-  Polynomial polynomial;
-  polynomial.degree = Degree;
-  polynomial.coefficients.template head<count>() = factors.solve(rightSide);
-  return polynomial.coefficients.allFinite() ? std::optional<Polynomial>(polynomial) : std::nullopt;
-}
+};
 
-template <class IsTaken>
-std::optional<Polynomial> fit(
-  const std::vector<FrameSample>& samples, int degree, const IsTaken& isTaken)
+template <int Degree>
+double residualOf(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
+  const NearestSamples& nearest)
 {
-  switch (degree)
+  Lanes squares = Lanes::Zero();
+  Lanes weights = Lanes::Zero();
+  const FrameSamples& near = nearest.samples;
+  for (std::size_t i = 0; i < near.groupCount(); ++i)
   {
-    case 1:
-      return fit<1>(samples, isTaken);
-    case 2:
-      return fit<2>(samples, isTaken);
-    default:
-      return fit<3>(samples, isTaken);
+    const Lanes& weight = nearest.weights[i];
+    const Lanes leverage =
+      weight * equations.leverage(polynomial.degree, near.x[i], near.y[i], near.z[i]);
+    const Lanes residual =
+      weight * (near.value[i] - polynomial.valueAt(near.x[i], near.y[i], near.z[i])) / (1.0 - leverage);
+    squares += residual * residual;
+    weights += weight * weight;
   }
+  return std::sqrt(sumOf(squares) / sumOf(weights));
 }
 
 } // namespace
 
-Eigen::Vector3d Polynomial::gradient(const Eigen::Vector3d& p) const
+std::optional<Vector> zeroNear(const Polynomial& polynomial, double farthest)
 {
-  const auto& c = this->coefficients;
-  const double x = p.x();
-  const double y = p.y();
-  const double z = p.z();
-  Eigen::Vector3d gradient(c[1] + 2.0 * c[4] * x + c[7] * y + c[8] * z,
-    c[2] + 2.0 * c[5] * y + c[7] * x + c[9] * z, c[3] + 2.0 * c[6] * z + c[8] * x + c[9] * y);
-  if (this->degree > 2)
+  constexpr int mostSteps = 4;
+  constexpr double accuracy = 1e-6;
+  Vector place{};
+  for (int i = 0; i < mostSteps; ++i)
   {
-    gradient += Eigen::Vector3d(3.0 * c[10] * x * x + 2.0 * x * (c[13] * y + c[14] * z) +
-                                  c[15] * y * y + c[17] * z * z + c[19] * y * z,
-      3.0 * c[11] * y * y + 2.0 * y * (c[15] * x + c[16] * z) + c[13] * x * x + c[18] * z * z +
-        c[19] * x * z,
-      3.0 * c[12] * z * z + 2.0 * z * (c[17] * x + c[18] * y) + c[14] * x * x + c[16] * y * y +
-        c[19] * x * y);
-  }
-  return gradient;
-}
-
-Hessian Polynomial::hessian(const Eigen::Vector3d& p) const
-{
-  const auto& c = this->coefficients;
-  const double x = p.x();
-  const double y = p.y();
-  const double z = p.z();
-  return { 2.0 * (c[4] + 3.0 * c[10] * x + c[13] * y + c[14] * z),
-    2.0 * (c[5] + 3.0 * c[11] * y + c[15] * x + c[16] * z),
-    2.0 * (c[6] + 3.0 * c[12] * z + c[17] * x + c[18] * y),
-    c[7] + 2.0 * (c[13] * x + c[15] * y) + c[19] * z,
-    c[8] + 2.0 * (c[14] * x + c[17] * z) + c[19] * y,
-    c[9] + 2.0 * (c[16] * y + c[18] * z) + c[19] * x };
-}
-
-std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples, int degree)
-{
-  return fit(samples, degree, [](std::size_t) { return true; });
-}
-
-std::optional<Polynomial> fitPolynomial(const std::vector<FrameSample>& samples,
-  const std::vector<std::uint8_t>& labels, std::uint8_t label, int degree)
-{
-  return fit(samples, degree, [&](std::size_t i) { return labels[i] == label; });
-}
-
-double residualCoherence(const std::vector<FrameSample>& samples, const Polynomial& polynomial)
-{
-  constexpr double squaredReach = 0.6;
-  std::vector<double> residuals; // by the roots of their weights
-  double squares = 0.0;
-  double weights = 0.0;
-  double products = 0.0;
-  double productWeights = 0.0;
-  for (const FrameSample& sample : samples)
-  {
-    const double weight = std::sqrt(sample.weight);
-    const double residual = weight * (sample.value - polynomial.value(sample.position));
-    for (std::size_t i = 0; i < residuals.size(); ++i)
+    const Vector gradient = polynomial.gradientAt(place);
+    const double step = -polynomial.valueAt(place) / squaredLength(gradient);
+    const Vector next = sum(place, step, gradient);
+    if (!(squaredLength(next) <= farthest * farthest)) // nor is it a number, where the gradient is 0
     {
-      const double closeness =
-        std::max(0.0, squaredReach - (sample.position - samples[i].position).squaredNorm());
-      products += closeness * residual * residuals[i];
-      productWeights += closeness * weight * std::sqrt(samples[i].weight);
+      return std::nullopt;
     }
-    residuals.push_back(residual);
-    squares += residual * residual;
-    weights += sample.weight;
+    const bool isFound = std::abs(step) * std::sqrt(squaredLength(gradient)) <= accuracy * farthest;
+    place = next;
+    if (isFound)
+    {
+      return place;
+    }
   }
-  return products / productWeights / (squares / weights);
+  return std::nullopt;
 }
+
+bool increasesAlong(const Vector& increasing, const Vector& gradient)
+{
+  constexpr double leastCosine = -0.2;
+  return dot(gradient, increasing) >
+         leastCosine * std::sqrt(squaredLength(gradient) * squaredLength(increasing));
+}
+
+template <int Degree>
+std::optional<PolynomialFit> fitPolynomial(
+  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing)
+{
+  if (!areEnough(samples.count, Degree))
+  {
+    if constexpr (Degree > 2)
+    {
+      return fitPolynomial<Degree - 1>(samples, weights, increasing);
+    }
+    else
+    {
+      return std::nullopt;
+    }
+  }
+  const NormalEquations<Degree> equations(samples, weights);
+  const double farthest = 0.5 * std::sqrt(squaredLength(increasing));
+  for (int degree = equations.determinedDegree(); degree > 1; --degree)
+  {
+    PolynomialFit fit;
+    fit.polynomial = equations.solution(degree);
+    if (!increasesAlong(increasing, fit.polynomial.gradientAt({})))
+    {
+      continue;
+    }
+    const std::optional<Vector> zero = zeroNear(fit.polynomial, farthest);
+    if (!zero)
+    {
+      continue;
+    }
+    fit.zero = *zero;
+    fit.gradient = fit.polynomial.gradientAt(fit.zero);
+    if (!increasesAlong(increasing, fit.gradient))
+    {
+      continue;
+    }
+    fit.move = std::sqrt(squaredLength(fit.zero));
+    const NearestSamples nearest(samples, weights);
+    fit.residual = residualOf(equations, fit.polynomial, nearest);
+    const Polynomial influence = equations.influence(degree);
+    Lanes squares = Lanes::Zero();
+    for (std::size_t i = 0; i < samples.groupCount(); ++i)
+    {
+      const Lanes effect = weights[i] * influence.valueAt(samples.x[i], samples.y[i], samples.z[i]);
+      squares += effect * effect;
+    }
+    fit.standardError =
+      fit.residual * std::sqrt(sumOf(squares) / squaredLength(fit.gradient));
+    if (std::isfinite(fit.standardError))
+    {
+      return fit;
+    }
+  }
+  return std::nullopt;
+}
+
+template std::optional<PolynomialFit> fitPolynomial<2>(
+  const FrameSamples&, const FrameWeights&, const Vector&);
+template std::optional<PolynomialFit> fitPolynomial<3>(
+  const FrameSamples&, const FrameWeights&, const Vector&);
 
 } // namespace isopoint

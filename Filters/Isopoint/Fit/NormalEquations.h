@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NormalEquations_h
+#define isopoint_NormalEquations_h
+
+#include "Isopoint/Fit/FrameSamples.h"
+#include "Isopoint/Fit/Polynomial.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace isopoint
+{
+
+/// The powers of x, y, z in each coefficient's product, in the order of Polynomial.
+constexpr std::array<std::array<std::size_t, 3>, 20> exponents{ { { 0, 0, 0 }, { 1, 0, 0 },
+  { 0, 1, 0 }, { 0, 0, 1 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 },
+  { 0, 1, 1 }, { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 },
+  { 0, 2, 1 }, { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
+
+/// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order: coefficientCount
+/// (order) of them instead of one for each pair of coefficients.
+template <int Order>
+class Moments
+{
+public:
+  /// @param weights by which the products are multiplied
+  Moments(const FrameSamples& samples, const FrameWeights& weights)
+  {
+    const std::size_t groups = samples.groupCount();
+    FrameSamples::Numbers powers;
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      powers[i] = weights[i];
+    }
+    this->addPlane<0>(samples, groups, powers);
+  }
+
+  double at(std::size_t a, std::size_t b, std::size_t c) const
+  {
+    return this->Sums[a][b][c];
+  }
+
+private:
+  static constexpr std::size_t size = Order + 1;
+
+  /// All sums with x^a, and then those with higher powers of x.
+  /// @param powers weight x^a
+  template <int A>
+  void addPlane(const FrameSamples& samples, std::size_t groups, FrameSamples::Numbers& powers)
+  {
+    FrameSamples::Numbers products;
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      products[i] = powers[i];
+    }
+    this->addRow<A, 0>(samples, groups, products);
+    if constexpr (A < Order)
+    {
+      for (std::size_t i = 0; i < groups; ++i)
+      {
+        powers[i] *= samples.x[i];
+      }
+      this->addPlane<A + 1>(samples, groups, powers);
+    }
+  }
+
+  /// All sums with x^a y^b, and then those with higher powers of y.
+  template <int A, int B>
+  void addRow(const FrameSamples& samples, std::size_t groups, FrameSamples::Numbers& products)
+  {
+    constexpr std::size_t count = Order - A - B + 1;
+    std::array<Lanes, count> sums;
+    sums.fill(Lanes::Zero());
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      Lanes product = products[i];
+      sums[0] += product;
+#pragma GCC unroll 8
+      for (std::size_t c = 1; c < count; ++c)
+      {
+        product *= samples.z[i];
+        sums[c] += product;
+      }
+    }
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      this->Sums[A][B][c] = sumOf(sums[c]);
+    }
+    if constexpr (A + B < Order)
+    {
+      for (std::size_t i = 0; i < groups; ++i)
+      {
+        products[i] *= samples.y[i];
+      }
+      this->addRow<A, B + 1>(samples, groups, products);
+    }
+  }
+
+  double Sums[size][size][size];
+};
+
+/// The normal equations of the weighted least-squares polynomial of a degree through samples, and
+/// their Cholesky factors L, whose leading blocks are those of lower degrees.
+template <int Degree>
+class NormalEquations
+{
+public:
+  static constexpr std::size_t size = coefficientCount(Degree);
+
+  /// Complexity: O(samples)
+  NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
+  {
+    const Moments<2 * Degree> moments(samples, weights);
+    FrameSamples::Numbers weightedValues;
+    for (std::size_t i = 0; i < samples.groupCount(); ++i)
+    {
+      weightedValues[i] = weights[i] * samples.value[i];
+    }
+    const Moments<Degree> ofValues(samples, weightedValues);
+    this->factor(moments);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      this->RightSide[i] = ofValues.at(exponents[i][0], exponents[i][1], exponents[i][2]);
+    }
+  }
+
+  /// The highest degree whose coefficients the samples determine; 0 if none.
+  int determinedDegree() const { return this->Determined; }
+
+  /// The polynomial of a degree up to determinedDegree() of least squares.
+  Polynomial solution(int degree) const
+  {
+    return this->solve(degree, this->RightSide);
+  }
+
+  /// The polynomial whose value at a sample, times the sample's weight, is the effect of the
+  /// sample's value on the value that the fit has at the origin.
+  Polynomial influence(int degree) const
+  {
+    std::array<double, size> unit{};
+    unit[0] = 1.0;
+    return this->solve(degree, unit);
+  }
+
+  /// The effect of samples' values on what the fit has there, for weights of 1.
+  Lanes leverage(int degree, const Lanes& x, const Lanes& y, const Lanes& z) const
+  {
+    std::array<Lanes, size> rest = products(x, y, z);
+    Lanes sum = Lanes::Zero();
+    const std::size_t count = coefficientCount(degree);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Lanes solved = this->Reciprocals[i] * rest[i];
+      sum += solved * solved;
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        rest[j] -= this->below(i, j) * solved;
+      }
+    }
+    return sum;
+  }
+
+private:
+  static constexpr std::size_t groups = (size + laneCount - 1) / laneCount;
+  using Column = std::array<Lanes, groups>;
+
+  double below(std::size_t column, std::size_t row) const
+  {
+    return this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)];
+  }
+
+  static std::array<Lanes, size> products(const Lanes& x, const Lanes& y, const Lanes& z)
+  {
+    std::array<Lanes, size> result;
+    result[0] = 1.0;
+    result[1] = x;
+    result[2] = y;
+    result[3] = z;
+    if constexpr (Degree > 1)
+    {
+      result[4] = x * x;
+      result[5] = y * y;
+      result[6] = z * z;
+      result[7] = x * y;
+      result[8] = x * z;
+      result[9] = y * z;
+    }
+    if constexpr (Degree > 2)
+    {
+      result[10] = result[4] * x;
+      result[11] = result[5] * y;
+      result[12] = result[6] * z;
+      result[13] = result[4] * y;
+      result[14] = result[4] * z;
+      result[15] = result[5] * x;
+      result[16] = result[5] * z;
+      result[17] = result[6] * x;
+      result[18] = result[6] * y;
+      result[19] = result[7] * z;
+    }
+    return result;
+  }
+
+  /// Column by column, with zeros on and above the diagonal.
+  void factor(const Moments<2 * Degree>& moments)
+  {
+    /// A smaller share of a diagonal element left as the pivot means that the samples do not
+    /// determine the coefficient: about half of the digits of a double remain.
+    constexpr double leastPivot = 1e-7;
+    this->Determined = 0;
+    for (std::size_t column = 0; column < size; ++column)
+    {
+      const std::size_t first = column / laneCount;
+      Column rest;
+      for (std::size_t row = first * laneCount; row < size; ++row)
+      {
+        const auto& a = exponents[column];
+        const auto& b = exponents[row];
+        rest[row / laneCount][static_cast<Eigen::Index>(row % laneCount)] =
+          moments.at(a[0] + b[0], a[1] + b[1], a[2] + b[2]);
+      }
+      for (std::size_t row = size; row < groups * laneCount; ++row)
+      {
+        rest[row / laneCount][static_cast<Eigen::Index>(row % laneCount)] = 0.0;
+      }
+      const auto lane = static_cast<Eigen::Index>(column % laneCount);
+      const double diagonal = rest[first][lane];
+      for (std::size_t former = 0; former < column; ++former)
+      {
+        const double factor = this->below(former, column);
+        for (std::size_t group = first; group < groups; ++group)
+        {
+          rest[group] -= factor * this->Columns[former][group];
+        }
+      }
+      const double pivot = rest[first][lane];
+      if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
+      {
+        return;
+      }
+      this->Reciprocals[column] = 1.0 / std::sqrt(pivot);
+      for (std::size_t group = first; group < groups; ++group)
+      {
+        this->Columns[column][group] = rest[group] * this->Reciprocals[column];
+      }
+      for (std::size_t row = first * laneCount; row <= column; ++row)
+      {
+        this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)] = 0.0;
+      }
+      for (int degree = 1; degree <= Degree; ++degree)
+      {
+        this->Determined = column + 1 == coefficientCount(degree) ? degree : this->Determined;
+      }
+    }
+  }
+
+  Polynomial solve(int degree, const std::array<double, size>& rightSide) const
+  {
+    const std::size_t count = coefficientCount(degree);
+    Polynomial polynomial;
+    polynomial.degree = degree;
+    auto& x = polynomial.coefficients;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      x[i] = rightSide[i];
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      x[i] *= this->Reciprocals[i];
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        x[j] -= this->below(i, j) * x[i];
+      }
+    }
+    for (std::size_t i = count; i-- > 0;)
+    {
+      double rest = x[i];
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        rest -= this->below(i, j) * x[j];
+      }
+      x[i] = rest * this->Reciprocals[i];
+    }
+    return polynomial;
+  }
+
+  std::array<Column, size> Columns; // of L, below the diagonal
+  std::array<double, size> Reciprocals; // of the diagonal of L
+  std::array<double, size> RightSide;
+  int Determined = 0;
+};
+
+} // namespace isopoint
+
+#endif
