@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -28,13 +29,35 @@ public:
     : Isovalue(context.isovalue)
     , Request(request)
     , Gatherer(context)
-    , Fitter(context.isovalue, request)
+    , Fitter(context.isovalue, request.highest.value_or(FitOrder::Linear))
   {
   }
 
   LocalFit fit(const CrossingEdge<TSample>& crossing)
   {
     this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
+    const FitEdge edge = this->edgeOf(crossing);
+    if (!this->Request.highest)
+    {
+      return LocalFitter::onEdge(edge);
+    }
+    std::optional<LocalFit> fit = this->Fitter.fitSmooth(edge, this->Gatherer.samples());
+    if (!fit)
+    {
+      const std::size_t nearCount = this->Gatherer.samples().size();
+      this->Gatherer.widen();
+      fit = this->Fitter.fit(edge, this->Gatherer.samples(), nearCount);
+    }
+    if (!this->Request.move)
+    {
+      fit->position = edge.position;
+    }
+    return *fit;
+  }
+
+private:
+  FitEdge edgeOf(const CrossingEdge<TSample>& crossing)
+  {
     const FitSample first = this->Gatherer.sampleAt(crossing.firstLeaf);
     const FitSample second = this->Gatherer.sampleAt(crossing.secondLeaf);
     const bool increases = first.value < this->Isovalue;
@@ -44,27 +67,9 @@ public:
                                 : difference(first.position, second.position);
     edge.increase = increases ? second.value - first.value : first.value - second.value;
     edge.spacing = this->Gatherer.spacing();
-    LocalFit fit{};
-    fit.position = edge.position;
-    fit.spacing = edge.spacing;
-    if (!this->Request.highest)
-    {
-      const double length = lengthOf(edge.increasing);
-      fit.gradient = scaled(edge.increase / length / length, edge.increasing);
-      return fit;
-    }
-    if (!this->Fitter.fitSmooth(edge, this->Gatherer.samples(), fit))
-    {
-      fit = this->Fitter.fit(edge, this->Gatherer.widerSamples());
-    }
-    if (!this->Request.move)
-    {
-      fit.position = edge.position;
-    }
-    return fit;
+    return edge;
   }
 
-private:
   const double Isovalue;
   const FitRequest Request;
   SampleGatherer<TSample> Gatherer;

@@ -3,6 +3,7 @@
 #define isopoint_SampleGatherer_h
 
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
@@ -11,14 +12,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 namespace isopoint
 {
 
-/// Gathers the samples around edges, one edge at a time. Memory is kept. For one thread.
+/// Gathers the samples around edges, one edge at a time: within one ring of touching cells
+/// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept. For
+/// one thread.
 template <class TSample>
 class SampleGatherer
 {
@@ -33,247 +34,203 @@ public:
   {
   }
 
-  /// Gathers the samples of both ends' neighbourhoods; but if one end alone has very many
-  /// neighbours, as a cell that fills a void has, only those of the other end.
+  /// Gathers the samples of both ends and of their neighbours; but if one end alone has very many,
+  /// as a cell that fills a void has, only those of the other end. If both have, a subset of theirs
+  /// that covers all directions and distances.
   void gather(Id firstLeaf, Id secondLeaf)
   {
-    this->clear();
-    this->IsWiderGathered = false;
-    this->FirstLeaf = firstLeaf;
-    this->SecondLeaf = secondLeaf;
-    this->Ends.clear();
-    this->Spacing = 0.0;
-    for (const Id end : { firstLeaf, secondLeaf })
+    this->Known.clear();
+    this->Samples.clear();
+    this->IsWide = false;
+    const bool isInOrder = this->beginOf(firstLeaf) < this->beginOf(secondLeaf);
+    this->Ends[0].leaf = isInOrder ? firstLeaf : secondLeaf;
+    this->Ends[1].leaf = isInOrder ? secondLeaf : firstLeaf;
+    for (End& end : this->Ends)
     {
-      const std::size_t begin = this->Leaves.size();
-      this->Seen.fill(0);
-      if (this->addFew(end))
+      end.isTaken = this->listNeighbors(end.leaf, end.neighbors);
+    }
+    if (!this->Ends[0].isTaken && !this->Ends[1].isTaken)
+    {
+      for (End& end : this->Ends)
       {
-        this->Ends.push_back(end);
-        this->Spacing += this->spacingAt(end, begin);
+        end.isTaken = true;
+        this->listSome(end.leaf, end.neighbors);
       }
     }
-    if (this->Ends.empty())
+    for (const End& end : this->Ends)
     {
-      this->Ends = { firstLeaf, secondLeaf };
-      for (const Id end : this->Ends)
+      this->add(end.leaf);
+      if (end.isTaken)
       {
-        const std::size_t begin = this->Leaves.size();
-        this->Seen.fill(0);
-        this->addSome(end);
-        this->Spacing += this->spacingAt(end, begin);
+        this->addAll(end.neighbors);
       }
     }
-    this->Spacing /= static_cast<double>(this->Ends.size());
-    this->list(this->Samples);
   }
 
-  /// The samples of the present edge, by id.
+  /// Adds the neighbours of the ends' neighbours across the isovalue, unless there are enough
+  /// samples, as where these stand in lines.
+  void widen()
+  {
+    constexpr std::size_t enoughSamples = 64;
+    if (this->IsWide || this->Samples.size() > enoughSamples)
+    {
+      return;
+    }
+    this->IsWide = true;
+    for (const End& end : this->Ends)
+    {
+      const bool isBelow = this->isBelow(end.leaf);
+      for (std::size_t i = 0; end.isTaken && i < end.neighbors.size(); ++i)
+      {
+        const Id leaf = end.neighbors[i];
+        if (this->isBelow(leaf) != isBelow && this->listNeighbors(leaf, this->Listed))
+        {
+          this->addAll(this->Listed);
+        }
+      }
+    }
+  }
+
+  /// The samples of the present edge, each once, coincident ones as one. Their order depends on the
+  /// tree alone.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
-  /// More of them, if those are few: with the neighbourhoods of some of them.
-  const std::vector<FitSample>& widerSamples()
+  /// The mean of the spacings at those ends whose neighbours are taken.
+  double spacing()
   {
-    if (this->Samples.size() > enoughSamples)
+    double sum = 0.0;
+    double count = 0.0;
+    for (const End& end : this->Ends)
     {
-      return this->Samples;
+      if (end.isTaken)
+      {
+        sum += this->spacingAt(end);
+        count += 1.0;
+      }
     }
-    if (!this->IsWiderGathered)
-    {
-      this->gatherWider();
-      this->IsWiderGathered = true;
-    }
-    return this->WiderSamples;
+    return sum / count;
   }
-
-  /// The spacing of the samples around the edge: the mean, over the ends whose neighbours are
-  /// taken, of the distance that two fifths of these do not exceed.
-  double spacing() const { return this->Spacing; }
 
   /// A leaf's sample.
   FitSample sampleAt(Id leaf)
   {
-    const TSample& sample = this->Tree.samples[this->leafAt(leaf).begin];
+    const TSample& sample = this->Tree.samples[this->beginOf(leaf)];
     return { { sample.position[0], sample.position[1], sample.position[2] },
       this->Values.at(static_cast<std::size_t>(leaf)) };
   }
 
 private:
-  /// Neighbourhoods of more samples than that are wide enough, as where samples stand in lines.
-  static constexpr std::size_t enoughSamples = 64;
-
-  /// In a neighbourhood of more cells than that, as where samples stand in lines, subtrees whose
-  /// size over their distance is less than smallSize are represented by one leaf.
+  /// More neighbours than that are not taken whole.
   static constexpr std::size_t mostNeighbors = 256;
-  static constexpr double smallSize = 0.2;
 
-  void clear()
+  struct End
   {
-    this->Leaves.clear();
-    this->Counts.clear();
-    this->Seen.fill(0);
-  }
+    Id leaf;
+    bool isTaken; // with its neighbours
+    std::vector<Id> neighbors;
+  };
 
-  /// The spacing of the samples around an end: the distance that two fifths of its neighbourhood,
-  /// listed from `begin` on, do not exceed. The farthest may stand across a void, the nearest all
-  /// in one line with it.
-  double spacingAt(Id end, std::size_t begin)
+  struct KnownSpacing
   {
-    const Vector center = this->sampleAt(end).position;
-    this->Distances.clear();
-    for (std::size_t i = begin; i < this->Leaves.size(); ++i)
+    Id leaf = 0; // the tree's root is none
+    double spacing = 0.0;
+  };
+
+  /// Lists the neighbours of a leaf. @returns whether they are not too many; otherwise the list is
+  /// of no use
+  bool listNeighbors(Id leaf, std::vector<Id>& neighbors)
+  {
+    const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leaf));
+    neighbors.assign(known.begin(), known.end());
+    if (neighbors.empty())
     {
-      this->Distances.emplace_back(
-        lengthOf(difference(this->sampleAt(this->Leaves[i].second).position, center)),
-        this->Counts[i]);
-    }
-    std::sort(this->Distances.begin(), this->Distances.end());
-    const std::size_t all =
-      std::accumulate(this->Counts.begin() + static_cast<std::ptrdiff_t>(begin), this->Counts.end(),
-        std::size_t{ 0 });
-    std::size_t nearer = 0;
-    const auto found = std::find_if(this->Distances.begin(), this->Distances.end(),
-      [&](const auto& distance) { return (nearer += distance.second) > 2 * all / 5; });
-    return found->first;
-  }
-
-  /// Adds the neighbourhoods of those neighbours of an end that lie on the other side of the
-  /// isovalue: the tree is refined around these.
-  void gatherWider()
-  {
-    this->Across.clear();
-    this->clear();
-    this->addLeaf(this->FirstLeaf);
-    this->addLeaf(this->SecondLeaf);
-    for (const Id end : this->Ends)
-    {
-      const std::size_t begin = this->Leaves.size();
-      this->Seen.fill(0);
-      this->addNeighborhood(end);
-      const bool isBelow = this->isBelow(end);
-      for (std::size_t i = begin; i < this->Leaves.size(); ++i)
-      {
-        const Id leaf = this->Leaves[i].second;
-        if (this->isBelow(leaf) != isBelow)
+      visitTouching(this->Tree, pathToLeaf(this->Tree, leaf), maximumDepth,
+        [&neighbors](std::size_t neighbor)
         {
-          this->Across.push_back(leaf);
-        }
-      }
+          neighbors.push_back(static_cast<Id>(neighbor));
+          return neighbors.size() > mostNeighbors;
+        });
     }
-    for (const Id leaf : this->Across)
+    return neighbors.size() <= mostNeighbors;
+  }
+
+  /// Lists some of very many neighbours: one for each subtree whose size over its distance is small,
+  /// as often as it represents that many.
+  void listSome(Id leaf, std::vector<Id>& neighbors)
+  {
+    constexpr double smallSize = 0.2;
+    neighbors.clear();
+    this->Implicit.moveTo(pathToLeaf(this->Tree, leaf));
+    this->Implicit.forEachSpread(smallSize, [&neighbors](std::size_t neighbor, std::size_t)
+      { neighbors.push_back(static_cast<Id>(neighbor)); });
+  }
+
+  /// The spacing of the samples around an end: the distance that two fifths of its neighbours and
+  /// itself do not exceed. The farthest may stand across a void, the nearest all on one line with
+  /// it.
+  double spacingAt(const End& end)
+  {
+    KnownSpacing& known =
+      this->KnownSpacings[static_cast<std::size_t>(end.leaf) % this->KnownSpacings.size()];
+    if (known.leaf != end.leaf)
     {
-      if (!this->addFew(leaf) && this->Ends.size() == 2)
+      const Vector center = this->positionOfLeaf(end.leaf);
+      this->Distances.assign(1, 0.0);
+      for (const Id neighbor : end.neighbors)
       {
-        this->addSome(leaf);
+        this->Distances.push_back(lengthOf(difference(this->positionOfLeaf(neighbor), center)));
       }
+      const auto rank =
+        this->Distances.begin() + static_cast<std::ptrdiff_t>(2 * this->Distances.size() / 5);
+      std::nth_element(this->Distances.begin(), rank, this->Distances.end());
+      known = { end.leaf, *rank };
     }
-    this->list(this->WiderSamples);
+    return known.spacing;
   }
 
-  bool isBelow(Id leaf) { return this->sampleAt(leaf).value < this->Context.isovalue; }
-
-  /// Lists samples by id, each once.
-  void list(std::vector<FitSample>& samples)
+  bool isBelow(Id leaf)
   {
-    std::sort(this->Leaves.begin(), this->Leaves.end());
-    this->Leaves.erase(std::unique(this->Leaves.begin(), this->Leaves.end()), this->Leaves.end());
-    samples.clear();
-    for (const auto& [id, leaf] : this->Leaves)
-    {
-      samples.push_back(this->sampleAt(leaf));
-    }
+    return this->Values.at(static_cast<std::size_t>(leaf)) < this->Context.isovalue;
   }
 
-  /// Adds a sample and its neighbours, of very many only some.
-  void addNeighborhood(Id leafNode)
+  void addAll(const std::vector<Id>& leaves)
   {
-    if (!this->addFew(leafNode))
+    for (const Id leaf : leaves)
     {
-      this->addSome(leafNode);
+      this->add(leaf);
     }
   }
 
-  /// Adds a sample and, unless they are very many, its neighbours. @returns whether it added these
-  bool addFew(Id leafNode)
+  void add(Id leaf)
   {
-    this->addLeaf(leafNode);
-    const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leafNode));
-    if (known.count > mostNeighbors)
+    if (this->Known.add(leaf))
     {
-      return false;
+      this->Samples.push_back(this->sampleAt(leaf));
     }
-    for (const Id leaf : known)
-    {
-      this->addLeaf(leaf);
-    }
-    if (!known.isEmpty())
-    {
-      return true;
-    }
-    this->Touching.clear();
-    const bool areMany = visitTouching(this->Tree, pathToLeaf(this->Tree, leafNode), maximumDepth,
-      [this](std::size_t leaf)
-      {
-        this->Touching.push_back(static_cast<Id>(leaf));
-        return this->Touching.size() > mostNeighbors;
-      });
-    if (areMany)
-    {
-      return false;
-    }
-    for (const Id leaf : this->Touching)
-    {
-      this->addLeaf(leaf);
-    }
-    return true;
   }
 
-  /// Adds a subset of a sample's neighbours that covers all directions and distances.
-  void addSome(Id leafNode)
+  /// Where a leaf stands in the order of the tree.
+  std::size_t beginOf(Id leaf) const
   {
-    this->Implicit.moveTo(pathToLeaf(this->Tree, leafNode));
-    this->Implicit.forEachSpread(smallSize,
-      [this](std::size_t leaf, std::size_t count) { this->addLeaf(static_cast<Id>(leaf), count); });
+    return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
   }
 
-  /// Adds a leaf, unless `Seen` shows that it was added: around an edge most leaves are met many
-  /// times. `Seen` may miss some; list() then drops the repetitions. Within the neighbourhood of
-  /// one end none is met twice.
-  /// @param count of the samples that it represents
-  void addLeaf(Id leaf, std::size_t count = 1)
+  Vector positionOfLeaf(Id leaf) const
   {
-    Id& seen = this->Seen[static_cast<std::size_t>(leaf) % this->Seen.size()];
-    if (seen == leaf)
-    {
-      return;
-    }
-    seen = leaf;
-    this->Counts.push_back(count);
-    this->Leaves.emplace_back(this->Tree.samples[this->leafAt(leaf).begin].id, leaf);
-  }
-
-  const Node<TSample>& leafAt(Id leaf) const
-  {
-    return this->Tree.nodes[static_cast<std::size_t>(leaf)];
+    return positionOf(this->Tree.samples[this->beginOf(leaf)]);
   }
 
   ExtractionContext<TSample>& Context;
   const SampleTree<TSample>& Tree;
   ImplicitNeighborhood<TSample> Implicit;
   LeafValueCache<TSample> Values;
-  Id FirstLeaf = 0; // of the present edge
-  Id SecondLeaf = 0;
-  std::vector<std::pair<Id, Id>> Leaves; // by the id of the leaf's first sample
-  std::array<Id, 1024> Seen{};           // leaves added recently, by their last bits
-  std::vector<Id> Ends;                  // whose neighbourhoods are taken
-  std::vector<Id> Across;
-  std::vector<Id> Touching; // the present leaf
+  std::array<End, 2> Ends{}; // of the present edge, in the order of the tree
+  LeafSet<Id> Known;         // leaves whose samples are taken
   std::vector<FitSample> Samples;
-  std::vector<FitSample> WiderSamples;
-  bool IsWiderGathered = false;
-  std::vector<std::size_t> Counts; // of the samples that each of Leaves represents
-  std::vector<std::pair<double, std::size_t>> Distances; // and the same counts
-  double Spacing = 0.0;
+  bool IsWide = false;
+  std::vector<Id> Listed;                          // the neighbours of the present leaf
+  std::array<KnownSpacing, 1024> KnownSpacings{}; // by the leaf's last bits
+  std::vector<double> Distances;
 };
 
 } // namespace isopoint

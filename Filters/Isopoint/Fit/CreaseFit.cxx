@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/CreaseFit.h"
 
+#include "Isopoint/Fit/PolynomialFit.h"
+#include "Isopoint/Fit/PolynomialZero.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -17,33 +20,30 @@ namespace isopoint
 namespace
 {
 
+Vector placeOf(const FrameSamples& samples, std::size_t i)
+{
+  return { FrameSamples::at(samples.x, i), FrameSamples::at(samples.y, i),
+    FrameSamples::at(samples.z, i) };
+}
+
 /// Fits pieces to samples that are known to belong to them.
 class Alternation
 {
 public:
-  explicit Alternation(const std::vector<FrameSample>& samples)
+  Alternation(const FrameSamples& samples, const FrameWeights& weights, double sense)
     : Samples(&samples)
-    , Labels(samples.size(), 0)
+    , Weights(&weights)
+    , Labels(samples.count(), 0)
   {
-    this->Fit.sampleCount = samples.size();
+    this->Fit.sense = sense;
+    this->Fit.pieces.resize(1);
   }
 
   /// Starts with a single piece. @returns whether the samples determine it
-  bool start()
-  {
-    this->Fit.pieces.resize(1);
-    return this->refit(1);
-  }
+  bool start() { return this->settle(1); }
 
-  /// The same, whose pieces are to be the largest (1) or the smallest (-1) of functions.
-  Alternation withSense(double sense) const
-  {
-    Alternation other = *this;
-    other.Fit.sense = sense;
-    return other;
-  }
-
-  /// Parts the piece of the largest residuals in two, `share` of its samples staying.
+  /// Parts the piece of the largest residuals in two, `share` of its samples staying. @returns
+  /// whether the samples determine the parts
   bool split(double share)
   {
     const std::size_t worst = this->worstPiece();
@@ -58,12 +58,8 @@ public:
     return this->settle(1);
   }
 
-  /// Lets pieces bend. @returns whether one does
-  bool bend()
-  {
-    return this->settle(2) && std::any_of(this->Fit.pieces.begin(), this->Fit.pieces.end(),
-                                [](const Polynomial& piece) { return piece.degree > 1; });
-  }
+  /// Lets pieces bend. @returns whether the samples determine them
+  bool bend() { return this->settle(2); }
 
   const CreaseFit& result() const { return this->Fit; }
 
@@ -71,54 +67,44 @@ private:
   /// Fits pieces of at most a degree, and alternates until no sample changes its piece.
   bool settle(int degree)
   {
-    constexpr int mostRounds = 6;
+    constexpr int mostRounds = 7;
     bool changed = true;
-    for (int round = 0; round <= mostRounds && changed; ++round)
+    for (int round = 0; round < mostRounds && changed; ++round)
     {
       if (!this->refit(degree))
       {
         return false;
       }
       changed = false;
-      for (std::size_t i = 0; i < this->Samples->size(); ++i)
+      for (std::size_t i = 0; i < this->Labels.size(); ++i)
       {
-        const std::uint8_t piece = this->pieceAt((*this->Samples)[i].position);
+        const auto piece =
+          static_cast<std::uint8_t>(this->Fit.pieceAt(placeOf(*this->Samples, i)));
         changed = changed || piece != this->Labels[i];
         this->Labels[i] = piece;
       }
     }
-    this->Fit.meanSquare = meanSquaredResidual(
-      *this->Samples, [this](const Eigen::Vector3d& p) { return this->Fit.value(p); });
-    return true;
-  }
-
-  std::uint8_t pieceCount() const { return static_cast<std::uint8_t>(this->Fit.pieces.size()); }
-
-  std::uint8_t pieceAt(const Eigen::Vector3d& p) const
-  {
-    std::uint8_t best = 0;
-    double bestValue = this->Fit.sense * this->Fit.pieces[best].value(p);
-    for (std::uint8_t piece = 1; piece < this->pieceCount(); ++piece)
-    {
-      const double value = this->Fit.sense * this->Fit.pieces[piece].value(p);
-      if (value > bestValue)
-      {
-        best = piece;
-        bestValue = value;
-      }
-    }
-    return best;
+    return this->measure();
   }
 
   /// Fits each piece to its samples. @returns whether they determine all
   bool refit(int degree)
   {
-    for (std::uint8_t piece = 0; piece < this->pieceCount(); ++piece)
+    for (std::size_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
     {
+      FrameWeights own;
+      this->Samples->forEachGroup([&](std::size_t i) { own[i] = (*this->Weights)[i]; });
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < this->Labels.size(); ++i)
+      {
+        const bool isOwn = this->Labels[i] == piece;
+        count += isOwn ? 1 : 0;
+        FrameSamples::at(own, i) *= isOwn ? 1.0 : 0.0;
+      }
       std::optional<Polynomial> polynomial;
       for (int tried = degree; tried > 0 && !polynomial; --tried)
       {
-        polynomial = fitPolynomial(*this->Samples, this->Labels, piece, tried);
+        polynomial = areEnough(count, tried) ? leastSquares(*this->Samples, own, tried) : std::nullopt;
       }
       if (!polynomial)
       {
@@ -129,18 +115,39 @@ private:
     return true;
   }
 
-  double residual(std::size_t sample) const
+  /// Sets the residual. @returns whether there are enough samples for one
+  bool measure()
   {
-    return (*this->Samples)[sample].value -
-           this->Fit.pieces[this->Labels[sample]].value((*this->Samples)[sample].position);
+    std::size_t coefficients = 0;
+    for (const Polynomial& piece : this->Fit.pieces)
+    {
+      coefficients += coefficientCount(piece.degree);
+    }
+    double squares = 0.0;
+    double weights = 0.0;
+    for (std::size_t i = 0; i < this->Labels.size(); ++i)
+    {
+      const double residual = this->residualAt(i);
+      squares += FrameSamples::at(*this->Weights, i) * residual * residual;
+      weights += FrameSamples::at(*this->Weights, i);
+    }
+    this->Fit.residual = correctedResidual(squares / weights, this->Labels.size(), coefficients);
+    return std::isfinite(this->Fit.residual);
+  }
+
+  double residualAt(std::size_t i) const
+  {
+    return FrameSamples::at(this->Samples->value, i) -
+           this->Fit.pieces[this->Labels[i]].valueAt(placeOf(*this->Samples, i));
   }
 
   std::size_t worstPiece() const
   {
     std::vector<double> sums(this->Fit.pieces.size(), 0.0);
-    for (std::size_t i = 0; i < this->Samples->size(); ++i)
+    for (std::size_t i = 0; i < this->Labels.size(); ++i)
     {
-      sums[this->Labels[i]] += (*this->Samples)[i].weight * this->residual(i) * this->residual(i);
+      const double residual = this->residualAt(i);
+      sums[this->Labels[i]] += FrameSamples::at(*this->Weights, i) * residual * residual;
     }
     return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   }
@@ -149,166 +156,208 @@ private:
   /// sides (decrease, for the smallest of functions).
   std::vector<std::pair<double, std::size_t>> alongBend(std::size_t piece) const
   {
+    const auto forEachOwn = [&](const auto& use)
+    {
+      for (std::size_t i = 0; i < this->Labels.size(); ++i)
+      {
+        if (this->Labels[i] == piece)
+        {
+          const Vector place = placeOf(*this->Samples, i);
+          use(i, FrameSamples::at(*this->Weights, i), Eigen::Vector3d(place[0], place[1], place[2]));
+        }
+      }
+    };
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     double weights = 0.0;
-    for (std::size_t i = 0; i < this->Samples->size(); ++i)
-    {
-      if (this->Labels[i] == piece)
+    forEachOwn(
+      [&](std::size_t, double weight, const Eigen::Vector3d& place)
       {
-        center += (*this->Samples)[i].weight * (*this->Samples)[i].position;
-        weights += (*this->Samples)[i].weight;
-      }
-    }
+        center += weight * place;
+        weights += weight;
+      });
     center /= weights;
     Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < this->Samples->size(); ++i)
-    {
-      if (this->Labels[i] == piece)
+    forEachOwn(
+      [&](std::size_t i, double weight, const Eigen::Vector3d& place)
       {
-        const Eigen::Vector3d offset = (*this->Samples)[i].position - center;
-        bend += this->Fit.sense * (*this->Samples)[i].weight * this->residual(i) * offset *
-                offset.transpose();
-      }
-    }
+        const Eigen::Vector3d offset = place - center;
+        bend += this->Fit.sense * weight * this->residualAt(i) * offset * offset.transpose();
+      });
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(bend);
     const Eigen::Vector3d direction = solver.eigenvectors().col(2);
     std::vector<std::pair<double, std::size_t>> along;
-    for (std::size_t i = 0; i < this->Samples->size(); ++i)
-    {
-      if (this->Labels[i] == piece)
-      {
-        along.emplace_back(direction.dot((*this->Samples)[i].position), i);
-      }
-    }
+    forEachOwn([&](std::size_t i, double, const Eigen::Vector3d& place)
+      { along.emplace_back(direction.dot(place), i); });
     return along;
   }
 
-  const std::vector<FrameSample>* Samples;
+  const FrameSamples* Samples;
+  const FrameWeights* Weights;
   std::vector<std::uint8_t> Labels; // the piece of each sample
   CreaseFit Fit;
 };
 
-bool isBetter(const Alternation& a, const Alternation& b)
+/// The tangent planes of all pieces but one, where Newton's method leads to from a place on that.
+std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, const Vector& place)
 {
-  return a.result().meanSquare < b.result().meanSquare;
+  const Vector normal = directionOf(fit.pieces[piece].gradientAt(place));
+  std::vector<std::pair<double, CreasePlane>> found; // by the distance of the crease
+  for (std::size_t other = 0; other < fit.pieces.size(); ++other)
+  {
+    const std::optional<Vector> zero = other == piece
+      ? std::nullopt
+      : zeroNear(fit.pieces[other], std::numeric_limits<double>::max(), place);
+    if (zero)
+    {
+      const Vector inward =
+        scaled(-fit.sense, directionOf(fit.pieces[other].gradientAt(*zero)));
+      const double distance = std::max(0.0, dot(inward, difference(place, *zero)));
+      const double alongPiece = distance / lengthOf(cross(inward, normal));
+      if (std::isfinite(alongPiece)) // or else the pieces are parallel
+      {
+        found.push_back({ alongPiece, { inward, distance, fit.sense } });
+      }
+    }
+  }
+  std::sort(
+    found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<CreasePlane> creases;
+  for (const auto& [alongPiece, crease] : found)
+  {
+    creases.push_back(crease);
+  }
+  return creases;
 }
 
-/// Fits of two affine pieces, from several starts; none where there is no crease to be found.
-std::vector<Alternation> startAlternations(
-  const std::vector<FrameSample>& samples, const CreaseSearch& search)
+/// The nearest place from the origin on both of two pieces' zero surfaces, by Newton's method.
+std::optional<Vector> commonZeroNear(const Polynomial& first, const Polynomial& second, double farthest)
 {
-  Alternation single(samples);
-  if (!single.start())
-  {
-    return {};
-  }
-  std::vector<Alternation> starts;
-  const auto start = [&](double sense, double share)
-  {
-    Alternation parts = single.withSense(sense);
-    if (parts.split(share))
+  return followToZero({}, farthest,
+    [&](const Vector& place)
     {
-      starts.push_back(std::move(parts));
-    }
-  };
-  start(1.0, 0.5);
-  start(-1.0, 0.5);
-  if (starts.empty())
-  {
-    return {};
-  }
-  starts = { *std::min_element(starts.begin(), starts.end(), isBetter) };
-  const CreaseFit& two = starts.front().result();
-  if (two.relativeResidual() > search.mostRelativeResidualOfTwo ||
-      two.meanSquare > search.mostMeanSquareOfTwo)
-  {
-    return {};
-  }
-  const double sense = two.sense;
-  start(sense, 0.3);
-  start(sense, 0.7);
-  return starts;
+      const Vector a = first.gradientAt(place);
+      const Vector b = second.gradientAt(place);
+      const double determinant = dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b);
+      const double f = first.valueAt(place);
+      const double g = second.valueAt(place);
+      return sum(scaled((dot(a, b) * g - dot(b, b) * f) / determinant, a),
+        (dot(a, b) * f - dot(a, a) * g) / determinant, b);
+    });
 }
 
 } // namespace
 
-double CreaseFit::value(const Eigen::Vector3d& p) const
+std::size_t CreaseFit::pieceAt(const Vector& place) const
 {
-  double best = this->sense * this->pieces[0].value(p);
+  std::size_t best = 0;
+  double bestValue = this->sense * this->pieces[best].valueAt(place);
   for (std::size_t piece = 1; piece < this->pieces.size(); ++piece)
   {
-    best = std::max(best, this->sense * this->pieces[piece].value(p));
+    const double value = this->sense * this->pieces[piece].valueAt(place);
+    if (value > bestValue)
+    {
+      best = piece;
+      bestValue = value;
+    }
   }
-  return this->sense * best;
+  return best;
 }
 
-std::size_t CreaseFit::coefficients() const
+double CreaseFit::leastSlope() const
 {
-  return std::accumulate(this->pieces.begin(), this->pieces.end(), std::size_t{ 0 },
-    [](std::size_t sum, const Polynomial& piece) { return sum + coefficientCount(piece.degree); });
-}
-
-double CreaseFit::relativeResidual() const
-{
-  double gentlest = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (const Polynomial& piece : this->pieces)
   {
-    gentlest = std::min(gentlest, piece.gradient(Eigen::Vector3d::Zero()).norm());
+    least = std::min(least, lengthOf(piece.gradientAt({})));
   }
-  return std::sqrt(residualFreedom(this->sampleCount, this->coefficients()) * this->meanSquare) /
-         gentlest;
+  return least;
 }
 
-bool CreaseFit::isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const
+bool CreaseFit::isSharp() const
 {
-  for (std::size_t other = 0; other < this->pieces.size(); ++other)
+  for (std::size_t piece = 0; piece < this->pieces.size(); ++piece)
   {
-    if (other != piece && this->sense * this->pieces[other].value(p) > tolerance)
+    const Vector normal = directionOf(this->pieces[piece].gradientAt({}));
+    for (std::size_t other = 0; other < piece; ++other)
     {
-      return false;
+      if (dot(normal, directionOf(this->pieces[other].gradientAt({}))) > mostCreaseCosine)
+      {
+        return false;
+      }
     }
   }
   return true;
 }
 
-std::vector<CreaseFit> fitCreases(
-  const std::vector<FrameSample>& samples, const CreaseSearch& search)
+std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeights& weights)
 {
-  std::vector<CreaseFit> results;
-  const auto take = [&](const CreaseFit& fit)
+  constexpr std::size_t mostPieces = 4; // three at the corner of a box, and one more
+  std::optional<CreaseFit> best;
+  const auto take = [&best](const CreaseFit& fit)
   {
-    if (fit.relativeResidual() <= search.mostRelativeResidual)
+    if (!best || fit.residual < best->residual)
     {
-      results.push_back(fit);
+      best = fit;
     }
   };
-  std::vector<Alternation> starts = startAlternations(samples, search);
-  constexpr std::size_t mostPieces = 4;
-  constexpr double exact = 1e-6;
-  while (!starts.empty())
+  // Alternation finds local optima: from several starts.
+  for (const auto& [sense, share] : { std::pair(1.0, 0.5), std::pair(-1.0, 0.5), std::pair(1.0, 0.3),
+         std::pair(-1.0, 0.3), std::pair(1.0, 0.7), std::pair(-1.0, 0.7) })
   {
-    Alternation best = *std::min_element(starts.begin(), starts.end(), isBetter);
-    take(best.result());
-    if (best.result().pieces.size() == mostPieces || best.result().relativeResidual() < exact)
+    Alternation parts(samples, weights, sense);
+    bool isDetermined = parts.start();
+    for (std::size_t pieces = 2; isDetermined && pieces <= mostPieces; ++pieces)
     {
-      break;
-    }
-    if (search.mayBeCurved && best.bend())
-    {
-      take(best.result());
-    }
-    std::vector<Alternation> split;
-    for (Alternation& start : starts)
-    {
-      if (start.split(0.5))
+      isDetermined = parts.split(pieces == 2 ? share : 0.5);
+      if (isDetermined)
       {
-        split.push_back(std::move(start));
+        take(parts.result());
+        Alternation bent = parts;
+        if (bent.bend())
+        {
+          take(bent.result());
+        }
       }
     }
-    starts = std::move(split);
   }
-  return results;
+  return best;
+}
+
+std::optional<CreasePoint> zeroNear(const CreaseFit& fit, double farthest)
+{
+  constexpr double tolerance = 1e-6; // of the accuracy of zeros
+  std::optional<CreasePoint> nearest;
+  const auto consider = [&](std::size_t piece, const std::optional<Vector>& zero)
+  {
+    const auto isBeyond = [&](std::size_t other)
+    { return other != piece && fit.sense * fit.pieces[other].valueAt(*zero) > tolerance; };
+    if (!zero || (nearest && lengthOf(*zero) >= lengthOf(nearest->zero)))
+    {
+      return;
+    }
+    for (std::size_t other = 0; other < fit.pieces.size(); ++other)
+    {
+      if (isBeyond(other))
+      {
+        return;
+      }
+    }
+    nearest = CreasePoint{ *zero, fit.pieces[piece].gradientAt(*zero),
+      fit.pieces[piece].hessianAt(*zero), creasesAround(fit, piece, *zero) };
+  };
+  for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)
+  {
+    consider(piece, zeroNear(fit.pieces[piece], farthest));
+  }
+  for (std::size_t piece = 0; piece < fit.pieces.size() && !nearest; ++piece)
+  {
+    for (std::size_t other = 0; other < piece; ++other)
+    {
+      consider(piece, commonZeroNear(fit.pieces[piece], fit.pieces[other], farthest));
+    }
+  }
+  return nearest;
 }
 
 } // namespace isopoint

@@ -2,11 +2,13 @@
 #ifndef isopoint_CreaseFit_h
 #define isopoint_CreaseFit_h
 
-#include "Isopoint/Fit/PolynomialFit.h"
-
-#include <Eigen/Core>
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/FrameSamples.h"
+#include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Fit/Polynomial.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -18,43 +20,37 @@ struct CreaseFit
 {
   double sense = 1.0;
   std::vector<Polynomial> pieces;
-  std::size_t sampleCount = 0;
-  double meanSquare = 0.0; // of the residuals, weighted
+  double residual = 0.0; // root mean square, weighted, corrected for the degrees of freedom
 
-  double value(const Eigen::Vector3d& p) const;
+  /// The piece that counts at a place.
+  std::size_t pieceAt(const Vector& place) const;
 
-  /// How many coefficients all pieces have.
-  std::size_t coefficients() const;
+  /// The least slope of a piece at the origin.
+  double leastSlope() const;
 
-  /// The root of the residuals' mean square, corrected for the degrees of freedom, over the
-  /// smallest gradient of a piece at the origin.
-  double relativeResidual() const;
-
-  /// Whether a point on the zero surface of a piece is one of the whole function's, up to a
-  /// tolerance
-  bool isOnSurface(std::size_t piece, const Eigen::Vector3d& p, double tolerance) const;
+  /// Whether any two pieces meet at an angle of 25 degrees or more.
+  bool isSharp() const;
 };
 
-/// Which fits with creases are wanted.
-struct CreaseSearch
+/// The place on a crease fit's surface that an isopoint moves to.
+struct CreasePoint
 {
-  double mostRelativeResidual;
-  /// Where two affine functions leave more, relative or as a mean square, none is looked for.
-  double mostRelativeResidualOfTwo;
-  double mostMeanSquareOfTwo;
-  bool mayBeCurved; // or are pieces affine
+  Vector zero;
+  Vector gradient; // of the piece there
+  Hessian hessian;
+  std::vector<CreasePlane> creases; // of the other pieces, the nearest along the piece first
 };
 
-/// Fits two, three and four affine functions by alternating between which sample belongs to which
-/// and least squares [MB09]. Two start as parts of a single fit's samples, cut across the direction
-/// in which its residuals bend most; then the piece of the largest residuals is cut likewise. If
-/// pieces may be curved, polynomials of degree two follow, by further alternation, for those of up
-/// to three pieces whose samples determine them.
-/// @returns the affine ones of smallest residuals for each number of pieces, and the curved ones
-/// that follow from them; without those in which a piece has too few samples
-/// Complexity: O(samples.size())
-std::vector<CreaseFit> fitCreases(
-  const std::vector<FrameSample>& samples, const CreaseSearch& search);
+/// The best fit of two to four pieces, by alternation between which sample belongs to which piece
+/// and least squares [MB09]. Two pieces start as halves of the samples, cut across the direction in
+/// which the residuals of one bend most; then the piece of the largest residuals is cut likewise.
+/// In the end pieces whose samples determine it are of degree two, if that is better.
+/// @returns nothing where pieces have too few samples. Complexity: O(samples)
+std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeights& weights);
+
+/// The nearest zero of one piece that belongs to the whole surface, or else of the crease between
+/// two; nothing if that is farther than a distance.
+std::optional<CreasePoint> zeroNear(const CreaseFit& fit, double farthest);
 
 } // namespace isopoint
 

@@ -2,6 +2,8 @@
 #ifndef isopoint_FrameSamples_h
 #define isopoint_FrameSamples_h
 
+#include "Isopoint/Base/Vector.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -10,8 +12,8 @@
 namespace isopoint
 {
 
-/// Numbers of four samples side by side. Operations are by element, and sums over samples are those
-/// of each element and then sumOf(): results do not depend on how wide the processor's vectors are.
+/// Numbers of four samples side by side. A sum over samples is that of each lane and then sumOf():
+/// it does not depend on how wide the processor's vectors are.
 using Lanes = Eigen::Array<double, 4, 1>;
 constexpr std::size_t laneCount = 4;
 
@@ -20,25 +22,44 @@ inline double sumOf(const Lanes& lanes)
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// The largest number of samples that a fit takes: the nearest ones.
-constexpr std::size_t mostFitSamples = 96;
-
-/// Samples in the frame of a fit: offsets from the isopoint on its edge, and differences of their
-/// values from the isovalue, of a size near 1.
-struct FrameSamples
+/// Samples in the frame of a fit: offsets from an origin and values of a size near 1. Behind the
+/// last sample, its group of four is filled with zeros of weight 0.
+class FrameSamples
 {
-  static constexpr std::size_t mostGroups = mostFitSamples / laneCount;
-  using Numbers = std::array<Lanes, mostGroups>;
+public:
+  static constexpr std::size_t most = 256;
+  using Numbers = std::array<Lanes, most / laneCount>; // the first groupCount() are set
 
-  std::size_t count = 0;
-  Numbers x; // only the first groupCount() are set
+  Numbers x;
   Numbers y;
   Numbers z;
   Numbers value;
-  Numbers squaredDistance;
+  Numbers squaredDistance; // from the origin
 
-  /// Behind the last sample the last group is filled with zeros, whose weights have to be 0.
-  std::size_t groupCount() const { return (this->count + laneCount - 1) / laneCount; }
+  std::size_t count() const { return this->Count; }
+  std::size_t groupCount() const { return (this->Count + laneCount - 1) / laneCount; }
+
+  void clear() { this->Count = 0; }
+
+  /// Up to `most` samples can be added.
+  void add(const Vector& offset, double sampleValue)
+  {
+    if (this->Count % laneCount == 0)
+    {
+      const std::size_t group = this->Count / laneCount;
+      for (Numbers* const numbers :
+        { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
+      {
+        (*numbers)[group] = Lanes::Zero();
+      }
+    }
+    at(this->x, this->Count) = offset[0];
+    at(this->y, this->Count) = offset[1];
+    at(this->z, this->Count) = offset[2];
+    at(this->value, this->Count) = sampleValue;
+    at(this->squaredDistance, this->Count) = dot(offset, offset);
+    ++this->Count;
+  }
 
   static double& at(Numbers& numbers, std::size_t sample)
   {
@@ -48,10 +69,57 @@ struct FrameSamples
   {
     return numbers[sample / laneCount][static_cast<Eigen::Index>(sample % laneCount)];
   }
+
+  /// Calls use(group) for each group of four samples.
+  template <class Use>
+  void forEachGroup(const Use& use) const
+  {
+    const std::size_t groups = this->groupCount();
+    for (std::size_t group = 0; group < groups; ++group)
+    {
+      use(group);
+    }
+  }
+
+  /// The sum of term(group) over all samples.
+  template <class Term>
+  double sum(const Term& term) const
+  {
+    Lanes total = Lanes::Zero();
+    this->forEachGroup([&](std::size_t group) { total += term(group); });
+    return sumOf(total);
+  }
+
+private:
+  std::size_t Count = 0;
 };
 
 /// One weight for each sample.
 using FrameWeights = FrameSamples::Numbers;
+
+/// Sets the weights of the places behind the last sample to 0.
+inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
+{
+  for (std::size_t i = samples.count(); i < laneCount * samples.groupCount(); ++i)
+  {
+    FrameSamples::at(weights, i) = 0.0;
+  }
+}
+
+/// Weights (offset + (d / s)^2)^-power, d being a sample's distance from the origin, s the mean of
+/// these.
+template <int Power>
+void weigh(const FrameSamples& samples, double meanDistance, double offset, FrameWeights& weights)
+{
+  const double scale = 1.0 / (meanDistance * meanDistance);
+  samples.forEachGroup(
+    [&](std::size_t group)
+    {
+      const Lanes base = offset + scale * samples.squaredDistance[group];
+      weights[group] = 1.0 / (Power == 1 ? base : Lanes(base * base * base));
+    });
+  endWeights(samples, weights);
+}
 
 } // namespace isopoint
 

@@ -1,246 +1,284 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/LocalFitter.h"
 
+#include "Isopoint/Fit/CreaseFit.h"
+#include "Isopoint/Fit/Polynomial.h"
+#include "Isopoint/Fit/PolynomialZero.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
-#include <cstdlib>
 
 namespace isopoint
 {
-double tune(const char*name,double v){ const char*e=std::getenv(name); return e?std::atof(e):v; }
-static const double K_most=tune("FIT_K",96), K_fine=tune("FIT_FINE",0.002), K_accept=tune("FIT_ACCEPT",0.1),K_shrink=tune("FIT_SHRINK",0.1),K_robust=tune("FIT_ROBUST",3),K_half=tune("FIT_HALF",0.5), K_soft=tune("FIT_SOFT",0.1);
-static const int K_iter=tune("FIT_ITER",3);
-
 namespace
 {
 
-/// The unit of lengths or values: a power of two, by which numbers are divided without rounding.
-double unitOf(double size)
+/// Up to this residual, in mean rises of the field over the mean distance of the samples, a field is
+/// smooth.
+constexpr double smoothResidual = 0.0005;
+
+/// Weights so steep that a fit nearly interpolates the nearest samples.
+void weighSteeply(const FitFrame& frame, FrameWeights& weights)
 {
-  return std::isfinite(size) && size > 0.0 ? std::ldexp(1.0, -std::ilogb(size)) : 0.0;
+  weigh<3>(frame.samples(), frame.meanDistance(), 0.1, weights);
 }
 
-FrameWeights steepWeights(const FrameSamples& samples)
+/// Weights by which far samples count as well, as they have to in noise.
+void weighMildly(const FitFrame& frame, FrameWeights& weights)
 {
-  Lanes distances = Lanes::Zero();
-  for (std::size_t i = 0; i < samples.groupCount(); ++i)
-  {
-    distances += samples.squaredDistance[i].sqrt();
-  }
-  const double mean = sumOf(distances) / static_cast<double>(samples.count);
-  const double scale = 1.0 / (mean * mean);
-  FrameWeights weights;
-  for (std::size_t i = 0; i < samples.groupCount(); ++i)
-  {
-    const Lanes softened = K_soft + scale * samples.squaredDistance[i];
-    weights[i] = 1.0 / (softened * softened * softened);
-  }
-  for (std::size_t i = samples.count; i < laneCount * samples.groupCount(); ++i)
-  {
-    FrameSamples::at(weights, i) = 0.0;
-  }
-  return weights;
-}
-FrameWeights mildWeights(const FrameSamples& samples)
-{
-  Lanes distances = Lanes::Zero();
-  for (std::size_t i = 0; i < samples.groupCount(); ++i)
-  {
-    distances += samples.squaredDistance[i].sqrt();
-  }
-  const double mean = sumOf(distances) / static_cast<double>(samples.count);
-  const double scale = 1.0 / (mean * mean);
-  FrameWeights weights;
-  for (std::size_t i = 0; i < samples.groupCount(); ++i)
-  {
-    weights[i] = 1.0 / (1.0 + scale * samples.squaredDistance[i]);
-  }
-  for (std::size_t i = samples.count; i < laneCount * samples.groupCount(); ++i)
-  {
-    FrameSamples::at(weights, i) = 0.0;
-  }
-  return weights;
+  weigh<1>(frame.samples(), frame.meanDistance(), 1.0, weights);
 }
 
 } // namespace
 
-/// Moves the samples into the frame, the nearest ones of many. @returns whether all is finite
-bool LocalFitter::enterFrame(const FitEdge& edge, const std::vector<FitSample>& samples)
-{
-  this->LengthUnit = unitOf(lengthOf(edge.increasing));
-  this->ValueUnit = unitOf(edge.increase);
-  if (!(this->LengthUnit > 0.0 && std::isfinite(this->LengthUnit) && this->ValueUnit > 0.0 &&
-        std::isfinite(this->ValueUnit)))
-  {
-    return false;
-  }
-  this->Increasing = scaled(this->LengthUnit, edge.increasing);
-  this->Distances.clear();
-  for (const FitSample& sample : samples)
-  {
-    const Vector offset = scaled(this->LengthUnit, difference(sample.position, edge.position));
-    this->Distances.push_back(dot(offset, offset));
-  }
-  double limit = std::numeric_limits<double>::infinity();
-  std::size_t wanted = std::min<std::size_t>(samples.size(), K_most);
-  if (wanted < samples.size())
-  {
-    std::vector<double> d = this->Distances;
-    std::nth_element(d.begin(), d.begin() + wanted - 1, d.end());
-    limit = d[wanted - 1];
-  }
-  FrameSamples& frame = this->Samples;
-  frame.count = 0;
-  const auto add = [&](std::size_t i)
-  {
-    const Vector offset = scaled(this->LengthUnit, difference(samples[i].position, edge.position));
-    const std::size_t at = frame.count++;
-    FrameSamples::at(frame.x, at) = offset[0];
-    FrameSamples::at(frame.y, at) = offset[1];
-    FrameSamples::at(frame.z, at) = offset[2];
-    FrameSamples::at(frame.value, at) = this->ValueUnit * (samples[i].value - this->Isovalue);
-    FrameSamples::at(frame.squaredDistance, at) = this->Distances[i];
-  };
-  std::size_t less=0;
-  for (std::size_t i = 0; i < samples.size(); ++i) less += this->Distances[i] < limit;
-  std::size_t equal = wanted - std::min(wanted,less);
-  for (std::size_t i = 0; i < samples.size() && frame.count < wanted; ++i)
-  {
-    if (this->Distances[i] < limit) add(i);
-    else if (this->Distances[i] == limit && equal > 0) { add(i); --equal; }
-  }
-  for (std::size_t at = frame.count; at < laneCount * frame.groupCount(); ++at)
-  {
-    FrameSamples::at(frame.x, at) = 0.0;
-    FrameSamples::at(frame.y, at) = 0.0;
-    FrameSamples::at(frame.z, at) = 0.0;
-    FrameSamples::at(frame.value, at) = 0.0;
-    FrameSamples::at(frame.squaredDistance, at) = 0.0;
-  }
-  return true;
-}
-
-void LocalFitter::apply(const FitEdge& edge, const PolynomialFit& found, double share, LocalFit& fit) const
-{
-  const double slope = this->LengthUnit / this->ValueUnit;
-  fit.position = sum(edge.position, share / this->LengthUnit, found.zero);
-  fit.gradient = scaled(slope, found.gradient);
-  const Hessian hessian = found.polynomial.hessianAt(found.zero);
-  for (std::size_t i = 0; i < hessian.size(); ++i)
-  {
-    fit.hessian[i] = slope * this->LengthUnit * hessian[i];
-  }
-  fit.isGradientFitted = true;
-  fit.order = static_cast<FitOrder>(found.polynomial.degree);
-}
-
-bool LocalFitter::fitSmooth(const FitEdge& edge, const std::vector<FitSample>& samples, LocalFit& fit)
-{
-  if (!this->enterFrame(edge, samples))
-  {
-    return false;
-  }
-  const FrameWeights weights = steepWeights(this->Samples);
-  const std::optional<PolynomialFit> quadratic =
-    fitPolynomial<2>(this->Samples, weights, this->Increasing);
-  if (!quadratic || !(quadratic->residual <= K_fine * lengthOf(quadratic->gradient)))
-  {
-    return false;
-  }
-  this->apply(edge, *quadratic, 1.0, fit);
-  return true;
-}
-
-FrameWeights LocalFitter::robustWeights(const FrameWeights& steep) const
-{
-  const FrameSamples& samples = this->Samples;
-  FrameWeights weights;
-  for (std::size_t i = 0; i < samples.groupCount(); ++i)
-  {
-    weights[i] = steep[i];
-  }
-  for (int round = 0; round < K_iter; ++round)
-  {
-    const NormalEquations<1> equations(samples, weights);
-    if (equations.determinedDegree() < 1)
-    {
-      return weights;
-    }
-    const Polynomial affine = equations.solution(1);
-    FrameSamples::Numbers residuals;
-    std::array<double, mostFitSamples> magnitudes;
-    for (std::size_t i = 0; i < samples.groupCount(); ++i)
-    {
-      residuals[i] =
-        (samples.value[i] - affine.valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
-    }
-    for (std::size_t i = 0; i < samples.count; ++i)
-    {
-      magnitudes[i] = FrameSamples::at(residuals, i);
-    }
-    const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(samples.count / 2);
-    std::nth_element(
-      magnitudes.begin(), middle, magnitudes.begin() + static_cast<std::ptrdiff_t>(samples.count));
-    const double scale = 1.0 / (K_robust * *middle);
-    for (std::size_t i = 0; i < samples.groupCount(); ++i)
-    {
-      const Lanes ratio = scale * residuals[i];
-      const Lanes factor = 1.0 + ratio * ratio;
-      weights[i] = steep[i] / (factor * factor);
-    }
-  }
-  return weights;
-}
-
-LocalFit LocalFitter::fit(const FitEdge& edge, const std::vector<FitSample>& samples)
+LocalFit LocalFitter::onEdge(const FitEdge& edge)
 {
   LocalFit fit{};
   fit.position = edge.position;
   fit.spacing = edge.spacing;
   const double length = lengthOf(edge.increasing);
   fit.gradient = scaled(edge.increase / length / length, edge.increasing);
-  if (!this->enterFrame(edge, samples))
+  return fit;
+}
+
+std::optional<LocalFit> LocalFitter::fitSmooth(
+  const FitEdge& edge, const std::vector<FitSample>& samples)
+{
+  this->Frame.enter(edge, this->Isovalue, samples);
+  if (this->Highest == FitOrder::Linear || !this->Frame.isUsable())
+  {
+    return std::nullopt;
+  }
+  weighSteeply(this->Frame, this->Steep);
+  const std::optional<PolynomialFit> found =
+    fitPolynomial(this->Frame.samples(), this->Steep, this->Frame.increasing(), 2);
+  if (!found || !this->isSmooth(*found))
+  {
+    return std::nullopt;
+  }
+  LocalFit fit = onEdge(edge);
+  this->apply(*found, fit);
+  return fit;
+}
+
+LocalFit LocalFitter::fit(
+  const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount)
+{
+  LocalFit fit = onEdge(edge);
+  this->Frame.enter(edge, this->Isovalue, samples);
+  if (!this->Frame.isUsable())
   {
     return fit;
   }
-  const FrameWeights weights = steepWeights(this->Samples);
-  const auto fitWith = [&](const FrameWeights& w)
+  if (this->Highest == FitOrder::Linear)
   {
-    return this->Request.highest == FitOrder::Quadratic
-             ? fitPolynomial<2>(this->Samples, w, this->Increasing)
-             : fitPolynomial<3>(this->Samples, w, this->Increasing);
-  };
-  std::optional<PolynomialFit> best = fitWith(weights);
-  if (!best || !(best->standardError < K_accept * best->move))
-  {
-    const std::optional<PolynomialFit> robust = fitWith(this->robustWeights(weights));
-    if (robust && (!best || robust->standardError < K_half * best->standardError))
-    {
-      best = robust;
-    }
-  }
-  if (best)
-  {
-    const double m2 = best->move * best->move;
-    const double s2 = best->standardError * best->standardError;
-    this->apply(edge, *best, m2 > 0.0 ? m2 / (m2 + K_shrink * s2) : 1.0, fit);
+    this->fitLinear(fit);
     return fit;
   }
-  const NormalEquations<1> affine(this->Samples, mildWeights(this->Samples));
-  if (affine.determinedDegree() == 1)
+  const std::optional<PolynomialFit> found = this->fitPolynomials();
+  if (this->Highest == FitOrder::Crease && !(found && this->isSmooth(*found)))
   {
-    const Vector gradient = affine.solution(1).gradientAt({});
-    if (increasesAlong(this->Increasing, gradient))
+    if (this->fitCreases(fit))
     {
-      fit.gradient = scaled(this->LengthUnit / this->ValueUnit, gradient);
-      fit.isGradientFitted = true;
+      return fit;
     }
+    // Close to a corner, the few samples of one more piece do not determine it among many others.
+    this->Frame.enter(edge, this->Isovalue, { samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(nearCount) });
+    if (this->fitCreases(fit))
+    {
+      return fit;
+    }
+    this->Frame.enter(edge, this->Isovalue, samples);
+  }
+  if (found)
+  {
+    this->apply(*found, fit);
+  }
+  else if (const std::optional<Vector> gradient = this->mildGradient())
+  {
+    fit.gradient = this->Frame.gradientOf(*gradient);
+    fit.isGradientFitted = true;
   }
   return fit;
+}
+
+bool LocalFitter::isSmooth(const PolynomialFit& found) const
+{
+  return found.residual <=
+         smoothResidual * lengthOf(found.gradient) * this->Frame.meanDistance();
+}
+
+/// The polynomial through all samples or, where the error of its zero is not small, through those
+/// that one side of a crease or step may consist of, if its error is less.
+std::optional<PolynomialFit> LocalFitter::fitPolynomials()
+{
+  const int highest = this->Highest == FitOrder::Quadratic ? 2 : 3;
+  const auto fitWith = [&](const FrameWeights& weights)
+  { return fitPolynomial(this->Frame.samples(), weights, this->Frame.increasing(), highest); };
+  weighSteeply(this->Frame, this->Steep);
+  std::optional<PolynomialFit> best = fitWith(this->Steep);
+  if (best && best->isAccurate())
+  {
+    return best;
+  }
+  this->weighRobustly();
+  const std::optional<PolynomialFit> robust = fitWith(this->Weights);
+  return robust && !(best && best->zeroError <= robust->zeroError) ? robust : best;
+}
+
+/// Reduces the steep weights of samples far off an affine function, which is fitted with these
+/// weights in turn.
+void LocalFitter::weighRobustly()
+{
+  const FrameSamples& samples = this->Frame.samples();
+  samples.forEachGroup([this](std::size_t i) { this->Weights[i] = this->Steep[i]; });
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round)
+  {
+    const std::optional<Polynomial> affine = leastSquares(samples, this->Weights, 1);
+    if (!affine)
+    {
+      return;
+    }
+    FrameSamples::Numbers residuals;
+    samples.forEachGroup(
+      [&](std::size_t i)
+      {
+        residuals[i] =
+          (samples.value[i] - affine->valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
+      });
+    std::array<double, FrameSamples::most> sorted;
+    for (std::size_t i = 0; i < samples.count(); ++i)
+    {
+      sorted[i] = FrameSamples::at(residuals, i);
+    }
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(samples.count() / 2);
+    std::nth_element(
+      sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(samples.count()));
+    const double scale = 1.0 / *middle;
+    samples.forEachGroup(
+      [&](std::size_t i)
+      {
+        const Lanes relative = scale * residuals[i];
+        const Lanes factor = 1.0 + relative * relative;
+        this->Weights[i] = this->Steep[i] / (factor * factor);
+      });
+  }
+}
+
+/// The gradient of the affine function through all samples, if it does not contradict the edge.
+std::optional<Vector> LocalFitter::mildGradient()
+{
+  weighMildly(this->Frame, this->Weights);
+  const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
+  if (!affine || !areEnough(this->Frame.samples().count(), 1) ||
+      !increasesAlong(this->Frame.increasing(), affine->gradientAt({})))
+  {
+    return std::nullopt;
+  }
+  return affine->gradientAt({});
+}
+
+/// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
+bool LocalFitter::fitLinear(LocalFit& fit)
+{
+  const std::optional<Vector> gradient = this->mildGradient();
+  if (!gradient)
+  {
+    return false;
+  }
+  fit.gradient = this->Frame.gradientOf(*gradient);
+  fit.isGradientFitted = true;
+  const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
+  const std::optional<Vector> zero =
+    zeroNear(*affine, 0.5 * lengthOf(this->Frame.increasing()));
+  if (!zero)
+  {
+    return false;
+  }
+  fit.position = this->Frame.positionAt(*zero);
+  fit.order = FitOrder::Linear;
+  return true;
+}
+
+/// Sets the fit to pieces that meet at creases, if they describe the samples well, and better than a
+/// polynomial. @returns whether they do
+bool LocalFitter::fitCreases(LocalFit& fit)
+{
+  constexpr double mostResidual = 0.03; // larger ones come from noise
+  const FrameSamples& samples = this->Frame.samples();
+  weighMildly(this->Frame, this->Weights);
+  const std::optional<CreaseFit> crease = fitCrease(samples, this->Weights);
+  if (!crease || !crease->isSharp() ||
+      !(crease->residual <= mostResidual * crease->leastSlope() * this->Frame.meanDistance()) ||
+      !(crease->residual < this->polynomialResidual()))
+  {
+    return false;
+  }
+  const std::optional<CreasePoint> point =
+    zeroNear(*crease, 0.5 * lengthOf(this->Frame.increasing()));
+  if (!point)
+  {
+    return false;
+  }
+  fit.position = this->Frame.positionAt(point->zero);
+  fit.gradient = this->Frame.gradientOf(point->gradient);
+  fit.hessian = this->Frame.hessianOf(point->hessian);
+  fit.creases = this->Frame.planesOf(point->creases);
+  fit.isGradientFitted = true;
+  fit.order = FitOrder::Crease;
+  return true;
+}
+
+/// The corrected residual of the polynomial of the highest degree that the samples determine.
+double LocalFitter::polynomialResidual() const
+{
+  const FrameSamples& samples = this->Frame.samples();
+  const auto weight = [&](std::size_t i) { return this->Weights[i]; };
+  for (int degree = Polynomial::highestDegree; degree > 0; --degree)
+  {
+    const std::optional<Polynomial> polynomial = leastSquares(samples, this->Weights, degree);
+    if (polynomial && areEnough(samples.count(), degree))
+    {
+      const double squares = samples.sum(
+        [&](std::size_t i)
+        {
+          const Lanes residual =
+            samples.value[i] - polynomial->valueAt(samples.x[i], samples.y[i], samples.z[i]);
+          return Lanes(this->Weights[i] * residual * residual);
+        });
+      return correctedResidual(
+        squares / samples.sum(weight), samples.count(), coefficientCount(degree));
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Moves the isopoint by less than the polynomial's zero where the error of that is as large. The
+/// gradient is that of an affine function if the polynomial's does not differ from it beyond doubt.
+void LocalFitter::apply(const PolynomialFit& found, LocalFit& fit)
+{
+  const double squaredMove = found.move * found.move;
+  const double doubt = PolynomialFit::mostErrorShare * found.zeroError * found.zeroError;
+  const double share = squaredMove > 0.0 ? squaredMove / (squaredMove + doubt) : 1.0;
+  fit.position = this->Frame.positionAt(scaled(share, found.zero));
+  fit.order = static_cast<FitOrder>(found.polynomial.degree);
+  fit.isGradientFitted = true;
+  if (!found.isAccurate() && found.directionError > 0.0)
+  {
+    const std::optional<Vector> mild = this->mildGradient();
+    if (mild && lengthOf(difference(directionOf(*mild), directionOf(found.gradient))) <
+                  2.0 * found.directionError)
+    {
+      fit.gradient = this->Frame.gradientOf(*mild);
+      return;
+    }
+  }
+  fit.gradient = this->Frame.gradientOf(found.gradient);
+  fit.hessian = this->Frame.hessianOf(found.polynomial.hessianAt(found.zero));
 }
 
 } // namespace isopoint

@@ -2,39 +2,64 @@
 #ifndef isopoint_LocalFitter_h
 #define isopoint_LocalFitter_h
 
+#include "Isopoint/Fit/FitFrame.h"
 #include "Isopoint/Fit/FrameSamples.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Fit/PolynomialFit.h"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
 {
 
+/// Fits polynomials to the values of the samples around edges, by weighted least squares, and moves
+/// isopoints to their zeros; one edge at a time (docs/algorithm.md, section 10). Memory is kept. For
+/// one thread.
 class LocalFitter
 {
 public:
-  LocalFitter(double isovalue, FitRequest request)
+  /// @param highest order that is tried
+  LocalFitter(double isovalue, FitOrder highest)
     : Isovalue(isovalue)
-    , Request(request)
+    , Highest(highest)
   {
   }
 
-  bool fitSmooth(const FitEdge& edge, const std::vector<FitSample>& samples, LocalFit& fit);
-  LocalFit fit(const FitEdge& edge, const std::vector<FitSample>& samples);
+  /// The isopoint on its edge, with the slope along the edge.
+  static LocalFit onEdge(const FitEdge& edge);
+
+  /// Fits a polynomial of degree two, and accepts it where it leaves next to no residuals: the field
+  /// is smooth at the scale of the samples.
+  /// @param samples those next to the edge's ends suffice; the ends are among them
+  /// @returns nothing if more samples are to be tried. Complexity: O(samples)
+  std::optional<LocalFit> fitSmooth(const FitEdge& edge, const std::vector<FitSample>& samples);
+
+  /// Fits what the samples determine, up to the highest order. Where no fit holds, the isopoint
+  /// stays.
+  /// @param samples all around, the edge's ends among them, in an order that does not depend on how
+  /// they were found: sums are taken in this order
+  /// @param nearCount how many of them, the first ones, are those next to the ends
+  /// Complexity: O(samples)
+  LocalFit fit(
+    const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount);
 
 private:
-  bool enterFrame(const FitEdge& edge, const std::vector<FitSample>& samples);
-  void apply(const FitEdge& edge, const PolynomialFit& found, double share, LocalFit& fit) const;
-  FrameWeights robustWeights(const FrameWeights& steep) const;
+  bool isSmooth(const PolynomialFit& found) const;
+  std::optional<PolynomialFit> fitPolynomials();
+  void weighRobustly();
+  std::optional<Vector> mildGradient();
+  bool fitLinear(LocalFit& fit);
+  bool fitCreases(LocalFit& fit);
+  double polynomialResidual() const;
+  void apply(const PolynomialFit& found, LocalFit& fit);
 
   const double Isovalue;
-  const FitRequest Request;
-  double LengthUnit = 0.0;
-  double ValueUnit = 0.0;
-  Vector Increasing{};
-  FrameSamples Samples;
-  std::vector<double> Distances;
+  const FitOrder Highest;
+  FitFrame Frame;
+  FrameWeights Steep;  // of the present samples
+  FrameWeights Weights; // others
 };
 
 } // namespace isopoint

@@ -135,11 +135,11 @@ public:
   }
 
   /// The polynomial whose value at a sample, times the sample's weight, is the effect of the
-  /// sample's value on the value that the fit has at the origin.
-  Polynomial influence(int degree) const
+  /// sample's value on a coefficient of the solution.
+  Polynomial influence(int degree, std::size_t coefficient) const
   {
     std::array<double, size> unit{};
-    unit[0] = 1.0;
+    unit[coefficient] = 1.0;
     return this->solve(degree, unit);
   }
 

@@ -1,119 +1,148 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/PolynomialFit.h"
 
+#include "Isopoint/Fit/NormalEquations.h"
+#include "Isopoint/Fit/PolynomialZero.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace isopoint
 {
 namespace
 {
 
-/// The polynomial at the same place in all lanes.
+/// Of so many samples, nearest to the origin, residuals are taken.
+constexpr std::size_t nearestCount = 16;
+
 double squaredLength(const Vector& a)
 {
   return dot(a, a);
 }
 
-/// Fewer samples leave too few residuals to estimate an error from.
-bool areEnough(std::size_t count, int degree)
-{
-  return 4 * count >= 5 * coefficientCount(degree);
-}
-
-/// The samples nearest to the origin.
+/// The samples of the largest weights and these weights; ties are decided by the samples' order.
 struct NearestSamples
 {
-  static constexpr std::size_t most = 16;
   FrameSamples samples;
   FrameWeights weights;
 
   NearestSamples(const FrameSamples& all, const FrameWeights& allWeights)
   {
-    std::array<double, mostFitSamples> distances;
-    for (std::size_t i = 0; i < all.count; ++i)
+    std::array<double, FrameSamples::most> distances;
+    for (std::size_t i = 0; i < all.count(); ++i)
     {
       distances[i] = FrameSamples::at(all.squaredDistance, i);
     }
-    double limit = 0.0;
-    const std::size_t wanted = std::min(most, all.count);
-    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
-    std::nth_element(distances.begin(), last,
-      distances.begin() + static_cast<std::ptrdiff_t>(all.count));
-    limit = *last;
-    for (const bool isEqual : { false, true })
+    const std::size_t wanted = std::min(nearestCount, all.count());
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(wanted) - 1;
+    std::nth_element(
+      distances.begin(), last, distances.begin() + static_cast<std::ptrdiff_t>(all.count()));
+    const double limit = *last;
+    auto equal = wanted - static_cast<std::size_t>(std::count_if(
+                            distances.begin(), last, [&](double d) { return d < limit; }));
+    for (std::size_t i = 0; i < all.count(); ++i)
     {
-      for (std::size_t i = 0; i < all.count && this->samples.count < wanted; ++i)
+      const double distance = FrameSamples::at(all.squaredDistance, i);
+      if (distance < limit || (distance == limit && equal > 0))
       {
-        const double distance = FrameSamples::at(all.squaredDistance, i);
-        if (isEqual ? distance == limit : distance < limit)
-        {
-          const std::size_t at = this->samples.count++;
-          FrameSamples::at(this->samples.x, at) = FrameSamples::at(all.x, i);
-          FrameSamples::at(this->samples.y, at) = FrameSamples::at(all.y, i);
-          FrameSamples::at(this->samples.z, at) = FrameSamples::at(all.z, i);
-          FrameSamples::at(this->samples.value, at) = FrameSamples::at(all.value, i);
-          FrameSamples::at(this->weights, at) = FrameSamples::at(allWeights, i);
-        }
+        equal -= distance == limit ? 1 : 0;
+        const std::size_t at = this->samples.count();
+        this->samples.add({ FrameSamples::at(all.x, i), FrameSamples::at(all.y, i),
+                            FrameSamples::at(all.z, i) },
+          FrameSamples::at(all.value, i));
+        FrameSamples::at(this->weights, at) = FrameSamples::at(allWeights, i);
       }
     }
-    for (std::size_t at = wanted; at < laneCount * this->samples.groupCount(); ++at)
-    {
-      FrameSamples::at(this->samples.x, at) = 0.0;
-      FrameSamples::at(this->samples.y, at) = 0.0;
-      FrameSamples::at(this->samples.z, at) = 0.0;
-      FrameSamples::at(this->samples.value, at) = 0.0;
-      FrameSamples::at(this->weights, at) = 0.0;
-    }
+    endWeights(this->samples, this->weights);
   }
 };
 
+/// The root mean square of the residuals of samples that are left out of the fit one at a time.
 template <int Degree>
-double residualOf(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
-  const NearestSamples& nearest)
+double leftOutResidual(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
+  const FrameSamples& samples, const FrameWeights& weights)
 {
-  Lanes squares = Lanes::Zero();
-  Lanes weights = Lanes::Zero();
-  const FrameSamples& near = nearest.samples;
-  for (std::size_t i = 0; i < near.groupCount(); ++i)
-  {
-    const Lanes& weight = nearest.weights[i];
-    const Lanes leverage =
-      weight * equations.leverage(polynomial.degree, near.x[i], near.y[i], near.z[i]);
-    const Lanes residual =
-      weight * (near.value[i] - polynomial.valueAt(near.x[i], near.y[i], near.z[i])) / (1.0 - leverage);
-    squares += residual * residual;
-    weights += weight * weight;
-  }
-  return std::sqrt(sumOf(squares) / sumOf(weights));
+  const double squares = samples.sum(
+    [&](std::size_t i)
+    {
+      const Lanes& x = samples.x[i];
+      const Lanes& y = samples.y[i];
+      const Lanes& z = samples.z[i];
+      const Lanes leverage = weights[i] * equations.leverage(polynomial.degree, x, y, z);
+      const Lanes residual =
+        weights[i] * (samples.value[i] - polynomial.valueAt(x, y, z)) / (1.0 - leverage);
+      return Lanes(residual * residual);
+    });
+  return std::sqrt(
+    squares / samples.sum([&](std::size_t i) { return Lanes(weights[i] * weights[i]); }));
 }
 
-} // namespace
-
-std::optional<Vector> zeroNear(const Polynomial& polynomial, double farthest)
+/// The sum of the squares of the effects that the samples' values have on a coefficient.
+template <int Degree>
+double squaredEffects(const NormalEquations<Degree>& equations, int degree, std::size_t coefficient,
+  const FrameSamples& samples, const FrameWeights& weights)
 {
-  constexpr int mostSteps = 4;
-  constexpr double accuracy = 1e-6;
-  Vector place{};
-  for (int i = 0; i < mostSteps; ++i)
+  const Polynomial influence = equations.influence(degree, coefficient);
+  return samples.sum(
+    [&](std::size_t i)
+    {
+      const Lanes effect = weights[i] * influence.valueAt(samples.x[i], samples.y[i], samples.z[i]);
+      return Lanes(effect * effect);
+    });
+}
+
+template <int Degree>
+void estimateErrors(const NormalEquations<Degree>& equations, const FrameSamples& samples,
+  const FrameWeights& weights, PolynomialFit& fit)
+{
+  const int degree = fit.polynomial.degree;
+  const NearestSamples nearest(samples, weights);
+  fit.residual = leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights);
+  const double relative = fit.residual / std::sqrt(squaredLength(fit.gradient));
+  fit.zeroError = relative * std::sqrt(squaredEffects(equations, degree, 0, samples, weights));
+  fit.directionError = 0.0;
+  if (!fit.isAccurate())
   {
-    const Vector gradient = polynomial.gradientAt(place);
-    const double step = -polynomial.valueAt(place) / squaredLength(gradient);
-    const Vector next = sum(place, step, gradient);
-    if (!(squaredLength(next) <= farthest * farthest)) // nor is it a number, where the gradient is 0
+    double effects = 0.0;
+    for (const std::size_t slope : { 1, 2, 3 })
     {
-      return std::nullopt;
+      effects += squaredEffects(equations, degree, slope, samples, weights);
     }
-    const bool isFound = std::abs(step) * std::sqrt(squaredLength(gradient)) <= accuracy * farthest;
-    place = next;
-    if (isFound)
+    fit.directionError = relative * std::sqrt(effects);
+  }
+}
+
+/// See fitPolynomial().
+template <int Degree>
+std::optional<PolynomialFit> fit(
+  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing)
+{
+  const NormalEquations<Degree> equations(samples, weights);
+  const double farthest = 0.5 * std::sqrt(squaredLength(increasing));
+  for (int degree = equations.determinedDegree(); degree > 1; --degree)
+  {
+    PolynomialFit fit;
+    fit.polynomial = equations.solution(degree);
+    const std::optional<Vector> zero = zeroNear(fit.polynomial, farthest);
+    if (!zero || !increasesAlong(increasing, fit.polynomial.gradientAt({})))
     {
-      return place;
+      continue;
+    }
+    fit.zero = *zero;
+    fit.gradient = fit.polynomial.gradientAt(*zero);
+    fit.move = std::sqrt(squaredLength(*zero));
+    estimateErrors(equations, samples, weights, fit);
+    if (increasesAlong(increasing, fit.gradient) && std::isfinite(fit.zeroError))
+    {
+      return fit;
     }
   }
   return std::nullopt;
 }
+
+} // namespace
 
 bool increasesAlong(const Vector& increasing, const Vector& gradient)
 {
@@ -122,65 +151,45 @@ bool increasesAlong(const Vector& increasing, const Vector& gradient)
          leastCosine * std::sqrt(squaredLength(gradient) * squaredLength(increasing));
 }
 
-template <int Degree>
-std::optional<PolynomialFit> fitPolynomial(
-  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing)
+bool areEnough(std::size_t sampleCount, int degree)
 {
-  if (!areEnough(samples.count, Degree))
-  {
-    if constexpr (Degree > 2)
-    {
-      return fitPolynomial<Degree - 1>(samples, weights, increasing);
-    }
-    else
-    {
-      return std::nullopt;
-    }
-  }
-  const NormalEquations<Degree> equations(samples, weights);
-  const double farthest = 0.5 * std::sqrt(squaredLength(increasing));
-  for (int degree = equations.determinedDegree(); degree > 1; --degree)
-  {
-    PolynomialFit fit;
-    fit.polynomial = equations.solution(degree);
-    if (!increasesAlong(increasing, fit.polynomial.gradientAt({})))
-    {
-      continue;
-    }
-    const std::optional<Vector> zero = zeroNear(fit.polynomial, farthest);
-    if (!zero)
-    {
-      continue;
-    }
-    fit.zero = *zero;
-    fit.gradient = fit.polynomial.gradientAt(fit.zero);
-    if (!increasesAlong(increasing, fit.gradient))
-    {
-      continue;
-    }
-    fit.move = std::sqrt(squaredLength(fit.zero));
-    const NearestSamples nearest(samples, weights);
-    fit.residual = residualOf(equations, fit.polynomial, nearest);
-    const Polynomial influence = equations.influence(degree);
-    Lanes squares = Lanes::Zero();
-    for (std::size_t i = 0; i < samples.groupCount(); ++i)
-    {
-      const Lanes effect = weights[i] * influence.valueAt(samples.x[i], samples.y[i], samples.z[i]);
-      squares += effect * effect;
-    }
-    fit.standardError =
-      fit.residual * std::sqrt(sumOf(squares) / squaredLength(fit.gradient));
-    if (std::isfinite(fit.standardError))
-    {
-      return fit;
-    }
-  }
-  return std::nullopt;
+  return 4 * sampleCount >= 5 * coefficientCount(degree);
 }
 
-template std::optional<PolynomialFit> fitPolynomial<2>(
-  const FrameSamples&, const FrameWeights&, const Vector&);
-template std::optional<PolynomialFit> fitPolynomial<3>(
-  const FrameSamples&, const FrameWeights&, const Vector&);
+std::optional<PolynomialFit> fitPolynomial(
+  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing, int highest)
+{
+  if (highest > 2 && areEnough(samples.count(), 3))
+  {
+    return fit<3>(samples, weights, increasing);
+  }
+  return areEnough(samples.count(), 2) ? fit<2>(samples, weights, increasing) : std::nullopt;
+}
+
+std::optional<Polynomial> leastSquares(
+  const FrameSamples& samples, const FrameWeights& weights, int degree)
+{
+  const auto solutionOf = [degree](const auto& equations)
+  {
+    return equations.determinedDegree() == degree
+             ? std::optional<Polynomial>(equations.solution(degree))
+             : std::nullopt;
+  };
+  switch (degree)
+  {
+    case 1:
+      return solutionOf(NormalEquations<1>(samples, weights));
+    case 2:
+      return solutionOf(NormalEquations<2>(samples, weights));
+    default:
+      return solutionOf(NormalEquations<3>(samples, weights));
+  }
+}
+
+double correctedResidual(double meanSquare, std::size_t sampleCount, std::size_t coefficients)
+{
+  const auto count = static_cast<double>(sampleCount);
+  return std::sqrt(count / (count - static_cast<double>(coefficients)) * meanSquare);
+}
 
 } // namespace isopoint

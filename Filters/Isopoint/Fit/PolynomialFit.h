@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/FrameSamples.h"
-#include "Isopoint/Fit/NormalEquations.h"
 #include "Isopoint/Fit/Polynomial.h"
 
 #include <cstddef>
@@ -13,30 +12,51 @@
 namespace isopoint
 {
 
-/// A polynomial fitted around an isopoint, and where it is zero.
+/// A polynomial fitted around an isopoint, and where it is zero; in the frame of the samples.
 struct PolynomialFit
 {
   Polynomial polynomial;
-  Vector zero;          // the nearest place along gradients, in the frame
-  Vector gradient;      // there
-  double move;          // the distance of the zero from the origin
-  double standardError; // of the zero along the gradient
-  double residual;      // of the values nearest to the origin, left out of the fit one at a time
+  Vector zero;     // the nearest one from the origin along gradients
+  Vector gradient; // there
+  double move;     // the distance of the zero from the origin
+  /// The root mean square of the residuals of the samples nearest to the origin, each left out of
+  /// the fit: the standard deviation of what the polynomial does not describe.
+  double residual; // of the values of the samples nearest to the origin, each left out of the fit
+  double zeroError; // standard error of the zero along the gradient
+  /// Standard error of the gradient's direction in radians, if small, where isAccurate() is false.
+  double directionError;
+
+  /// Whether the zero is better known than by linear interpolation, beyond doubt.
+  bool isAccurate() const { return this->zeroError < mostErrorShare * this->move; }
+
+  static constexpr double mostErrorShare = 0.1;
 };
 
-/// The nearest zero of a polynomial from the origin along gradients (Newton's method), unless it is
-/// farther than a distance or is not found in a few steps.
-std::optional<Vector> zeroNear(const Polynomial& polynomial, double farthest);
-
-/// The fit of the highest degree that holds, down to two: the samples determine it, its gradient
-/// does not contradict the edge, and its zero is no farther than half the edge's length.
+/// Whether a gradient does not contradict an edge, which may run along a surface that bends.
 /// @param increasing the edge, from the end below the isovalue to the other one
-template <int Degree>
-std::optional<PolynomialFit> fitPolynomial(
-  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing);
-
-/// Whether a gradient does not contradict the edge, which may run along a surface that bends.
 bool increasesAlong(const Vector& increasing, const Vector& gradient);
+
+/// The weighted least-squares polynomial of the highest degree, down to two, that holds: the samples
+/// determine it, it does not contradict the edge, neither at the origin nor at its zero, and the
+/// zero is no farther than half the edge's length.
+/// @param highest 2 or 3
+/// @param increasing the edge, from the end below the isovalue to the other one
+/// Complexity: O(samples)
+std::optional<PolynomialFit> fitPolynomial(const FrameSamples& samples,
+  const FrameWeights& weights, const Vector& increasing, int highest);
+
+/// Whether so many samples determine a polynomial and leave residuals that its error can be
+/// estimated from.
+bool areEnough(std::size_t sampleCount, int degree);
+
+/// The polynomial of a degree from one to three of weighted least squares, unless the samples do not
+/// determine it. Complexity: O(samples)
+std::optional<Polynomial> leastSquares(
+  const FrameSamples& samples, const FrameWeights& weights, int degree);
+
+/// The root of a mean square of residuals, corrected for the degrees of freedom that coefficients
+/// take; not a number where there are no more samples than coefficients.
+double correctedResidual(double meanSquare, std::size_t sampleCount, std::size_t coefficients);
 
 } // namespace isopoint
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_LeafSet_h
+#define isopoint_LeafSet_h
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A set of node indices that is emptied often. Memory is kept. For one thread.
+template <class TId>
+class LeafSet
+{
+public:
+  /// O(1), but for the first time after the present generation of entries has run out.
+  void clear()
+  {
+    this->Count = 0;
+    if (++this->Generation == 0)
+    {
+      this->Entries.assign(this->Entries.size(), {});
+      this->Generation = 1;
+    }
+  }
+
+  /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
+  bool add(TId leaf)
+  {
+    if (2 * this->Count >= this->Entries.size())
+    {
+      this->grow();
+    }
+    Entry& entry = this->entryOf(leaf);
+    if (entry.generation == this->Generation)
+    {
+      return false;
+    }
+    entry = { leaf, this->Generation };
+    ++this->Count;
+    return true;
+  }
+
+private:
+  struct Entry
+  {
+    TId leaf = 0;
+    std::uint32_t generation = 0; // it is in the set if that is the present one
+  };
+
+  /// Where a leaf is or belongs. Nodes close to each other have close indices, which linear probing
+  /// leaves in the same lines of the cache.
+  Entry& entryOf(TId leaf)
+  {
+    const std::size_t mask = this->Entries.size() - 1;
+    std::size_t at = static_cast<std::size_t>(leaf) & mask;
+    while (this->Entries[at].generation == this->Generation && this->Entries[at].leaf != leaf)
+    {
+      at = (at + 1) & mask;
+    }
+    return this->Entries[at];
+  }
+
+  void grow()
+  {
+    constexpr std::size_t firstSize = 1024;
+    std::vector<Entry> former(this->Entries.empty() ? firstSize : 2 * this->Entries.size());
+    former.swap(this->Entries);
+    for (const Entry& entry : former)
+    {
+      if (entry.generation == this->Generation)
+      {
+        this->entryOf(entry.leaf) = entry;
+      }
+    }
+  }
+
+  std::vector<Entry> Entries; // a power of two of them
+  std::size_t Count = 0;
+  std::uint32_t Generation = 1;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_FitFrame_h
+#define isopoint_FitFrame_h
+
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/FrameSamples.h"
+#include "Isopoint/Fit/LocalFit.h"
+
+#include <vector>
+
+namespace isopoint
+{
+
+/// The frame of a fit: its origin is the isopoint on its edge, its units are powers of two near the
+/// edge's length and the increase of values along it, by which numbers are divided without rounding.
+class FitFrame
+{
+public:
+  /// Whether units and samples are finite; otherwise nothing can be fitted.
+  bool isUsable() const { return this->IsUsable; }
+
+  /// Goes to an edge. Of very many samples the nearest are taken.
+  /// Complexity: O(samples)
+  void enter(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples);
+
+  const FrameSamples& samples() const { return this->Samples; }
+
+  /// The mean distance of the samples from the origin.
+  double meanDistance() const { return this->MeanDistance; }
+
+  /// The edge, from the end below the isovalue to the other one.
+  const Vector& increasing() const { return this->Increasing; }
+
+  // From the frame's units to those of positions and values.
+  Vector positionAt(const Vector& place) const;
+  Vector gradientOf(const Vector& gradient) const;
+  Hessian hessianOf(const Hessian& hessian) const;
+  std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
+
+private:
+  void addNearest(const std::vector<FitSample>& samples);
+  Vector placeOf(const Vector& position) const
+  {
+    return scaled(1.0 / this->Length, difference(position, this->Origin));
+  }
+  double valueOf(double value) const { return (value - this->Isovalue) / this->Value; }
+
+  FrameSamples Samples;
+  Vector Origin{};
+  double Isovalue = 0.0;
+  Vector Increasing{};
+  double Length = 1.0; // the unit of lengths
+  double Value = 1.0;  // and of values
+  double MeanDistance = 0.0;
+  bool IsUsable = false;
+  std::vector<double> Distances; // squared
+};
+
+} // namespace isopoint
+
+#endif
