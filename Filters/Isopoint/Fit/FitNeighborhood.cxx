@@ -3,6 +3,8 @@
 
 #include "Isopoint/Fit/PolynomialZero.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -59,6 +61,40 @@ double akaikeCriterion(std::size_t sampleCount, std::size_t coefficientCount, do
 Eigen::Vector3d toEigen(const Vector& v)
 {
   return { v[0], v[1], v[2] };
+}
+
+/// The tangent planes of all pieces but one, each where Newton's method leads to from a position on
+/// that one, by the distance of the creases along it.
+std::vector<CreasePlane> creasesOf(
+  const CreaseFit& fit, std::size_t piece, const Eigen::Vector3d& position)
+{
+  const Eigen::Vector3d normal = fit.pieces[piece].gradient(position).normalized();
+  std::vector<std::pair<double, CreasePlane>> found;
+  for (std::size_t other = 0; other < fit.pieces.size(); ++other)
+  {
+    const Polynomial& polynomial = fit.pieces[other];
+    const std::optional<Eigen::Vector3d> zero =
+      zeroNear(polynomial, std::numeric_limits<double>::max(), position);
+    if (other == piece || !zero)
+    {
+      continue;
+    }
+    const Eigen::Vector3d inward = -fit.sense * polynomial.gradient(*zero).normalized();
+    const double distance = std::max(0.0, inward.dot(position - *zero));
+    const double alongPiece = distance / inward.cross(normal).norm();
+    if (std::isfinite(alongPiece)) // or else the pieces are parallel
+    {
+      found.push_back({ alongPiece, { { inward[0], inward[1], inward[2] }, distance, fit.sense } });
+    }
+  }
+  std::sort(
+    found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<CreasePlane> creases;
+  for (const auto& [alongPiece, crease] : found)
+  {
+    creases.push_back(crease);
+  }
+  return creases;
 }
 
 } // namespace
@@ -237,6 +273,11 @@ bool FitNeighborhood::apply(const CandidateFit& candidate, LocalFit& fit) const
   {
     fit.hessian[i] = slopeScale / this->Scale * candidate.hessian[i];
   }
+  fit.creases = candidate.creases;
+  for (CreasePlane& crease : fit.creases)
+  {
+    crease.distance *= this->Scale;
+  }
   fit.order = candidate.order;
   fit.isGradientFitted = true;
   return true;
@@ -363,6 +404,7 @@ void FitNeighborhood::moveToNearestSheet(const CreaseFit& fit, CandidateFit& can
       candidate.position = *position;
       candidate.gradient = fit.pieces[piece].gradient(*position);
       candidate.hessian = fit.pieces[piece].hessian(*position);
+      candidate.creases = creasesOf(fit, piece, *position);
     }
   };
   for (std::size_t piece = 0; piece < fit.pieces.size(); ++piece)

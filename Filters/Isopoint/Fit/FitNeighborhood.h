@@ -26,6 +26,7 @@ struct CandidateFit
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Hessian hessian{};
+  std::vector<CreasePlane> creases; // distances in the frame's unit
 
   bool holds() const { return this->order.has_value(); }
 };

@@ -48,6 +48,16 @@ struct FitEdge
   double spacing;    // of the samples around its ends
 };
 
+/// The tangent plane of another piece of a fit with a crease, as seen from an isopoint q on its own
+/// piece: only the places p with inward . (p - q) + distance >= 0 belong to that.
+struct CreasePlane
+{
+  Vector inward;   // normal to the plane, of length 1
+  double distance; // of q from it, not negative
+  double turn; // to which side the surface turns there: 1 to that of decreasing values, -1 to the
+               // other one
+};
+
 /// What was fitted around an isopoint.
 struct LocalFit
 {
@@ -60,6 +70,9 @@ struct LocalFit
   Hessian hessian;               // of the field there, all 0 if what was fitted is affine
   double spacing;                // of the samples there: see SampleGatherer
   std::optional<FitOrder> order; // of the fit that held, if one did
+  /// The tangent planes of the other pieces, that of the nearest crease first; empty unless the
+  /// order is Crease.
+  std::vector<CreasePlane> creases;
 };
 
 /// Fits polynomials to the values of the samples around an edge, by least squares weighted with

@@ -8,13 +8,13 @@ namespace isopoint
 namespace
 {
 
-/// Steps from the origin until they vanish. @returns where, unless that is too far
+/// Steps from a position until they vanish. @returns where, unless that is too far
 template <class Step>
-std::optional<Eigen::Vector3d> follow(const Step& stepAt, double farthest)
+std::optional<Eigen::Vector3d> follow(
+  const Step& stepAt, double farthest, Eigen::Vector3d position = Eigen::Vector3d::Zero())
 {
   constexpr int mostSteps = 8;
   constexpr double accuracy = 1e-12;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
   for (int i = 0; i < mostSteps; ++i)
   {
     const Eigen::Vector3d step = stepAt(position);
@@ -33,7 +33,8 @@ std::optional<Eigen::Vector3d> follow(const Step& stepAt, double farthest)
 
 } // namespace
 
-std::optional<Eigen::Vector3d> zeroNear(const Polynomial& polynomial, double farthest)
+std::optional<Eigen::Vector3d> zeroNear(
+  const Polynomial& polynomial, double farthest, const Eigen::Vector3d& start)
 {
   return follow(
     [&](const Eigen::Vector3d& p) -> Eigen::Vector3d
@@ -41,7 +42,7 @@ std::optional<Eigen::Vector3d> zeroNear(const Polynomial& polynomial, double far
       const Eigen::Vector3d gradient = polynomial.gradient(p);
       return -polynomial.value(p) / gradient.squaredNorm() * gradient;
     },
-    farthest);
+    farthest, start);
 }
 
 std::optional<Eigen::Vector3d> commonZeroNear(
