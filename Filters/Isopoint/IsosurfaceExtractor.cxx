@@ -2,6 +2,7 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 
 #include "Isopoint/Extraction/ExtractIsosurface.h"
+#include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Splat/SplatGeometry.h"
@@ -40,10 +41,15 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       if (request.splats)
       {
         const Isosurface& surface = result.surface;
+        const Execution splatting = partOf(execution, surfaceShare, 1.0);
+        const IsopointNeighbors neighbors(
+          splatting, cloud.tree, cloud.neighborhoods, surface.leaves);
         const SampleExtents extents(cloud.tree);
-        result.splats = computeSplats(partOf(execution, surfaceShare, 1.0),
-          { surface.positions, surface.decreasingEdges, surface.fits }, &extents, *request.splats);
+        result.splats =
+          computeSplats(splatting, { surface.positions, surface.decreasingEdges, surface.fits },
+            neighbors, &extents, *request.splats);
       }
+      result.surface.leaves = {};
       return result;
     },
     this->Held);

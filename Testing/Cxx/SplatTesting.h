@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -52,12 +54,66 @@ inline std::array<double, 5> clipOf(const Splat& splat)
                     : std::array<double, 5>{};
 }
 
+/// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.
+class NearestAround
+{
+public:
+  explicit NearestAround(const std::vector<Vector>& positions)
+    : Positions(positions)
+  {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      this->At[positions[i]].push_back(i);
+    }
+    for (const auto& [position, points] : this->At)
+    {
+      this->Distinct.push_back(position);
+    }
+  }
+
+  class Finder
+  {
+  public:
+    explicit Finder(const NearestAround& around)
+      : Around(around)
+    {
+    }
+
+    void find(std::size_t point, int rings, std::vector<std::size_t>& found)
+    {
+      const Vector& center = this->Around.Positions[point];
+      std::vector<Vector> near = this->Around.Distinct;
+      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
+      std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1,
+        near.end(),
+        [&](const Vector& a, const Vector& b)
+        { return lengthOf(difference(a, center)) < lengthOf(difference(b, center)); });
+      found.clear();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const std::vector<std::size_t>& points = this->Around.At.at(near[i]);
+        std::copy_if(points.begin(), points.end(), std::back_inserter(found),
+          [point](std::size_t other) { return other != point; });
+      }
+    }
+
+  private:
+    const NearestAround& Around;
+  };
+
+private:
+  const std::vector<Vector>& Positions;
+  std::map<Vector, std::vector<std::size_t>> At;
+  std::vector<Vector> Distinct;
+};
+
 /// The splats of points, one for each.
 template <class TExtents = HalfSpace>
 std::vector<Splat> splatsOf(const Points& points, const TExtents* extents = nullptr)
 {
   const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
-    { points.positions, points.decreasingEdges, points.fits }, extents, isopoint::SplatOptions());
+    { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
+    extents, isopoint::SplatOptions());
   EXPECT_EQ(splats.size(), points.positions.size());
   return splats;
 }
@@ -120,7 +176,8 @@ inline void addFitted(Points& points, const Vector& position,
   points.fits.push_back(fitAmong(1.0, order, gradient));
 }
 
-/// Adds a point on one of two planes that meet at the y axis at a right angle.
+/// Adds a point on one of two planes that meet at the y axis at a right angle. A fit with a crease
+/// has the other one.
 /// @param along coordinate along the axis
 /// @param off coordinate across it, at most 0
 /// @param tilt added to the fit's gradient
@@ -129,6 +186,11 @@ inline void addOnWedge(
 {
   addFitted(points, top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off }, order,
     isopoint::sum(top ? Vector{ 0.0, 0.0, -1.0 } : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+  if (order == isopoint::FitOrder::Crease)
+  {
+    points.fits.back().creases = { { top ? Vector{ -1.0, 0.0, 0.0 } : Vector{ 0.0, 0.0, -1.0 },
+      -off, -1.0 } };
+  }
 }
 
 /// Negates the field.
@@ -138,6 +200,10 @@ inline void negate(Points& points)
   {
     points.fits[i].gradient = isopoint::scaled(-1.0, points.fits[i].gradient);
     points.decreasingEdges[i] = isopoint::scaled(-1.0, points.decreasingEdges[i]);
+    for (isopoint::CreasePlane& crease : points.fits[i].creases)
+    {
+      crease.turn = -crease.turn;
+    }
   }
 }
 

@@ -30,6 +30,13 @@ void expectSameBytes(const Isosurface& expected, const Isosurface& found)
   }
 }
 
+void expectSamePlane(const isopoint::CreasePlane& expected, const isopoint::CreasePlane& found)
+{
+  EXPECT_EQ(expected.inward, found.inward);
+  EXPECT_EQ(expected.distance, found.distance);
+  EXPECT_EQ(expected.turn, found.turn);
+}
+
 void expectSameFit(const isopoint::LocalFit& expected, const isopoint::LocalFit& found)
 {
   EXPECT_EQ(expected.position, found.position);
@@ -38,6 +45,11 @@ void expectSameFit(const isopoint::LocalFit& expected, const isopoint::LocalFit&
   EXPECT_EQ(expected.hessian, found.hessian);
   EXPECT_EQ(expected.spacing, found.spacing);
   EXPECT_EQ(expected.order, found.order);
+  ASSERT_EQ(expected.creases.size(), found.creases.size());
+  for (std::size_t i = 0; i < found.creases.size(); ++i)
+  {
+    expectSamePlane(expected.creases[i], found.creases[i]);
+  }
 }
 
 void expectSameSplat(const isopoint::Splat& expected, const isopoint::Splat& found)
@@ -49,9 +61,7 @@ void expectSameSplat(const isopoint::Splat& expected, const isopoint::Splat& fou
   ASSERT_EQ(expected.clip.has_value(), found.clip.has_value());
   if (expected.clip)
   {
-    EXPECT_EQ(expected.clip->inward, found.clip->inward);
-    EXPECT_EQ(expected.clip->distance, found.clip->distance);
-    EXPECT_EQ(expected.clip->turn, found.clip->turn);
+    expectSamePlane(*expected.clip, *found.clip);
   }
 }
 

@@ -79,6 +79,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   surface.edges.resize(edges.size());
   surface.positions.resize(edges.size());
   surface.decreasingEdges.resize(edges.size());
+  surface.leaves.resize(edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
   forRanges(execution, edges.size(), grain,
@@ -98,6 +99,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
         const double parameter =
           followsFit ? nearestParameter(first, second, surface.positions[i]) : edge.crossing;
         surface.edges[i] = { edge.first, edge.second, parameter };
+        surface.leaves[i] = { edge.firstLeaf, edge.secondLeaf };
         const bool isDecreasing = !(values.at(edge.firstLeaf) < context.isovalue);
         surface.decreasingEdges[i] =
           isDecreasing ? difference(second, first) : scaled(-1.0, difference(second, first));

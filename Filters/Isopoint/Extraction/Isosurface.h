@@ -29,6 +29,13 @@ struct IsopointEdge
   }
 };
 
+/// The node indices of the two leaves that an edge connects.
+struct EdgeLeaves
+{
+  std::size_t first;
+  std::size_t second;
+};
+
 /// The isopoints of one isovalue, ordered by the ends (first, second) of their edges, each edge
 /// once.
 struct Isosurface
@@ -39,6 +46,8 @@ struct Isosurface
   std::vector<IsopointEdge> edges;
   std::vector<Vector> positions;       // moved to the zero of the fit, where that was requested
   std::vector<Vector> decreasingEdges; // from the end not below the isovalue to the one that is
+
+  std::vector<EdgeLeaves> leaves; // for IsopointNeighbors; does not leave the core
 
   std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
 

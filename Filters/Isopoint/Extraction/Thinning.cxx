@@ -246,6 +246,7 @@ void thin(const Execution& execution, double minimumSpacing, Isosurface& surface
   thinned.edges = chosen(surface.edges, kept);
   thinned.positions = chosen(surface.positions, kept);
   thinned.decreasingEdges = chosen(surface.decreasingEdges, kept);
+  thinned.leaves = surface.leaves.empty() ? surface.leaves : chosen(surface.leaves, kept);
   thinned.fits = chosen(surface.fits, kept);
   thinned.coincident = endsAmong(surface.coincident, thinned.edges);
   surface = std::move(thinned);

@@ -8,7 +8,6 @@
 #include <boost/iterator/counting_iterator.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -84,7 +83,7 @@ NearestPositions::NearestPositions(const std::vector<Vector>& positions)
 NearestPositions::~NearestPositions() = default;
 
 void NearestPositions::find(
-  std::size_t point, std::size_t count, std::vector<Neighbor>& found) const
+  std::size_t point, std::size_t count, std::vector<std::size_t>& found) const
 {
   const Search& known = *this->Tree;
   const std::size_t self = known.ofPoint[point];
@@ -95,7 +94,7 @@ void NearestPositions::find(
   {
     if (index != self)
     {
-      found.push_back({ known.firstPoint[index], std::sqrt(squaredDistance) });
+      found.push_back(known.firstPoint[index]);
     }
   }
 }

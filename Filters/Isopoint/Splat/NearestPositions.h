@@ -16,19 +16,14 @@ namespace isopoint
 class NearestPositions
 {
 public:
-  struct Neighbor
-  {
-    std::size_t point; // the first one at its position
-    double distance;
-  };
-
   /// @throws std::bad_alloc. Complexity: O(n log n)
   explicit NearestPositions(const std::vector<Vector>& positions);
   ~NearestPositions();
 
-  /// Lists that many points at other positions, by distance, or all there are.
+  /// Lists that many points at other positions, by distance, or all there are; of those at one
+  /// position the first.
   /// Complexity: O(count log n)
-  void find(std::size_t point, std::size_t count, std::vector<Neighbor>& found) const;
+  void find(std::size_t point, std::size_t count, std::vector<std::size_t>& found) const;
 
 private:
   struct Search;

@@ -11,15 +11,6 @@
 namespace isopoint
 {
 
-/// The plane at which a splat beside a crease ends: of a splat at q only the places p with
-/// inward . (p - q) + distance >= 0 belong to the surface.
-struct SplatClip
-{
-  Vector inward;   // normal to the plane, of length 1
-  double distance; // of q from it, not negative
-  double turn; // to which side of the splat the surface turns at the plane: 1 its normal's, or -1
-};
-
 /// How a point of the surface is drawn, in the units of the positions.
 struct Splat
 {
@@ -27,7 +18,7 @@ struct Splat
   double radius; // half the longer axis, positive
   Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
   Vector axis2;
-  std::optional<SplatClip> clip;
+  std::optional<CreasePlane> clip; // where a splat beside a crease ends
 };
 
 /// The points of one surface, one entry each.

@@ -31,55 +31,39 @@ public:
 
   /// Goes to a point.
   /// @param normal of its splat, of length 1
-  /// @param spacing of the samples there; if it is not positive, no border is known
-  /// @param reach of the samples that count, which may stand across a gap of the cloud; if it is
-  /// not finite, no border is known
-  void moveTo(const Vector& place, const Vector& normal, double spacing, double reach)
+  /// @param spacing of the samples there, the unit of the cell; if it is not positive, no border is
+  /// known
+  void moveTo(const Vector& place, const Vector& normal, double spacing)
   {
     this->Place = place;
     this->Normal = normal;
-    this->Margin = margin * spacing;
-    this->Reach = reach;
-    this->IsKnown = this->Extents && spacing > 0.0 && std::isfinite(reach);
-    const std::array<Vector, extentCount> directions = extentDirections(normal);
-    for (std::size_t i = 0; i < extentCount; ++i)
-    {
-      this->Sides[i] = { directions[i], 0.0, false };
-    }
+    this->Spacing = spacing;
+    this->IsKnown = this->Extents && spacing > 0.0 && std::isfinite(reach * spacing);
+    this->Extent.fill(0.0);
+    this->IsBorder.fill(false);
   }
 
-  /// Cuts the point's cell in the directions in which a border has been found.
-  void cutWhereFound(TangentCell& cell) const
-  {
-    for (const Side& side : this->Sides)
-    {
-      if (side.isBorder)
-      {
-        cell.cut(side.direction, side.extent + this->Margin, true);
-      }
-    }
-  }
-
-  /// Cuts the point's cell in all directions in which it reaches out; the cuts count as sides of
-  /// the disk.
+  /// Cuts the point's cell in all directions in which it reaches out; the new sides are limits.
   void cut(TangentCell& cell)
   {
-    if (!this->IsKnown)
+    if (!this->IsKnown || cell.squaredReach() <= margin * margin)
     {
       return;
     }
-    for (Side& side : this->Sides)
+    const std::array<Vector, extentCount> directions = extentDirections(this->Normal);
+    for (std::size_t i = 0; i < extentCount; ++i)
     {
-      const double wanted = cell.reachTowards(side.direction) - this->Margin;
-      if (wanted > side.extent && !side.isBorder)
+      const double wanted = cell.reachTowards(directions[i]) - margin;
+      if (wanted > this->Extent[i] && !this->IsBorder[i])
       {
-        side.extent =
-          this->Extents->at({ this->Place, this->Normal, side.direction, wanted, this->Reach });
-        side.isBorder = side.extent < wanted;
+        this->Extent[i] = this->Extents->at({ this->Place, this->Normal, directions[i],
+                            wanted * this->Spacing, reach * this->Spacing }) /
+                          this->Spacing;
+        this->IsBorder[i] = this->Extent[i] < wanted;
       }
-      if (side.isBorder)
+      if (this->IsBorder[i])
       {
-        cell.cut(side.direction, side.extent + this->Margin, true);
+        cell.cut(directions[i], this->Extent[i] + margin, true);
       }
     }
   }
@@ -88,20 +72,17 @@ private:
   /// How far out of the samples a cell may reach, in their spacings.
   static constexpr double margin = 0.9;
 
-  struct Side
-  {
-    Vector direction;
-    double extent; // how far samples stand ahead, at least
-    bool isBorder; // whether they stand no farther
-  };
+  /// How far away samples count, in spacings: a cell is as far from what is across a gap as it may
+  /// reach into it.
+  static constexpr double reach = 9.0;
 
   const TExtents* Extents;
   Vector Place{};
   Vector Normal{};
-  double Margin = 0.0;
-  double Reach = 0.0; // of the samples that count
-  std::array<Side, extentCount> Sides{};
-  bool IsKnown = false; // whether a border can be found at all
+  double Spacing = 0.0;
+  bool IsKnown = false;                     // whether a border can be found at all
+  std::array<double, extentCount> Extent{}; // how far samples stand ahead, at least, in spacings
+  std::array<bool, extentCount> IsBorder{}; // whether they stand no farther
 };
 
 } // namespace isopoint

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace isopoint
 {
@@ -33,6 +34,44 @@ std::optional<Vector> planeNormal(const std::vector<Kernel::Point_3>& points)
   return directionOf(result);
 }
 
+std::optional<Vector> fitPlane(
+  const std::vector<Vector>& positions, std::size_t point, const std::vector<std::size_t>& around)
+{
+  if (around.size() < 2)
+  {
+    return std::nullopt;
+  }
+  // Around the point and at a size near 1, so that the fit loses no digits to a far origin or a
+  // tiny scale.
+  const Vector& origin = positions[point];
+  const double scale = 1.0 / lengthOf(difference(positions[around.back()], origin));
+  std::vector<Kernel::Point_3> points(1, Kernel::Point_3(0.0, 0.0, 0.0));
+  for (const std::size_t other : around)
+  {
+    const Vector offset = scaled(scale, difference(positions[other], origin));
+    points.emplace_back(offset[0], offset[1], offset[2]);
+  }
+  return planeNormal(points);
+}
+
+/// The mean direction of those edges around along which values decrease to the same side as along
+/// the point's own: a single edge may run nearly along the surface, and along the edges of a sheet
+/// close by values decrease to the other side.
+Vector decreasingSide(
+  const SurfacePoints& points, const Vector& own, const std::vector<std::size_t>& around)
+{
+  Vector mean = own;
+  for (const std::size_t point : around)
+  {
+    const Vector other = directionOf(points.decreasingEdges[point]);
+    if (dot(other, own) > 0.0)
+    {
+      mean = sum(mean, 1.0, other);
+    }
+  }
+  return mean;
+}
+
 } // namespace
 
 std::vector<std::size_t> setFieldNormals(
@@ -57,62 +96,16 @@ std::vector<std::size_t> setFieldNormals(
   return others;
 }
 
-PlaneNormals::PlaneNormals(const NearestPositions& nearest, const std::vector<Vector>& positions,
-  const std::vector<Vector>& decreasingEdges, std::size_t neighborCount)
-  : Finder(nearest)
-  , Positions(positions)
-  , DecreasingEdges(decreasingEdges)
-  , NeighborCount(neighborCount)
+Vector planeNormal(
+  const SurfacePoints& points, std::size_t point, const std::vector<std::size_t>& around)
 {
-}
-
-Vector PlaneNormals::at(std::size_t point)
-{
-  this->Finder.find(point, this->NeighborCount, this->Nearest);
-  const Vector own = directionOf(this->DecreasingEdges[point]);
-  const std::optional<Vector> normal = this->fitPlane(point);
+  const Vector own = directionOf(points.decreasingEdges[point]);
+  const std::optional<Vector> normal = fitPlane(points.positions, point, around);
   if (!normal)
   {
     return own;
   }
-  return dot(*normal, this->decreasingSide(own)) < 0.0 ? scaled(-1.0, *normal) : *normal;
-}
-
-std::optional<Vector> PlaneNormals::fitPlane(std::size_t point) const
-{
-  if (this->Nearest.size() < 2)
-  {
-    return std::nullopt;
-  }
-  // Around the point and at a size near 1, so that the fit loses no digits to a far origin or a
-  // tiny scale.
-  const double scale = 1.0 / this->Nearest.back().distance;
-  const Vector& origin = this->Positions[point];
-  std::vector<Kernel::Point_3> points(1, Kernel::Point_3(0.0, 0.0, 0.0));
-  for (const NearestPositions::Neighbor& neighbor : this->Nearest)
-  {
-    const Vector& other = this->Positions[neighbor.point];
-    points.emplace_back((other[0] - origin[0]) * scale, (other[1] - origin[1]) * scale,
-      (other[2] - origin[2]) * scale);
-  }
-  return planeNormal(points);
-}
-
-/// The mean direction of those edges around along which values decrease to the same side as along
-/// the point's own: a single edge may run nearly along the surface, and along the edges of a sheet
-/// close by values decrease to the other side.
-Vector PlaneNormals::decreasingSide(const Vector& own) const
-{
-  Vector sum = own;
-  for (const NearestPositions::Neighbor& neighbor : this->Nearest)
-  {
-    const Vector other = directionOf(this->DecreasingEdges[neighbor.point]);
-    if (dot(other, own) > 0.0)
-    {
-      sum = { sum[0] + other[0], sum[1] + other[1], sum[2] + other[2] };
-    }
-  }
-  return sum;
+  return dot(*normal, decreasingSide(points, own, around)) < 0.0 ? scaled(-1.0, *normal) : *normal;
 }
 
 } // namespace isopoint

@@ -10,31 +10,6 @@ namespace isopoint
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
-/// A symmetric form of two variables.
-struct Form
-{
-  double xx;
-  double xy;
-  double yy;
-
-  /// The angle of the direction in which its value is of the least magnitude.
-  double flattestAngle() const
-  {
-    const double angle = 0.5 * std::atan2(2.0 * this->xy, this->xx - this->yy);
-    return std::abs(this->at(angle)) <= std::abs(this->at(angle + 0.5 * pi)) ? angle
-                                                                             : angle + 0.5 * pi;
-  }
-
-  double at(double angle) const
-  {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    return this->xx * c * c + 2.0 * this->xy * c * s + this->yy * s * s;
-  }
-};
-
 double second(const Hessian& hessian, const Vector& a, const Vector& b)
 {
   return hessian[0] * a[0] * b[0] + hessian[1] * a[1] * b[1] + hessian[2] * a[2] * b[2] +
@@ -42,81 +17,108 @@ double second(const Hessian& hessian, const Vector& a, const Vector& b)
          hessian[5] * (a[1] * b[2] + a[2] * b[1]);
 }
 
-Form curvatureOf(const TangentCell& cell, const Hessian& hessian, double gradientLength)
+double valueAt(const PlaneForm& form, double x, double y)
 {
-  const bool isBent = gradientLength > 0.0 && std::isfinite(gradientLength);
-  const auto along = [&](const Vector& a, const Vector& b)
-  { return isBent ? second(hessian, a, b) / gradientLength : 0.0; };
-  return { along(cell.first(), cell.first()), along(cell.first(), cell.second()),
-    along(cell.second(), cell.second()) };
+  return form.xx * x * x + 2.0 * form.xy * x * y + form.yy * y * y;
 }
 
-/// The second moments of a cell's corners, turned so that the flattest direction is the longest.
-Form shapeOf(const TangentCell& cell)
+/// The direction in which a form is largest.
+PrincipalDirection largestDirection(const PlaneForm& form)
 {
-  Form form{ 0.0, 0.0, 0.0 };
-  for (const TangentCell::Corner& corner : cell.corners())
+  const double half = 0.5 * (form.xx - form.yy);
+  const double amplitude = std::sqrt(half * half + form.xy * form.xy);
+  const double cosine = amplitude > 0.0 ? half / amplitude : 1.0; // of twice the angle
+  const double x = std::sqrt(std::max(0.0, 0.5 + 0.5 * cosine));
+  const double y = std::copysign(std::sqrt(std::max(0.0, 0.5 - 0.5 * cosine)), form.xy);
+  return { x, y, 0.5 * (form.xx + form.yy) + amplitude };
+}
+
+/// The second moments of a cell's area about its origin, but for a factor. Unlike sums over
+/// corners, they change little where a small change of the cell adds a corner.
+PlaneForm momentsOf(const TangentCell& cell)
+{
+  PlaneForm form;
+  const TangentCell::Corner* previous = cell.end() - 1;
+  for (const TangentCell::Corner& corner : cell)
   {
-    form.xx += corner.y * corner.y;
-    form.xy -= corner.x * corner.y;
-    form.yy += corner.x * corner.x;
+    const double area = previous->x * corner.y - corner.x * previous->y;
+    const double x = previous->x + corner.x;
+    const double y = previous->y + corner.y;
+    form.xx += area * (x * x + previous->x * previous->x + corner.x * corner.x);
+    form.xy += area * (x * y + previous->x * previous->y + corner.x * corner.y);
+    form.yy += area * (y * y + previous->y * previous->y + corner.y * corner.y);
+    previous = &corner;
   }
   return form;
 }
 
-} // namespace
-
-std::array<Curvature, 2> principalCurvatures(
-  const TangentCell& cell, const Hessian& hessian, double gradientLength)
+/// The smaller half-axis of the smallest ellipse around a cell of a direction and an aspect.
+double minorAround(const TangentCell& cell, double x, double y, double aspect)
 {
-  const Form form = curvatureOf(cell, hessian, gradientLength);
-  const double flattest = form.flattestAngle();
-  std::array<Curvature, 2> result;
-  for (std::size_t i = 0; i < result.size(); ++i)
+  double largest = 0.0;
+  for (const TangentCell::Corner& corner : cell)
   {
-    const double angle = flattest + 0.5 * pi * static_cast<double>(i);
-    result[i] = { sum(scaled(std::cos(angle), cell.first()), std::sin(angle), cell.second()),
-      std::abs(form.at(angle)) };
+    const double along = (x * corner.x + y * corner.y) / aspect;
+    const double across = x * corner.y - y * corner.x;
+    largest = std::max(largest, along * along + across * across);
   }
-  return result;
+  return std::sqrt(largest);
 }
 
-Ellipse fitEllipse(
-  const TangentCell& cell, const Vector& normal, const Hessian& hessian, double gradientLength)
+} // namespace
+
+PlaneForm curvatureOf(
+  const TangentCell& cell, const Hessian& hessian, const Vector& gradient, double unit)
 {
-  const Form curvature = curvatureOf(cell, hessian, gradientLength);
+  const double scale = unit / lengthOf(gradient);
+  if (!std::isfinite(scale))
+  {
+    return {};
+  }
+  return { scale * second(hessian, cell.first(), cell.first()),
+    scale * second(hessian, cell.first(), cell.second()),
+    scale * second(hessian, cell.second(), cell.second()) };
+}
+
+std::array<PrincipalDirection, 2> principalDirections(const PlaneForm& form)
+{
+  const PrincipalDirection largest = largestDirection(form);
+  const PrincipalDirection least{ -largest.y, largest.x, valueAt(form, -largest.y, largest.x) };
+  return std::abs(largest.value) <= std::abs(least.value)
+           ? std::array<PrincipalDirection, 2>{ largest, least }
+           : std::array<PrincipalDirection, 2>{ least, largest };
+}
+
+Ellipse ellipseAround(const TangentCell& cell, const std::array<PrincipalDirection, 2>* curvatures)
+{
+  const PrincipalDirection longest = largestDirection(momentsOf(cell));
+  if (!curvatures)
+  {
+    const double radius = std::sqrt(cell.squaredReach());
+    return { longest.x, longest.y, radius, radius };
+  }
+  const auto& [flattest, steepest] = *curvatures;
   Ellipse best{};
   double leastCost = std::numeric_limits<double>::infinity();
-  const double reach = cell.reach();
-  // Where the curvature is not known, ellipses that are as long as the cell leave gaps.
-  const bool mayBeLong = isBendKnown(hessian);
-  for (const double angle : { shapeOf(cell).flattestAngle(), curvature.flattestAngle() })
+  for (const PrincipalDirection& direction : { longest, flattest })
   {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
+    const double cosine = direction.x * flattest.x + direction.y * flattest.y;
+    const double share = cosine * cosine;
+    const double along = share * flattest.value + (1.0 - share) * steepest.value;
+    const double across = (1.0 - share) * flattest.value + share * steepest.value;
     for (const double aspect : { 1.0, 1.25, 1.6, 2.0 })
     {
-      if (aspect > 1.0 && !mayBeLong)
-      {
-        break;
-      }
-      double minor = 0.0;
-      for (const TangentCell::Corner& corner : cell.corners())
-      {
-        minor = std::max(
-          minor, std::hypot((c * corner.x + s * corner.y) / aspect, c * corner.y - s * corner.x));
-      }
+      const double minor = minorAround(cell, direction.x, direction.y, aspect);
       const double major = aspect * minor;
-      const double departure = 0.5 * std::max(std::abs(curvature.at(angle)) * major * major,
-                                       std::abs(curvature.at(angle + 0.5 * pi)) * minor * minor);
+      const double departure =
+        0.5 * std::max(std::abs(along) * major * major, std::abs(across) * minor * minor);
       // In units of lengths; the area decides where both are flat.
       constexpr double areaShare = 0.05;
-      const double cost = departure + areaShare * major * minor / reach;
+      const double cost = departure + areaShare * major * minor / std::sqrt(cell.squaredReach());
       if (cost < leastCost)
       {
         leastCost = cost;
-        best.axis1 = sum(scaled(major * c, cell.first()), major * s, cell.second());
-        best.axis2 = scaled(minor, cross(normal, directionOf(best.axis1)));
+        best = { direction.x, direction.y, major, minor };
       }
     }
   }

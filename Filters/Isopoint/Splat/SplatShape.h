@@ -10,39 +10,45 @@
 namespace isopoint
 {
 
-/// The half-axes of an ellipse in a tangent plane, axis1 the longer.
+/// A symmetric form of the two coordinates of a tangent plane.
+struct PlaneForm
+{
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+};
+
+/// A direction in a tangent plane, of length 1, in which a form has an extreme value.
+struct PrincipalDirection
+{
+  double x;
+  double y;
+  double value; // of the form
+};
+
+/// How a surface bends along a cell's plane: one over its radius, in a direction of length 1.
+/// @param hessian, gradient of the field (see LocalFit)
+/// @param unit of length of the cell
+PlaneForm curvatureOf(
+  const TangentCell& cell, const Hessian& hessian, const Vector& gradient, double unit);
+
+/// The two directions, orthogonal to each other, that of the least magnitude first.
+std::array<PrincipalDirection, 2> principalDirections(const PlaneForm& form);
+
+/// An ellipse in a cell's plane, around its origin.
 struct Ellipse
 {
-  Vector axis1;
-  Vector axis2;
+  double x; // the direction of its longer axis, of length 1
+  double y;
+  double major; // half the longer axis
+  double minor;
 };
-
-/// How much a surface bends in a direction: one over its radius.
-struct Curvature
-{
-  Vector direction; // of length 1
-  double value;     // not negative
-};
-
-/// Whether a Hessian determines the curvature; it is 0 where no fit does.
-inline bool isBendKnown(const Hessian& hessian)
-{
-  return hessian != Hessian{};
-}
-
-/// The magnitudes of the curvatures in the two directions of a cell's plane in which the surface
-/// bends least and most, in this order.
-/// @param hessian, gradientLength of the field (see LocalFit); a Hessian of 0 for a plane
-std::array<Curvature, 2> principalCurvatures(
-  const TangentCell& cell, const Hessian& hessian, double gradientLength);
 
 /// The ellipse around a cell whose rim departs least from the curved surface: long where the
-/// surface is flat, short where it bends. It is a circle where the curvature is not known.
-/// @param normal of length 1
-/// @param hessian, gradientLength of the field (see LocalFit); a Hessian of 0 where the curvature
-/// is not known
-Ellipse fitEllipse(
-  const TangentCell& cell, const Vector& normal, const Hessian& hessian, double gradientLength);
+/// surface is flat, short where it bends.
+/// @param curvatures of the surface, in the cell's unit; nothing if they are not known: then it is
+/// a circle
+Ellipse ellipseAround(const TangentCell& cell, const std::array<PrincipalDirection, 2>* curvatures);
 
 } // namespace isopoint
 

@@ -4,10 +4,9 @@
 
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Splat/NearestPositions.h"
+#include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatBorder.h"
-#include "Isopoint/Splat/SplatCrease.h"
 #include "Isopoint/Splat/SplatShape.h"
 #include "Isopoint/Splat/TangentCell.h"
 
@@ -22,17 +21,18 @@ namespace isopoint
 {
 
 /// Determines the shapes of splats whose normals are known, one at a time. For one thread.
+/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 /// @tparam TExtents see SplatBorder
-template <class TExtents>
+template <class TNeighbors, class TExtents>
 class SplatShaper
 {
 public:
   /// @param splats of which normals are set
-  SplatShaper(const NearestPositions& nearest, const SurfacePoints& points, const TExtents* extents,
+  SplatShaper(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
     const std::vector<Splat>& splats)
-    : Finder(nearest)
-    , Points(points)
+    : Points(points)
     , Splats(splats)
+    , Nearby(neighbors, points.positions)
     , Border(extents)
   {
   }
@@ -40,43 +40,27 @@ public:
   /// Sets all of a splat but its normal.
   void shape(std::size_t point, Splat& splat)
   {
-    this->list(point, firstNeighbors);
-    const double spacing = this->spacingAt(point);
-    // A cell is as far from what is across a gap as it may reach into it.
-    const double mostReach = this->isSmooth(point) ? gapReach : closedReach;
-    const double fitSpacing = this->fitSpacingAt(point);
-    this->Border.moveTo(
-      this->Points.positions[point], splat.normal, fitSpacing, 2.0 * mostReach * fitSpacing);
-    TangentCell cell(splat.normal);
-    this->cutOut(point, closedReach * spacing, Bound::AllPoints, cell);
-    if (cell.isOpen() && !this->reachesAcrossGap(point, cell))
+    const double unit = this->unitAt(point);
+    TangentCell cell(splat.normal, mostReach);
+    this->cutOut(point, unit, cell);
+    const bool isBent = this->isBendKnown(point);
+    std::array<PrincipalDirection, 2> curvatures{};
+    if (isBent)
     {
-      const double reach = this->isSmooth(point) ? borderReach : loneReach;
-      this->cutOut(point, reach * spacing, Bound::AllPoints, cell);
+      const LocalFit& fit = this->Points.fits[point];
+      curvatures = principalDirections(curvatureOf(cell, fit.hessian, fit.gradient, unit));
+      cutWhereSurfaceTurns(curvatures, cell);
     }
-    const LocalFit none{};
-    const LocalFit& fit = this->Points.fits.empty() ? none : this->Points.fits[point];
-    const double slope = lengthOf(fit.gradient);
-    const std::array<Curvature, 2> curvatures = principalCurvatures(cell, fit.hessian, slope);
-    cutWhereSurfaceTurns(curvatures, cell);
-    const Ellipse ellipse = fitEllipse(cell, splat.normal, fit.hessian, slope);
-    const double overlap = isBendKnown(fit.hessian) ? overlapAt(curvatures, cell) : mostOverlap;
-    splat.axis1 = scaled(overlap, ellipse.axis1);
-    splat.axis2 = scaled(overlap, ellipse.axis2);
-    splat.radius = lengthOf(splat.axis1);
-    splat.clip =
-      this->clipOf(point, agreement * spacing, std::max(closedReach * spacing, splat.radius));
+    const Ellipse ellipse = ellipseAround(cell, isBent ? &curvatures : nullptr);
+    const double size = unit * (isBent ? overlapAt(curvatures, cell) : mostOverlap);
+    const Vector along = sum(scaled(ellipse.x, cell.first()), ellipse.y, cell.second());
+    splat.radius = size * ellipse.major;
+    splat.axis1 = scaled(splat.radius, along);
+    splat.axis2 = scaled(size * ellipse.minor, cross(splat.normal, along));
+    splat.clip = this->clipOf(point, splat);
   }
 
 private:
-  /// How many of the nearest positions are considered first when a cell is cut, and at most. Cells
-  /// of a uniform cloud have about six sides.
-  static constexpr std::size_t firstNeighbors = 20;
-  static constexpr std::size_t mostNeighbors = 160;
-
-  /// The distance to this one of the nearest positions measures how dense they are.
-  static constexpr std::size_t densityNeighbors = 12;
-
   /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
   /// least, the increment for the square of the angle by which the surface turns within the cell,
   /// and the greatest, which also holds where no fit determines the curvature.
@@ -84,12 +68,9 @@ private:
   static constexpr double overlapOfBend = 0.5;
   static constexpr double mostOverlap = 1.2;
 
-  /// How far a cell may reach, in units of spacingAt() (gapReach: of the samples' spacing): where
-  /// other points bound it on all sides; where they do so around a gap in a smooth surface; where
-  /// they do not, beside the border of a smooth surface; and the same where no fit determines a
-  /// surface.
-  static constexpr double closedReach = 2.5;
-  static constexpr double gapReach = 4.5;
+  /// How far a cell may reach, in spacings: where other points bound it on all sides; where they do
+  /// not, beside the border of a smooth surface; and the same where no fit determines a surface.
+  static constexpr double mostReach = 4.5;
   static constexpr double borderReach = 1.2;
   static constexpr double loneReach = 1.0;
 
@@ -97,9 +78,9 @@ private:
   /// with one: the normal of the former is an estimate, and its splat may miss what lies beyond.
   static constexpr double unfittedDistance = 0.5;
 
-  /// The error of fits at creases, in units of spacingAt(): planes across a crease whose distances
-  /// differ by no more are taken to be the same.
-  static constexpr double agreement = 0.01;
+  /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
+  /// share of its distance.
+  static constexpr double creaseTolerance = 0.25;
 
   /// The order of the fit that held, if any.
   std::optional<FitOrder> orderAt(std::size_t point) const
@@ -110,240 +91,194 @@ private:
   /// Whether a fit held that describes a smooth surface.
   bool isSmooth(std::size_t point) const { return this->orderAt(point) >= FitOrder::Quadratic; }
 
-  /// Whether a fit found a crease close by.
-  bool isBesideCrease(std::size_t point) const { return this->orderAt(point) == FitOrder::Crease; }
-
-  /// What bounds a cell: any points, or only those that lie on one smooth surface with its own.
-  enum class Bound
+  bool isBendKnown(std::size_t point) const
   {
-    AllPoints,
-    Sheet
-  };
-
-  /// Cuts the cell of a point beside a gap between isopoints, as between samples that stand in
-  /// lines.
-  /// @returns whether points of its own sheet stand all around the gap, as they do not at a border;
-  /// otherwise the cell is of no use
-  bool reachesAcrossGap(std::size_t point, TangentCell& cell)
-  {
-    const double reach = gapReach * this->fitSpacingAt(point);
-    if (!this->isSmooth(point) || !std::isfinite(reach))
-    {
-      return false;
-    }
-    this->cutOut(point, reach, Bound::Sheet, cell);
-    if (cell.isOpen())
-    {
-      return false;
-    }
-    const bool isRound = cell.isRound();
-    this->cutOut(point, reach, Bound::AllPoints, cell);
-    return isRound || cell.isRound();
+    return !this->Points.fits.empty() && this->Points.fits[point].hessian != Hessian{};
   }
 
-  static double overlapAt(const std::array<Curvature, 2>& curvatures, const TangentCell& cell)
+  /// The unit of length at a point: the samples' spacing or, where it is not known, half the length
+  /// of the point's edge.
+  double unitAt(std::size_t point) const
   {
-    const double turn = cell.reach() * std::max(curvatures[0].value, curvatures[1].value);
-    return std::min(mostOverlap, leastOverlap + overlapOfBend * turn * turn);
+    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    return spacing > 0.0 && std::isfinite(spacing)
+             ? spacing
+             : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
   }
 
-  void list(std::size_t point, std::size_t count)
+  static double overlapAt(
+    const std::array<PrincipalDirection, 2>& curvatures, const TangentCell& cell)
   {
-    this->Wanted = count;
-    this->Finder.find(point, count, this->Nearest);
-  }
-
-  /// The samples' spacing as measured for the fits, or 0 without fits.
-  double fitSpacingAt(std::size_t point) const
-  {
-    return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
-  }
-
-  /// The spacing of the samples at a point, or that of the points around where these are denser:
-  /// the samples' neighbourhood may reach across a void, as it does about thin shells.
-  double spacingAt(std::size_t point) const
-  {
-    const double fitted = this->fitSpacingAt(point);
-    const double spacing =
-      fitted > 0.0 ? fitted : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
-    if (this->Nearest.size() < densityNeighbors)
-    {
-      return spacing;
-    }
-    constexpr double share = 0.8;
-    return std::min(spacing, share * this->Nearest[densityNeighbors - 1].distance);
+    const double steepest = std::abs(curvatures[1].value);
+    return std::min(
+      mostOverlap, leastOverlap + overlapOfBend * steepest * steepest * cell.squaredReach());
   }
 
   /// Cuts off what is farther than the surface's radius of curvature.
-  static void cutWhereSurfaceTurns(const std::array<Curvature, 2>& curvatures, TangentCell& cell)
+  static void cutWhereSurfaceTurns(
+    const std::array<PrincipalDirection, 2>& curvatures, TangentCell& cell)
   {
-    for (const Curvature& curvature : curvatures)
+    for (const PrincipalDirection& curvature : curvatures)
     {
-      const double radius = 1.0 / curvature.value;
-      if (radius < cell.reach())
+      const double radius = 1.0 / std::abs(curvature.value);
+      if (radius * radius < cell.squaredReach())
       {
-        cell.cut(curvature.direction, radius);
-        cell.cut(scaled(-1.0, curvature.direction), radius);
+        cell.cut(curvature.x, curvature.y, radius);
+        cell.cut(-curvature.x, -curvature.y, radius);
       }
     }
   }
 
-  /// Cuts a disk down to the cell, listing more of the nearest where needed: positions farther than
-  /// twice its reach do not touch it.
-  void cutOut(std::size_t point, double limit, Bound bound, TangentCell& cell)
+  /// Cuts the octagon down to the cell, in the unit of length.
+  void cutOut(std::size_t point, double unit, TangentCell& cell)
   {
-    for (;; this->list(point, 2 * this->Wanted))
+    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    this->Border.moveTo(this->Points.positions[point], this->Splats[point].normal, spacing);
+    if (!this->Points.fits.empty())
     {
-      cell.reset(limit);
-      this->Border.cutWhereFound(cell);
-      this->Creases.clear();
-      for (const NearestPositions::Neighbor& neighbor : this->Nearest)
+      for (const CreasePlane& crease : this->Points.fits[point].creases)
       {
-        this->cutTowards(point, neighbor, bound, cell);
+        cell.cut(scaled(-1.0, crease.inward), crease.distance / unit);
+      }
+    }
+    for (int rings = 1; rings <= 2 && cell.squaredReach() > borderReach * borderReach; ++rings)
+    {
+      this->Nearby.find(point, rings, unit);
+      for (const NearbyPoint& other : this->Nearby)
+      {
+        if (other.squaredDistance >= 4.0 * cell.squaredReach())
+        {
+          break;
+        }
+        this->cutTowards(point, other, unit, cell);
       }
       this->Border.cut(cell);
-      const bool isComplete =
-        this->Nearest.size() < this->Wanted || this->Nearest.back().distance > 2.0 * cell.reach();
-      if (isComplete || this->Wanted >= mostNeighbors)
+    }
+    if (cell.isOpen())
+    {
+      cell.limit(this->isSmooth(point) ? borderReach : loneReach);
+    }
+  }
+
+  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
+  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
+  {
+    if (this->isBeyondCrease(point, other, unit) || this->isUnfittedBeside(point, other))
+    {
+      return;
+    }
+    if (const std::optional<double> turn = this->turnTowards(point, other, unit))
+    {
+      const Vector outward = scaled(-*turn, this->Splats[other.point].normal);
+      const double height = dot(outward, other.offset);
+      if (height > -creaseTolerance * std::sqrt(other.squaredDistance))
       {
+        cell.cut(outward, std::max(0.0, height));
         return;
       }
     }
+    const double a = dot(other.offset, cell.first());
+    const double b = dot(other.offset, cell.second());
+    const double along = a * a + b * b;
+    const bool isBent = this->bendsTowards(point, other, along);
+    cell.cut(
+      a, b, 0.5 * (isBent ? std::sqrt(other.squaredDistance * along) : other.squaredDistance));
   }
 
-  /// Cuts a cell towards one of the nearest: at its plane if fits at both found a crease between
-  /// them, or else halfway. Keeps the planes across creases.
-  void cutTowards(
-    std::size_t point, const NearestPositions::Neighbor& neighbor, Bound bound, TangentCell& cell)
+  /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
+  /// there: nothing is to be cut halfway to it.
+  bool isBeyondCrease(std::size_t point, const NearbyPoint& other, double unit) const
   {
-    const Vector& normal = this->Splats[point].normal;
-    const std::size_t other = neighbor.point;
-    const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
-    // Planes too far off to cut the cell may still cut the splat's rim.
-    const bool isAcrossCrease = this->meetAtCrease(point, other, offset);
-    if (isAcrossCrease)
-    {
-      this->Creases.push_back(creaseTowards(offset, normal, this->Splats[other].normal));
-    }
-    if (isAcrossCrease && this->isBesideCrease(point))
-    {
-      const SplatCrease& crease = this->Creases.back();
-      cell.cut(scaled(-1.0, crease.inward), crease.height);
-      return;
-    }
-    if (neighbor.distance > 2.0 * cell.reach() || this->isAcrossKnownCrease(point, other, offset) ||
-        this->isUnfittedBeside(point, neighbor))
-    {
-      return;
-    }
-    const Vector outward = scaled(1.0 / neighbor.distance, offset);
-    const auto along = [&]() { return sum(outward, -dot(outward, normal), normal); };
-    const double half = 0.5 * neighbor.distance;
-    // No bisector cut on this side of the crease.
-    if (isAcrossCrease && half < this->Creases.back().distance * lengthOf(along()))
-    {
-      return;
-    }
-    if (this->bendsTowards(point, other, outward))
-    {
-      cell.cut(directionOf(along()), half);
-    }
-    else if (bound == Bound::AllPoints)
-    {
-      cell.cut(outward, half);
-    }
-  }
-
-  /// The clipping plane of a splat, from the planes across creases. A point whose own fit found no
-  /// crease may still lie on one side of a crease close by, if the planes of two others agree on
-  /// it; its splat ends a little beyond their planes, which are not exactly those of its own side.
-  std::optional<SplatClip> clipOf(std::size_t point, double error, double limit) const
-  {
-    const bool isBeside = this->isBesideCrease(point);
-    std::optional<SplatClip> clip = clipAtNearest(this->Creases, isBeside ? 1 : 2, error, limit);
-    if (clip && !isBeside)
-    {
-      clip->distance += error;
-    }
-    return clip;
-  }
-
-  /// Whether the surface bends from a point to another in a direction, as a sphere would, so that
-  /// half the distance in the tangent plane is the farthest that is nearer to the point: the plane
-  /// between the two meets the tangent plane farther off, and a splat up to there sticks out. Other
-  /// sheets close by are not what it bends to, nor what lies across an edge.
-  bool bendsTowards(std::size_t point, std::size_t other, const Vector& outward) const
-  {
-    const Vector& normal = this->Splats[point].normal;
-    const Vector& otherNormal = this->Splats[other].normal;
-    const double height = dot(outward, normal);
-    const double squaredCosine = 1.0 - height * height;
-    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other)))
+    if (this->Points.fits.empty())
     {
       return false;
     }
-    constexpr double leastSquaredCosine = 0.25; // a turn of 120 degrees
-    constexpr double tolerance = 0.5;
-    const double turn = 2.0 * squaredCosine - 1.0; // the cosine between normals of a sphere
-    return squaredCosine > leastSquaredCosine && height * dot(outward, otherNormal) <= 0.0 &&
-           std::abs(dot(normal, otherNormal) - turn) < tolerance;
-  }
-
-  /// Whether a smooth fit held at a point but not at one of the nearest very close to it.
-  bool isUnfittedBeside(std::size_t point, const NearestPositions::Neighbor& neighbor) const
-  {
-    return this->isSmooth(point) && !this->isSmooth(neighbor.point) &&
-           neighbor.distance < unfittedDistance * this->fitSpacingAt(point);
-  }
-
-  /// Whether the planes of two points meet between them at a crease that a fit found.
-  bool meetAtCrease(std::size_t point, std::size_t other, const Vector& offset) const
-  {
-    return this->orderAt(point) && this->isBesideCrease(other) &&
-           this->doPlanesMeet(point, other, offset);
-  }
-
-  /// Whether the planes of two points meet between them: each point lies on the same side of the
-  /// other's plane. Points on both planes lie on no side.
-  bool doPlanesMeet(std::size_t point, std::size_t other, const Vector& offset) const
-  {
-    const Vector& normal = this->Splats[point].normal;
-    const Vector& otherNormal = this->Splats[other].normal;
-    const auto [lower, upper] = std::minmax({ dot(normal, offset), -dot(otherNormal, offset) });
-    const double distance = lengthOf(offset);
-    const double tolerance = this->isBesideCrease(point) ? 0.02 * distance : 0.0;
-    constexpr double rounding = 1e-6;
-    return std::abs(dot(normal, otherNormal)) < mostCreaseCosine &&
-           (lower >= -tolerance || upper <= tolerance) &&
-           std::max(-lower, upper) > rounding * distance;
-  }
-
-  /// Whether a point beside a crease meets there with another that lies farther off in a plane
-  /// which has cut its cell already.
-  bool isAcrossKnownCrease(std::size_t point, std::size_t other, const Vector& offset) const
-  {
-    if (this->Creases.empty() || !this->isBesideCrease(point) ||
-        !this->doPlanesMeet(point, other, offset))
-    {
-      return false;
-    }
-    constexpr double tolerance = 0.05;
-    return std::any_of(this->Creases.begin(), this->Creases.end(),
-      [&](const SplatCrease& crease)
+    const std::vector<CreasePlane>& creases = this->Points.fits[point].creases;
+    return std::any_of(creases.begin(), creases.end(),
+      [&](const CreasePlane& crease)
       {
-        return std::abs(dot(offset, crease.inward) + crease.height) <
-                 tolerance * lengthOf(offset) &&
-               std::abs(dot(this->Splats[other].normal, crease.inward)) > mostCreaseCosine;
+        const bool isOnPiece = this->isOnPiece(other.point, point, crease);
+        const double height = dot(crease.inward, other.offset) + crease.distance / unit;
+        return height <
+               (isOnPiece ? creaseTolerance : -creaseTolerance) * std::sqrt(other.squaredDistance);
       });
   }
 
-  const NearestPositions& Finder;
+  /// If a point lies on a piece that meets that of another at one of its creases: to which side the
+  /// surface turns there.
+  std::optional<double> turnTowards(std::size_t point, const NearbyPoint& other, double unit) const
+  {
+    if (this->orderAt(other.point) != FitOrder::Crease)
+    {
+      return std::nullopt;
+    }
+    for (const CreasePlane& crease : this->Points.fits[other.point].creases)
+    {
+      const double height = crease.distance / unit - dot(crease.inward, other.offset);
+      if (this->isOnPiece(point, other.point, crease) &&
+          height < creaseTolerance * std::sqrt(other.squaredDistance))
+      {
+        return crease.turn;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a point's normal is rather that of the plane across a crease than that of the point
+  /// whose crease this is.
+  bool isOnPiece(std::size_t point, std::size_t own, const CreasePlane& across) const
+  {
+    const Vector& normal = this->Splats[point].normal;
+    return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
+  }
+
+  /// The plane of the nearest crease, if it cuts the ellipse.
+  std::optional<CreasePlane> clipOf(std::size_t point, const Splat& splat) const
+  {
+    if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
+    {
+      return std::nullopt;
+    }
+    const CreasePlane& crease = this->Points.fits[point].creases.front();
+    const double a = dot(crease.inward, splat.axis1);
+    const double b = dot(crease.inward, splat.axis2);
+    return crease.distance < std::sqrt(a * a + b * b) ? std::optional<CreasePlane>(crease)
+                                                      : std::nullopt;
+  }
+
+  /// Whether the surface bends from a point to another, as a sphere would, so that half the
+  /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
+  /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
+  /// close by are not what it bends to, nor what lies across an edge.
+  /// @param squaredAlong the square of the distance along the tangent plane
+  bool bendsTowards(std::size_t point, const NearbyPoint& other, double squaredAlong) const
+  {
+    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other.point)))
+    {
+      return false;
+    }
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other.point].normal;
+    constexpr double leastSquaredCosine = 0.25; // a turn of 120 degrees
+    constexpr double tolerance = 0.5;
+    const double squaredCosine = squaredAlong / other.squaredDistance;
+    const double turn = 2.0 * squaredCosine - 1.0; // the cosine between normals of a sphere
+    return squaredCosine > leastSquaredCosine &&
+           dot(other.offset, normal) * dot(other.offset, otherNormal) <= 0.0 &&
+           std::abs(dot(normal, otherNormal) - turn) < tolerance;
+  }
+
+  /// Whether a smooth fit held at a point but not at another very close to it.
+  bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
+  {
+    return other.squaredDistance < unfittedDistance * unfittedDistance && this->isSmooth(point) &&
+           !this->isSmooth(other.point);
+  }
+
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
-  std::vector<NearestPositions::Neighbor> Nearest;
-  std::size_t Wanted = 0; // of the nearest; there may be fewer
+  NearbyPoints<TNeighbors> Nearby;
   SplatBorder<TExtents> Border;
-  std::vector<SplatCrease> Creases; // by the distance of the points across
 };
 
 } // namespace isopoint

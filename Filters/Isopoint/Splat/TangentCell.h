@@ -9,13 +9,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace isopoint
 {
 
 /// The part of a point's tangent plane that is nearer to it than to other points: a convex polygon
-/// around the origin of the plane, cut out of a disk.
+/// around the origin of the plane, cut out of an octagon.
 class TangentCell
 {
 public:
@@ -23,65 +22,61 @@ public:
   {
     double x;
     double y;
-    bool isLimit; // whether the side that begins here is one of the disk's, or counts as one
+    bool isLimit; // whether the side that begins here limits the cell, where no point bounds it
   };
 
-  explicit TangentCell(const Vector& normal)
+  /// @param reach of the octagon's corners, whose sides are limits
+  TangentCell(const Vector& normal, double reach)
     : Frame(normal)
   {
-  }
-
-  /// Starts again with a disk.
-  void reset(double limit)
-  {
-    constexpr double half = 0.5;
-    constexpr double most = 0.86602540378443865; // sqrt(3) / 2
-    constexpr std::array<std::array<double, 2>, 12> directions{ { { 1.0, 0.0 }, { most, half },
-      { half, most }, { 0.0, 1.0 }, { -half, most }, { -most, half }, { -1.0, 0.0 },
-      { -most, -half }, { -half, -most }, { 0.0, -1.0 }, { half, -most }, { most, -half } } };
-    this->Corners.clear();
     for (const auto& [x, y] : directions)
     {
-      this->Corners.push_back({ limit * x, limit * y, true });
+      this->Corners[this->Count++] = { reach * x, reach * y, true };
     }
-    this->SquaredReach = limit * limit;
+    this->SquaredReach = reach * reach;
   }
 
   /// Keeps the places whose offset o from the point has outward . o <= distance.
-  /// @param isLimit whether the cut is to count as one of the disk's sides
+  /// @param outward of any length
+  /// @param distance not negative
+  /// @param isLimit whether the new side is a limit
   void cut(const Vector& outward, double distance, bool isLimit = false)
   {
-    const double a = dot(outward, this->Frame.first);
-    const double b = dot(outward, this->Frame.second);
-    const auto excess = [=](const Corner& corner)
-    { return a * corner.x + b * corner.y - distance; };
-    if (distance >= 0.0 && distance * distance >= (a * a + b * b) * this->SquaredReach)
+    this->cut(dot(outward, this->Frame.first), dot(outward, this->Frame.second), distance, isLimit);
+  }
+
+  /// The same with the components of `outward` along first() and second().
+  void cut(double a, double b, double distance, bool isLimit = false)
+  {
+    if (distance * distance >= (a * a + b * b) * this->SquaredReach ||
+        this->Count == this->Corners.size())
     {
       return;
     }
-    this->Cut.clear();
-    for (std::size_t i = 0; i < this->Corners.size(); ++i)
+    // Corners so near to the new side are on it, or rounding might list them twice.
+    const double tolerance = 1e-10 * distance;
+    std::array<double, capacity> excess;
+    double most = 0.0;
+    for (std::size_t i = 0; i < this->Count; ++i)
     {
-      const Corner& corner = this->Corners[i];
-      const Corner& next = this->Corners[(i + 1) % this->Corners.size()];
-      const double here = excess(corner);
-      const double there = excess(next);
-      if (here <= 0.0)
-      {
-        this->Cut.push_back(corner);
-      }
-      if ((here <= 0.0) != (there <= 0.0))
-      {
-        const double t = here / (here - there);
-        this->Cut.push_back({ corner.x + t * (next.x - corner.x),
-          corner.y + t * (next.y - corner.y), here > 0.0 ? corner.isLimit : isLimit });
-      }
+      excess[i] = a * this->Corners[i].x + b * this->Corners[i].y - distance;
+      most = std::max(most, excess[i]);
     }
-    this->Corners.swap(this->Cut);
-    this->SquaredReach = 0.0;
-    for (const Corner& corner : this->Corners)
+    if (most > tolerance)
     {
-      this->SquaredReach = std::max(this->SquaredReach, corner.x * corner.x + corner.y * corner.y);
+      this->keepInside(excess, tolerance, isLimit);
+    }
+  }
+
+  /// Cuts the cell down to an octagon whose sides are limits.
+  void limit(double reach)
+  {
+    const double height = cosineOfSide * reach; // of the sides
+    for (std::size_t i = 0; i < directions.size(); ++i)
+    {
+      const auto& [x, y] = directions[i];
+      const auto& [nextX, nextY] = directions[(i + 1) % directions.size()];
+      this->cut(0.5 * (x + nextX), 0.5 * (y + nextY), cosineOfSide * height, true);
     }
   }
 
@@ -91,57 +86,85 @@ public:
     const double a = dot(direction, this->Frame.first);
     const double b = dot(direction, this->Frame.second);
     double reach = 0.0;
-    for (const Corner& corner : this->Corners)
+    for (const Corner& corner : *this)
     {
       reach = std::max(reach, a * corner.x + b * corner.y);
     }
     return reach;
   }
 
-  /// The distance of the farthest corner.
-  double reach() const { return std::sqrt(this->SquaredReach); }
+  /// The square of the distance of the farthest corner.
+  double squaredReach() const { return this->SquaredReach; }
 
-  /// Whether a part of the disk's rim is left.
+  /// Whether a side is a limit.
   bool isOpen() const
   {
-    return std::any_of(this->Corners.begin(), this->Corners.end(),
-      [](const Corner& corner) { return corner.isLimit; });
+    return std::any_of(
+      this->begin(), this->end(), [](const Corner& corner) { return corner.isLimit; });
   }
 
-  /// Whether the sides turn by no more than 120 degrees at any corner, so that none is much farther
-  /// off than the points across its sides.
-  bool isRound() const
-  {
-    constexpr double leastCosine = -0.5;
-    // Cuts through a corner leave it twice.
-    std::vector<Corner> sides;
-    for (std::size_t i = 0; i < this->Corners.size(); ++i)
-    {
-      const Corner& corner = this->Corners[i];
-      const Corner& next = this->Corners[(i + 1) % this->Corners.size()];
-      const double length = std::hypot(next.x - corner.x, next.y - corner.y);
-      if (length > 0.0)
-      {
-        sides.push_back({ (next.x - corner.x) / length, (next.y - corner.y) / length, false });
-      }
-    }
-    bool isRound = sides.size() > 2;
-    for (std::size_t i = 0; i < sides.size(); ++i)
-    {
-      const Corner& next = sides[(i + 1) % sides.size()];
-      isRound = isRound && sides[i].x * next.x + sides[i].y * next.y >= leastCosine;
-    }
-    return isRound;
-  }
+  /// The corners, counterclockwise around first x second, each once.
+  const Corner* begin() const { return this->Corners.data(); }
+  const Corner* end() const { return this->Corners.data() + this->Count; }
 
-  const std::vector<Corner>& corners() const { return this->Corners; }
   const Vector& first() const { return this->Frame.first; }
   const Vector& second() const { return this->Frame.second; }
 
 private:
+  /// Each cut adds a corner at most; cells have about six.
+  static constexpr std::size_t capacity = 64;
+
+  static constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
+  static constexpr std::array<std::array<double, 2>, 8> directions{ { { 1.0, 0.0 },
+    { diagonal, diagonal }, { 0.0, 1.0 }, { -diagonal, diagonal }, { -1.0, 0.0 },
+    { -diagonal, -diagonal }, { 0.0, -1.0 }, { diagonal, -diagonal } } };
+  static constexpr double cosineOfSide = 0.92387953251128674; // of 22.5 degrees
+
+  void keepInside(const std::array<double, capacity>& excess, double tolerance, bool isLimit)
+  {
+    std::array<Corner, capacity> kept;
+    std::size_t count = 0;
+    double squaredReach = 0.0;
+    const auto keep = [&](const Corner& corner)
+    {
+      kept[count++] = corner;
+      squaredReach = std::max(squaredReach, corner.x * corner.x + corner.y * corner.y);
+    };
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      const std::size_t next = i + 1 < this->Count ? i + 1 : 0;
+      const Corner& corner = this->Corners[i];
+      const bool isOutside = excess[i] > tolerance;
+      if (!isOutside)
+      {
+        keep(corner);
+      }
+      if (isOutside == (excess[next] > tolerance))
+      {
+        continue;
+      }
+      if (std::abs(excess[isOutside ? next : i]) <= tolerance) // on the new side
+      {
+        if (!isOutside)
+        {
+          kept[count - 1].isLimit = isLimit;
+        }
+        continue;
+      }
+      const Corner& other = this->Corners[next];
+      const double t = excess[i] / (excess[i] - excess[next]);
+      keep({ corner.x + t * (other.x - corner.x), corner.y + t * (other.y - corner.y),
+        isOutside ? corner.isLimit : isLimit });
+    }
+    std::copy(
+      kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(count), this->Corners.begin());
+    this->Count = count;
+    this->SquaredReach = squaredReach;
+  }
+
   TangentFrame Frame;
-  std::vector<Corner> Corners;
-  std::vector<Corner> Cut;
+  std::array<Corner, capacity> Corners;
+  std::size_t Count = 0;
   double SquaredReach = 0.0; // of the farthest corner
 };
 

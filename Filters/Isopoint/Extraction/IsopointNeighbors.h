@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_IsopointNeighbors_h
+#define isopoint_IsopointNeighbors_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Numbers that were met. Memory is kept from one search to the next.
+class VisitedNumbers
+{
+public:
+  void clear()
+  {
+    this->Count = 0;
+    if (++this->Round == 0) // it has come round: forget all
+    {
+      std::fill(this->Entries.begin(), this->Entries.end(), Entry{});
+      this->Round = 1;
+    }
+  }
+
+  /// @returns whether it was not there before
+  bool insert(std::size_t number)
+  {
+    if (2 * this->Count >= this->Entries.size())
+    {
+      this->grow();
+    }
+    Entry& entry = this->entryFor(number);
+    const bool isNew = entry.round != this->Round;
+    entry = { number, this->Round };
+    this->Count += isNew ? 1 : 0;
+    return isNew;
+  }
+
+private:
+  struct Entry
+  {
+    std::size_t number = 0;
+    std::uint32_t round = 0; // of its insertion; 0: never
+  };
+
+  Entry& entryFor(std::size_t number)
+  {
+    const std::size_t mask = this->Entries.size() - 1;
+    std::size_t i = (number * std::size_t{ 0x9E3779B97F4A7C15 }) >> 32 & mask;
+    while (this->Entries[i].round == this->Round && this->Entries[i].number != number)
+    {
+      i = (i + 1) & mask;
+    }
+    return this->Entries[i];
+  }
+
+  void grow()
+  {
+    std::vector<Entry> former(2 * this->Entries.size());
+    former.swap(this->Entries);
+    for (const Entry& entry : former)
+    {
+      if (entry.round == this->Round)
+      {
+        this->entryFor(entry.number) = entry;
+      }
+    }
+  }
+
+  std::vector<Entry> Entries = std::vector<Entry>(256);
+  std::size_t Count = 0;
+  std::uint32_t Round = 1;
+};
+
+/// The isopoints around each isopoint: those whose edges end in the two leaves of its own edge or
+/// in leaves that touch one of these, so that around an isopoint there are others in all directions
+/// in which the surface goes on, however unevenly the samples are spread.
+///
+/// The time is bounded for leaves that touch very many others, as one that fills a void: around a
+/// leaf that touches more than 256 others no others are listed, nor are the isopoints of a leaf
+/// that has more than 256. The other end of their edges mostly lists what lies around.
+template <class TSample>
+class IsopointNeighbors
+{
+public:
+  using Id = typename TSample::Id;
+
+  /// @param tree in which the leaves' neighbourhoods are complete
+  /// @param known neighbourhoods; others are searched for
+  /// @param leaves of the isopoints' edges
+  /// @throws std::bad_alloc, Aborted
+  /// Complexity: O(nodes + isopoints)
+  IsopointNeighbors(const Execution& execution, const SampleTree<TSample>& tree,
+    const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves)
+  {
+    std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
+    this->numberLeaves(leaves, numbers);
+    this->listIsopoints();
+    this->listTouching(execution, tree, known, numbers);
+  }
+
+  /// Lists the isopoints around one. Memory is kept. For one thread.
+  class Finder
+  {
+  public:
+    explicit Finder(const IsopointNeighbors& neighbors)
+      : Neighbors(neighbors)
+    {
+    }
+
+    /// Lists the isopoints around one, each once, without itself.
+    /// @param rings 1, or 2 with those around the ones found. All samples that determine which
+    /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
+    /// than 2 rings - 1 touching leaves.
+    void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
+    {
+      found.clear();
+      this->VisitedLeaves.clear();
+      this->VisitedPoints.clear();
+      this->VisitedPoints.insert(isopoint);
+      this->addAround(isopoint, found);
+      for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
+      {
+        this->addAround(found[i], found);
+      }
+    }
+
+  private:
+    void addAround(std::size_t isopoint, std::vector<std::size_t>& found)
+    {
+      for (const Id end : this->Neighbors.Ends[isopoint])
+      {
+        this->addLeaf(end, found);
+        for (const Id leaf : this->Neighbors.Touching.at(end))
+        {
+          this->addLeaf(leaf, found);
+        }
+      }
+    }
+
+    void addLeaf(Id leaf, std::vector<std::size_t>& found)
+    {
+      if (found.size() >= mostIsopoints || !this->VisitedLeaves.insert(leaf))
+      {
+        return;
+      }
+      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
+      {
+        if (this->VisitedPoints.insert(isopoint))
+        {
+          found.push_back(isopoint);
+        }
+      }
+    }
+
+    const IsopointNeighbors& Neighbors;
+    VisitedNumbers VisitedLeaves;
+    VisitedNumbers VisitedPoints;
+  };
+
+private:
+  /// Leaves that touch, or have, more than that are left out.
+  static constexpr std::size_t most = 256;
+
+  /// No leaf is added once so many isopoints are listed.
+  static constexpr std::size_t mostIsopoints = 2048;
+
+  /// Lists one after the other in memory.
+  template <class T>
+  struct Lists
+  {
+    struct List
+    {
+      const T* first;
+      const T* last;
+      const T* begin() const { return this->first; }
+      const T* end() const { return this->last; }
+    };
+
+    std::vector<std::size_t> ends; // of the lists; the first one is empty
+    std::vector<T> all;
+
+    List at(std::size_t list) const
+    {
+      return { this->all.data() + this->ends[list - 1], this->all.data() + this->ends[list] };
+    }
+  };
+
+  /// Numbers the leaves from 1 on.
+  void numberLeaves(const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
+  {
+    this->Leaves.push_back(0);
+    this->Ends.reserve(leaves.size());
+    const auto numberOf = [&](std::size_t leaf)
+    {
+      Id& number = numbers[leaf];
+      if (number == 0)
+      {
+        number = static_cast<Id>(this->Leaves.size());
+        this->Leaves.push_back(static_cast<Id>(leaf));
+      }
+      return number;
+    };
+    for (const EdgeLeaves& edge : leaves)
+    {
+      this->Ends.push_back({ numberOf(edge.first), numberOf(edge.second) });
+    }
+  }
+
+  void listIsopoints()
+  {
+    std::vector<std::size_t> counts(this->Leaves.size(), 0);
+    for (const std::array<Id, 2>& ends : this->Ends)
+    {
+      ++counts[ends[0]];
+      ++counts[ends[1]];
+    }
+    std::vector<std::size_t>& listEnds = this->Isopoints.ends;
+    listEnds.assign(1, 0);
+    for (std::size_t leaf = 1; leaf < counts.size(); ++leaf)
+    {
+      counts[leaf] = counts[leaf] > most ? 0 : counts[leaf];
+      listEnds.push_back(listEnds.back() + counts[leaf]);
+    }
+    this->Isopoints.all.resize(listEnds.back());
+    for (std::size_t i = this->Ends.size(); i-- > 0;)
+    {
+      for (const Id leaf : this->Ends[i])
+      {
+        if (counts[leaf] > 0)
+        {
+          this->Isopoints.all[listEnds[leaf - 1] + --counts[leaf]] = i;
+        }
+      }
+    }
+  }
+
+  /// Lists for each leaf the others that touch it.
+  void listTouching(const Execution& execution, const SampleTree<TSample>& tree,
+    const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers)
+  {
+    constexpr std::size_t grain = 256;
+    constexpr std::size_t batch = 64;
+    const std::size_t count = this->Leaves.size() - 1;
+    std::vector<std::vector<Id>> parts((count + grain - 1) / grain);
+    this->Touching.ends.resize(count + 1, 0);
+    forBatches(execution, parts.size(), batch, 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t part = begin; part < end; ++part)
+        {
+          const std::size_t last = std::min(count, (part + 1) * grain);
+          for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
+          {
+            addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+            this->Touching.ends[leaf] = parts[part].size();
+          }
+        }
+      });
+    for (std::size_t part = 0; part < parts.size(); ++part)
+    {
+      const std::size_t last = std::min(count, (part + 1) * grain);
+      for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
+      {
+        this->Touching.ends[leaf] += this->Touching.all.size();
+      }
+      this->Touching.all.insert(this->Touching.all.end(), parts[part].begin(), parts[part].end());
+    }
+  }
+
+  static void addTouching(const SampleTree<TSample>& tree, const NeighborhoodCache<Id>& known,
+    Id leaf, const std::vector<Id>& numbers, std::vector<Id>& touching)
+  {
+    const std::size_t begin = touching.size();
+    const auto add = [&](std::size_t node)
+    {
+      if (numbers[node] != 0)
+      {
+        touching.push_back(numbers[node]);
+      }
+    };
+    const NodeList<Id> list = known.at(leaf);
+    std::size_t found = list.count;
+    if (!list.isEmpty() && list.count <= most)
+    {
+      std::for_each(list.begin(), list.end(), add);
+    }
+    else if (list.isEmpty())
+    {
+      visitTouching(tree, pathToLeaf(tree, leaf), maximumDepth,
+        [&](std::size_t node)
+        {
+          add(node);
+          return ++found > most;
+        });
+    }
+    if (found > most)
+    {
+      touching.resize(begin);
+    }
+  }
+
+  std::vector<Id> Leaves;              // node indices of the leaves that edges end in, by number
+  std::vector<std::array<Id, 2>> Ends; // of the isopoints' edges, numbers of leaves
+  Lists<std::size_t> Isopoints;        // whose edges end in each leaf, ascending
+  Lists<Id> Touching;                  // each leaf, numbers of leaves
+};
+
+} // namespace isopoint
+
+#endif

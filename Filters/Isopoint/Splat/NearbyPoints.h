@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NearbyPoints_h
+#define isopoint_NearbyPoints_h
+
+#include "Isopoint/Base/Vector.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A point near another one, in a unit of length.
+struct NearbyPoint
+{
+  Vector offset; // from that point
+  double squaredDistance;
+  std::size_t point;
+};
+
+/// The points around each point, nearest first. Those at one position count as one, the first. For
+/// one thread.
+/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
+template <class TNeighbors>
+class NearbyPoints
+{
+public:
+  NearbyPoints(const TNeighbors& neighbors, const std::vector<Vector>& positions)
+    : Positions(positions)
+    , Finder(neighbors)
+  {
+  }
+
+  /// Goes to a point.
+  /// @param rings see IsopointNeighbors
+  /// @param unit of length; if one over it is not finite, nothing is found
+  void find(std::size_t point, int rings, double unit)
+  {
+    this->Finder.find(point, rings, this->Found);
+    this->Nearby.clear();
+    const Vector& position = this->Positions[point];
+    const double scale = 1.0 / unit;
+    for (const std::size_t other : this->Found)
+    {
+      const Vector offset = scaled(scale, difference(this->Positions[other], position));
+      const double squaredDistance = dot(offset, offset);
+      if (squaredDistance > 0.0 && squaredDistance <= std::numeric_limits<double>::max())
+      {
+        this->Nearby.push_back({ offset, squaredDistance, other });
+      }
+    }
+    std::sort(this->Nearby.begin(), this->Nearby.end(),
+      [](const NearbyPoint& a, const NearbyPoint& b)
+      {
+        return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
+               : a.offset != b.offset                 ? a.offset < b.offset
+                                                      : a.point < b.point;
+      });
+    this->Nearby.erase(
+      std::unique(this->Nearby.begin(), this->Nearby.end(),
+        [](const NearbyPoint& a, const NearbyPoint& b) { return a.offset == b.offset; }),
+      this->Nearby.end());
+  }
+
+  /// Lists the nearest ones around a point, in one ring or, if these are too few, in two.
+  void nearest(std::size_t point, double unit, std::size_t count, std::vector<std::size_t>& found)
+  {
+    for (int rings = 1; rings <= 2 && (rings == 1 || this->Nearby.size() < count); ++rings)
+    {
+      this->find(point, rings, unit);
+    }
+    found.clear();
+    for (std::size_t i = 0; i < std::min(count, this->Nearby.size()); ++i)
+    {
+      found.push_back(this->Nearby[i].point);
+    }
+  }
+
+  auto begin() const { return this->Nearby.begin(); }
+  auto end() const { return this->Nearby.end(); }
+
+private:
+  const std::vector<Vector>& Positions;
+  typename TNeighbors::Finder Finder;
+  std::vector<std::size_t> Found;
+  std::vector<NearbyPoint> Nearby;
+};
+
+} // namespace isopoint
+
+#endif
