@@ -2,14 +2,11 @@
 #ifndef isopoint_MedianSelection_h
 #define isopoint_MedianSelection_h
 
-#include "Isopoint/Base/Execution.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <mutex>
 #include <vector>
 
 namespace isopoint
@@ -110,7 +107,6 @@ struct MiddleBracket
   using Coordinate = typename TSample::Coordinate;
   Coordinate lower = -std::numeric_limits<Coordinate>::infinity();
   Coordinate upper = std::numeric_limits<Coordinate>::infinity();
-  std::size_t expectedCount = 0;
 
   MiddleBracket(
     const TSample* samples, std::size_t count, int axis, std::vector<Coordinate>& subset)
@@ -141,114 +137,8 @@ struct MiddleBracket
       std::nth_element(low, high, subset.end());
       this->upper = *high;
     }
-    this->expectedCount = count / size * (2 * margin + 2);
   }
 };
-
-/// The result of one pass over samples that looks for the middle.
-struct MiddleCount
-{
-  std::size_t below = 0;      // coordinates below the bracket
-  std::size_t candidates = 0; // coordinates in it
-
-  /// Whether the middle two of so many samples are among the candidates.
-  bool enclosesMiddle(std::size_t sampleCount) const
-  {
-    const std::size_t rank = sampleCount / 2;
-    return this->below < rank && rank < this->below + this->candidates;
-  }
-};
-
-/// Counts the coordinates below the bracket and lists those inside it at the beginning of
-/// `candidates`, which only grows.
-template <class TSample>
-MiddleCount collectMiddle(const TSample* samples, std::size_t count, int axis,
-  const MiddleBracket<TSample>& bracket, std::vector<typename TSample::Coordinate>& candidates)
-{
-  constexpr std::size_t blockSize = 256;
-  const auto lower = bracket.lower;
-  const auto upper = bracket.upper;
-  MiddleCount result;
-  for (std::size_t block = 0; block < count; block += blockSize)
-  {
-    if (candidates.size() < result.candidates + blockSize)
-    {
-      candidates.resize(2 * result.candidates + bracket.expectedCount + blockSize);
-    }
-    auto* const listed = candidates.data();
-    std::size_t below = 0;
-    std::size_t found = result.candidates;
-    const std::size_t end = std::min(block + blockSize, count);
-    for (std::size_t i = block; i < end; ++i)
-    {
-      const auto coordinate = samples[i].position[axis];
-      listed[found] = coordinate;
-      found += ((coordinate >= lower) & (coordinate <= upper)) ? 1 : 0;
-      below += coordinate < lower ? 1 : 0;
-    }
-    result.candidates = found;
-    result.below += below;
-  }
-  return result;
-}
-
-/// What a search for the middle needs besides the samples, kept to spare allocations.
-template <class TCoordinate>
-struct SelectionScratch
-{
-  std::vector<TCoordinate> subset;
-  std::vector<TCoordinate> candidates;
-};
-
-/// The middle coordinates of a node's samples, which stay as they are; at least two samples.
-/// One pass over the coordinates, free of unpredictable branches.
-template <class TSample>
-MiddleCoordinates<typename TSample::Coordinate> findMiddle(const TSample* samples,
-  std::size_t count, int axis, SelectionScratch<typename TSample::Coordinate>& scratch)
-{
-  constexpr std::size_t fewSamples = 192;
-  if (count > fewSamples)
-  {
-    const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-    const MiddleCount counted = collectMiddle(samples, count, axis, bracket, scratch.candidates);
-    if (counted.enclosesMiddle(count))
-    {
-      return selectMiddle(scratch.candidates.data(), counted.candidates, count / 2 - counted.below);
-    }
-  }
-  scratch.candidates.resize(std::max(scratch.candidates.size(), count));
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    scratch.candidates[i] = samples[i].position[axis];
-  }
-  return selectMiddle(scratch.candidates.data(), count, count / 2);
-}
-
-/// The same with every thread at work on one node.
-template <class TSample>
-MiddleCoordinates<typename TSample::Coordinate> findMiddleTogether(
-  const Execution& execution, const TSample* samples, std::size_t count, int axis)
-{
-  SelectionScratch<typename TSample::Coordinate> scratch;
-  const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-  std::mutex mutex;
-  MiddleCount total;
-  forRanges(execution, count, count / (4 * execution.threads) + 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<typename TSample::Coordinate> candidates;
-      const MiddleCount counted =
-        collectMiddle(samples + begin, end - begin, axis, bracket, candidates);
-      const std::lock_guard<std::mutex> lock(mutex);
-      total.below += counted.below;
-      total.candidates += counted.candidates;
-      scratch.candidates.insert(scratch.candidates.end(), candidates.begin(),
-        candidates.begin() + static_cast<std::ptrdiff_t>(counted.candidates));
-    });
-  return total.enclosesMiddle(count)
-           ? selectMiddle(scratch.candidates.data(), total.candidates, count / 2 - total.below)
-           : findMiddle(samples, count, axis, scratch);
-}
 
 } // namespace isopoint
 
