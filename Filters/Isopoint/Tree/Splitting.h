@@ -164,7 +164,7 @@ std::optional<Halves> halveWithoutBracket(
   scratch.coordinates.resize(std::max(scratch.coordinates.size(), count));
   std::transform(samples, samples + count, scratch.coordinates.begin(),
     [axis](const TSample& sample) { return sample.position[axis]; });
-  const auto middle = selectMiddle(scratch.coordinates.data(), count, count / 2);
+  const auto middle = selectMiddle(scratch.coordinates, count, count / 2);
   return halveAtMiddle(
     samples, count, axis, middle,
     [&](const auto& visit) { std::for_each(samples, samples + count, visit); }, count / 2,
@@ -216,7 +216,7 @@ bool halveSeparated(TSample* samples, std::size_t count, int axis,
   const auto next =
     std::transform(open.lower.begin(), open.lower.end(), scratch.coordinates.begin(), coordinateOf);
   std::transform(open.upper.begin(), open.upper.end(), next, coordinateOf);
-  const auto middle = selectMiddle(scratch.coordinates.data(), openCount, rank);
+  const auto middle = selectMiddle(scratch.coordinates, openCount, rank);
   if (middle.last < bracket.lower || bracket.upper < middle.first)
   {
     return false;
@@ -239,7 +239,7 @@ template <class TSample, class Separate>
 std::optional<Halves> halveBySeparation(TSample* samples, std::size_t count, int axis,
   HalvingScratch<TSample>& scratch, const Separate& separateAround)
 {
-  constexpr std::size_t fewSamples = 192;
+  constexpr std::size_t fewSamples = 1024;
   if (count > fewSamples)
   {
     const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
