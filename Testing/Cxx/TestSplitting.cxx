@@ -63,7 +63,7 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
       EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
         sortedIds(begin + lower, end));
     };
-    isopoint::SelectionScratch<float> reused;
+    isopoint::HalvingScratch<FloatSample> reused;
     std::vector<FloatSample> alone = samples;
     check(alone, isopoint::halve(alone.data(), alone.size(), axis, reused));
     std::vector<FloatSample> together = samples;
@@ -102,7 +102,7 @@ TEST(Splitting, CoincidentSamplesAreNotSplit)
   for (const std::size_t count : { 2, 500, 70000 })
   {
     std::vector<FloatSample> samples = samplesOf(count, [](std::size_t, int) { return 0.5; });
-    isopoint::SelectionScratch<float> reused;
+    isopoint::HalvingScratch<FloatSample> reused;
     EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, reused));
   }
 }

@@ -2,6 +2,8 @@
 #ifndef isopoint_RawArray_h
 #define isopoint_RawArray_h
 
+#include "Isopoint/Base/HugePages.h"
+
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
@@ -69,6 +71,7 @@ private:
     {
       throw std::bad_alloc();
     }
+    preferHugePages(grown, capacity * sizeof(T));
     this->Elements = static_cast<T*>(grown);
     this->Capacity = capacity;
   }

@@ -54,11 +54,12 @@ public:
         this->connectToSurvivors(leaf, value);
         return;
       }
-      if (!touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
+      const Surroundings surroundings(leaf);
+      if (!touchesOtherSide(this->Tree, surroundings, maximumDepth, this->Isovalue, isBelow))
       {
         return;
       }
-      this->listNeighbors(leaf);
+      this->listNeighbors(leaf.nodeIndex(), surroundings);
     }
     this->findCrossings(isBelow);
     if (this->Crossings.empty())
@@ -94,13 +95,13 @@ private:
     double value;
   };
 
-  void listNeighbors(const Path& leaf)
+  void listNeighbors(std::size_t leaf, const Surroundings& surroundings)
   {
     const std::size_t begin = this->KeptRecords;
     this->Records.resize(begin);
-    this->Records.push_back(static_cast<Id>(leaf.nodeIndex()));
+    this->Records.push_back(static_cast<Id>(leaf));
     this->Records.push_back(0);
-    visitTouching(this->Tree, leaf, maximumDepth,
+    visitTouching(this->Tree, surroundings, maximumDepth,
       [this](std::size_t nodeIndex)
       {
         this->Records.push_back(static_cast<Id>(nodeIndex));

@@ -30,12 +30,13 @@ struct BandNode
 /// Whether the node, or the node together with one that touches it, has samples below the isovalue
 /// and others that are not: then the surface may pass here.
 template <class TSample>
-bool isCrossing(const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue)
+bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
+  const Surroundings& surroundings, int nodeDepth, double isovalue)
 {
-  const Node<TSample>& node = tree.nodes[path.nodeIndex()];
+  const Node<TSample>& node = tree.nodes[nodeIndex];
   const bool hasBelow = node.minimum < isovalue;
   const bool hasAbove = node.maximum >= isovalue;
-  return (hasBelow && hasAbove) || touchesOtherSide(tree, path, nodeDepth, isovalue, hasBelow);
+  return (hasBelow && hasAbove) || touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
 }
 
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
@@ -255,30 +256,29 @@ private:
           forEachBelow(this->Tree, path, depth,
             [&](const Path& below)
             {
-              if (isCrossing(this->Tree, below, depth, this->Isovalue))
+              const Surroundings surroundings(below);
+              if (isCrossing(this->Tree, below.nodeIndex(), surroundings, depth, this->Isovalue))
               {
-                this->markAround(below, depth);
+                this->markAround(below.nodeIndex(), surroundings, depth);
               }
             });
         }
       });
   }
 
-  void markAround(const Path& crossing, int depth)
+  void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
   {
-    this->Marks[crossing.nodeIndex()].store(Mark::Crossing, std::memory_order_relaxed);
+    this->Marks[crossing].store(Mark::Crossing, std::memory_order_relaxed);
     if (this->ListBudget.isSpent())
     {
-      forEachAcross(crossing,
-        [&](FoundNode across)
-        {
-          this->markBelow(across, depth, crossing.region);
-          return false;
-        });
+      for (const FoundNode& root : surroundings)
+      {
+        this->markBelow(root, depth, surroundings.region);
+      }
       return;
     }
     std::size_t count = 0;
-    visitTouching(this->Tree, crossing, depth,
+    visitTouching(this->Tree, surroundings, depth,
       [this, &count](std::size_t nodeIndex)
       {
         this->markNeeded(nodeIndex);

@@ -43,12 +43,10 @@ public:
     this->Region = leaf.region;
     this->Center = positionOf(this->Tree.samples[this->Tree.nodes[leaf.nodeIndex()].begin]);
     this->Tops.clear();
-    forEachAcross(leaf,
-      [this](FoundNode across)
-      {
-        this->Tops.push_back(across.nodeIndex);
-        return false;
-      });
+    for (const FoundNode& root : Surroundings(leaf))
+    {
+      this->Tops.push_back(root.nodeIndex);
+    }
   }
 
   /// Visits the neighbours that survive the angle criterion, in no particular order. Whole subtrees

@@ -6,6 +6,7 @@
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace isopoint
@@ -57,52 +58,62 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
   return false;
 }
 
-/// Visits the roots of the subtrees that hold all nodes whose closed region shares a point with the
-/// closed region of the path's node. Each lies across a plane that bounds the node's region: the
-/// splitting plane of an ancestor. The nearest ancestor that splits an axis with the node on a side
-/// bounds the region there, and so does every farther one whose plane has the same coordinate, as
-/// in lattices: the search crosses them all.
-/// @param visit(root) returns whether to end the search
-/// @returns whether a visit did
-template <class Visitor>
-bool forEachAcross(const Path& path, const Visitor& visit)
+/// Where the nodes are that touch a node: the roots of the subtrees that hold all nodes whose closed
+/// region shares a point with the closed region of the path's node. Each lies across a plane that
+/// bounds the node's region: the splitting plane of an ancestor. The nearest ancestor that splits an
+/// axis with the node on a side bounds the region there, and so does every farther one whose plane
+/// has the same coordinate, as in lattices: the search crosses them all.
+class Surroundings
 {
-  for (int depth = path.depth; depth > 0; --depth)
+public:
+  /// Implicit: a path stands for what surrounds its node.
+  Surroundings(const Path& path)
+    : region(path.region)
   {
-    const bool upper = path.uppers[depth - 1];
-    const int axis = path.axes[depth - 1];
-    const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
-    if (bound == path.planes[depth - 1] &&
-        visit(FoundNode{ siblingOf(path.nodeIndices[depth]), depth }))
+    // Each is written, and counts if it belongs to them, without a branch: that is unpredictable.
+    for (int depth = path.depth; depth > 0; --depth)
     {
-      return true;
+      const bool upper = path.uppers[depth - 1];
+      const int axis = path.axes[depth - 1];
+      const double bound = upper ? path.region.lower[axis] : path.region.upper[axis];
+      this->Roots[this->Count] = { siblingOf(path.nodeIndices[depth]), depth };
+      this->Count += bound == path.planes[depth - 1] ? 1 : 0;
     }
   }
-  return false;
-}
+
+  /// The roots, the nearest first.
+  const FoundNode* begin() const { return this->Roots; }
+  const FoundNode* end() const { return this->Roots + this->Count; }
+
+  const Region region; // of the path's node
+
+private:
+  FoundNode Roots[maximumDepth];
+  int Count = 0;
+};
 
 /// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
-/// path's own, whose closed region shares a point with the closed region of the path's node (the
-/// neighbourhood N(c) of [RL06] section 5).
+/// surrounded one, whose closed region shares a point with its closed region (the neighbourhood
+/// N(c) of [RL06] section 5).
 /// @param enter(node) whether a node and its descendants are of interest
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
 /// Complexity: O(depth + nodes visited); 14.5 neighbours on average in a uniform cloud.
 template <class TSample, class Filter, class Visitor>
-bool visitTouching(const SampleTree<TSample>& tree, const Path& path, int nodeDepth,
-  const Filter& enter, const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings,
+  int nodeDepth, const Filter& enter, const Visitor& visit)
 {
-  return forEachAcross(path, [&](FoundNode across)
-    { return visitTouchingInSubtree(tree, across, nodeDepth, path.region, enter, visit); });
+  return std::any_of(surroundings.begin(), surroundings.end(), [&](FoundNode root)
+    { return visitTouchingInSubtree(tree, root, nodeDepth, surroundings.region, enter, visit); });
 }
 
 /// The same with every node of interest.
 template <class TSample, class Visitor>
-bool visitTouching(
-  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings,
+  int nodeDepth, const Visitor& visit)
 {
   const auto enterAll = [](const Node<TSample>&) { return true; };
-  return visitTouching(tree, path, nodeDepth, enterAll, visit);
+  return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
 }
 
 /// Visits the nodes, other than the path's own, that are not split and touch a box that touches the
@@ -138,15 +149,15 @@ bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
   return isBelow ? node.maximum >= isovalue : node.minimum < isovalue;
 }
 
-/// Whether a node that touches the path's has samples on the other side of the isovalue. Value
+/// Whether a node that touches the surrounded one has samples on the other side of the isovalue. Value
 /// ranges prune the search, so that it is short where there is none.
-/// @param isBelow the side of the path's node: below the isovalue, or not
+/// @param isBelow the side of the surrounded node: below the isovalue, or not
 template <class TSample>
-bool touchesOtherSide(
-  const SampleTree<TSample>& tree, const Path& path, int nodeDepth, double isovalue, bool isBelow)
+bool touchesOtherSide(const SampleTree<TSample>& tree, const Surroundings& surroundings,
+  int nodeDepth, double isovalue, bool isBelow)
 {
   return visitTouching(
-    tree, path, nodeDepth,
+    tree, surroundings, nodeDepth,
     [isovalue, isBelow](const Node<TSample>& node)
     { return mayHoldOtherSide(node, isovalue, isBelow); },
     [](std::size_t) { return true; });

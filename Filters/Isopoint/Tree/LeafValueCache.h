@@ -62,7 +62,7 @@ public:
     const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
     if (leaf.count() == 1)
     {
-      return static_cast<double>(this->Tree.samples[leaf.begin].value);
+      return static_cast<double>(leaf.minimum); // the sample's value, without a look at the sample
     }
     if (leaf.count() <= fewSamples)
     {

@@ -2,14 +2,12 @@
 #ifndef isopoint_MedianSelection_h
 #define isopoint_MedianSelection_h
 
-#include "Isopoint/Base/Execution.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <mutex>
+#include <type_traits>
 #include <vector>
 
 namespace isopoint
@@ -53,53 +51,167 @@ MiddleCoordinates<TCoordinate> selectByCounting(
   return { last, upToLast > rank ? last : first };
 }
 
-/// The coordinates of rank - 1 and rank, 0 < rank < count; reorders the coordinates. Passes without
-/// unpredictable branches keep what lies between two elements of a small subset that probably
-/// enclose the two sought, until few are left. O(count) on average, O(count log count) at worst.
+/// Passes over coordinates that a compiler turns into vector instructions: each lane of a block has
+/// its own sums and extrema.
+template <class TCoordinate>
+class CoordinatePasses
+{
+public:
+  /// The least and the greatest coordinate.
+  struct Range
+  {
+    TCoordinate least;
+    TCoordinate greatest;
+  };
+
+  /// How the coordinates lie around a pivot, which is not greater than all of them.
+  struct Division
+  {
+    std::size_t below; // how many are less than the pivot
+    TCoordinate last;  // the greatest of these, if there are any
+    TCoordinate first; // the least of the others
+  };
+
+  /// @param coordinates finite, at least one
+  /// @param count how many there are at the beginning of the vector, whose other elements change
+  CoordinatePasses(std::vector<TCoordinate>& coordinates, std::size_t count)
+    : PaddedCount((count + lanes - 1) / lanes * lanes)
+  {
+    coordinates.resize(std::max(coordinates.size(), this->PaddedCount));
+    this->Coordinates = coordinates.data();
+    std::fill(this->Coordinates + count, this->Coordinates + this->PaddedCount, infinity);
+    this->Count = count;
+  }
+
+  const TCoordinate& operator[](std::size_t i) const { return this->Coordinates[i]; }
+  std::size_t count() const { return this->Count; }
+
+  Range range() const
+  {
+    TCoordinate least[lanes];
+    TCoordinate greatest[lanes];
+    std::fill_n(least, lanes, infinity);
+    std::fill_n(greatest, lanes, -infinity);
+    for (std::size_t block = 0; block < this->PaddedCount; block += lanes)
+    {
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+      {
+        const TCoordinate coordinate = this->Coordinates[block + lane];
+        const TCoordinate finite = coordinate < infinity ? coordinate : -infinity;
+        least[lane] = coordinate < least[lane] ? coordinate : least[lane];
+        greatest[lane] = finite > greatest[lane] ? finite : greatest[lane];
+      }
+    }
+    return { *std::min_element(least, least + lanes),
+      *std::max_element(greatest, greatest + lanes) };
+  }
+
+  Division divide(TCoordinate pivot) const
+  {
+    Counter below[lanes];
+    TCoordinate last[lanes];
+    TCoordinate first[lanes];
+    std::fill_n(below, lanes, 0);
+    std::fill_n(last, lanes, -infinity);
+    std::fill_n(first, lanes, infinity);
+    for (std::size_t block = 0; block < this->PaddedCount; block += lanes)
+    {
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+      {
+        const TCoordinate coordinate = this->Coordinates[block + lane];
+        const bool isBelow = coordinate < pivot;
+        const TCoordinate lower = isBelow ? coordinate : -infinity;
+        const TCoordinate upper = isBelow ? infinity : coordinate;
+        below[lane] += isBelow ? 1 : 0;
+        last[lane] = lower > last[lane] ? lower : last[lane];
+        first[lane] = upper < first[lane] ? upper : first[lane];
+      }
+    }
+    Division division{ 0, *std::max_element(last, last + lanes),
+      *std::min_element(first, first + lanes) };
+    for (const Counter belowInLane : below)
+    {
+      division.below += static_cast<std::size_t>(belowInLane);
+    }
+    return division;
+  }
+
+private:
+  // As wide as a coordinate, so that both fit the same vectors. Float coordinates are those of
+  // fewer than 2^30 samples.
+  using Counter =
+    std::conditional_t<sizeof(TCoordinate) <= sizeof(std::int32_t), std::int32_t, std::int64_t>;
+
+  static constexpr std::size_t lanes = 8;
+  static constexpr TCoordinate infinity = std::numeric_limits<TCoordinate>::infinity();
+
+  TCoordinate* Coordinates;
+  std::size_t Count;
+  std::size_t PaddedCount;
+};
+
+/// The coordinates of rank - 1 and rank, 0 < rank < count. Pivots are interpolated between the
+/// nearest coordinates known on both sides: a uniform distribution takes three or four passes.
+/// Where that closes in slowly, every other pivot is one of the coordinates in between.
+/// @param coordinates finite ones at its beginning; reordered, and those behind the first `count`
+/// change
+/// Complexity: O(count)
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectMiddle(
-  TCoordinate* coordinates, std::size_t count, std::size_t rank)
+  std::vector<TCoordinate>& coordinates, std::size_t count, std::size_t rank)
 {
-  constexpr std::size_t countingLimit = 40;
-  constexpr std::size_t subsetSize = 16;
-  constexpr std::size_t margin = 4; // two standard deviations of the rank in the subset
-  while (count > countingLimit)
+  constexpr std::size_t countingLimit = 8;
+  constexpr int interpolations = 4;
+  constexpr int mostPasses = 40;
+  if (count <= countingLimit)
   {
-    TCoordinate subset[subsetSize];
-    for (std::size_t i = 0; i < subsetSize; ++i)
-    {
-      subset[i] = coordinates[(2 * i + 1) * count / (2 * subsetSize)];
-    }
-    const std::size_t middle = rank * subsetSize / count;
-    constexpr TCoordinate infinity = std::numeric_limits<TCoordinate>::infinity();
-    const TCoordinate lower =
-      middle > margin ? selectByCounting(subset, subsetSize, middle - margin).first : -infinity;
-    const TCoordinate upper = middle + margin < subsetSize
-                                ? selectByCounting(subset, subsetSize, middle + margin).first
-                                : infinity;
-    std::size_t below = 0;
-    std::size_t inside = 0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      below += coordinates[i] < lower ? 1 : 0;
-      inside += ((coordinates[i] >= lower) & (coordinates[i] <= upper)) ? 1 : 0;
-    }
-    if (below >= rank || rank >= below + inside || 4 * inside > 3 * count)
-    {
-      std::nth_element(coordinates, coordinates + rank, coordinates + count);
-      return { *std::max_element(coordinates, coordinates + rank), coordinates[rank] };
-    }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const TCoordinate coordinate = coordinates[i];
-      coordinates[kept] = coordinate;
-      kept += ((coordinate >= lower) & (coordinate <= upper)) ? 1 : 0;
-    }
-    rank -= below;
-    count = kept;
+    return selectByCounting(coordinates.data(), count, rank);
   }
-  return selectByCounting(coordinates, count, rank);
+  const CoordinatePasses<TCoordinate> passes(coordinates, count);
+  const auto range = passes.range();
+  TCoordinate lower = range.least;    // the sought ones lie within these two,
+  TCoordinate upper = range.greatest; //
+  std::size_t below = 0;              // so many coordinates are less than `lower`,
+  std::size_t upTo = count;           // and so many are not greater than `upper`
+  std::size_t next = 0;
+  for (int pass = 0; pass < mostPasses; ++pass)
+  {
+    if (lower == upper)
+    {
+      return { lower, upper };
+    }
+    const auto share =
+      static_cast<TCoordinate>(rank - below) / static_cast<TCoordinate>(upTo - below);
+    TCoordinate pivot = lower + share * (upper - lower);
+    if (pass >= interpolations && pass % 2 != 0)
+    {
+      while (!(passes[next] > lower && passes[next] <= upper))
+      {
+        next = (next + 1) % count;
+      }
+      pivot = passes[next];
+    }
+    pivot = pivot > lower && pivot <= upper ? pivot : upper;
+    const auto division = passes.divide(pivot);
+    if (division.below == rank)
+    {
+      return { division.last, division.first };
+    }
+    if (division.below < rank)
+    {
+      lower = division.first;
+      below = division.below;
+    }
+    else
+    {
+      upper = division.last;
+      upTo = division.below;
+    }
+  }
+  const auto begin = coordinates.begin();
+  const auto first = begin + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(begin, first, begin + static_cast<std::ptrdiff_t>(count));
+  return { *std::max_element(begin, first), *first };
 }
 
 /// Bounds that very likely enclose both middle coordinates, and few others, taken from a random
@@ -110,145 +222,35 @@ struct MiddleBracket
   using Coordinate = typename TSample::Coordinate;
   Coordinate lower = -std::numeric_limits<Coordinate>::infinity();
   Coordinate upper = std::numeric_limits<Coordinate>::infinity();
-  std::size_t expectedCount = 0;
 
+  /// @param subset its contents change
   MiddleBracket(
     const TSample* samples, std::size_t count, int axis, std::vector<Coordinate>& subset)
   {
     constexpr std::size_t largestSubset = 32768;
     const double root = std::cbrt(static_cast<double>(count));
     const std::size_t size = std::min(static_cast<std::size_t>(root * root), largestSubset);
-    subset.resize(size);
+    subset.resize(std::max(subset.size(), size));
     std::uint64_t state = count;
-    for (Coordinate& coordinate : subset)
+    for (std::size_t i = 0; i < size; ++i)
     {
       state = state * 6364136223846793005u + 1442695040888963407u;
       // The upper half of the product of two 32-bit numbers maps one range onto the other; more
       // than 2^32 samples are reached in steps.
       const std::size_t random = static_cast<std::size_t>(state >> 32);
       const std::size_t step = (count >> 32) + 1;
-      coordinate = samples[((random * (count / step)) >> 32) * step].position[axis];
+      subset[i] = samples[((random * (count / step)) >> 32) * step].position[axis];
     }
     // The middle's rank in the subset has a standard deviation of sqrt(size) / 2.
     const auto margin = static_cast<std::size_t>(1.4 * std::sqrt(static_cast<double>(size))) + 1;
     const std::size_t middle = size / 2;
     if (margin < middle && middle + margin < size)
     {
-      const auto low = subset.begin() + static_cast<std::ptrdiff_t>(middle - margin);
-      const auto high = subset.begin() + static_cast<std::ptrdiff_t>(middle + margin);
-      std::nth_element(subset.begin(), low, subset.end());
-      this->lower = *low;
-      std::nth_element(low, high, subset.end());
-      this->upper = *high;
+      this->lower = selectMiddle(subset, size, middle - margin).first;
+      this->upper = selectMiddle(subset, size, middle + margin).first;
     }
-    this->expectedCount = count / size * (2 * margin + 2);
   }
 };
-
-/// The result of one pass over samples that looks for the middle.
-struct MiddleCount
-{
-  std::size_t below = 0;      // coordinates below the bracket
-  std::size_t candidates = 0; // coordinates in it
-
-  /// Whether the middle two of so many samples are among the candidates.
-  bool enclosesMiddle(std::size_t sampleCount) const
-  {
-    const std::size_t rank = sampleCount / 2;
-    return this->below < rank && rank < this->below + this->candidates;
-  }
-};
-
-/// Counts the coordinates below the bracket and lists those inside it at the beginning of
-/// `candidates`, which only grows.
-template <class TSample>
-MiddleCount collectMiddle(const TSample* samples, std::size_t count, int axis,
-  const MiddleBracket<TSample>& bracket, std::vector<typename TSample::Coordinate>& candidates)
-{
-  constexpr std::size_t blockSize = 256;
-  const auto lower = bracket.lower;
-  const auto upper = bracket.upper;
-  MiddleCount result;
-  for (std::size_t block = 0; block < count; block += blockSize)
-  {
-    if (candidates.size() < result.candidates + blockSize)
-    {
-      candidates.resize(2 * result.candidates + bracket.expectedCount + blockSize);
-    }
-    auto* const listed = candidates.data();
-    std::size_t below = 0;
-    std::size_t found = result.candidates;
-    const std::size_t end = std::min(block + blockSize, count);
-    for (std::size_t i = block; i < end; ++i)
-    {
-      const auto coordinate = samples[i].position[axis];
-      listed[found] = coordinate;
-      found += ((coordinate >= lower) & (coordinate <= upper)) ? 1 : 0;
-      below += coordinate < lower ? 1 : 0;
-    }
-    result.candidates = found;
-    result.below += below;
-  }
-  return result;
-}
-
-/// What a search for the middle needs besides the samples, kept to spare allocations.
-template <class TCoordinate>
-struct SelectionScratch
-{
-  std::vector<TCoordinate> subset;
-  std::vector<TCoordinate> candidates;
-};
-
-/// The middle coordinates of a node's samples, which stay as they are; at least two samples.
-/// One pass over the coordinates, free of unpredictable branches.
-template <class TSample>
-MiddleCoordinates<typename TSample::Coordinate> findMiddle(const TSample* samples,
-  std::size_t count, int axis, SelectionScratch<typename TSample::Coordinate>& scratch)
-{
-  constexpr std::size_t fewSamples = 192;
-  if (count > fewSamples)
-  {
-    const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-    const MiddleCount counted = collectMiddle(samples, count, axis, bracket, scratch.candidates);
-    if (counted.enclosesMiddle(count))
-    {
-      return selectMiddle(scratch.candidates.data(), counted.candidates, count / 2 - counted.below);
-    }
-  }
-  scratch.candidates.resize(std::max(scratch.candidates.size(), count));
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    scratch.candidates[i] = samples[i].position[axis];
-  }
-  return selectMiddle(scratch.candidates.data(), count, count / 2);
-}
-
-/// The same with every thread at work on one node.
-template <class TSample>
-MiddleCoordinates<typename TSample::Coordinate> findMiddleTogether(
-  const Execution& execution, const TSample* samples, std::size_t count, int axis)
-{
-  SelectionScratch<typename TSample::Coordinate> scratch;
-  const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
-  std::mutex mutex;
-  MiddleCount total;
-  forRanges(execution, count, count / (4 * execution.threads) + 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<typename TSample::Coordinate> candidates;
-      const MiddleCount counted =
-        collectMiddle(samples + begin, end - begin, axis, bracket, candidates);
-      const std::lock_guard<std::mutex> lock(mutex);
-      total.below += counted.below;
-      total.candidates += counted.candidates;
-      scratch.candidates.insert(scratch.candidates.end(), candidates.begin(),
-        candidates.begin() + static_cast<std::ptrdiff_t>(counted.candidates));
-    });
-  return total.enclosesMiddle(count)
-           ? selectMiddle(scratch.candidates.data(), total.candidates, count / 2 - total.below)
-           : findMiddle(samples, count, axis, scratch);
-}
 
 } // namespace isopoint
 

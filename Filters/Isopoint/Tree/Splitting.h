@@ -7,6 +7,7 @@
 #include "Isopoint/Tree/MedianSelection.h"
 #include "Isopoint/Tree/Partition.h"
 #include "Isopoint/Tree/Sample.h"
+#include "Isopoint/Tree/Separation.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -94,21 +95,24 @@ struct TiedMiddle
   TSample first{};
   bool haveOnePosition = false; // the last of the lower half and the first of the upper
 
-  TiedMiddle(
-    const TSample* samples, std::size_t count, int axis, typename TSample::Coordinate coordinate)
+  /// @param forEachCandidate(visit) visits samples that include all which share the coordinate
+  /// @param rank of the first one of the upper half among them
+  template <class ForEach>
+  TiedMiddle(const ForEach& forEachCandidate, std::size_t rank, int axis,
+    typename TSample::Coordinate coordinate)
   {
     std::vector<TSample> tied;
-    std::size_t below = 0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      below += samples[i].position[axis] < coordinate ? 1 : 0;
-      if (samples[i].position[axis] == coordinate)
+    forEachCandidate(
+      [&](const TSample& candidate)
       {
-        tied.push_back(samples[i]);
-      }
-    }
+        rank -= candidate.position[axis] < coordinate ? 1 : 0;
+        if (candidate.position[axis] == coordinate)
+        {
+          tied.push_back(candidate);
+        }
+      });
     const SplittingOrder<TSample> order(axis);
-    const auto middle = tied.begin() + static_cast<std::ptrdiff_t>(count / 2 - below);
+    const auto middle = tied.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(tied.begin(), middle, tied.end(), order);
     this->first = *middle;
     this->haveOnePosition =
@@ -116,44 +120,147 @@ struct TiedMiddle
   }
 };
 
-/// Moves the samples to their halves, where the middle coordinates are known.
-/// @param partition(lowerCount, belongsLower) moves them
-/// @returns nothing if all samples share one position
-template <class TSample, class Partition>
-std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axis,
-  const MiddleCoordinates<typename TSample::Coordinate>& middle, const Partition& partition)
+/// What halving needs besides the samples, kept to spare allocations.
+template <class TSample>
+struct HalvingScratch
 {
-  const std::size_t lowerCount = count / 2;
+  std::vector<typename TSample::Coordinate> subset;
+  std::vector<typename TSample::Coordinate> coordinates;
+  OpenSamples<TSample> open;
+};
+
+/// Moves samples to their halves, where the middle coordinates are known.
+/// @param forEachCandidate(visit) visits samples that include all which share a middle coordinate
+/// @param rank of the first one of the upper half among them
+/// @param partition(belongsLower) moves the samples
+/// @returns nothing if all samples share one position
+template <class TSample, class ForEach, class Partition>
+std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axis,
+  const MiddleCoordinates<typename TSample::Coordinate>& middle, const ForEach& forEachCandidate,
+  std::size_t rank, const Partition& partition)
+{
   if (middle.last < middle.first)
   {
-    partition(lowerCount, [axis, first = middle.first](const TSample& sample)
-      { return sample.position[axis] < first; });
+    partition([axis, first = middle.first](const TSample& s) { return s.position[axis] < first; });
   }
   else
   {
-    const TiedMiddle<TSample> tied(samples, count, axis, middle.first);
+    const TiedMiddle<TSample> tied(forEachCandidate, rank, axis, middle.first);
     if (tied.haveOnePosition)
     {
       return halveByDefinition(samples, count, axis);
     }
-    partition(lowerCount, BelongsLower<TSample>(tied.first, axis));
+    partition(BelongsLower<TSample>(tied.first, axis));
   }
-  return Halves{ lowerCount, splittingPlaneBetween(middle.last, middle.first) };
+  return Halves{ count / 2, splittingPlaneBetween(middle.last, middle.first) };
 }
 
-/// Halves the samples of one node along an axis, in place: one pass finds the middle and another
-/// moves each misplaced sample once.
+/// Halves few samples, or those whose middle a bracket missed: one pass finds the middle, another
+/// moves the samples.
+template <class TSample>
+std::optional<Halves> halveWithoutBracket(
+  TSample* samples, std::size_t count, int axis, HalvingScratch<TSample>& scratch)
+{
+  scratch.coordinates.resize(std::max(scratch.coordinates.size(), count));
+  std::transform(samples, samples + count, scratch.coordinates.begin(),
+    [axis](const TSample& sample) { return sample.position[axis]; });
+  const auto middle = selectMiddle(scratch.coordinates, count, count / 2);
+  return halveAtMiddle(
+    samples, count, axis, middle,
+    [&](const auto& visit) { std::for_each(samples, samples + count, visit); }, count / 2,
+    [&](const auto& belongsLower) {
+      exchangeMisplaced(samples, count / 2, samples + count / 2, count - count / 2, belongsLower);
+    });
+}
+
+/// Swaps the open samples that are in the wrong half.
+template <class TSample, class Predicate>
+void exchangeOpen(OpenSamples<TSample>& open, const Predicate& belongsLower)
+{
+  const auto keepMisplaced = [](SampleList<TSample>& list, const auto& isMisplaced)
+  {
+    TSample** next = list.begin();
+    for (TSample* const sample : list)
+    {
+      *next = sample;
+      next += isMisplaced(*sample) ? 1 : 0;
+    }
+    list.resize(static_cast<std::size_t>(next - list.begin()));
+  };
+  keepMisplaced(open.lower, [&](const TSample& sample) { return !belongsLower(sample); });
+  keepMisplaced(open.upper, belongsLower);
+  std::size_t i = 0;
+  for (TSample* const sample : open.lower)
+  {
+    std::swap(*sample, *open.upper.begin()[i++]);
+  }
+}
+
+/// Halves samples that are separated around a bracket of their middle.
+/// @param halves set to nothing if all samples share one position
+/// @returns whether the bracket encloses the middle; if not, samples are only moved
+template <class TSample>
+bool halveSeparated(TSample* samples, std::size_t count, int axis,
+  const MiddleBracket<TSample>& bracket, HalvingScratch<TSample>& scratch,
+  std::optional<Halves>& halves)
+{
+  OpenSamples<TSample>& open = scratch.open;
+  const std::size_t rank = open.lower.size();
+  const std::size_t openCount = rank + open.upper.size();
+  if (rank == 0 || rank == openCount)
+  {
+    return false;
+  }
+  scratch.coordinates.resize(std::max(scratch.coordinates.size(), openCount));
+  const auto coordinateOf = [axis](const TSample* sample) { return sample->position[axis]; };
+  const auto next =
+    std::transform(open.lower.begin(), open.lower.end(), scratch.coordinates.begin(), coordinateOf);
+  std::transform(open.upper.begin(), open.upper.end(), next, coordinateOf);
+  const auto middle = selectMiddle(scratch.coordinates, openCount, rank);
+  if (middle.last < bracket.lower || bracket.upper < middle.first)
+  {
+    return false;
+  }
+  const auto forEachOpen = [&open](const auto& visit)
+  {
+    std::for_each(open.lower.begin(), open.lower.end(), [&](const TSample* s) { visit(*s); });
+    std::for_each(open.upper.begin(), open.upper.end(), [&](const TSample* s) { visit(*s); });
+  };
+  halves = halveAtMiddle(samples, count, axis, middle, forEachOpen, rank,
+    [&open](const auto& belongsLower) { exchangeOpen(open, belongsLower); });
+  return true;
+}
+
+/// Halves the samples of one node along an axis, in place: one pass separates them around a bracket
+/// of the middle, which is then found among the few samples inside.
+/// @param separateAround(bracket) separates them and fills scratch.open
+/// @returns nothing if all samples share one position
+template <class TSample, class Separate>
+std::optional<Halves> halveBySeparation(TSample* samples, std::size_t count, int axis,
+  HalvingScratch<TSample>& scratch, const Separate& separateAround)
+{
+  constexpr std::size_t fewSamples = 1024;
+  if (count > fewSamples)
+  {
+    const MiddleBracket<TSample> bracket(samples, count, axis, scratch.subset);
+    separateAround(bracket);
+    std::optional<Halves> halves;
+    if (halveSeparated(samples, count, axis, bracket, scratch, halves))
+    {
+      return halves;
+    }
+  }
+  return halveWithoutBracket(samples, count, axis, scratch);
+}
+
+/// Halves the samples of one node along an axis, in place.
 /// @returns nothing if all samples share one position
 template <class TSample>
-std::optional<Halves> halve(TSample* samples, std::size_t count, int axis,
-  SelectionScratch<typename TSample::Coordinate>& scratch)
+std::optional<Halves> halve(
+  TSample* samples, std::size_t count, int axis, HalvingScratch<TSample>& scratch)
 {
-  return halveAtMiddle(samples, count, axis, findMiddle(samples, count, axis, scratch),
-    [&](std::size_t lowerCount, const auto& belongsLower)
-    {
-      exchangeMisplaced(
-        samples, lowerCount, samples + lowerCount, count - lowerCount, belongsLower);
-    });
+  return halveBySeparation(samples, count, axis, scratch,
+    [&](const auto& bracket) { separate(samples, count, axis, bracket, scratch.open); });
 }
 
 /// The same with every thread at work on one node.
@@ -161,11 +268,10 @@ template <class TSample>
 std::optional<Halves> halveTogether(
   const Execution& execution, TSample* samples, std::size_t count, int axis)
 {
-  const auto middle = findMiddleTogether(execution, samples, count, axis);
-  throwIfAborted(execution);
-  return halveAtMiddle(samples, count, axis, middle,
-    [&](std::size_t lowerCount, const auto& belongsLower)
-    { partitionTogether(execution, samples, count, lowerCount, belongsLower); });
+  HalvingScratch<TSample> scratch;
+  return halveBySeparation(samples, count, axis, scratch,
+    [&](const auto& bracket)
+    { separateTogether(execution, samples, count, axis, bracket, scratch.open); });
 }
 
 } // namespace isopoint

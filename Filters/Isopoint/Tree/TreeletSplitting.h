@@ -130,7 +130,7 @@ private:
 
   SampleTree<TSample>& Tree;
   std::size_t NextPair;
-  SelectionScratch<typename TSample::Coordinate> Scratch;
+  HalvingScratch<TSample> Scratch;
 };
 
 } // namespace isopoint
