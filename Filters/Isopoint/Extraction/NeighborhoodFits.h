@@ -41,7 +41,7 @@ public:
     {
       return LocalFitter::onEdge(edge);
     }
-    std::optional<LocalFit> fit = this->Fitter.fitSmooth(edge, this->Gatherer.samples());
+    std::optional<LocalFit> fit = this->Fitter.fitNear(edge, this->Gatherer.samples());
     if (!fit)
     {
       const std::size_t nearCount = this->Gatherer.samples().size();

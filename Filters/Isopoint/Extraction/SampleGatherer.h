@@ -7,6 +7,7 @@
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/LeafValueCache.h"
 
 #include <algorithm>
@@ -47,7 +48,9 @@ public:
     this->Ends[1].leaf = isInOrder ? secondLeaf : firstLeaf;
     for (End& end : this->Ends)
     {
-      end.isTaken = this->listNeighbors(end.leaf, end.neighbors);
+      const NodeList<Id> neighbors = this->neighborsOf(end.leaf);
+      end.neighbors.assign(neighbors.begin(), neighbors.end());
+      end.isTaken = !neighbors.isEmpty();
     }
     if (!this->Ends[0].isTaken && !this->Ends[1].isTaken)
     {
@@ -83,9 +86,9 @@ public:
       for (std::size_t i = 0; end.isTaken && i < end.neighbors.size(); ++i)
       {
         const Id leaf = end.neighbors[i];
-        if (this->isBelow(leaf) != isBelow && this->listNeighbors(leaf, this->Listed))
+        if (this->isBelow(leaf) != isBelow)
         {
-          this->addAll(this->Listed);
+          this->addAll(this->neighborsOf(leaf));
         }
       }
     }
@@ -130,28 +133,45 @@ private:
     std::vector<Id> neighbors;
   };
 
-  struct KnownSpacing
+  /// Those of leaves whose neighbourhoods are not kept for further isovalues.
+  struct FoundNeighbors
   {
     Id leaf = 0; // the tree's root is none
+    std::vector<Id> neighbors;
+  };
+
+  struct KnownSpacing
+  {
+    Id leaf = 0;
     double spacing = 0.0;
   };
 
-  /// Lists the neighbours of a leaf. @returns whether they are not too many; otherwise the list is
-  /// of no use
-  bool listNeighbors(Id leaf, std::vector<Id>& neighbors)
+  /// The neighbours of a leaf; none if they are too many. Valid until the next call.
+  NodeList<Id> neighborsOf(Id leaf)
   {
     const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leaf));
-    neighbors.assign(known.begin(), known.end());
-    if (neighbors.empty())
+    if (!known.isEmpty())
     {
-      visitTouching(this->Tree, pathToLeaf(this->Tree, leaf), maximumDepth,
-        [&neighbors](std::size_t neighbor)
-        {
-          neighbors.push_back(static_cast<Id>(neighbor));
-          return neighbors.size() > mostNeighbors;
-        });
+      return known.count <= mostNeighbors ? known : NodeList<Id>{};
     }
-    return neighbors.size() <= mostNeighbors;
+    FoundNeighbors& found =
+      this->RecentlyFound[static_cast<std::size_t>(leaf) % this->RecentlyFound.size()];
+    if (found.leaf != leaf)
+    {
+      found.leaf = leaf;
+      found.neighbors.clear();
+      const bool areMany = visitTouching(this->Tree, pathToLeaf(this->Tree, leaf), maximumDepth,
+        [&found](std::size_t neighbor)
+        {
+          found.neighbors.push_back(static_cast<Id>(neighbor));
+          return found.neighbors.size() > mostNeighbors;
+        });
+      if (areMany)
+      {
+        found.neighbors.clear();
+      }
+    }
+    return { found.neighbors.data(), found.neighbors.size() };
   }
 
   /// Lists some of very many neighbours: one for each subtree whose size over its distance is small,
@@ -193,7 +213,8 @@ private:
     return this->Values.at(static_cast<std::size_t>(leaf)) < this->Context.isovalue;
   }
 
-  void addAll(const std::vector<Id>& leaves)
+  template <class TLeaves>
+  void addAll(const TLeaves& leaves)
   {
     for (const Id leaf : leaves)
     {
@@ -228,8 +249,8 @@ private:
   LeafSet<Id> Known;         // leaves whose samples are taken
   std::vector<FitSample> Samples;
   bool IsWide = false;
-  std::vector<Id> Listed;                          // the neighbours of the present leaf
-  std::array<KnownSpacing, 1024> KnownSpacings{}; // by the leaf's last bits
+  std::array<FoundNeighbors, 1024> RecentlyFound{}; // by the leaf's last bits
+  std::array<KnownSpacing, 1024> KnownSpacings{};   // likewise
   std::vector<double> Distances;
 };
 

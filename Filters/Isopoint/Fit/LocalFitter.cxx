@@ -18,7 +18,7 @@ namespace
 
 /// Up to this residual, in mean rises of the field over the mean distance of the samples, a field is
 /// smooth.
-constexpr double smoothResidual = 0.0005;
+constexpr double smoothResidual = 0.0003;
 
 /// Weights so steep that a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
@@ -44,7 +44,7 @@ LocalFit LocalFitter::onEdge(const FitEdge& edge)
   return fit;
 }
 
-std::optional<LocalFit> LocalFitter::fitSmooth(
+std::optional<LocalFit> LocalFitter::fitNear(
   const FitEdge& edge, const std::vector<FitSample>& samples)
 {
   this->Frame.enter(edge, this->Isovalue, samples);
@@ -53,14 +53,21 @@ std::optional<LocalFit> LocalFitter::fitSmooth(
     return std::nullopt;
   }
   weighSteeply(this->Frame, this->Steep);
-  const std::optional<PolynomialFit> found =
-    fitPolynomial(this->Frame.samples(), this->Steep, this->Frame.increasing(), 2);
-  if (!found || !this->isSmooth(*found))
+  const NearFit found = isopoint::fitNear(this->Frame.samples(), this->Steep,
+    this->Frame.increasing(), smoothResidual * this->Frame.meanDistance());
+  if (!found.smooth && !found.isNoise)
   {
     return std::nullopt;
   }
   LocalFit fit = onEdge(edge);
-  this->apply(*found, fit);
+  if (found.smooth)
+  {
+    this->apply(*found.smooth, fit);
+  }
+  else
+  {
+    this->applyMildGradient(fit);
+  }
   return fit;
 }
 
@@ -97,18 +104,16 @@ LocalFit LocalFitter::fit(
   {
     this->apply(*found, fit);
   }
-  else if (const std::optional<Vector> gradient = this->mildGradient())
+  else
   {
-    fit.gradient = this->Frame.gradientOf(*gradient);
-    fit.isGradientFitted = true;
+    this->applyMildGradient(fit);
   }
   return fit;
 }
 
 bool LocalFitter::isSmooth(const PolynomialFit& found) const
 {
-  return found.residual <=
-         smoothResidual * lengthOf(found.gradient) * this->Frame.meanDistance();
+  return found.relativeResidual <= smoothResidual * this->Frame.meanDistance();
 }
 
 /// The polynomial through all samples or, where the error of its zero is not small, through those
@@ -180,6 +185,15 @@ std::optional<Vector> LocalFitter::mildGradient()
     return std::nullopt;
   }
   return affine->gradientAt({});
+}
+
+void LocalFitter::applyMildGradient(LocalFit& fit)
+{
+  if (const std::optional<Vector> gradient = this->mildGradient())
+  {
+    fit.gradient = this->Frame.gradientOf(*gradient);
+    fit.isGradientFitted = true;
+  }
 }
 
 /// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
@@ -267,7 +281,7 @@ void LocalFitter::apply(const PolynomialFit& found, LocalFit& fit)
   fit.position = this->Frame.positionAt(scaled(share, found.zero));
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
   fit.isGradientFitted = true;
-  if (!found.isAccurate() && found.directionError > 0.0)
+  if (found.directionError > 0.0)
   {
     const std::optional<Vector> mild = this->mildGradient();
     if (mild && lengthOf(difference(directionOf(*mild), directionOf(found.gradient))) <

@@ -34,7 +34,7 @@ public:
   /// is smooth at the scale of the samples.
   /// @param samples those next to the edge's ends suffice; the ends are among them
   /// @returns nothing if more samples are to be tried. Complexity: O(samples)
-  std::optional<LocalFit> fitSmooth(const FitEdge& edge, const std::vector<FitSample>& samples);
+  std::optional<LocalFit> fitNear(const FitEdge& edge, const std::vector<FitSample>& samples);
 
   /// Fits what the samples determine, up to the highest order. Where no fit holds, the isopoint
   /// stays.
@@ -50,6 +50,7 @@ private:
   std::optional<PolynomialFit> fitPolynomials();
   void weighRobustly();
   std::optional<Vector> mildGradient();
+  void applyMildGradient(LocalFit& fit);
   bool fitLinear(LocalFit& fit);
   bool fitCreases(LocalFit& fit);
   double polynomialResidual() const;

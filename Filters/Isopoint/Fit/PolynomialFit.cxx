@@ -93,25 +93,52 @@ double squaredEffects(const NormalEquations<Degree>& equations, int degree, std:
     });
 }
 
+/// The error of the direction of the gradient at the origin.
+/// @param relativeResidual residual over slope
+template <int Degree>
+double directionErrorOf(const NormalEquations<Degree>& equations, int degree,
+  const FrameSamples& samples, const FrameWeights& weights, double relativeResidual)
+{
+  double effects = 0.0;
+  for (const std::size_t slope : { 1, 2, 3 })
+  {
+    effects += squaredEffects(equations, degree, slope, samples, weights);
+  }
+  return relativeResidual * std::sqrt(effects);
+}
+
 template <int Degree>
 void estimateErrors(const NormalEquations<Degree>& equations, const FrameSamples& samples,
   const FrameWeights& weights, PolynomialFit& fit)
 {
   const int degree = fit.polynomial.degree;
   const NearestSamples nearest(samples, weights);
-  fit.residual = leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights);
-  const double relative = fit.residual / std::sqrt(squaredLength(fit.gradient));
-  fit.zeroError = relative * std::sqrt(squaredEffects(equations, degree, 0, samples, weights));
-  fit.directionError = 0.0;
-  if (!fit.isAccurate())
+  fit.relativeResidual =
+    leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights) /
+    std::sqrt(squaredLength(fit.gradient));
+  fit.zeroError = fit.relativeResidual *
+    std::sqrt(squaredEffects(equations, degree, 0, nearest.samples, nearest.weights));
+  fit.directionError = fit.isAccurate()
+    ? 0.0
+    : directionErrorOf(equations, degree, nearest.samples, nearest.weights, fit.relativeResidual);
+}
+
+/// Sets where a polynomial is zero. @returns whether it holds there
+bool moveToZero(const Vector& increasing, PolynomialFit& fit)
+{
+  constexpr double mostMove = 0.5; // of the edge's length
+  const std::optional<Vector> zero =
+    increasesAlong(increasing, fit.polynomial.gradientAt({}))
+      ? zeroNear(fit.polynomial, mostMove * std::sqrt(squaredLength(increasing)))
+      : std::nullopt;
+  if (!zero)
   {
-    double effects = 0.0;
-    for (const std::size_t slope : { 1, 2, 3 })
-    {
-      effects += squaredEffects(equations, degree, slope, samples, weights);
-    }
-    fit.directionError = relative * std::sqrt(effects);
+    return false;
   }
+  fit.zero = *zero;
+  fit.gradient = fit.polynomial.gradientAt(*zero);
+  fit.move = std::sqrt(squaredLength(*zero));
+  return increasesAlong(increasing, fit.gradient);
 }
 
 /// See fitPolynomial().
@@ -120,21 +147,16 @@ std::optional<PolynomialFit> fit(
   const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing)
 {
   const NormalEquations<Degree> equations(samples, weights);
-  const double farthest = 0.5 * std::sqrt(squaredLength(increasing));
   for (int degree = equations.determinedDegree(); degree > 1; --degree)
   {
     PolynomialFit fit;
     fit.polynomial = equations.solution(degree);
-    const std::optional<Vector> zero = zeroNear(fit.polynomial, farthest);
-    if (!zero || !increasesAlong(increasing, fit.polynomial.gradientAt({})))
+    if (!moveToZero(increasing, fit))
     {
       continue;
     }
-    fit.zero = *zero;
-    fit.gradient = fit.polynomial.gradientAt(*zero);
-    fit.move = std::sqrt(squaredLength(*zero));
     estimateErrors(equations, samples, weights, fit);
-    if (increasesAlong(increasing, fit.gradient) && std::isfinite(fit.zeroError))
+    if (std::isfinite(fit.zeroError))
     {
       return fit;
     }
@@ -149,6 +171,39 @@ bool increasesAlong(const Vector& increasing, const Vector& gradient)
   constexpr double leastCosine = -0.2;
   return dot(gradient, increasing) >
          leastCosine * std::sqrt(squaredLength(gradient) * squaredLength(increasing));
+}
+
+NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing,
+  double smoothResidual)
+{
+  NearFit near;
+  if (!areEnough(samples.count(), 2))
+  {
+    return near;
+  }
+  const NormalEquations<2> equations(samples, weights);
+  if (equations.determinedDegree() < 2)
+  {
+    return near;
+  }
+  PolynomialFit fit{};
+  fit.polynomial = equations.solution(2);
+  const NearestSamples nearest(samples, weights);
+  const Vector gradient = fit.polynomial.gradientAt({});
+  fit.relativeResidual =
+    leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights) /
+    std::sqrt(squaredLength(gradient));
+  if (fit.relativeResidual <= smoothResidual)
+  {
+    if (moveToZero(increasing, fit))
+    {
+      near.smooth = fit;
+    }
+    return near;
+  }
+  constexpr double mostDirectionError = 1.0;
+  near.isNoise = directionErrorOf(equations, 2, nearest.samples, nearest.weights, fit.relativeResidual) > mostDirectionError;
+  return near;
 }
 
 bool areEnough(std::size_t sampleCount, int degree)

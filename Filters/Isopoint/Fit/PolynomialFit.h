@@ -21,7 +21,9 @@ struct PolynomialFit
   double move;     // the distance of the zero from the origin
   /// The root mean square of the residuals of the samples nearest to the origin, each left out of
   /// the fit: the standard deviation of what the polynomial does not describe.
-  double residual; // of the values of the samples nearest to the origin, each left out of the fit
+  /// Root mean square residual of the samples nearest to the origin, each left out of the fit, over
+  /// the slope of the polynomial.
+  double relativeResidual;
   double zeroError; // standard error of the zero along the gradient
   /// Standard error of the gradient's direction in radians, if small, where isAccurate() is false.
   double directionError;
@@ -44,6 +46,18 @@ bool increasesAlong(const Vector& increasing, const Vector& gradient);
 /// Complexity: O(samples)
 std::optional<PolynomialFit> fitPolynomial(const FrameSamples& samples,
   const FrameWeights& weights, const Vector& increasing, int highest);
+
+/// What a polynomial of degree two through the samples next to an edge shows.
+struct NearFit
+{
+  std::optional<PolynomialFit> smooth; // if it describes the field
+  bool isNoise = false; // whether it does not even show into which direction values increase
+};
+
+/// @param smoothResidual largest relative residual of a polynomial that describes the field
+/// Complexity: O(samples)
+NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing,
+  double smoothResidual);
 
 /// Whether so many samples determine a polynomial and leave residuals that its error can be
 /// estimated from.
