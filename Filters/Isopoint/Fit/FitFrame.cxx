@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace isopoint
 {
@@ -42,48 +43,54 @@ void FitFrame::enter(const FitEdge& edge, double isovalue, const std::vector<Fit
     return;
   }
   this->Increasing = scaled(1.0 / this->Length, edge.increasing);
-  this->Samples.clear();
-  if (samples.size() <= FrameSamples::most)
-  {
-    for (const FitSample& sample : samples)
-    {
-      this->Samples.add(this->placeOf(sample.position), this->valueOf(sample.value));
-    }
-  }
-  else
-  {
-    this->addNearest(samples);
-  }
-  this->MeanDistance =
-    this->Samples.sum([this](std::size_t i) { return Lanes(this->Samples.squaredDistance[i].sqrt()); }) /
-    static_cast<double>(this->Samples.count());
+  this->addNearestFirst(samples);
+  this->MeanDistance = this->Samples.sum([this](std::size_t group)
+                         { return Lanes(this->Samples.squaredDistance[group].sqrt()); }) /
+                       static_cast<double>(this->Samples.count());
 }
 
-/// Ties are decided by the samples' order.
-void FitFrame::addNearest(const std::vector<FitSample>& samples)
+/// Adds the nearest samples and then the others, of very many the nearest; otherwise in their order.
+void FitFrame::addNearestFirst(const std::vector<FitSample>& samples)
 {
-  const auto squaredDistanceOf = [this](const FitSample& sample)
-  {
-    const Vector place = this->placeOf(sample.position);
-    return dot(place, place);
-  };
+  this->Samples.clear();
   this->Distances.clear();
   for (const FitSample& sample : samples)
   {
-    this->Distances.push_back(squaredDistanceOf(sample));
+    const Vector place = this->placeOf(sample.position);
+    this->Distances.push_back(dot(place, place));
   }
-  const auto last = this->Distances.begin() + FrameSamples::most - 1;
-  std::nth_element(this->Distances.begin(), last, this->Distances.end());
-  const double limit = *last;
-  std::size_t equal = FrameSamples::most - static_cast<std::size_t>(std::count_if(
-    this->Distances.begin(), last, [&](double d) { return d < limit; }));
-  for (const FitSample& sample : samples)
+  for (const std::size_t wanted : { FrameSamples::nearest, FrameSamples::most })
   {
-    const double distance = squaredDistanceOf(sample);
-    if (distance < limit || (distance == limit && equal > 0))
+    const std::size_t missing = std::min(wanted, samples.size()) - this->Samples.count();
+    if (missing > 0)
+    {
+      this->addNearest(samples, missing);
+    }
+  }
+}
+
+/// Adds the nearest ones of the samples whose distances are still finite, and makes these infinite.
+void FitFrame::addNearest(const std::vector<FitSample>& samples, std::size_t count)
+{
+  double limit = std::numeric_limits<double>::infinity();
+  std::size_t equal = count; // how many at that distance are to be added
+  if (this->Samples.count() + count < samples.size())
+  {
+    this->Sorted = this->Distances;
+    const auto last = this->Sorted.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+    std::nth_element(this->Sorted.begin(), last, this->Sorted.end());
+    limit = *last;
+    equal -= static_cast<std::size_t>(
+      std::count_if(this->Sorted.begin(), last, [&](double d) { return d < limit; }));
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    double& distance = this->Distances[i];
+    if (distance < limit || (distance == limit && equal > 0 && std::isfinite(limit)))
     {
       equal -= distance == limit ? 1 : 0;
-      this->Samples.add(this->placeOf(sample.position), this->valueOf(sample.value));
+      this->Samples.add(this->placeOf(samples[i].position), this->valueOf(samples[i].value));
+      distance = std::numeric_limits<double>::infinity();
     }
   }
 }

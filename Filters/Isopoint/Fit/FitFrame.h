@@ -38,7 +38,8 @@ public:
   std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
 
 private:
-  void addNearest(const std::vector<FitSample>& samples);
+  void addNearestFirst(const std::vector<FitSample>& samples);
+  void addNearest(const std::vector<FitSample>& samples, std::size_t count);
   Vector placeOf(const Vector& position) const
   {
     return scaled(1.0 / this->Length, difference(position, this->Origin));
@@ -54,6 +55,7 @@ private:
   double MeanDistance = 0.0;
   bool IsUsable = false;
   std::vector<double> Distances; // squared
+  std::vector<double> Sorted;
 };
 
 } // namespace isopoint

@@ -22,12 +22,13 @@ inline double sumOf(const Lanes& lanes)
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// Samples in the frame of a fit: offsets from an origin and values of a size near 1. Behind the
-/// last sample, its group of four is filled with zeros of weight 0.
+/// Samples in the frame of a fit: offsets from an origin and values of a size near 1. The nearest
+/// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0.
 class FrameSamples
 {
 public:
   static constexpr std::size_t most = 256;
+  static constexpr std::size_t nearest = 16; // that come first
   using Numbers = std::array<Lanes, most / laneCount>; // the first groupCount() are set
 
   Numbers x;

@@ -281,7 +281,7 @@ void LocalFitter::apply(const PolynomialFit& found, LocalFit& fit)
   fit.position = this->Frame.positionAt(scaled(share, found.zero));
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
   fit.isGradientFitted = true;
-  if (found.directionError > 0.0)
+  if (!found.isAccurate())
   {
     const std::optional<Vector> mild = this->mildGradient();
     if (mild && lengthOf(difference(directionOf(*mild), directionOf(found.gradient))) <

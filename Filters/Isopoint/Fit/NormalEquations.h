@@ -5,6 +5,7 @@
 #include "Isopoint/Fit/FrameSamples.h"
 #include "Isopoint/Fit/Polynomial.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -131,34 +132,63 @@ public:
   /// The polynomial of a degree up to determinedDegree() of least squares.
   Polynomial solution(int degree) const
   {
-    return this->solve(degree, this->RightSide);
+    const std::size_t count = coefficientCount(degree);
+    Polynomial polynomial;
+    polynomial.degree = degree;
+    auto& x = polynomial.coefficients;
+    std::copy_n(this->RightSide.begin(), count, x.begin());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      x[i] *= this->Reciprocals[i];
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        x[j] -= this->below(i, j) * x[i];
+      }
+    }
+    for (std::size_t i = count; i-- > 0;)
+    {
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        x[i] -= this->below(i, j) * x[j];
+      }
+      x[i] *= this->Reciprocals[i];
+    }
+    return polynomial;
   }
 
-  /// The polynomial whose value at a sample, times the sample's weight, is the effect of the
-  /// sample's value on a coefficient of the solution.
-  Polynomial influence(int degree, std::size_t coefficient) const
-  {
-    std::array<double, size> unit{};
-    unit[coefficient] = 1.0;
-    return this->solve(degree, unit);
-  }
-
-  /// The effect of samples' values on what the fit has there, for weights of 1.
-  Lanes leverage(int degree, const Lanes& x, const Lanes& y, const Lanes& z) const
+  /// L^-1 p, p being the products of coordinates at four places that coefficients belong to. With
+  /// two such vectors u and v, u . v is the effect of a value of weight 1 at the place of v on the
+  /// polynomial at that of u.
+  std::array<Lanes, size> reduced(int degree, const Lanes& x, const Lanes& y, const Lanes& z) const
   {
     std::array<Lanes, size> rest = products(x, y, z);
-    Lanes sum = Lanes::Zero();
     const std::size_t count = coefficientCount(degree);
     for (std::size_t i = 0; i < count; ++i)
     {
-      const Lanes solved = this->Reciprocals[i] * rest[i];
-      sum += solved * solved;
+      rest[i] *= this->Reciprocals[i];
       for (std::size_t j = i + 1; j < count; ++j)
       {
-        rest[j] -= this->below(i, j) * solved;
+        rest[j] -= this->below(i, j) * rest[i];
       }
     }
-    return sum;
+    return rest;
+  }
+
+  /// L^-1 e, e being the unit vector of a coefficient.
+  std::array<double, size> reducedUnit(int degree, std::size_t coefficient) const
+  {
+    std::array<double, size> rest{};
+    rest[coefficient] = 1.0;
+    const std::size_t count = coefficientCount(degree);
+    for (std::size_t i = coefficient; i < count; ++i)
+    {
+      rest[i] *= this->Reciprocals[i];
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        rest[j] -= this->below(i, j) * rest[i];
+      }
+    }
+    return rest;
   }
 
 private:
@@ -253,36 +283,6 @@ private:
         this->Determined = column + 1 == coefficientCount(degree) ? degree : this->Determined;
       }
     }
-  }
-
-  Polynomial solve(int degree, const std::array<double, size>& rightSide) const
-  {
-    const std::size_t count = coefficientCount(degree);
-    Polynomial polynomial;
-    polynomial.degree = degree;
-    auto& x = polynomial.coefficients;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      x[i] = rightSide[i];
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      x[i] *= this->Reciprocals[i];
-      for (std::size_t j = i + 1; j < count; ++j)
-      {
-        x[j] -= this->below(i, j) * x[i];
-      }
-    }
-    for (std::size_t i = count; i-- > 0;)
-    {
-      double rest = x[i];
-      for (std::size_t j = i + 1; j < count; ++j)
-      {
-        rest -= this->below(i, j) * x[j];
-      }
-      x[i] = rest * this->Reciprocals[i];
-    }
-    return polynomial;
   }
 
   std::array<Column, size> Columns; // of L, below the diagonal

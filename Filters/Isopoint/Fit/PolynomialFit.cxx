@@ -14,113 +14,64 @@ namespace isopoint
 namespace
 {
 
-/// Of so many samples, nearest to the origin, residuals are taken.
-constexpr std::size_t nearestCount = 16;
-
 double squaredLength(const Vector& a)
 {
   return dot(a, a);
 }
 
-/// The samples of the largest weights and these weights; ties are decided by the samples' order.
-struct NearestSamples
+/// What the samples nearest to the origin show about the error of a polynomial; the effects of the
+/// values of other ones, of far smaller weights, are neglected.
+struct ErrorEstimate
 {
-  FrameSamples samples;
-  FrameWeights weights;
-
-  NearestSamples(const FrameSamples& all, const FrameWeights& allWeights)
-  {
-    std::array<double, FrameSamples::most> distances;
-    for (std::size_t i = 0; i < all.count(); ++i)
-    {
-      distances[i] = FrameSamples::at(all.squaredDistance, i);
-    }
-    const std::size_t wanted = std::min(nearestCount, all.count());
-    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(wanted) - 1;
-    std::nth_element(
-      distances.begin(), last, distances.begin() + static_cast<std::ptrdiff_t>(all.count()));
-    const double limit = *last;
-    auto equal = wanted - static_cast<std::size_t>(std::count_if(
-                            distances.begin(), last, [&](double d) { return d < limit; }));
-    for (std::size_t i = 0; i < all.count(); ++i)
-    {
-      const double distance = FrameSamples::at(all.squaredDistance, i);
-      if (distance < limit || (distance == limit && equal > 0))
-      {
-        equal -= distance == limit ? 1 : 0;
-        const std::size_t at = this->samples.count();
-        this->samples.add({ FrameSamples::at(all.x, i), FrameSamples::at(all.y, i),
-                            FrameSamples::at(all.z, i) },
-          FrameSamples::at(all.value, i));
-        FrameSamples::at(this->weights, at) = FrameSamples::at(allWeights, i);
-      }
-    }
-    endWeights(this->samples, this->weights);
-  }
+  double residual;    // root mean square, of samples that are left out of the fit one at a time
+  double valueEffect; // of such residuals on the value at the origin: the root of a sum of squares
+  double slopeEffect; // on the gradient there
 };
 
-/// The root mean square of the residuals of samples that are left out of the fit one at a time.
 template <int Degree>
-double leftOutResidual(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
+ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
   const FrameSamples& samples, const FrameWeights& weights)
 {
-  const double squares = samples.sum(
-    [&](std::size_t i)
-    {
-      const Lanes& x = samples.x[i];
-      const Lanes& y = samples.y[i];
-      const Lanes& z = samples.z[i];
-      const Lanes leverage = weights[i] * equations.leverage(polynomial.degree, x, y, z);
-      const Lanes residual =
-        weights[i] * (samples.value[i] - polynomial.valueAt(x, y, z)) / (1.0 - leverage);
-      return Lanes(residual * residual);
-    });
-  return std::sqrt(
-    squares / samples.sum([&](std::size_t i) { return Lanes(weights[i] * weights[i]); }));
-}
-
-/// The sum of the squares of the effects that the samples' values have on a coefficient.
-template <int Degree>
-double squaredEffects(const NormalEquations<Degree>& equations, int degree, std::size_t coefficient,
-  const FrameSamples& samples, const FrameWeights& weights)
-{
-  const Polynomial influence = equations.influence(degree, coefficient);
-  return samples.sum(
-    [&](std::size_t i)
-    {
-      const Lanes effect = weights[i] * influence.valueAt(samples.x[i], samples.y[i], samples.z[i]);
-      return Lanes(effect * effect);
-    });
-}
-
-/// The error of the direction of the gradient at the origin.
-/// @param relativeResidual residual over slope
-template <int Degree>
-double directionErrorOf(const NormalEquations<Degree>& equations, int degree,
-  const FrameSamples& samples, const FrameWeights& weights, double relativeResidual)
-{
-  double effects = 0.0;
-  for (const std::size_t slope : { 1, 2, 3 })
+  const std::size_t count = coefficientCount(polynomial.degree);
+  std::array<std::array<double, NormalEquations<Degree>::size>, 4> units; // the value, and slopes
+  for (std::size_t i = 0; i < units.size(); ++i)
   {
-    effects += squaredEffects(equations, degree, slope, samples, weights);
+    units[i] = equations.reducedUnit(polynomial.degree, i);
   }
-  return relativeResidual * std::sqrt(effects);
-}
-
-template <int Degree>
-void estimateErrors(const NormalEquations<Degree>& equations, const FrameSamples& samples,
-  const FrameWeights& weights, PolynomialFit& fit)
-{
-  const int degree = fit.polynomial.degree;
-  const NearestSamples nearest(samples, weights);
-  fit.relativeResidual =
-    leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights) /
-    std::sqrt(squaredLength(fit.gradient));
-  fit.zeroError = fit.relativeResidual *
-    std::sqrt(squaredEffects(equations, degree, 0, nearest.samples, nearest.weights));
-  fit.directionError = fit.isAccurate()
-    ? 0.0
-    : directionErrorOf(equations, degree, nearest.samples, nearest.weights, fit.relativeResidual);
+  Lanes squares = Lanes::Zero();
+  Lanes weightSquares = Lanes::Zero();
+  std::array<Lanes, 4> effects;
+  effects.fill(Lanes::Zero());
+  const std::size_t groups = std::min(samples.groupCount(), FrameSamples::nearest / laneCount);
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+      const Lanes& weight = weights[group];
+      const Lanes& x = samples.x[group];
+      const Lanes& y = samples.y[group];
+      const Lanes& z = samples.z[group];
+      const auto reduced = equations.reduced(polynomial.degree, x, y, z);
+      Lanes leverage = Lanes::Zero();
+      std::array<Lanes, 4> effect;
+      effect.fill(Lanes::Zero());
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        leverage += reduced[i] * reduced[i];
+        for (std::size_t unit = 0; unit < units.size(); ++unit)
+        {
+          effect[unit] += units[unit][i] * reduced[i];
+        }
+      }
+      const Lanes residual =
+        weight * (samples.value[group] - polynomial.valueAt(x, y, z)) / (1.0 - weight * leverage);
+      squares += residual * residual;
+      weightSquares += weight * weight;
+      for (std::size_t unit = 0; unit < units.size(); ++unit)
+      {
+        effects[unit] += (weight * effect[unit]) * (weight * effect[unit]);
+      }
+  }
+  return { std::sqrt(sumOf(squares) / sumOf(weightSquares)), std::sqrt(sumOf(effects[0])),
+    std::sqrt(sumOf(effects[1]) + sumOf(effects[2]) + sumOf(effects[3])) };
 }
 
 /// Sets where a polynomial is zero. @returns whether it holds there
@@ -155,7 +106,10 @@ std::optional<PolynomialFit> fit(
     {
       continue;
     }
-    estimateErrors(equations, samples, weights, fit);
+    const ErrorEstimate error = estimateError(equations, fit.polynomial, samples, weights);
+    fit.relativeResidual = error.residual / std::sqrt(squaredLength(fit.gradient));
+    fit.zeroError = fit.relativeResidual * error.valueEffect;
+    fit.directionError = fit.relativeResidual * error.slopeEffect;
     if (std::isfinite(fit.zeroError))
     {
       return fit;
@@ -188,11 +142,9 @@ NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const 
   }
   PolynomialFit fit{};
   fit.polynomial = equations.solution(2);
-  const NearestSamples nearest(samples, weights);
-  const Vector gradient = fit.polynomial.gradientAt({});
+  const ErrorEstimate error = estimateError(equations, fit.polynomial, samples, weights);
   fit.relativeResidual =
-    leftOutResidual(equations, fit.polynomial, nearest.samples, nearest.weights) /
-    std::sqrt(squaredLength(gradient));
+    error.residual / std::sqrt(squaredLength(fit.polynomial.gradientAt({})));
   if (fit.relativeResidual <= smoothResidual)
   {
     if (moveToZero(increasing, fit))
@@ -202,7 +154,7 @@ NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const 
     return near;
   }
   constexpr double mostDirectionError = 1.0;
-  near.isNoise = directionErrorOf(equations, 2, nearest.samples, nearest.weights, fit.relativeResidual) > mostDirectionError;
+  near.isNoise = fit.relativeResidual * error.slopeEffect > mostDirectionError;
   return near;
 }
 

@@ -25,7 +25,7 @@ struct PolynomialFit
   /// the slope of the polynomial.
   double relativeResidual;
   double zeroError; // standard error of the zero along the gradient
-  /// Standard error of the gradient's direction in radians, if small, where isAccurate() is false.
+  /// Standard error of the gradient's direction in radians, if small.
   double directionError;
 
   /// Whether the zero is better known than by linear interpolation, beyond doubt.
