@@ -14,10 +14,13 @@
 namespace isopoint
 {
 
+/// How far around itself a sample represents its surroundings, in spacings.
+constexpr double sampleReach = 0.9;
+
 /// Cuts off the parts of cells that reach out of the samples: where the surface ends, a cell may be
 /// bounded only by points along its border, far outside. In each of extentDirections() a cell may
-/// reach 0.9 spacings farther than samples stand ahead of its point: each sample represents what is
-/// around it. Extents are requested only where a cell reaches out, each once. For one thread.
+/// reach `sampleReach` farther than samples stand ahead of its point: each sample represents what
+/// is around it. Extents are requested only where a cell reaches out, each once. For one thread.
 /// @tparam TExtents SampleExtents, or another class with its at()
 template <class TExtents>
 class SplatBorder
@@ -46,14 +49,14 @@ public:
   /// Cuts the point's cell in all directions in which it reaches out; the new sides are limits.
   void cut(TangentCell& cell)
   {
-    if (!this->IsKnown || cell.squaredReach() <= margin * margin)
+    if (!this->IsKnown || cell.squaredReach() <= sampleReach * sampleReach)
     {
       return;
     }
     const std::array<Vector, extentCount> directions = extentDirections(this->Normal);
     for (std::size_t i = 0; i < extentCount; ++i)
     {
-      const double wanted = cell.reachTowards(directions[i]) - margin;
+      const double wanted = cell.reachTowards(directions[i]) - sampleReach;
       if (wanted > this->Extent[i] && !this->IsBorder[i])
       {
         this->Extent[i] = this->Extents->at({ this->Place, this->Normal, directions[i],
@@ -63,18 +66,15 @@ public:
       }
       if (this->IsBorder[i])
       {
-        cell.cut(directions[i], this->Extent[i] + margin, true);
+        cell.cut(directions[i], this->Extent[i] + sampleReach, true);
       }
     }
   }
 
 private:
-  /// How far out of the samples a cell may reach, in their spacings.
-  static constexpr double margin = 0.9;
-
   /// How far away samples count, in spacings: a cell is as far from what is across a gap as it may
   /// reach into it.
-  static constexpr double reach = 9.0;
+  static constexpr double reach = 7.0;
 
   const TExtents* Extents;
   Vector Place{};

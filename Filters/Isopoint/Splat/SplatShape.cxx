@@ -33,20 +33,22 @@ PrincipalDirection largestDirection(const PlaneForm& form)
   return { x, y, 0.5 * (form.xx + form.yy) + amplitude };
 }
 
-/// The second moments of a cell's area about its origin, but for a factor. Unlike sums over
-/// corners, they change little where a small change of the cell adds a corner.
+/// The second moments of a cell's rim about its origin, but for a factor. Unlike sums over corners,
+/// they change little where a small change of the cell adds a corner.
 PlaneForm momentsOf(const TangentCell& cell)
 {
   PlaneForm form;
   const TangentCell::Corner* previous = cell.end() - 1;
   for (const TangentCell::Corner& corner : cell)
   {
-    const double area = previous->x * corner.y - corner.x * previous->y;
+    const double alongX = corner.x - previous->x;
+    const double alongY = corner.y - previous->y;
+    const double length = std::sqrt(alongX * alongX + alongY * alongY);
     const double x = previous->x + corner.x;
     const double y = previous->y + corner.y;
-    form.xx += area * (x * x + previous->x * previous->x + corner.x * corner.x);
-    form.xy += area * (x * y + previous->x * previous->y + corner.x * corner.y);
-    form.yy += area * (y * y + previous->y * previous->y + corner.y * corner.y);
+    form.xx += length * (x * x + previous->x * previous->x + corner.x * corner.x);
+    form.xy += length * (x * y + previous->x * previous->y + corner.x * corner.y);
+    form.yy += length * (y * y + previous->y * previous->y + corner.y * corner.y);
     previous = &corner;
   }
   return form;

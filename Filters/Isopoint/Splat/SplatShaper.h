@@ -62,25 +62,18 @@ public:
 
 private:
   /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
-  /// least, the increment for the square of the angle by which the surface turns within the cell,
-  /// and the greatest, which also holds where no fit determines the curvature.
+  /// least and the greatest, which also holds where no fit determines the curvature.
   static constexpr double leastOverlap = 1.1;
-  static constexpr double overlapOfBend = 0.5;
   static constexpr double mostOverlap = 1.2;
 
-  /// How far a cell may reach, in spacings: where other points bound it on all sides; where they do
-  /// not, beside the border of a smooth surface; and the same where no fit determines a surface.
-  static constexpr double mostReach = 4.5;
-  static constexpr double borderReach = 1.2;
-  static constexpr double loneReach = 1.0;
-
-  /// Nearer than this, in spacings, a point without a smooth fit does not bound the cell of a point
-  /// with one: the normal of the former is an estimate, and its splat may miss what lies beyond.
-  static constexpr double unfittedDistance = 0.5;
+  /// How far a cell may reach, in spacings: where other points bound it on all sides, and where
+  /// they do not.
+  static constexpr double mostReach = 3.5;
+  static constexpr double openReach = 1.2;
 
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
-  static constexpr double creaseTolerance = 0.25;
+  static constexpr double creaseTolerance = 0.1;
 
   /// The order of the fit that held, if any.
   std::optional<FitOrder> orderAt(std::size_t point) const
@@ -109,9 +102,9 @@ private:
   static double overlapAt(
     const std::array<PrincipalDirection, 2>& curvatures, const TangentCell& cell)
   {
-    const double steepest = std::abs(curvatures[1].value);
-    return std::min(
-      mostOverlap, leastOverlap + overlapOfBend * steepest * steepest * cell.squaredReach());
+    // One over the cosine of the angle by which the surface turns within the cell, about.
+    const double squaredTurn = curvatures[1].value * curvatures[1].value * cell.squaredReach();
+    return std::min(mostOverlap, leastOverlap + 0.5 * squaredTurn);
   }
 
   /// Cuts off what is farther than the surface's radius of curvature.
@@ -141,7 +134,7 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit);
       }
     }
-    for (int rings = 1; rings <= 2 && cell.squaredReach() > borderReach * borderReach; ++rings)
+    for (int rings = 1; rings <= 2 && cell.squaredReach() > sampleReach * sampleReach; ++rings)
     {
       this->Nearby.find(point, rings, unit);
       for (const NearbyPoint& other : this->Nearby)
@@ -154,9 +147,9 @@ private:
       }
       this->Border.cut(cell);
     }
-    if (cell.isOpen())
+    if (cell.isOpen() || (cell.squaredReach() > openReach * openReach && !cell.isRound()))
     {
-      cell.limit(this->isSmooth(point) ? borderReach : loneReach);
+      cell.limit(openReach);
     }
   }
 
@@ -180,7 +173,7 @@ private:
     const double a = dot(other.offset, cell.first());
     const double b = dot(other.offset, cell.second());
     const double along = a * a + b * b;
-    const bool isBent = this->bendsTowards(point, other, along);
+    const bool isBent = this->bendsTowards(point, other);
     cell.cut(
       a, b, 0.5 * (isBent ? std::sqrt(other.squaredDistance * along) : other.squaredDistance));
   }
@@ -250,8 +243,7 @@ private:
   /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
   /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
   /// close by are not what it bends to, nor what lies across an edge.
-  /// @param squaredAlong the square of the distance along the tangent plane
-  bool bendsTowards(std::size_t point, const NearbyPoint& other, double squaredAlong) const
+  bool bendsTowards(std::size_t point, const NearbyPoint& other) const
   {
     if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other.point)))
     {
@@ -259,19 +251,14 @@ private:
     }
     const Vector& normal = this->Splats[point].normal;
     const Vector& otherNormal = this->Splats[other.point].normal;
-    constexpr double leastSquaredCosine = 0.25; // a turn of 120 degrees
-    constexpr double tolerance = 0.5;
-    const double squaredCosine = squaredAlong / other.squaredDistance;
-    const double turn = 2.0 * squaredCosine - 1.0; // the cosine between normals of a sphere
-    return squaredCosine > leastSquaredCosine &&
-           dot(other.offset, normal) * dot(other.offset, otherNormal) <= 0.0 &&
-           std::abs(dot(normal, otherNormal) - turn) < tolerance;
+    return dot(normal, otherNormal) > 0.0 &&
+           dot(other.offset, normal) * dot(other.offset, otherNormal) <= 0.0;
   }
 
   /// Whether a smooth fit held at a point but not at another very close to it.
   bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
   {
-    return other.squaredDistance < unfittedDistance * unfittedDistance && this->isSmooth(point) &&
+    return other.squaredDistance < sampleReach * sampleReach && this->isSmooth(point) &&
            !this->isSmooth(other.point);
   }
 
