@@ -12,6 +12,7 @@
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/LeafValueCache.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -156,11 +157,12 @@ private:
   void measureNeighbors(const TSample& sample)
   {
     const Vector center = positionOf(sample);
-    this->Offsets.clear();
-    for (const std::size_t nodeIndex : this->Neighbors)
-    {
-      this->Offsets.push_back(offsetBetween(center, positionOf(this->sampleAt(nodeIndex))));
-    }
+    this->Offsets.resize(this->Neighbors.count);
+    std::transform(this->Neighbors.begin(), this->Neighbors.end(), this->Offsets.begin(),
+      [this, &center](Id nodeIndex) {
+        return offsetBetween(
+          center, positionOf(this->sampleAt(static_cast<std::size_t>(nodeIndex))));
+      });
     this->Sorted.clear();
   }
 

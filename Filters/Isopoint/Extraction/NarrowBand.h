@@ -36,7 +36,8 @@ bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
   const Node<TSample>& node = tree.nodes[nodeIndex];
   const bool hasBelow = node.minimum < isovalue;
   const bool hasAbove = node.maximum >= isovalue;
-  return (hasBelow && hasAbove) || touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
+  return (hasBelow && hasAbove) ||
+         touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
 }
 
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may

@@ -58,11 +58,11 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
   return false;
 }
 
-/// Where the nodes are that touch a node: the roots of the subtrees that hold all nodes whose closed
-/// region shares a point with the closed region of the path's node. Each lies across a plane that
-/// bounds the node's region: the splitting plane of an ancestor. The nearest ancestor that splits an
-/// axis with the node on a side bounds the region there, and so does every farther one whose plane
-/// has the same coordinate, as in lattices: the search crosses them all.
+/// Where the nodes are that touch a node: the roots of the subtrees that hold all nodes whose
+/// closed region shares a point with the closed region of the path's node. Each lies across a plane
+/// that bounds the node's region: the splitting plane of an ancestor. The nearest ancestor that
+/// splits an axis with the node on a side bounds the region there, and so does every farther one
+/// whose plane has the same coordinate, as in lattices: the search crosses them all.
 class Surroundings
 {
 public:
@@ -100,17 +100,18 @@ private:
 /// @returns whether a visit did
 /// Complexity: O(depth + nodes visited); 14.5 neighbours on average in a uniform cloud.
 template <class TSample, class Filter, class Visitor>
-bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings,
-  int nodeDepth, const Filter& enter, const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
+  const Filter& enter, const Visitor& visit)
 {
-  return std::any_of(surroundings.begin(), surroundings.end(), [&](FoundNode root)
+  return std::any_of(surroundings.begin(), surroundings.end(),
+    [&](FoundNode root)
     { return visitTouchingInSubtree(tree, root, nodeDepth, surroundings.region, enter, visit); });
 }
 
 /// The same with every node of interest.
 template <class TSample, class Visitor>
-bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings,
-  int nodeDepth, const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
+  const Visitor& visit)
 {
   const auto enterAll = [](const Node<TSample>&) { return true; };
   return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
@@ -149,8 +150,8 @@ bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
   return isBelow ? node.maximum >= isovalue : node.minimum < isovalue;
 }
 
-/// Whether a node that touches the surrounded one has samples on the other side of the isovalue. Value
-/// ranges prune the search, so that it is short where there is none.
+/// Whether a node that touches the surrounded one has samples on the other side of the isovalue.
+/// Value ranges prune the search, so that it is short where there is none.
 /// @param isBelow the side of the surrounded node: below the isovalue, or not
 template <class TSample>
 bool touchesOtherSide(const SampleTree<TSample>& tree, const Surroundings& surroundings,
