@@ -22,7 +22,10 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkImplicitPolyDataDista
 from vtkmodules.vtkImagingCore import vtkImageResample
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
-PROJECTIONS = {"linear": 0, "cubic fit": 3}
+PROJECTIONS = {
+    "linear": vtkScatteredIsopointFilter.NO_PROJECTION,
+    "cubic fit": vtkScatteredIsopointFilter.CUBIC_FIT,
+}
 DIVISIONS = 3
 MEASURED_POINTS = 20000
 
@@ -39,21 +42,26 @@ def read(path):
     return volume
 
 
-def quarter_of(volume):
+def cloud(positions, values):
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    samples = vtkPolyData()
+    samples.SetPoints(points)
+    scalars = numpy_to_vtk(values, deep=True)
+    scalars.SetName("values")
+    samples.GetPointData().SetScalars(scalars)
+    return samples
+
+
+def quarter_of(volume, seed=1):
     """A quarter of the voxels as a cloud of points, and their mean spacing."""
-    random = np.random.default_rng(1)
+    random = np.random.default_rng(seed)
     count = volume.GetNumberOfPoints()
     chosen = np.sort(random.permutation(count)[: count // 4])
     index = np.array(np.unravel_index(chosen, volume.GetDimensions()[::-1])).T[:, ::-1]
     positions = volume.GetOrigin() + (index + volume.GetExtent()[::2]) * volume.GetSpacing()
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions.astype(np.float32), deep=True))
-    samples = vtkPolyData()
-    samples.SetPoints(points)
     values = vtk_to_numpy(volume.GetPointData().GetScalars())[chosen]
-    scalars = numpy_to_vtk(values.astype(np.float32), deep=True)
-    scalars.SetName("values")
-    samples.GetPointData().SetScalars(scalars)
+    samples = cloud(positions.astype(np.float32), values.astype(np.float32))
     return samples, (np.prod(volume.GetSpacing()) * count / len(chosen)) ** (1 / 3)
 
 
@@ -86,16 +94,22 @@ def extract(samples, isovalue, projection, is_alone=False):
     return isopoints.GetOutput(), time.process_time() - begin
 
 
-def mean_distance(isopoints, volume, reference, spacing):
-    """Away from the volume's border, where samples stand on all sides; of at most so many points."""
-    positions = vtk_to_numpy(isopoints.GetPoints().GetData()).astype(float)
+def positions_of(isopoints):
+    return vtk_to_numpy(isopoints.GetPoints().GetData()).astype(float)
+
+
+def measured(positions, volume, spacing):
+    """Indices away from the volume's border, where samples stand on all sides; at most so many."""
     bounds = np.array(volume.GetBounds()).reshape(3, 2)
-    inside = ((positions > bounds[:, 0] + 2 * spacing) & (positions < bounds[:, 1] - 2 * spacing))
-    positions = positions[inside.all(axis=1)]
-    positions = positions[:: max(1, len(positions) // MEASURED_POINTS)]
+    inside = (positions > bounds[:, 0] + 2 * spacing) & (positions < bounds[:, 1] - 2 * spacing)
+    indices = np.flatnonzero(inside.all(axis=1))
+    return indices[:: max(1, len(indices) // MEASURED_POINTS)]
+
+
+def distances(positions, reference):
     values = vtkDoubleArray()
     reference.FunctionValue(numpy_to_vtk(np.ascontiguousarray(positions)), values)
-    return np.abs(vtk_to_numpy(values)).mean() / spacing
+    return np.abs(vtk_to_numpy(values))
 
 
 def main():
@@ -108,13 +122,15 @@ def main():
         volume, isovalue = read(path), float(text)
         samples, spacing = quarter_of(volume)
         reference = reference_of(volume, isovalue)
-        distances, seconds = [], []
+        means, seconds = [], []
         for name, projection in PROJECTIONS.items():
             isopoints, taken = extract(samples, isovalue, projection, name == "linear")
-            distances.append(f"{mean_distance(isopoints, volume, reference, spacing):.4f}")
+            positions = positions_of(isopoints)
+            positions = positions[measured(positions, volume, spacing)]
+            means.append(f"{distances(positions, reference).mean() / spacing:.4f}")
             seconds.append(f"{taken:.2f}")
         print("|", path.rsplit("/", 1)[-1], "|", text, "|", isopoints.GetNumberOfPoints(), "|",
-              " | ".join(distances), "|", " | ".join(seconds), "|", flush=True)
+              " | ".join(means), "|", " | ".join(seconds), "|", flush=True)
 
 
 if __name__ == "__main__":
