@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace isopoint
 {
@@ -37,9 +38,15 @@ public:
     this->addPlane<0>(samples, groups, powers);
   }
 
-  double at(std::size_t a, std::size_t b, std::size_t c) const
+  double at(std::size_t a, std::size_t b, std::size_t c) const { return this->Sums[a][b][c]; }
+
+  /// The sum of the products that two coefficients belong to.
+  template <std::size_t First, std::size_t Second>
+  double product() const
   {
-    return this->Sums[a][b][c];
+    constexpr auto first = exponents[First];
+    constexpr auto second = exponents[Second];
+    return this->Sums[first[0] + second[0]][first[1] + second[1]][first[2] + second[2]];
   }
 
 private:
@@ -119,7 +126,7 @@ public:
       weightedValues[i] = weights[i] * samples.value[i];
     }
     const Moments<Degree> ofValues(samples, weightedValues);
-    this->factor(moments);
+    this->factor(moments, std::make_index_sequence<size>());
     for (std::size_t i = 0; i < size; ++i)
     {
       this->RightSide[i] = ofValues.at(exponents[i][0], exponents[i][1], exponents[i][2]);
@@ -232,57 +239,57 @@ private:
     return result;
   }
 
-  /// Column by column, with zeros on and above the diagonal.
-  void factor(const Moments<2 * Degree>& moments)
+  /// One column of L after the other, with zeros on and above the diagonal.
+  template <std::size_t... Indices>
+  void factor(const Moments<2 * Degree>& moments, std::index_sequence<Indices...>)
+  {
+    this->Determined = 0;
+    // Stops at the first column that is not determined.
+    static_cast<void>((this->factorColumn<Indices>(moments, std::make_index_sequence<size>()) && ...));
+  }
+
+  /// @returns whether the samples determine the coefficient
+  template <std::size_t Index, std::size_t... Rows>
+  bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
     /// A smaller share of a diagonal element left as the pivot means that the samples do not
     /// determine the coefficient: about half of the digits of a double remain.
     constexpr double leastPivot = 1e-7;
-    this->Determined = 0;
-    for (std::size_t column = 0; column < size; ++column)
+    constexpr std::size_t first = Index / laneCount; // groups before that are not needed
+    constexpr auto lane = static_cast<Eigen::Index>(Index % laneCount);
+    Column rest;
+    rest[groups - 1] = Lanes::Zero();
+    ((rest[Rows / laneCount][static_cast<Eigen::Index>(Rows % laneCount)] =
+         Rows / laneCount < first ? 0.0 : moments.template product<Index, Rows>()),
+      ...);
+    const double diagonal = rest[first][lane];
+    for (std::size_t former = 0; former < Index; ++former)
     {
-      const std::size_t first = column / laneCount;
-      Column rest;
-      for (std::size_t row = first * laneCount; row < size; ++row)
-      {
-        const auto& a = exponents[column];
-        const auto& b = exponents[row];
-        rest[row / laneCount][static_cast<Eigen::Index>(row % laneCount)] =
-          moments.at(a[0] + b[0], a[1] + b[1], a[2] + b[2]);
-      }
-      for (std::size_t row = size; row < groups * laneCount; ++row)
-      {
-        rest[row / laneCount][static_cast<Eigen::Index>(row % laneCount)] = 0.0;
-      }
-      const auto lane = static_cast<Eigen::Index>(column % laneCount);
-      const double diagonal = rest[first][lane];
-      for (std::size_t former = 0; former < column; ++former)
-      {
-        const double factor = this->below(former, column);
-        for (std::size_t group = first; group < groups; ++group)
-        {
-          rest[group] -= factor * this->Columns[former][group];
-        }
-      }
-      const double pivot = rest[first][lane];
-      if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
-      {
-        return;
-      }
-      this->Reciprocals[column] = 1.0 / std::sqrt(pivot);
+      const double factor = this->below(former, Index);
       for (std::size_t group = first; group < groups; ++group)
       {
-        this->Columns[column][group] = rest[group] * this->Reciprocals[column];
-      }
-      for (std::size_t row = first * laneCount; row <= column; ++row)
-      {
-        this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)] = 0.0;
-      }
-      for (int degree = 1; degree <= Degree; ++degree)
-      {
-        this->Determined = column + 1 == coefficientCount(degree) ? degree : this->Determined;
+        rest[group] -= factor * this->Columns[former][group];
       }
     }
+    const double pivot = rest[first][lane];
+    if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
+    {
+      return false;
+    }
+    this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
+    for (std::size_t group = first; group < groups; ++group)
+    {
+      this->Columns[Index][group] = rest[group] * this->Reciprocals[Index];
+    }
+    for (Eigen::Index row = 0; row <= lane; ++row)
+    {
+      this->Columns[Index][first][row] = 0.0;
+    }
+    for (int degree = 1; degree <= Degree; ++degree)
+    {
+      this->Determined = Index + 1 == coefficientCount(degree) ? degree : this->Determined;
+    }
+    return true;
   }
 
   std::array<Column, size> Columns; // of L, below the diagonal
