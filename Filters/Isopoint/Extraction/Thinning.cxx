@@ -31,7 +31,7 @@ constexpr double largestSpacing = 1e290;
 bool hasSheet(const LocalFit& fit, double minimumSpacing)
 {
   const double slope = lengthOf(fit.gradient);
-  return fit.order && slope > 0.0 && std::isfinite(slope) && fit.spacing <= largestSpacing &&
+  return fit.isSmooth && slope > 0.0 && std::isfinite(slope) && fit.spacing <= largestSpacing &&
          minimumSpacing * fit.spacing > 0.0 &&
          std::all_of(fit.position.begin(), fit.position.end(),
            [](double coordinate) { return std::isfinite(coordinate); });

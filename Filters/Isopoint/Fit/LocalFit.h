@@ -60,12 +60,12 @@ struct CreasePlane
 struct LocalFit
 {
   Vector position; // of the isopoint, moved if a fit held and moving was requested
-  /// Of the field there. If no fit held, that of the affine function through the samples, provided
-  /// that it explains most of their variance; otherwise, and if no fit was requested, the slope
-  /// along the edge alone.
+  /// Of the field there, or that of the affine function through the samples, where that is better
+  /// known or no fit held; otherwise the slope along the edge alone.
   Vector gradient;
   bool isGradientFitted;         // to the samples; false for the slope along the edge
-  Hessian hessian;               // of the field there, all 0 if what was fitted is affine
+  Hessian hessian;               // of the field there, or all 0
+  bool isSmooth;                 // whether that of a fit, which describes a smooth surface
   double spacing;                // of the samples there: see SampleGatherer
   std::optional<FitOrder> order; // of the fit that held, if one did
   /// The tangent planes of the other pieces, that of the nearest crease first; empty unless the

@@ -241,6 +241,7 @@ bool LocalFitter::fitCreases(LocalFit& fit)
   fit.position = this->Frame.positionAt(point->zero);
   fit.gradient = this->Frame.gradientOf(point->gradient);
   fit.hessian = this->Frame.hessianOf(point->hessian);
+  fit.isSmooth = true;
   fit.creases = this->Frame.planesOf(point->creases);
   fit.isGradientFitted = true;
   fit.order = FitOrder::Crease;
@@ -293,6 +294,7 @@ void LocalFitter::apply(const PolynomialFit& found, LocalFit& fit)
   }
   fit.gradient = this->Frame.gradientOf(found.gradient);
   fit.hessian = this->Frame.hessianOf(found.polynomial.hessianAt(found.zero));
+  fit.isSmooth = true;
 }
 
 } // namespace isopoint

@@ -43,7 +43,7 @@ public:
     const double unit = this->unitAt(point);
     TangentCell cell(splat.normal, mostReach);
     this->cutOut(point, unit, cell);
-    const bool isBent = this->isBendKnown(point);
+    const bool isBent = this->isSmooth(point);
     std::array<PrincipalDirection, 2> curvatures{};
     if (isBent)
     {
@@ -82,11 +82,9 @@ private:
   }
 
   /// Whether a fit held that describes a smooth surface.
-  bool isSmooth(std::size_t point) const { return this->orderAt(point) >= FitOrder::Quadratic; }
-
-  bool isBendKnown(std::size_t point) const
+  bool isSmooth(std::size_t point) const
   {
-    return !this->Points.fits.empty() && this->Points.fits[point].hessian != Hessian{};
+    return !this->Points.fits.empty() && this->Points.fits[point].isSmooth;
   }
 
   /// The unit of length at a point: the samples' spacing or, where it is not known, half the length
