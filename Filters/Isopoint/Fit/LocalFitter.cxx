@@ -62,11 +62,11 @@ std::optional<LocalFit> LocalFitter::fitNear(
   LocalFit fit = onEdge(edge);
   if (found.smooth)
   {
-    this->apply(*found.smooth, fit);
+    this->moveTo(*found.smooth, fit);
   }
   else
   {
-    this->applyMildGradient(fit);
+    this->preferAffineGradient(nullptr, fit);
   }
   return fit;
 }
@@ -85,7 +85,18 @@ LocalFit LocalFitter::fit(
     this->fitLinear(fit);
     return fit;
   }
-  const std::optional<PolynomialFit> found = this->fitPolynomials();
+  weighSteeply(this->Frame, this->Steep);
+  this->weighRobustly();
+  const auto fitWith = [this](const FrameWeights& weights)
+  {
+    return fitPolynomial(this->Frame.samples(), weights, this->Frame.increasing(),
+      this->Highest == FitOrder::Quadratic ? 2 : 3);
+  };
+  std::optional<PolynomialFit> found = fitWith(this->Weights);
+  if (!found)
+  {
+    found = fitWith(this->Steep);
+  }
   if (this->Highest == FitOrder::Crease && !(found && this->isSmooth(*found)))
   {
     if (this->fitCreases(fit))
@@ -102,12 +113,9 @@ LocalFit LocalFitter::fit(
   }
   if (found)
   {
-    this->apply(*found, fit);
+    this->moveTo(*found, fit);
   }
-  else
-  {
-    this->applyMildGradient(fit);
-  }
+  this->preferAffineGradient(found ? &*found : nullptr, fit);
   return fit;
 }
 
@@ -116,26 +124,8 @@ bool LocalFitter::isSmooth(const PolynomialFit& found) const
   return found.relativeResidual <= smoothResidual * this->Frame.meanDistance();
 }
 
-/// The polynomial through all samples or, where the error of its zero is not small, through those
-/// that one side of a crease or step may consist of, if its error is less.
-std::optional<PolynomialFit> LocalFitter::fitPolynomials()
-{
-  const int highest = this->Highest == FitOrder::Quadratic ? 2 : 3;
-  const auto fitWith = [&](const FrameWeights& weights)
-  { return fitPolynomial(this->Frame.samples(), weights, this->Frame.increasing(), highest); };
-  weighSteeply(this->Frame, this->Steep);
-  std::optional<PolynomialFit> best = fitWith(this->Steep);
-  if (best && best->isAccurate())
-  {
-    return best;
-  }
-  this->weighRobustly();
-  const std::optional<PolynomialFit> robust = fitWith(this->Weights);
-  return robust && !(best && best->zeroError <= robust->zeroError) ? robust : best;
-}
-
 /// Reduces the steep weights of samples far off an affine function, which is fitted with these
-/// weights in turn.
+/// weights in turn: near a crease or step those of one side remain.
 void LocalFitter::weighRobustly()
 {
   const FrameSamples& samples = this->Frame.samples();
@@ -175,7 +165,7 @@ void LocalFitter::weighRobustly()
 }
 
 /// The gradient of the affine function through all samples, if it does not contradict the edge.
-std::optional<Vector> LocalFitter::mildGradient()
+std::optional<Vector> LocalFitter::affineGradient()
 {
   weighMildly(this->Frame, this->Weights);
   const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
@@ -187,19 +177,10 @@ std::optional<Vector> LocalFitter::mildGradient()
   return affine->gradientAt({});
 }
 
-void LocalFitter::applyMildGradient(LocalFit& fit)
-{
-  if (const std::optional<Vector> gradient = this->mildGradient())
-  {
-    fit.gradient = this->Frame.gradientOf(*gradient);
-    fit.isGradientFitted = true;
-  }
-}
-
 /// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
 bool LocalFitter::fitLinear(LocalFit& fit)
 {
-  const std::optional<Vector> gradient = this->mildGradient();
+  const std::optional<Vector> gradient = this->affineGradient();
   if (!gradient)
   {
     return false;
@@ -272,29 +253,36 @@ double LocalFitter::polynomialResidual() const
   return std::numeric_limits<double>::infinity();
 }
 
-/// Moves the isopoint by less than the polynomial's zero where the error of that is as large. The
-/// gradient is that of an affine function if the polynomial's does not differ from it beyond doubt.
-void LocalFitter::apply(const PolynomialFit& found, LocalFit& fit)
+/// Moves the isopoint by less than the polynomial's zero where the error of that is as large.
+void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
 {
+  constexpr double doubt = 0.1;
   const double squaredMove = found.move * found.move;
-  const double doubt = PolynomialFit::mostErrorShare * found.zeroError * found.zeroError;
-  const double share = squaredMove > 0.0 ? squaredMove / (squaredMove + doubt) : 1.0;
+  const double share =
+    squaredMove > 0.0 ? squaredMove / (squaredMove + doubt * found.zeroError * found.zeroError) : 1.0;
   fit.position = this->Frame.positionAt(scaled(share, found.zero));
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
-  fit.isGradientFitted = true;
-  if (!found.isAccurate())
-  {
-    const std::optional<Vector> mild = this->mildGradient();
-    if (mild && lengthOf(difference(directionOf(*mild), directionOf(found.gradient))) <
-                  2.0 * found.directionError)
-    {
-      fit.gradient = this->Frame.gradientOf(*mild);
-      return;
-    }
-  }
   fit.gradient = this->Frame.gradientOf(found.gradient);
+  fit.isGradientFitted = true;
   fit.hessian = this->Frame.hessianOf(found.polynomial.hessianAt(found.zero));
   fit.isSmooth = true;
+}
+
+/// Takes the gradient of the affine function through all samples, mildly weighted, where the
+/// polynomial's does not differ from it beyond doubt, or where there is no polynomial.
+void LocalFitter::preferAffineGradient(const PolynomialFit* found, LocalFit& fit)
+{
+  constexpr double mostErrors = 2.0; // standard errors between directions that may be the same
+  const std::optional<Vector> affine = this->affineGradient();
+  if (affine &&
+      (!found || lengthOf(difference(directionOf(*affine), directionOf(found->gradient))) <
+                   mostErrors * found->directionError))
+  {
+    fit.gradient = this->Frame.gradientOf(*affine);
+    fit.isGradientFitted = true;
+    fit.hessian = {};
+    fit.isSmooth = false;
+  }
 }
 
 } // namespace isopoint

@@ -47,14 +47,13 @@ public:
 
 private:
   bool isSmooth(const PolynomialFit& found) const;
-  std::optional<PolynomialFit> fitPolynomials();
   void weighRobustly();
-  std::optional<Vector> mildGradient();
-  void applyMildGradient(LocalFit& fit);
+  std::optional<Vector> affineGradient();
   bool fitLinear(LocalFit& fit);
   bool fitCreases(LocalFit& fit);
   double polynomialResidual() const;
-  void apply(const PolynomialFit& found, LocalFit& fit);
+  void moveTo(const PolynomialFit& found, LocalFit& fit) const;
+  void preferAffineGradient(const PolynomialFit* found, LocalFit& fit);
 
   const double Isovalue;
   const FitOrder Highest;

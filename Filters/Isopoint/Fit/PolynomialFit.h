@@ -27,11 +27,6 @@ struct PolynomialFit
   double zeroError; // standard error of the zero along the gradient
   /// Standard error of the gradient's direction in radians, if small.
   double directionError;
-
-  /// Whether the zero is better known than by linear interpolation, beyond doubt.
-  bool isAccurate() const { return this->zeroError < mostErrorShare * this->move; }
-
-  static constexpr double mostErrorShare = 0.1;
 };
 
 /// Whether a gradient does not contradict an edge, which may run along a surface that bends.
