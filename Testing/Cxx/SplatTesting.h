@@ -162,6 +162,7 @@ inline isopoint::LocalFit fitAmong(
   isopoint::LocalFit fit{};
   fit.order = order;
   fit.isGradientFitted = true;
+  fit.isSmooth = order >= isopoint::FitOrder::Quadratic;
   fit.gradient = gradient;
   fit.spacing = spacing;
   return fit;

@@ -74,7 +74,7 @@ public:
 private:
   /// How far away samples count, in spacings: a cell is as far from what is across a gap as it may
   /// reach into it.
-  static constexpr double reach = 7.0;
+  static constexpr double reach = 9.0;
 
   const TExtents* Extents;
   Vector Place{};

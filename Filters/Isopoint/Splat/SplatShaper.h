@@ -68,8 +68,8 @@ private:
 
   /// How far a cell may reach, in spacings: where other points bound it on all sides, and where
   /// they do not.
-  static constexpr double mostReach = 3.5;
-  static constexpr double openReach = 1.2;
+  static constexpr double mostReach = 4.5;
+  static constexpr double openReach = 1.1;
 
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
@@ -145,7 +145,8 @@ private:
       }
       this->Border.cut(cell);
     }
-    if (cell.isOpen() || (cell.squaredReach() > openReach * openReach && !cell.isRound()))
+    // Where no fit determines a smooth surface, points may bound a cell by chance, far off.
+    if (cell.isOpen() || (!this->isSmooth(point) && !cell.isRound()))
     {
       cell.limit(openReach);
     }
