@@ -51,9 +51,10 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
     [&](std::size_t begin, std::size_t end)
     {
       EdgeFinder<TSample> finder(context, criterion, gapCriterion);
+      Path path = pathToRoot(context.tree);
       for (std::size_t i = begin; i < end; ++i)
       {
-        Path path = pathTo(context.tree, nodes[i]);
+        moveTo(context.tree, path, nodes[i]);
         forEachBelow(
           context.tree, path, maximumDepth, [&finder](const Path& leaf) { finder.find(leaf); });
       }

@@ -173,11 +173,12 @@ private:
       [&](std::size_t begin, std::size_t end)
       {
         TreeletSplitter<TSample> splitter(this->Tree, 0);
+        Path path = pathToRoot(this->Tree);
         for (std::size_t i = begin; i < end; ++i)
         {
+          moveTo(this->Tree, path, alone[i].node.index);
           splitter.moveTo(alone[i].firstPair);
-          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex],
-            pathTo(this->Tree, alone[i].node.index).region, levels);
+          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, levels);
         }
       });
   }
@@ -247,13 +248,14 @@ private:
     forRanges(this->Run, front.size(), searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
+        Path path = pathToRoot(this->Tree);
         for (std::size_t i = begin; i < end; ++i)
         {
           if (!front[i].isCrossing)
           {
             continue;
           }
-          Path path = pathTo(this->Tree, front[i].index);
+          moveTo(this->Tree, path, front[i].index);
           forEachBelow(this->Tree, path, depth,
             [&](const Path& below)
             {
@@ -353,9 +355,10 @@ private:
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<BandNode> found;
+        Path path = pathToRoot(this->Tree);
         for (std::size_t i = begin; i < end; ++i)
         {
-          Path path = pathTo(this->Tree, front[i].index);
+          moveTo(this->Tree, path, front[i].index);
           forEachBelow(this->Tree, path, depth, [&](const Path& below) { collect(below, found); });
         }
         const std::lock_guard<std::mutex> lock(mutex);

@@ -3,6 +3,7 @@
 #define isopoint_BinaryIndex_h
 
 #include <cstddef>
+#include <cstdint>
 
 namespace isopoint
 {
@@ -35,15 +36,13 @@ constexpr bool isUpperChild(BinaryIndex node)
   return (node & 1) != 0;
 }
 
-/// Levels below the root.
+/// Levels below the root. The node is not 0.
 constexpr int depthOf(BinaryIndex node)
 {
-  int depth = 0;
-  while (node >>= 1)
-  {
-    ++depth;
-  }
-  return depth;
+  constexpr int bits = 64;
+  const auto high = static_cast<std::uint64_t>(node >> bits);
+  return high != 0 ? 2 * bits - 1 - __builtin_clzll(high)
+                   : bits - 1 - __builtin_clzll(static_cast<std::uint64_t>(node));
 }
 
 /// The levels of a tree that halves so many samples exactly: ceil(log2 count), count at least 1.

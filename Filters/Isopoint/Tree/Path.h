@@ -22,6 +22,7 @@ struct Path
   double planes[maximumDepth];               // that cut the ancestors' regions
   std::uint8_t axes[maximumDepth];           // of these planes
   bool uppers[maximumDepth];                 // whether the path goes to their upper sides
+  double formerBounds[maximumDepth];         // of the regions, which the planes replaced
   Region region{};
 
   std::size_t nodeIndex() const { return this->nodeIndices[this->depth]; }
@@ -36,31 +37,46 @@ Path pathToRoot(const SampleTree<TSample>& tree)
   return path;
 }
 
-/// Extends the path to a child of its node. @returns the bound of the region that this replaced
+/// Extends the path to a child of its node.
 template <class TSample>
-double descend(const SampleTree<TSample>& tree, Path& path, bool upper)
+void descend(const SampleTree<TSample>& tree, Path& path, bool upper)
 {
   const Node<TSample>& node = tree.nodes[path.nodeIndex()];
   path.index = upper ? upperChild(path.index) : lowerChild(path.index);
   assert(path.depth < maximumDepth);
+  double& bound = upper ? path.region.lower[node.axis] : path.region.upper[node.axis];
   path.planes[path.depth] = node.plane;
   path.axes[path.depth] = node.axis;
   path.uppers[path.depth] = upper;
+  path.formerBounds[path.depth] = bound;
   path.nodeIndices[++path.depth] = tree.child(node, upper);
-  double& bound = upper ? path.region.lower[node.axis] : path.region.upper[node.axis];
-  const double former = bound;
   bound = node.plane;
-  return former;
 }
 
-/// Shortens the path to the parent; `former` is what descend() returned.
-inline void ascend(Path& path, double former)
+/// Shortens the path to the parent of its node.
+inline void ascend(Path& path)
 {
   path.index >>= 1;
   --path.depth;
   const bool upper = path.uppers[path.depth];
   const int axis = path.axes[path.depth];
-  (upper ? path.region.lower[axis] : path.region.upper[axis]) = former;
+  (upper ? path.region.lower[axis] : path.region.upper[axis]) = path.formerBounds[path.depth];
+}
+
+/// Moves a path to the node with that binary index, over the nearest common ancestor: nodes that
+/// follow each other in the order of the tree take few steps.
+template <class TSample>
+void moveTo(const SampleTree<TSample>& tree, Path& path, BinaryIndex index)
+{
+  const int depth = depthOf(index);
+  while (path.depth > depth || path.index != index >> (depth - path.depth))
+  {
+    ascend(path);
+  }
+  while (path.depth < depth)
+  {
+    descend(tree, path, isUpperChild(index >> (depth - path.depth - 1)));
+  }
 }
 
 /// The path to the node with that binary index. O(depth)
@@ -68,10 +84,7 @@ template <class TSample>
 Path pathTo(const SampleTree<TSample>& tree, BinaryIndex index)
 {
   Path path = pathToRoot(tree);
-  for (int bit = depthOf(index) - 1; bit >= 0; --bit)
-  {
-    descend(tree, path, isUpperChild(index >> bit));
-  }
+  moveTo(tree, path, index);
   return path;
 }
 
@@ -101,9 +114,9 @@ void forEachBelow(const SampleTree<TSample>& tree, Path& path, int nodeDepth, co
   }
   for (const bool upper : { false, true })
   {
-    const double former = descend(tree, path, upper);
+    descend(tree, path, upper);
     forEachBelow(tree, path, nodeDepth, visit);
-    ascend(path, former);
+    ascend(path);
   }
 }
 
