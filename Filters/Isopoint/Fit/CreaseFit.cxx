@@ -326,12 +326,11 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
 
 std::optional<CreasePoint> zeroNear(const CreaseFit& fit, double farthest)
 {
-  constexpr double tolerance = 1e-6; // of the accuracy of zeros
   std::optional<CreasePoint> nearest;
   const auto consider = [&](std::size_t piece, const std::optional<Vector>& zero)
   {
     const auto isBeyond = [&](std::size_t other)
-    { return other != piece && fit.sense * fit.pieces[other].valueAt(*zero) > tolerance; };
+    { return other != piece && fit.sense * fit.pieces[other].valueAt(*zero) > zeroAccuracy; };
     if (!zero || (nearest && lengthOf(*zero) >= lengthOf(nearest->zero)))
     {
       return;

@@ -10,6 +10,9 @@
 namespace isopoint
 {
 
+/// In units near the edge's length: where steps converge, the next one is of about the square.
+constexpr double zeroAccuracy = 1e-6;
+
 /// Follows Newton's method until its steps vanish.
 /// @param stepAt(place) the next step from a place in the frame of a fit
 /// @returns where, unless that is farther from the start than a distance or takes too many steps
@@ -17,7 +20,6 @@ template <class Step>
 std::optional<Vector> followToZero(const Vector& start, double farthest, const Step& stepAt)
 {
   constexpr int mostSteps = 8;
-  constexpr double accuracy = 1e-6; // where steps converge, the next one is of about its square
   Vector place = start;
   for (int i = 0; i < mostSteps; ++i)
   {
@@ -28,7 +30,7 @@ std::optional<Vector> followToZero(const Vector& start, double farthest, const S
     {
       return std::nullopt;
     }
-    if (dot(step, step) <= accuracy * accuracy)
+    if (dot(step, step) <= zeroAccuracy * zeroAccuracy)
     {
       return place;
     }
