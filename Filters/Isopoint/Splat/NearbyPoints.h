@@ -36,7 +36,9 @@ public:
   /// Goes to a point.
   /// @param rings see IsopointNeighbors
   /// @param unit of length; if one over it is not finite, nothing is found
-  void find(std::size_t point, int rings, double unit)
+  /// @param squaredLimit of the distances, in this unit
+  void find(std::size_t point, int rings, double unit,
+    double squaredLimit = std::numeric_limits<double>::max())
   {
     this->Finder.find(point, rings, this->Found);
     this->Nearby.clear();
@@ -46,7 +48,7 @@ public:
     {
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
-      if (squaredDistance > 0.0 && squaredDistance <= std::numeric_limits<double>::max())
+      if (squaredDistance > 0.0 && squaredDistance <= squaredLimit)
       {
         this->Nearby.push_back({ offset, squaredDistance, other });
       }

@@ -132,17 +132,14 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit);
       }
     }
-    for (int rings = 1; rings <= 2 && cell.squaredReach() > sampleReach * sampleReach; ++rings)
+    // Points at more than twice a distance cut nothing off within it.
+    constexpr double near = sampleReach * sampleReach;
+    this->Nearby.find(point, 1, unit, 4.0 * near);
+    this->cutTowardsNearby(point, unit, cell);
+    if (cell.squaredReach() > near)
     {
-      this->Nearby.find(point, rings, unit);
-      for (const NearbyPoint& other : this->Nearby)
-      {
-        if (other.squaredDistance >= 4.0 * cell.squaredReach())
-        {
-          break;
-        }
-        this->cutTowards(point, other, unit, cell);
-      }
+      this->Nearby.find(point, 2, unit, 4.0 * mostReach * mostReach);
+      this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
     // Where no fit determines a smooth surface, points may bound a cell by chance, far off.
@@ -152,29 +149,30 @@ private:
     }
   }
 
+  void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
+  {
+    for (const NearbyPoint& other : this->Nearby)
+    {
+      if (other.squaredDistance >= 4.0 * cell.squaredReach())
+      {
+        break;
+      }
+      this->cutTowards(point, other, unit, cell);
+    }
+  }
+
   /// Cuts a cell towards another point: halfway, but not on this side of a crease.
   void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
   {
-    if (this->isBeyondCrease(point, other, unit) || this->isUnfittedBeside(point, other))
+    const double a = dot(other.offset, cell.first());
+    const double b = dot(other.offset, cell.second());
+    const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
+    if (!cell.reachesBeyond(a, b, 0.5 * along) || this->isBeyondCrease(point, other, unit) ||
+        this->isUnfittedBeside(point, other) || this->isCutAtCrease(point, other, unit, cell))
     {
       return;
     }
-    if (const std::optional<double> turn = this->turnTowards(point, other, unit))
-    {
-      const Vector outward = scaled(-*turn, this->Splats[other.point].normal);
-      const double height = dot(outward, other.offset);
-      if (height > -creaseTolerance * std::sqrt(other.squaredDistance))
-      {
-        cell.cut(outward, std::max(0.0, height));
-        return;
-      }
-    }
-    const double a = dot(other.offset, cell.first());
-    const double b = dot(other.offset, cell.second());
-    const double along = a * a + b * b;
-    const bool isBent = this->bendsTowards(point, other);
-    cell.cut(
-      a, b, 0.5 * (isBent ? std::sqrt(other.squaredDistance * along) : other.squaredDistance));
+    cell.cut(a, b, 0.5 * (this->bendsTowards(point, other) ? along : other.squaredDistance));
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
@@ -196,24 +194,28 @@ private:
       });
   }
 
-  /// If a point lies on a piece that meets that of another at one of its creases: to which side the
-  /// surface turns there.
-  std::optional<double> turnTowards(std::size_t point, const NearbyPoint& other, double unit) const
+  /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
+  /// at one of its creases. @returns whether it does
+  bool isCutAtCrease(
+    std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell) const
   {
     if (this->orderAt(other.point) != FitOrder::Crease)
     {
-      return std::nullopt;
+      return false;
     }
+    const double tolerance = creaseTolerance * std::sqrt(other.squaredDistance);
     for (const CreasePlane& crease : this->Points.fits[other.point].creases)
     {
-      const double height = crease.distance / unit - dot(crease.inward, other.offset);
-      if (this->isOnPiece(point, other.point, crease) &&
-          height < creaseTolerance * std::sqrt(other.squaredDistance))
+      const Vector outward = scaled(-crease.turn, this->Splats[other.point].normal);
+      const double height = dot(outward, other.offset);
+      if (this->isOnPiece(point, other.point, crease) && height > -tolerance &&
+          crease.distance / unit - dot(crease.inward, other.offset) < tolerance)
       {
-        return crease.turn;
+        cell.cut(outward, std::max(0.0, height));
+        return true;
       }
     }
-    return std::nullopt;
+    return false;
   }
 
   /// Whether a point's normal is rather that of the plane across a crease than that of the point
