@@ -79,6 +79,7 @@ public:
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
+      this->Ends.clear();
       this->Visited.clear();
       this->addAround(isopoint, found);
       for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
@@ -92,6 +93,10 @@ public:
     {
       for (const Id end : this->Neighbors.Ends[isopoint])
       {
+        if (!this->Ends.add(end))
+        {
+          continue;
+        }
         this->addLeaf(end, found);
         for (const Id leaf : this->Neighbors.Touching.at(end))
         {
@@ -110,6 +115,7 @@ public:
     }
 
     const IsopointNeighbors& Neighbors;
+    LeafSet<Id> Ends; // whose surroundings are listed
     LeafSet<Id> Visited;
   };
 

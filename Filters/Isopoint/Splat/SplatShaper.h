@@ -61,6 +61,14 @@ public:
   }
 
 private:
+  /// Another point, seen from the one whose splat is shaped, in its unit of length.
+  struct Neighbor
+  {
+    Vector offset;
+    double squaredDistance;
+    std::size_t point;
+  };
+
   /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
   /// least and the greatest, which also holds where no fit determines the curvature.
   static constexpr double leastOverlap = 1.1;
@@ -138,7 +146,7 @@ private:
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
     {
-      this->Nearby.find(point, 2, unit, 4.0 * mostReach * mostReach);
+      this->Nearby.find(point, 2, unit, 4.0 * cell.squaredReach());
       this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
@@ -151,18 +159,23 @@ private:
 
   void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
   {
+    const double scale = 1.0 / unit;
     for (const NearbyPoint& other : this->Nearby)
     {
       if (other.squaredDistance >= 4.0 * cell.squaredReach())
       {
         break;
       }
-      this->cutTowards(point, other, unit, cell);
+      const Vector& position = this->Points.positions[other.point];
+      this->cutTowards(point,
+        { scaled(scale, difference(position, this->Points.positions[point])), other.squaredDistance,
+          other.point },
+        unit, cell);
     }
   }
 
   /// Cuts a cell towards another point: halfway, but not on this side of a crease.
-  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
+  void cutTowards(std::size_t point, const Neighbor& other, double unit, TangentCell& cell)
   {
     const double a = dot(other.offset, cell.first());
     const double b = dot(other.offset, cell.second());
@@ -177,7 +190,7 @@ private:
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
   /// there: nothing is to be cut halfway to it.
-  bool isBeyondCrease(std::size_t point, const NearbyPoint& other, double unit) const
+  bool isBeyondCrease(std::size_t point, const Neighbor& other, double unit) const
   {
     if (this->Points.fits.empty())
     {
@@ -196,8 +209,7 @@ private:
 
   /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
   /// at one of its creases. @returns whether it does
-  bool isCutAtCrease(
-    std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell) const
+  bool isCutAtCrease(std::size_t point, const Neighbor& other, double unit, TangentCell& cell) const
   {
     if (this->orderAt(other.point) != FitOrder::Crease)
     {
@@ -244,7 +256,7 @@ private:
   /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
   /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
   /// close by are not what it bends to, nor what lies across an edge.
-  bool bendsTowards(std::size_t point, const NearbyPoint& other) const
+  bool bendsTowards(std::size_t point, const Neighbor& other) const
   {
     if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other.point)))
     {
@@ -257,7 +269,7 @@ private:
   }
 
   /// Whether a smooth fit held at a point but not at another very close to it.
-  bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
+  bool isUnfittedBeside(std::size_t point, const Neighbor& other) const
   {
     return other.squaredDistance < sampleReach * sampleReach && this->isSmooth(point) &&
            !this->isSmooth(other.point);
