@@ -12,8 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -71,6 +71,13 @@ public:
     }
   }
 
+  std::vector<std::size_t> inOrder() const
+  {
+    std::vector<std::size_t> order(this->Positions.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    return order;
+  }
+
   class Finder
   {
   public:
@@ -92,8 +99,7 @@ public:
       for (std::size_t i = 0; i < count; ++i)
       {
         const std::vector<std::size_t>& points = this->Around.At.at(near[i]);
-        std::copy_if(points.begin(), points.end(), std::back_inserter(found),
-          [point](std::size_t other) { return other != point; });
+        found.insert(found.end(), points.begin(), points.end());
       }
     }
 

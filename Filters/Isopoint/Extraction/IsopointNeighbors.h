@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/Path.h"
@@ -12,75 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace isopoint
 {
-
-/// Numbers that were met. Memory is kept from one search to the next.
-class VisitedNumbers
-{
-public:
-  void clear()
-  {
-    this->Count = 0;
-    if (++this->Round == 0) // it has come round: forget all
-    {
-      std::fill(this->Entries.begin(), this->Entries.end(), Entry{});
-      this->Round = 1;
-    }
-  }
-
-  /// @returns whether it was not there before
-  bool insert(std::size_t number)
-  {
-    if (2 * this->Count >= this->Entries.size())
-    {
-      this->grow();
-    }
-    Entry& entry = this->entryFor(number);
-    const bool isNew = entry.round != this->Round;
-    entry = { number, this->Round };
-    this->Count += isNew ? 1 : 0;
-    return isNew;
-  }
-
-private:
-  struct Entry
-  {
-    std::size_t number = 0;
-    std::uint32_t round = 0; // of its insertion; 0: never
-  };
-
-  Entry& entryFor(std::size_t number)
-  {
-    const std::size_t mask = this->Entries.size() - 1;
-    std::size_t i = (number * std::size_t{ 0x9E3779B97F4A7C15 }) >> 32 & mask;
-    while (this->Entries[i].round == this->Round && this->Entries[i].number != number)
-    {
-      i = (i + 1) & mask;
-    }
-    return this->Entries[i];
-  }
-
-  void grow()
-  {
-    std::vector<Entry> former(2 * this->Entries.size());
-    former.swap(this->Entries);
-    for (const Entry& entry : former)
-    {
-      if (entry.round == this->Round)
-      {
-        this->entryFor(entry.number) = entry;
-      }
-    }
-  }
-
-  std::vector<Entry> Entries = std::vector<Entry>(256);
-  std::size_t Count = 0;
-  std::uint32_t Round = 1;
-};
 
 /// The isopoints around each isopoint: those whose edges end in the two leaves of its own edge or
 /// in leaves that touch one of these, so that around an isopoint there are others in all directions
@@ -109,6 +46,23 @@ public:
     this->listTouching(execution, tree, known, numbers);
   }
 
+  /// All isopoints, mostly close ones after each other.
+  std::vector<std::size_t> inOrder() const
+  {
+    std::vector<std::size_t> begins(this->Leaves.size() + 1, 0);
+    for (const std::array<Id, 2>& ends : this->Ends)
+    {
+      ++begins[ends[0] + 1];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<std::size_t> order(this->Ends.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      order[begins[this->Ends[i][0]]++] = i;
+    }
+    return order;
+  }
+
   /// Lists the isopoints around one. Memory is kept. For one thread.
   class Finder
   {
@@ -118,16 +72,15 @@ public:
     {
     }
 
-    /// Lists the isopoints around one, each once, without itself.
+    /// Lists the isopoints around one, itself among them, each once or twice.
     /// @param rings 1, or 2 with those around the ones found. All samples that determine which
     /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
     /// than 2 rings - 1 touching leaves.
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
-      this->VisitedLeaves.clear();
-      this->VisitedPoints.clear();
-      this->VisitedPoints.insert(isopoint);
+      this->Ends.clear();
+      this->Visited.clear();
       this->addAround(isopoint, found);
       for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
       {
@@ -140,6 +93,10 @@ public:
     {
       for (const Id end : this->Neighbors.Ends[isopoint])
       {
+        if (!this->Ends.add(end))
+        {
+          continue;
+        }
         this->addLeaf(end, found);
         for (const Id leaf : this->Neighbors.Touching.at(end))
         {
@@ -150,22 +107,16 @@ public:
 
     void addLeaf(Id leaf, std::vector<std::size_t>& found)
     {
-      if (found.size() >= mostIsopoints || !this->VisitedLeaves.insert(leaf))
+      if (found.size() < mostIsopoints && this->Visited.add(leaf))
       {
-        return;
-      }
-      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
-      {
-        if (this->VisitedPoints.insert(isopoint))
-        {
-          found.push_back(isopoint);
-        }
+        const auto list = this->Neighbors.Isopoints.at(leaf);
+        found.insert(found.end(), list.begin(), list.end());
       }
     }
 
     const IsopointNeighbors& Neighbors;
-    VisitedNumbers VisitedLeaves;
-    VisitedNumbers VisitedPoints;
+    LeafSet<Id> Ends; // whose surroundings are listed
+    LeafSet<Id> Visited;
   };
 
 private:
@@ -196,24 +147,27 @@ private:
     }
   };
 
-  /// Numbers the leaves from 1 on.
+  /// Numbers the leaves from 1 on, in the order of their nodes: close ones are close in memory.
   void numberLeaves(const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
   {
-    this->Leaves.push_back(0);
-    this->Ends.reserve(leaves.size());
-    const auto numberOf = [&](std::size_t leaf)
-    {
-      Id& number = numbers[leaf];
-      if (number == 0)
-      {
-        number = static_cast<Id>(this->Leaves.size());
-        this->Leaves.push_back(static_cast<Id>(leaf));
-      }
-      return number;
-    };
     for (const EdgeLeaves& edge : leaves)
     {
-      this->Ends.push_back({ numberOf(edge.first), numberOf(edge.second) });
+      numbers[edge.first] = 1;
+      numbers[edge.second] = 1;
+    }
+    this->Leaves.push_back(0);
+    for (std::size_t node = 0; node < numbers.size(); ++node)
+    {
+      if (numbers[node] != 0)
+      {
+        numbers[node] = static_cast<Id>(this->Leaves.size());
+        this->Leaves.push_back(static_cast<Id>(node));
+      }
+    }
+    this->Ends.reserve(leaves.size());
+    for (const EdgeLeaves& edge : leaves)
+    {
+      this->Ends.push_back({ numbers[edge.first], numbers[edge.second] });
     }
   }
 

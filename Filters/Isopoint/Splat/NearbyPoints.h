@@ -12,11 +12,10 @@
 namespace isopoint
 {
 
-/// A point near another one, in a unit of length.
+/// A point near another one.
 struct NearbyPoint
 {
-  Vector offset; // from that point
-  double squaredDistance;
+  double squaredDistance; // in a unit of length
   std::size_t point;
 };
 
@@ -36,32 +35,31 @@ public:
   /// Goes to a point.
   /// @param rings see IsopointNeighbors
   /// @param unit of length; if one over it is not finite, nothing is found
-  void find(std::size_t point, int rings, double unit)
+  /// @param squaredLimit of the distances, in this unit
+  void find(std::size_t point, int rings, double unit,
+    double squaredLimit = std::numeric_limits<double>::max())
   {
     this->Finder.find(point, rings, this->Found);
-    this->Nearby.clear();
     const Vector& position = this->Positions[point];
     const double scale = 1.0 / unit;
+    // Which ones are within the limit is unpredictable: all are written, and those are kept.
+    this->Nearby.resize(this->Found.size());
+    std::size_t count = 0;
     for (const std::size_t other : this->Found)
     {
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
-      if (squaredDistance > 0.0 && squaredDistance <= std::numeric_limits<double>::max())
-      {
-        this->Nearby.push_back({ offset, squaredDistance, other });
-      }
+      this->Nearby[count] = { squaredDistance, other };
+      count += (squaredDistance > 0.0) & (squaredDistance <= squaredLimit) ? 1 : 0;
     }
+    this->Nearby.resize(count);
     std::sort(this->Nearby.begin(), this->Nearby.end(),
       [](const NearbyPoint& a, const NearbyPoint& b)
       {
         return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-               : a.offset != b.offset                 ? a.offset < b.offset
                                                       : a.point < b.point;
       });
-    this->Nearby.erase(
-      std::unique(this->Nearby.begin(), this->Nearby.end(),
-        [](const NearbyPoint& a, const NearbyPoint& b) { return a.offset == b.offset; }),
-      this->Nearby.end());
+    this->dropCoincident();
   }
 
   /// Lists the nearest ones around a point, in one ring or, if these are too few, in two.
@@ -82,6 +80,25 @@ public:
   auto end() const { return this->Nearby.end(); }
 
 private:
+  void dropCoincident()
+  {
+    std::size_t count = 0;
+    for (const NearbyPoint& nearby : this->Nearby)
+    {
+      std::size_t i = count;
+      while (i > 0 && this->Nearby[i - 1].squaredDistance == nearby.squaredDistance &&
+             this->Positions[this->Nearby[i - 1].point] != this->Positions[nearby.point])
+      {
+        --i;
+      }
+      if (i == 0 || this->Nearby[i - 1].squaredDistance != nearby.squaredDistance)
+      {
+        this->Nearby[count++] = nearby;
+      }
+    }
+    this->Nearby.resize(count);
+  }
+
   const std::vector<Vector>& Positions;
   typename TNeighbors::Finder Finder;
   std::vector<std::size_t> Found;

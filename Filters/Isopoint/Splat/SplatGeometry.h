@@ -59,6 +59,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       }
     },
     [&](double share) { execution.progress(normalsShare * share); });
+  const std::vector<std::size_t> order = neighbors.inOrder();
   forBatches(
     execution, options.shapes ? splats.size() : 0, batch, grain,
     [&](std::size_t begin, std::size_t end)
@@ -66,7 +67,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       SplatShaper<TNeighbors, TExtents> shaper(neighbors, points, extents, splats);
       for (std::size_t i = begin; i < end; ++i)
       {
-        shaper.shape(i, splats[i]);
+        shaper.shape(order[i], splats[order[i]]);
       }
     },
     [&](double share) { execution.progress(normalsShare + (1.0 - normalsShare) * share); });

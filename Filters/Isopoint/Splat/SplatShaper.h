@@ -61,6 +61,14 @@ public:
   }
 
 private:
+  /// Another point, seen from the one whose splat is shaped, in its unit of length.
+  struct Neighbor
+  {
+    Vector offset;
+    double squaredDistance;
+    std::size_t point;
+  };
+
   /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
   /// least and the greatest, which also holds where no fit determines the curvature.
   static constexpr double leastOverlap = 1.1;
@@ -132,17 +140,14 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit);
       }
     }
-    for (int rings = 1; rings <= 2 && cell.squaredReach() > sampleReach * sampleReach; ++rings)
+    // Points at more than twice a distance cut nothing off within it.
+    constexpr double near = sampleReach * sampleReach;
+    this->Nearby.find(point, 1, unit, 4.0 * near);
+    this->cutTowardsNearby(point, unit, cell);
+    if (cell.squaredReach() > near)
     {
-      this->Nearby.find(point, rings, unit);
-      for (const NearbyPoint& other : this->Nearby)
-      {
-        if (other.squaredDistance >= 4.0 * cell.squaredReach())
-        {
-          break;
-        }
-        this->cutTowards(point, other, unit, cell);
-      }
+      this->Nearby.find(point, 2, unit, 4.0 * cell.squaredReach());
+      this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
     // Where no fit determines a smooth surface, points may bound a cell by chance, far off.
@@ -152,34 +157,40 @@ private:
     }
   }
 
-  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
-  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
+  void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
   {
-    if (this->isBeyondCrease(point, other, unit) || this->isUnfittedBeside(point, other))
+    const double scale = 1.0 / unit;
+    for (const NearbyPoint& other : this->Nearby)
+    {
+      if (other.squaredDistance >= 4.0 * cell.squaredReach())
+      {
+        break;
+      }
+      const Vector& position = this->Points.positions[other.point];
+      this->cutTowards(point,
+        { scaled(scale, difference(position, this->Points.positions[point])), other.squaredDistance,
+          other.point },
+        unit, cell);
+    }
+  }
+
+  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
+  void cutTowards(std::size_t point, const Neighbor& other, double unit, TangentCell& cell)
+  {
+    const double a = dot(other.offset, cell.first());
+    const double b = dot(other.offset, cell.second());
+    const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
+    if (!cell.reachesBeyond(a, b, 0.5 * along) || this->isBeyondCrease(point, other, unit) ||
+        this->isUnfittedBeside(point, other) || this->isCutAtCrease(point, other, unit, cell))
     {
       return;
     }
-    if (const std::optional<double> turn = this->turnTowards(point, other, unit))
-    {
-      const Vector outward = scaled(-*turn, this->Splats[other.point].normal);
-      const double height = dot(outward, other.offset);
-      if (height > -creaseTolerance * std::sqrt(other.squaredDistance))
-      {
-        cell.cut(outward, std::max(0.0, height));
-        return;
-      }
-    }
-    const double a = dot(other.offset, cell.first());
-    const double b = dot(other.offset, cell.second());
-    const double along = a * a + b * b;
-    const bool isBent = this->bendsTowards(point, other);
-    cell.cut(
-      a, b, 0.5 * (isBent ? std::sqrt(other.squaredDistance * along) : other.squaredDistance));
+    cell.cut(a, b, 0.5 * (this->bendsTowards(point, other) ? along : other.squaredDistance));
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
   /// there: nothing is to be cut halfway to it.
-  bool isBeyondCrease(std::size_t point, const NearbyPoint& other, double unit) const
+  bool isBeyondCrease(std::size_t point, const Neighbor& other, double unit) const
   {
     if (this->Points.fits.empty())
     {
@@ -196,24 +207,27 @@ private:
       });
   }
 
-  /// If a point lies on a piece that meets that of another at one of its creases: to which side the
-  /// surface turns there.
-  std::optional<double> turnTowards(std::size_t point, const NearbyPoint& other, double unit) const
+  /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
+  /// at one of its creases. @returns whether it does
+  bool isCutAtCrease(std::size_t point, const Neighbor& other, double unit, TangentCell& cell) const
   {
     if (this->orderAt(other.point) != FitOrder::Crease)
     {
-      return std::nullopt;
+      return false;
     }
+    const double tolerance = creaseTolerance * std::sqrt(other.squaredDistance);
     for (const CreasePlane& crease : this->Points.fits[other.point].creases)
     {
-      const double height = crease.distance / unit - dot(crease.inward, other.offset);
-      if (this->isOnPiece(point, other.point, crease) &&
-          height < creaseTolerance * std::sqrt(other.squaredDistance))
+      const Vector outward = scaled(-crease.turn, this->Splats[other.point].normal);
+      const double height = dot(outward, other.offset);
+      if (this->isOnPiece(point, other.point, crease) && height > -tolerance &&
+          crease.distance / unit - dot(crease.inward, other.offset) < tolerance)
       {
-        return crease.turn;
+        cell.cut(outward, std::max(0.0, height));
+        return true;
       }
     }
-    return std::nullopt;
+    return false;
   }
 
   /// Whether a point's normal is rather that of the plane across a crease than that of the point
@@ -242,7 +256,7 @@ private:
   /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
   /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
   /// close by are not what it bends to, nor what lies across an edge.
-  bool bendsTowards(std::size_t point, const NearbyPoint& other) const
+  bool bendsTowards(std::size_t point, const Neighbor& other) const
   {
     if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other.point)))
     {
@@ -255,7 +269,7 @@ private:
   }
 
   /// Whether a smooth fit held at a point but not at another very close to it.
-  bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
+  bool isUnfittedBeside(std::size_t point, const Neighbor& other) const
   {
     return other.squaredDistance < sampleReach * sampleReach && this->isSmooth(point) &&
            !this->isSmooth(other.point);

@@ -68,6 +68,17 @@ public:
     }
   }
 
+  /// Whether a place of the cell has (a, b) . o > distance, in the components of its offset o.
+  bool reachesBeyond(double a, double b, double distance) const
+  {
+    double reach = 0.0;
+    for (const Corner& corner : *this)
+    {
+      reach = std::max(reach, a * corner.x + b * corner.y);
+    }
+    return reach > distance;
+  }
+
   /// Cuts the cell down to an octagon whose sides are limits.
   void limit(double reach)
   {
