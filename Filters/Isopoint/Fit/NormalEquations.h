@@ -14,6 +14,10 @@
 namespace isopoint
 {
 
+/// A smaller share of a diagonal element left as the pivot means that the samples do not determine
+/// the coefficient: about half of the digits of a double remain.
+constexpr double leastPivot = 1e-7;
+
 /// The powers of x, y, z in each coefficient's product, in the order of Polynomial.
 constexpr std::array<std::array<std::size_t, 3>, 20> exponents{ { { 0, 0, 0 }, { 1, 0, 0 },
   { 0, 1, 0 }, { 0, 0, 1 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 },
@@ -252,9 +256,6 @@ private:
   template <std::size_t Index, std::size_t... Rows>
   bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
-    /// A smaller share of a diagonal element left as the pivot means that the samples do not
-    /// determine the coefficient: about half of the digits of a double remain.
-    constexpr double leastPivot = 1e-7;
     constexpr std::size_t first = Index / laneCount; // groups before that are not needed
     constexpr auto lane = static_cast<Eigen::Index>(Index % laneCount);
     Column rest;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace isopoint
 {
@@ -23,7 +24,9 @@ double squaredLength(const Vector& a)
 /// values of other ones, of far smaller weights, are neglected.
 struct ErrorEstimate
 {
-  double residual;    // root mean square, of samples that are left out of the fit one at a time
+  /// Root mean square, of samples that are left out of the fit one at a time; not a number if one
+  /// of them alone determines a coefficient.
+  double residual;
   double valueEffect; // of such residuals on the value at the origin: the root of a sum of squares
   double slopeEffect; // on the gradient there
 };
@@ -40,6 +43,7 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   }
   Lanes squares = Lanes::Zero();
   Lanes weightSquares = Lanes::Zero();
+  Lanes leastRest = Lanes::Ones(); // of the determinant without a sample, as a share
   std::array<Lanes, 4> effects;
   effects.fill(Lanes::Zero());
   const std::size_t groups = std::min(samples.groupCount(), FrameSamples::nearest / laneCount);
@@ -61,8 +65,9 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
           effect[unit] += units[unit][i] * reduced[i];
         }
       }
-      const Lanes residual =
-        weight * (samples.value[group] - polynomial.valueAt(x, y, z)) / (1.0 - weight * leverage);
+      const Lanes rest = 1.0 - weight * leverage;
+      const Lanes residual = weight * (samples.value[group] - polynomial.valueAt(x, y, z)) / rest;
+      leastRest = leastRest.min(rest);
       squares += residual * residual;
       weightSquares += weight * weight;
       for (std::size_t unit = 0; unit < units.size(); ++unit)
@@ -70,7 +75,11 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
         effects[unit] += (weight * effect[unit]) * (weight * effect[unit]);
       }
   }
-  return { std::sqrt(sumOf(squares) / sumOf(weightSquares)), std::sqrt(sumOf(effects[0])),
+  // The residual of a sample without which the others determine less is rounding alone.
+  const double residual = leastRest.minCoeff() > leastPivot
+    ? std::sqrt(sumOf(squares) / sumOf(weightSquares))
+    : std::numeric_limits<double>::quiet_NaN();
+  return { residual, std::sqrt(sumOf(effects[0])),
     std::sqrt(sumOf(effects[1]) + sumOf(effects[2]) + sumOf(effects[3])) };
 }
 
