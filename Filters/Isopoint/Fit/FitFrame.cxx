@@ -25,72 +25,68 @@ bool isNormal(double unit)
 
 } // namespace
 
-void FitFrame::enter(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples)
+void FitFrame::enter(const FitEdge& edge, double isovalue)
 {
+  this->Samples.clear();
   this->Origin = edge.position;
   this->Isovalue = isovalue;
   const double length = lengthOf(edge.increasing);
   this->IsUsable = std::isfinite(length) && length > 0.0 && std::isfinite(edge.increase);
-  if (!this->IsUsable)
+  if (this->IsUsable)
   {
-    return;
+    this->Length = unitOf(length);
+    this->Value = unitOf(edge.increase);
+    this->IsUsable = isNormal(this->Length) && isNormal(this->Value);
+    this->Increasing = scaled(1.0 / this->Length, edge.increasing);
   }
-  this->Length = unitOf(length);
-  this->Value = unitOf(edge.increase);
-  this->IsUsable = isNormal(this->Length) && isNormal(this->Value);
-  if (!this->IsUsable)
+}
+
+void FitFrame::add(const FitSample* first, const FitSample* last)
+{
+  const auto count = static_cast<std::size_t>(last - first);
+  this->Distances.clear();
+  for (const FitSample* sample = first; sample != last; ++sample)
   {
-    return;
+    const Vector place = this->placeOf(sample->position);
+    this->Distances.push_back(dot(place, place));
   }
-  this->Increasing = scaled(1.0 / this->Length, edge.increasing);
-  this->addNearestFirst(samples);
+  const std::size_t former = this->Samples.count();
+  std::size_t nearest = 0;
+  if (former == 0)
+  {
+    nearest = std::min(FrameSamples::nearest, count);
+    this->addNearest(first, nearest);
+  }
+  this->addNearest(first, std::min(FrameSamples::most - former, count) - nearest);
   this->MeanDistance = this->Samples.sum([this](std::size_t group)
                          { return Lanes(this->Samples.squaredDistance[group].sqrt()); }) /
                        static_cast<double>(this->Samples.count());
 }
 
-/// Adds the nearest samples and then the others, of very many the nearest; otherwise in their order.
-void FitFrame::addNearestFirst(const std::vector<FitSample>& samples)
-{
-  this->Samples.clear();
-  this->Distances.clear();
-  for (const FitSample& sample : samples)
-  {
-    const Vector place = this->placeOf(sample.position);
-    this->Distances.push_back(dot(place, place));
-  }
-  for (const std::size_t wanted : { FrameSamples::nearest, FrameSamples::most })
-  {
-    const std::size_t missing = std::min(wanted, samples.size()) - this->Samples.count();
-    if (missing > 0)
-    {
-      this->addNearest(samples, missing);
-    }
-  }
-}
-
 /// Adds the nearest ones of the samples whose distances are still finite, and makes these infinite.
-void FitFrame::addNearest(const std::vector<FitSample>& samples, std::size_t count)
+void FitFrame::addNearest(const FitSample* samples, std::size_t count)
 {
-  double limit = std::numeric_limits<double>::infinity();
-  std::size_t equal = count; // how many at that distance are to be added
-  if (this->Samples.count() + count < samples.size())
+  constexpr double taken = std::numeric_limits<double>::infinity();
+  double limit = taken;
+  std::size_t equal = 0; // how many at that distance are to be added
+  if (count < this->Distances.size() && count > 0)
   {
     this->Sorted = this->Distances;
     const auto last = this->Sorted.begin() + static_cast<std::ptrdiff_t>(count) - 1;
     std::nth_element(this->Sorted.begin(), last, this->Sorted.end());
     limit = *last;
-    equal -= static_cast<std::size_t>(
-      std::count_if(this->Sorted.begin(), last, [&](double d) { return d < limit; }));
+    equal = count - static_cast<std::size_t>(std::count_if(
+                      this->Sorted.begin(), last, [&](double d) { return d < limit; }));
   }
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (std::size_t i = 0; i < this->Distances.size() && count > 0; ++i)
   {
     double& distance = this->Distances[i];
-    if (distance < limit || (distance == limit && equal > 0 && std::isfinite(limit)))
+    if (distance < limit || (distance == limit && distance < taken && equal > 0))
     {
       equal -= distance == limit ? 1 : 0;
       this->Samples.add(this->placeOf(samples[i].position), this->valueOf(samples[i].value));
-      distance = std::numeric_limits<double>::infinity();
+      distance = taken;
+      --count;
     }
   }
 }

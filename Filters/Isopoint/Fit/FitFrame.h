@@ -16,12 +16,15 @@ namespace isopoint
 class FitFrame
 {
 public:
-  /// Whether units and samples are finite; otherwise nothing can be fitted.
+  /// Whether units are finite; otherwise nothing can be fitted.
   bool isUsable() const { return this->IsUsable; }
 
-  /// Goes to an edge. Of very many samples the nearest are taken.
-  /// Complexity: O(samples)
-  void enter(const FitEdge& edge, double isovalue, const std::vector<FitSample>& samples);
+  /// Goes to an edge, without samples.
+  void enter(const FitEdge& edge, double isovalue);
+
+  /// Adds samples in their order, but of the first ones that are added the nearest come first, and
+  /// of very many the nearest alone are added. Complexity: O(last - first)
+  void add(const FitSample* first, const FitSample* last);
 
   const FrameSamples& samples() const { return this->Samples; }
 
@@ -38,8 +41,7 @@ public:
   std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
 
 private:
-  void addNearestFirst(const std::vector<FitSample>& samples);
-  void addNearest(const std::vector<FitSample>& samples, std::size_t count);
+  void addNearest(const FitSample* samples, std::size_t count);
   Vector placeOf(const Vector& position) const
   {
     return scaled(1.0 / this->Length, difference(position, this->Origin));

@@ -47,8 +47,13 @@ LocalFit LocalFitter::onEdge(const FitEdge& edge)
 std::optional<LocalFit> LocalFitter::fitNear(
   const FitEdge& edge, const std::vector<FitSample>& samples)
 {
-  this->Frame.enter(edge, this->Isovalue, samples);
-  if (this->Highest == FitOrder::Linear || !this->Frame.isUsable())
+  this->Frame.enter(edge, this->Isovalue);
+  if (!this->Frame.isUsable())
+  {
+    return std::nullopt;
+  }
+  this->Frame.add(samples.data(), samples.data() + samples.size());
+  if (this->Highest == FitOrder::Linear)
   {
     return std::nullopt;
   }
@@ -75,11 +80,14 @@ LocalFit LocalFitter::fit(
   const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount)
 {
   LocalFit fit = onEdge(edge);
-  this->Frame.enter(edge, this->Isovalue, samples);
   if (!this->Frame.isUsable())
   {
     return fit;
   }
+  const FitSample* const near = samples.data();
+  const FitSample* const far = near + nearCount;
+  const FitSample* const end = near + samples.size();
+  this->Frame.add(far, end);
   if (this->Highest == FitOrder::Linear)
   {
     this->fitLinear(fit);
@@ -104,12 +112,13 @@ LocalFit LocalFitter::fit(
       return fit;
     }
     // Close to a corner, the few samples of one more piece do not determine it among many others.
-    this->Frame.enter(edge, this->Isovalue, { samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(nearCount) });
+    this->Frame.enter(edge, this->Isovalue);
+    this->Frame.add(near, far);
     if (this->fitCreases(fit))
     {
       return fit;
     }
-    this->Frame.enter(edge, this->Isovalue, samples);
+    this->Frame.add(far, end);
   }
   if (found)
   {

@@ -36,11 +36,11 @@ public:
   /// @returns nothing if more samples are to be tried. Complexity: O(samples)
   std::optional<LocalFit> fitNear(const FitEdge& edge, const std::vector<FitSample>& samples);
 
-  /// Fits what the samples determine, up to the highest order. Where no fit holds, the isopoint
-  /// stays.
+  /// Fits what the samples determine, up to the highest order, where fitNear() of the same edge did
+  /// not. Where no fit holds, the isopoint stays.
   /// @param samples all around, the edge's ends among them, in an order that does not depend on how
   /// they were found: sums are taken in this order
-  /// @param nearCount how many of them, the first ones, are those next to the ends
+  /// @param nearCount how many of them, the first ones, were those of fitNear()
   /// Complexity: O(samples)
   LocalFit fit(
     const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount);
