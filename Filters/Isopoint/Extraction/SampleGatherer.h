@@ -74,7 +74,7 @@ public:
   /// samples, as where these stand in lines.
   void widen()
   {
-    constexpr std::size_t enoughSamples = 64;
+    constexpr std::size_t enoughSamples = 128;
     if (this->IsWide || this->Samples.size() > enoughSamples)
     {
       return;
