@@ -124,6 +124,79 @@ TEST(SameResult, OfFitsAndSplatsForAnyNumberOfThreads)
   }
 }
 
+// What stands far away has no influence: the samples in the left one of two blocks have the same
+// splats whatever values and positions the right one's have, as long as the plane between the
+// blocks stays.
+TEST(SameResult, OfSplatsWhateverStandsFarAway)
+{
+  constexpr std::size_t count = 20000;
+  const auto blocks = [](double far)
+  {
+    clouds::Cloud cloud;
+    clouds::Random random(3);
+    for (std::size_t i = 0; i < 2 * count; ++i)
+    {
+      const double x = random();
+      const double y = random();
+      const double z = random();
+      const double edge = std::max(x + 0.2 * y, z) - 0.5 + 0.3 * std::max(0.0, y - 0.5) * x;
+      if (i < count)
+      {
+        cloud.add(10.0 * x, 10.0 * y, 10.0 * z, edge);
+      }
+      else if (i == count)
+      {
+        cloud.add(100.0, 5.0, 5.0, 0.3);
+      }
+      else
+      {
+        cloud.add(
+          100.0 + 10.0 * std::pow(x, far), 10.0 * y, 10.0 * z, std::sin(far * 9.0 * x) * y - 0.1);
+      }
+    }
+    // The corners of the bounding box.
+    cloud.values[0] = cloud.values[count] = 1.0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      cloud.positions[axis] = 0.0;
+      cloud.positions[3 + axis] = 10.0;
+    }
+    return cloud;
+  };
+  isopoint::ExtractionRequest request;
+  request.isosurface.isovalue = 0.0;
+  request.splats = isopoint::SplatOptions();
+  const auto leftOf = [&](double far)
+  {
+    const clouds::Cloud cloud = blocks(far);
+    isopoint::ExtractedIsosurface found = loaded(cloud).extract(clouds::executionOn(2), request);
+    std::map<std::pair<std::uint64_t, std::uint64_t>, isopoint::Splat> splats;
+    for (std::size_t i = 0; i < found.surface.size(); ++i)
+    {
+      const isopoint::IsopointEdge& edge = found.surface.edges[i];
+      if (edge.second < count && found.surface.positions[i][0] < 5.0)
+      {
+        splats.emplace(std::make_pair(edge.first, edge.second), found.splats[i]);
+      }
+    }
+    return splats;
+  };
+  for (const std::optional<isopoint::FitOrder> order : { std::optional<isopoint::FitOrder>(),
+         std::optional(isopoint::FitOrder::Cubic), std::optional(isopoint::FitOrder::Crease) })
+  {
+    request.isosurface.fit = isopoint::FitRequest{ order, true };
+    const auto expected = leftOf(1.0);
+    const auto found = leftOf(1.5);
+    ASSERT_GT(expected.size(), 500u);
+    ASSERT_EQ(expected.size(), found.size());
+    for (const auto& [edge, splat] : expected)
+    {
+      ASSERT_EQ(found.count(edge), 1u);
+      expectSameSplat(splat, found.at(edge));
+    }
+  }
+}
+
 TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
 {
   const clouds::Cloud cloud = clouds::uniform(60000, 3);

@@ -159,6 +159,67 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   EXPECT_NEAR(accompanied[1], alone[1], 1e-12);
 }
 
+// In a lattice the planes halfway to diagonal neighbours pass through the corners that the others
+// leave: rounding decides which of them cut. Shapes do not depend on that.
+TEST(Splats, ShapesDoNotDependOnRounding)
+{
+  const auto splatsTurnedBy = [](double angle, double noise)
+  {
+    clouds::Random random(2);
+    Points points;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    for (int i = -6; i <= 6; ++i)
+    {
+      for (int k = -6; k <= 6; ++k)
+      {
+        const double x = 0.8 * i + noise * random();
+        const double y = 0.5 * k + noise * random();
+        addFitted(points, { c * x - s * y, s * x + c * y, noise * random() },
+          isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
+        points.fits.back().hessian = { 0.1 * c * c, 0.1 * s * s, 0.0, 0.1 * c * s, 0.0, 0.0 };
+      }
+    }
+    return splatsOf(points);
+  };
+  const std::vector<Splat> expected = splatsTurnedBy(0.0, 0.0);
+  const std::size_t middle = expected.size() / 2;
+  for (int i = 0; i < 50; ++i)
+  {
+    const std::vector<Splat> splats = splatsTurnedBy(0.1 * i, i % 2 == 0 ? 0.0 : 1e-12);
+    EXPECT_NEAR(splats[middle].radius, expected[middle].radius, 1e-9) << i;
+    EXPECT_NEAR(lengthOf(splats[middle].axis2), lengthOf(expected[middle].axis2), 1e-9) << i;
+  }
+}
+
+// A corner is listed once, however many cuts pass through it, and cuts that miss the cell leave it.
+TEST(Splats, CellsListEachCornerOnce)
+{
+  isopoint::TangentCell cell({ 0.0, 0.0, 1.0 }, 4.0);
+  for (const double x : { -1.0, 1.0 })
+  {
+    cell.cut(x, 0.0, 1.0);
+    cell.cut(0.0, x, 1.0);
+  }
+  const auto count = [&]() { return cell.end() - cell.begin(); };
+  EXPECT_EQ(count(), 4);
+  EXPECT_FALSE(cell.isOpen());
+  EXPECT_TRUE(cell.isRound());
+  for (const double x : { -1.0, 1.0 })
+  {
+    cell.cut(x, x, 2.0);
+    cell.cut(x, -x, 2.0 + 1e-13);
+    cell.cut(x, 0.0, 1.0);
+    cell.cut(x, 0.0, 3.0);
+  }
+  EXPECT_EQ(count(), 4);
+  EXPECT_NEAR(cell.squaredReach(), 2.0, 1e-12);
+  cell.limit(0.5);
+  EXPECT_EQ(count(), 8);
+  EXPECT_TRUE(cell.isOpen());
+  EXPECT_NEAR(cell.squaredReach(), 0.25, 1e-12);
+}
+
 // Samples whose value equals the isovalue have many isopoints at their own position.
 TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
 {
