@@ -64,6 +64,7 @@ struct Cell
   Vector position;
   std::uint64_t id;
   double value;
+  std::vector<bool> path; // the turns down from the root: false to lower children
 };
 
 /// Section 2: the mean of coincident samples' values, given in ascending order of ids. A sample
@@ -118,7 +119,7 @@ public:
         box.upper[axis] = std::max(box.upper[axis], position[axis]);
       }
     }
-    this->build(ids, box);
+    this->build(ids, box, {});
   }
 
   std::vector<Cell> cells; // of the leaves from left to right, the lower child before the upper one
@@ -137,12 +138,13 @@ private:
   }
 
   /// A node whose samples all coincide is a leaf; any other one is split.
-  void build(std::vector<std::size_t> ids, const Region& region)
+  void build(
+    std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
   {
     const auto coincidesWithFirst = [&](std::size_t id) { return this->coincide(id, ids[0]); };
     if (std::all_of(ids.begin(), ids.end(), coincidesWithFirst))
     {
-      this->addCell(ids, region);
+      this->addCell(ids, region, path);
       return;
     }
     const std::size_t axis = longestSideOf(region);
@@ -155,13 +157,17 @@ private:
     Region upper = region;
     upper.lower[axis] = plane;
     const auto firstOfUpper = ids.begin() + static_cast<std::ptrdiff_t>(lowerCount);
-    this->build({ ids.begin(), firstOfUpper }, lower);
-    this->build({ firstOfUpper, ids.end() }, upper);
+    std::vector<bool> longer = path;
+    longer.push_back(false);
+    this->build({ ids.begin(), firstOfUpper }, lower, longer);
+    longer.back() = true;
+    this->build({ firstOfUpper, ids.end() }, upper, longer);
   }
 
   /// Section 2: coincident samples have the lowest id among them, the coordinates of that sample
   /// and the mean of their values.
-  void addCell(std::vector<std::size_t> ids, const Region& region)
+  void addCell(
+    std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
   {
     std::sort(ids.begin(), ids.end());
     std::vector<double> values;
@@ -169,7 +175,7 @@ private:
     {
       values.push_back(this->Samples.values[id]);
     }
-    this->cells.push_back({ region, this->positionOf(ids[0]), ids[0], meanOf(values) });
+    this->cells.push_back({ region, this->positionOf(ids[0]), ids[0], meanOf(values), path });
   }
 
   /// Step 1: the axis of the region's longest side, the lowest among equal ones.

@@ -27,7 +27,10 @@ struct Cloud
 
   void add(double x, double y, double z, double value)
   {
-    this->positions.insert(this->positions.end(), { x, y, z });
+    for (const double coordinate : { x, y, z })
+    {
+      this->positions.push_back(coordinate);
+    }
     this->values.push_back(value);
   }
 };

@@ -5,9 +5,11 @@
 #include "Clouds.h"
 
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Fit/LocalFitter.h"
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -35,9 +37,10 @@ inline double degreesBetween(const Vector& a, const Vector& b)
   return std::atan2(lengthOf(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979;
 }
 
-inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, double noise = 0.0)
+inline std::vector<FitSample> samplesOf(
+  const Field& field, std::size_t count, double noise = 0.0, std::uint64_t seed = 11)
 {
-  clouds::Random random(11);
+  clouds::Random random(seed);
   std::vector<FitSample> samples;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -47,24 +50,20 @@ inline std::vector<FitSample> samplesOf(const Field& field, std::size_t count, d
   return samples;
 }
 
-inline LocalFit fit(const std::vector<FitSample>& samples, const FitEdge& edge,
-  std::optional<FitOrder> highest, double isovalue = 0.0, isopoint::DetectionRates rates = {})
+/// Fits as to the samples all around an edge.
+/// @param nearCount how many of them, the first ones, are next to its ends; 0: all
+inline LocalFit fitAll(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
+  double isovalue = 0.0, std::size_t nearCount = 0)
 {
-  return isopoint::fitAround(
-    edge, isovalue, samples, [&]() -> const std::vector<FitSample>& { return samples; }, highest,
-    rates);
+  return isopoint::LocalFitter(isovalue, highest)
+    .fit(edge, samples, nearCount > 0 ? nearCount : samples.size());
 }
 
-/// The detection rate after `tested` isopoints, at the first `detected` of which the feature was
-/// detected.
-inline isopoint::DetectionRate rateOf(int detected, int tested)
+/// Fits as to the samples next to an edge.
+inline std::optional<LocalFit> fitNear(const std::vector<FitSample>& samples, const FitEdge& edge,
+  FitOrder highest = FitOrder::Cubic, double isovalue = 0.0)
 {
-  isopoint::DetectionRate rate;
-  for (int i = 0; i < tested; ++i)
-  {
-    rate.add(i < detected);
-  }
-  return rate;
+  return isopoint::LocalFitter(isovalue, highest).fitNear(edge, samples);
 }
 
 /// A vertical edge of length 2, on which linear interpolation places the isopoint at the origin.

@@ -2,14 +2,15 @@
 // Fits near the edges and corners of bodies whose sides are known.
 #include "FitTesting.h"
 
-#include "Isopoint/Fit/FitNeighborhood.h"
+#include "Isopoint/Fit/CreaseFit.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <functional>
+#include <cstdint>
 #include <vector>
 
 using namespace fittesting;
@@ -110,38 +111,219 @@ std::size_t countCreases(const isopoint::Isosurface& surface)
     [](const LocalFit& fit) { return fit.order == FitOrder::Crease; }));
 }
 
-/// The share of trials with random samples of a field in which residuals are coherent.
-double shareOfCoherentResiduals(const Field& field, double noise)
+/// Samples in the frame of a fit, of weight 1.
+struct FrameCase
 {
-  constexpr int trials = 200;
-  clouds::Random random(3);
-  int coherent = 0;
-  for (int trial = 0; trial < trials; ++trial)
+  isopoint::FrameSamples samples;
+  isopoint::FrameWeights weights;
+
+  FrameCase(const Field& field, std::size_t count, std::uint64_t seed)
   {
-    std::vector<FitSample> samples;
-    while (samples.size() < 80)
+    for (const FitSample& sample : samplesOf(field, count, 0.0, seed))
     {
-      const Vector p{ 6.0 * random() - 3.0, 6.0 * random() - 3.0, 6.0 * random() - 3.0 };
-      if (lengthOf(p) < 3.0)
-      {
-        samples.push_back({ p, field(p) + noise * (random() - 0.5) });
-      }
+      this->samples.add(sample.position, sample.value);
+      isopoint::FrameSamples::at(this->weights, this->samples.count() - 1) = 1.0;
     }
-    isopoint::FitNeighborhood neighborhood(upwards(), 0.0, samples, 1.2);
-    coherent += neighborhood.leavesPattern() ? 1 : 0;
+    endWeights(this->samples, this->weights);
   }
-  return static_cast<double>(coherent) / trials;
+};
+
+const Vector faces[3] = { { 0.8, -0.6, 0.0 }, { 0.48, 0.64, -0.6 }, { 0.36, 0.48, 0.8 } };
+
+/// The largest of the distances from the first planes through places close to the origin.
+double cornerValue(std::size_t planes, const Vector& p)
+{
+  double value = dot(faces[0], p) - 0.1;
+  for (std::size_t i = 1; i < planes; ++i)
+  {
+    value = std::max(value, dot(faces[i], p) - 0.1 * static_cast<double>(i));
+  }
+  return value;
 }
 
 } // namespace
 
+TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
+{
+  for (const std::size_t planes : { 2, 3 })
+  {
+    for (const double sense : { 1.0, -1.0 })
+    {
+      int found = 0;
+      for (std::uint64_t seed = 1; seed <= 10; ++seed)
+      {
+        const FrameCase fitted(
+          [&](const Vector& p) { return sense * cornerValue(planes, p); }, 120, seed);
+        const auto crease = isopoint::fitCrease(fitted.samples, fitted.weights);
+        ASSERT_TRUE(crease);
+        if (crease->residual > 1e-9) // another local optimum
+        {
+          continue;
+        }
+        ++found;
+        EXPECT_EQ(crease->sense, sense);
+        EXPECT_TRUE(crease->isSharp());
+        EXPECT_NEAR(crease->leastSlope(), 1.0, 1e-9);
+        for (const FitSample& sample : samplesOf([](const Vector&) { return 0.0; }, 50))
+        {
+          const isopoint::Polynomial& piece = crease->pieces[crease->pieceAt(sample.position)];
+          EXPECT_NEAR(
+            piece.valueAt(sample.position), sense * cornerValue(planes, sample.position), 1e-8);
+        }
+        ASSERT_EQ(crease->pieces.size(), planes);
+        for (std::size_t i = 0; i < planes; ++i)
+        {
+          EXPECT_TRUE(std::any_of(crease->pieces.begin(), crease->pieces.end(),
+            [&](const isopoint::Polynomial& piece)
+            {
+              return lengthOf(difference(piece.gradientAt({}), scaled(sense, faces[i]))) < 1e-8;
+            }));
+        }
+      }
+      EXPECT_GE(found, planes == 2 ? 10 : 8);
+    }
+  }
+}
+
+// The residual: the root of the mean square, for as many degrees of freedom as remain.
+TEST(CreaseFit, ResidualsAreCorrectedForTheCoefficients)
+{
+  clouds::Random random(4);
+  const FrameCase fitted(
+    [&](const Vector& p) { return cornerValue(2, p) + 0.1 * (random() - 0.5); }, 120, 1);
+  const auto crease = isopoint::fitCrease(fitted.samples, fitted.weights);
+  ASSERT_TRUE(crease);
+  double squares = 0.0;
+  double coefficients = 0.0;
+  for (const isopoint::Polynomial& piece : crease->pieces)
+  {
+    coefficients += piece.degree == 1 ? 4.0 : 10.0;
+  }
+  for (std::size_t i = 0; i < 120; ++i)
+  {
+    const Vector p{ isopoint::FrameSamples::at(fitted.samples.x, i),
+      isopoint::FrameSamples::at(fitted.samples.y, i),
+      isopoint::FrameSamples::at(fitted.samples.z, i) };
+    double value = -1e9;
+    for (const isopoint::Polynomial& piece : crease->pieces)
+    {
+      value = std::max(value, crease->sense * piece.valueAt(p));
+    }
+    const double residual =
+      isopoint::FrameSamples::at(fitted.samples.value, i) - crease->sense * value;
+    squares += residual * residual;
+  }
+  EXPECT_NEAR(crease->residual, std::sqrt(squares / (120.0 - coefficients)), 1e-9);
+}
+
+TEST(CreaseFit, SidesMeetAtTwentyFiveDegreesOrMore)
+{
+  const auto isSharp = [](double degrees)
+  {
+    const double angle = degrees * 3.14159265358979 / 180.0;
+    isopoint::CreaseFit fit;
+    fit.pieces.resize(2);
+    fit.pieces[0].coefficients[3] = 2.0;
+    fit.pieces[1].coefficients[1] = std::sin(angle);
+    fit.pieces[1].coefficients[3] = std::cos(angle);
+    return fit.isSharp();
+  };
+  EXPECT_FALSE(isSharp(24.9));
+  EXPECT_TRUE(isSharp(25.1));
+  EXPECT_TRUE(isSharp(150.0));
+}
+
+// The nearest zero of a single piece may lie beyond the crease: then that of another piece counts,
+// or the crease itself.
+TEST(CreaseFit, ZerosBelongToTheWholeSurface)
+{
+  isopoint::CreaseFit fit; // a ridge along y: of z and x + z / 2, moved
+  fit.pieces.resize(2);
+  const auto setPiece = [&](std::size_t piece, double offset, double x, double z)
+  {
+    fit.pieces[piece].coefficients[0] = offset;
+    fit.pieces[piece].coefficients[1] = x;
+    fit.pieces[piece].coefficients[3] = z;
+  };
+  const auto surfaceAt = [&](const Vector& p)
+  {
+    return fit.sense *
+      std::max(fit.sense * fit.pieces[0].valueAt(p), fit.sense * fit.pieces[1].valueAt(p));
+  };
+  clouds::Random random(5);
+  int onOne = 0;
+  int onBoth = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    fit.sense = i % 2 == 0 ? 1.0 : -1.0;
+    setPiece(0, random() - 0.5, 2.0 * random() - 1.0, 1.0);
+    setPiece(1, random() - 0.5, 1.0, 2.0 * random() - 1.0);
+    const auto found = isopoint::zeroNear(fit, 2.0);
+    if (!found)
+    {
+      continue;
+    }
+    EXPECT_NEAR(surfaceAt(found->zero), 0.0, 2e-6);
+    const double one = fit.pieces[0].valueAt(found->zero);
+    const double other = fit.pieces[1].valueAt(found->zero);
+    const bool isOnBoth = std::abs(one) < 1e-5 && std::abs(other) < 1e-5;
+    onOne += isOnBoth ? 0 : 1;
+    onBoth += isOnBoth ? 1 : 0;
+    // The gradient is that of a piece that is zero there.
+    const isopoint::Polynomial& own = fit.pieces[std::abs(one) <= 1e-6 &&
+        found->gradient == fit.pieces[0].gradientAt(found->zero)
+      ? 0
+      : 1];
+    EXPECT_EQ(found->gradient, own.gradientAt(found->zero));
+    EXPECT_NEAR(own.valueAt(found->zero), 0.0, 1e-5);
+    // The plane of the other piece, that the surface turns to.
+    ASSERT_EQ(found->creases.size(), 1u);
+    const isopoint::Polynomial& beyond = &own == &fit.pieces[0] ? fit.pieces[1] : fit.pieces[0];
+    const Vector normal = isopoint::directionOf(beyond.gradientAt({}));
+    EXPECT_EQ(found->creases[0].turn, fit.sense);
+    EXPECT_LT(lengthOf(difference(found->creases[0].inward, scaled(-fit.sense, normal))), 1e-12);
+    const double distance =
+      -fit.sense * beyond.valueAt(found->zero) / lengthOf(beyond.gradientAt({}));
+    EXPECT_NEAR(found->creases[0].distance, std::max(0.0, distance), 1e-5);
+  }
+  EXPECT_GT(onOne, 100);
+  EXPECT_GT(onBoth, 10);
+}
+
 TEST(Creases, TheNearestSideIsFound)
 {
   const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const LocalFit found = fit(samplesOf(field, 80), upwards(), FitOrder::Crease);
+  const LocalFit found = fitAll(samplesOf(field, 80), upwards(), FitOrder::Crease);
   ASSERT_EQ(found.order, FitOrder::Crease);
+  EXPECT_TRUE(found.isSmooth);
+  EXPECT_TRUE(found.isGradientFitted);
   EXPECT_NEAR(field(found.position), 0.0, 1e-9);
   EXPECT_NEAR(std::max(std::abs(found.gradient[0]), std::abs(found.gradient[2])), 1.0, 1e-9);
+}
+
+// Among many samples those of one more piece do not determine it, next to the edge they do.
+TEST(Creases, SamplesNextToTheEdgeAreTriedByThemselves)
+{
+  const auto blurred = [](const Vector& p)
+  { return lengthOf(p) < 1.6 ? std::max(p[2], p[0]) - 0.1 : p[2] + std::sin(9.0 * p[1]); };
+  std::vector<FitSample> samples = samplesOf(blurred, 200);
+  const auto isNear = [](const FitSample& sample) { return lengthOf(sample.position) < 1.6; };
+  const auto middle = std::stable_partition(samples.begin(), samples.end(), isNear);
+  const auto nearCount = static_cast<std::size_t>(middle - samples.begin());
+  ASSERT_GT(nearCount, 30u);
+  EXPECT_NE(fitAll(samples, upwards(), FitOrder::Crease).order, FitOrder::Crease);
+  const LocalFit found = fitAll(samples, upwards(), FitOrder::Crease, 0.0, nearCount);
+  ASSERT_EQ(found.order, FitOrder::Crease);
+  EXPECT_NEAR(blurred(found.position), 0.0, 1e-9);
+}
+
+TEST(Creases, AreNotLookedForWhereTheFieldIsSmooth)
+{
+  const Field field = [](const Vector& p) { return p[2] + 0.02 * p[0] * p[0] * p[1] - 0.1; };
+  const LocalFit found = fitAll(samplesOf(field, 80), upwards(), FitOrder::Crease);
+  const LocalFit cubic = fitAll(samplesOf(field, 80), upwards(), FitOrder::Cubic);
+  EXPECT_EQ(found.order, FitOrder::Cubic);
+  EXPECT_EQ(found.position, cubic.position);
 }
 
 TEST(Creases, ACubesPointsLieOnItsFaces)
@@ -168,7 +350,7 @@ TEST(Creases, SidesMayBeCurved)
   {
     const Errors errors = errorsOf(body);
     EXPECT_LT(errors.position, 4.0);
-    EXPECT_LT(errors.normal, 15.0);
+    EXPECT_LT(errors.normal, 20.0);
   }
 }
 
@@ -179,7 +361,7 @@ TEST(Creases, CurvedSidesKeepTheirCurvature)
   {
     return std::max(p[2] + 0.1 * p[0] * p[0] + 0.05 * p[1] * p[1], p[0] - 0.5 - 0.08 * p[2] * p[2]);
   };
-  const LocalFit found = fit(samplesOf(field, 120), upwards(), FitOrder::Crease);
+  const LocalFit found = fitAll(samplesOf(field, 120), upwards(), FitOrder::Crease);
   ASSERT_EQ(found.order, FitOrder::Crease);
   EXPECT_NEAR(field(found.position), 0.0, 1e-9);
   EXPECT_NEAR(found.hessian[0], 0.2, 1e-8);
@@ -187,7 +369,7 @@ TEST(Creases, CurvedSidesKeepTheirCurvature)
   EXPECT_NEAR(found.hessian[2], 0.0, 1e-8);
 }
 
-TEST(Creases, AreNotDetectedInNoise)
+TEST(Creases, AreRarelyFoundInNoise)
 {
   clouds::Random random(5);
   const Field field = [&](const Vector& p) { return lengthOf(p) - 12.0 + 0.2 * (random() - 0.5); };
@@ -197,34 +379,10 @@ TEST(Creases, AreNotDetectedInNoise)
   EXPECT_LT(countCreases(surface), surface.fits.size() / 100);
 }
 
-// Residuals of an under-resolved field are coherent, too.
-TEST(Creases, AreRarelyDetectedInAnUnderResolvedField)
+TEST(Creases, AreRarelyFoundInAnUnderResolvedField)
 {
   const isopoint::Isosurface surface =
     extractFitted(cloudOf(gyroid(0.6), 20000, 27.0), 0.3, true, 2, FitOrder::Crease);
   ASSERT_GT(surface.fits.size(), 5000u);
-  EXPECT_LT(countCreases(surface), surface.fits.size() / 500);
-}
-
-// Where next to none are detected, testing everywhere would take many times as long as the
-// extraction.
-TEST(Creases, AreNotTestedForWhereTheyAreRare)
-{
-  const Field field = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const auto orderAfter = [&](int detected)
-  {
-    return fit(samplesOf(field, 80), upwards(), FitOrder::Crease, 0.0, { {}, rateOf(detected, 16) })
-      .order;
-  };
-  EXPECT_EQ(orderAfter(2), FitOrder::Crease);
-  EXPECT_NE(orderAfter(1), FitOrder::Crease);
-}
-
-TEST(Creases, LeaveCoherentResidualsAndNoiseDoesNot)
-{
-  const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const Field bend = [](const Vector& p) { return p[2] + 0.1 * p[0] * p[0]; };
-  EXPECT_GT(shareOfCoherentResiduals(wedge, 0.0), 0.95);
-  EXPECT_GT(shareOfCoherentResiduals(wedge, 0.1), 0.95);
-  EXPECT_LT(shareOfCoherentResiduals(bend, 0.1), 0.15);
+  EXPECT_LT(countCreases(surface), surface.fits.size() / 100);
 }

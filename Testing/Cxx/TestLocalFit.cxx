@@ -1,21 +1,122 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fits around isopoints, against dense least squares and fields whose surfaces are known.
+#include "FitDefinition.h"
 #include "FitTesting.h"
+
+#include "Isopoint/Fit/FitFrame.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
-#include <functional>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 using namespace fittesting;
+
+namespace
+{
+
+Field bentField()
+{
+  return [](const Vector& p) { return lengthOf({ p[0], p[1], p[2] + 4.0 }) - 4.1; };
+}
+
+std::vector<FitSample> inUnits(std::vector<FitSample> samples, double scale, double steepness)
+{
+  for (FitSample& sample : samples)
+  {
+    sample.position = scaled(scale, sample.position);
+    sample.value *= steepness;
+  }
+  return samples;
+}
+
+FitEdge edgeInUnits(double scale, double steepness)
+{
+  return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * steepness, scale };
+}
+
+std::vector<double> distancesOf(const isopoint::FrameSamples& samples)
+{
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < samples.count(); ++i)
+  {
+    distances.push_back(isopoint::FrameSamples::at(samples.squaredDistance, i));
+  }
+  return distances;
+}
+
+} // namespace
+
+// The nearest sixteen come first, then the others, both in the order in which they are given; of
+// more than 256 the nearest.
+TEST(FitFrame, OrdersSamples)
+{
+  for (const std::size_t count : { 5, 16, 17, 40, 256, 257, 700 })
+  {
+    const std::vector<FitSample> samples = samplesOf(bentField(), count);
+    isopoint::FitFrame frame;
+    frame.enter(upwards(), 0.0, samples);
+    ASSERT_TRUE(frame.isUsable());
+    std::vector<std::pair<double, std::size_t>> ranked;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      // The unit is the edge's length, 2.
+      ranked.emplace_back(dot(samples[i].position, samples[i].position) / 4.0, i);
+    }
+    std::sort(ranked.begin(), ranked.end());
+    ranked.resize(std::min<std::size_t>(count, 256));
+    const auto byNumber = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto middle =
+      ranked.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(ranked.size(), 16));
+    std::sort(ranked.begin(), middle, byNumber);
+    std::sort(middle, ranked.end(), byNumber);
+    std::vector<double> expected;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < ranked.size(); ++i)
+    {
+      expected.push_back(ranked[i].first);
+      mean += std::sqrt(ranked[i].first) / static_cast<double>(ranked.size());
+      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().value, i),
+        samples[ranked[i].second].value / 2.0);
+    }
+    EXPECT_EQ(distancesOf(frame.samples()), expected);
+    EXPECT_NEAR(frame.meanDistance(), mean, 1e-14 * mean);
+  }
+}
+
+// Of samples at one distance those that are given first.
+TEST(FitFrame, EqualDistancesAreTakenInTheirOrder)
+{
+  std::vector<FitSample> samples;
+  for (int i = 0; i < 600; ++i)
+  {
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    samples.push_back({ { i % 3 == 0 ? 0.5 * side : 0.0, i % 3 == 1 ? 0.5 * side : 0.0,
+                          i % 3 == 2 ? 0.5 * side : 0.0 },
+      static_cast<double>(i) });
+  }
+  isopoint::FitFrame frame;
+  frame.enter(upwards(), 0.0, samples);
+  ASSERT_EQ(frame.samples().count(), 256u);
+  for (std::size_t i = 0; i < 256; ++i)
+  {
+    EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().value, i), static_cast<double>(i) / 2.0);
+  }
+}
 
 TEST(LocalFit, ReproducesPolynomialsOfDegreeTwo)
 {
   const Field field = [](const Vector& p)
   { return 0.1 + 0.2 * p[0] + p[2] + 0.1 * p[0] * p[0] - 0.05 * p[1] * p[2] + 0.04 * p[1] * p[1]; };
-  const LocalFit found = fit(samplesOf(field, 30), upwards(), FitOrder::Quadratic);
+  const LocalFit found = fitAll(samplesOf(field, 30), upwards(), FitOrder::Quadratic);
   ASSERT_EQ(found.order, FitOrder::Quadratic);
   EXPECT_NEAR(field(found.position), 0.0, 1e-10);
   const Vector& p = found.position;
@@ -40,8 +141,8 @@ TEST(LocalFit, ReproducesPolynomialsOfDegreeThree)
            0.05 * p[0] * p[1] * p[2];
   };
   const std::vector<FitSample> samples = samplesOf(field, 60);
-  ASSERT_NE(fit(samples, upwards(), FitOrder::Quadratic).order, FitOrder::Cubic);
-  const LocalFit found = fit(samples, upwards(), FitOrder::Cubic);
+  ASSERT_EQ(fitAll(samples, upwards(), FitOrder::Quadratic).order, FitOrder::Quadratic);
+  const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
   ASSERT_EQ(found.order, FitOrder::Cubic);
   EXPECT_NEAR(field(found.position), 0.0, 1e-9);
   const auto moved = [&](int first, double one, int second, double other)
@@ -74,7 +175,9 @@ TEST(LocalFit, AffineFitsAgreeWithDenseLeastSquares)
 {
   const Field field = [](const Vector& p) { return 0.05 + 0.3 * p[1] + p[2]; };
   const std::vector<FitSample> samples = samplesOf(field, 40, 0.2);
-  const LocalFit found = fit(samples, upwards(), FitOrder::Linear);
+  const LocalFit found = fitAll(samples, upwards(), FitOrder::Linear);
+  EXPECT_FALSE(found.isSmooth);
+  EXPECT_EQ(found.hessian, isopoint::Hessian{});
   ASSERT_EQ(found.order, FitOrder::Linear);
   Eigen::MatrixXd design(samples.size(), 4);
   Eigen::VectorXd values(samples.size());
@@ -102,86 +205,232 @@ TEST(LocalFit, AffineFitsAgreeWithDenseLeastSquares)
   }
 }
 
-TEST(LocalFit, DoesNotDependOnUnits)
+// Units are powers of two: no digit changes.
+TEST(LocalFit, KeepsItsBitsInOtherUnits)
 {
-  const Field field = [](const Vector& p) { return lengthOf({ p[0], p[1], p[2] + 8.0 }) - 8.1; };
-  const std::vector<FitSample> samples = samplesOf(field, 30);
-  const LocalFit expected = fit(samples, upwards(), FitOrder::Quadratic);
-  ASSERT_EQ(expected.order, FitOrder::Quadratic);
-  for (const double scale : { 1e-20, 1e-9, 1e30 })
+  for (const double noise : { 0.0, 0.05, 1.0 })
   {
-    for (const double slope : { 1e-12, 1e25 })
+    const std::vector<FitSample> samples = samplesOf(bentField(), 80, noise);
+    for (const FitOrder order :
+      { FitOrder::Linear, FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
     {
-      std::vector<FitSample> others = samples;
-      for (FitSample& sample : others)
+      const LocalFit expected = fitAll(samples, upwards(), order);
+      EXPECT_TRUE(expected.order);
+      for (const double scale : { 0x1p-300, 0x1p-40, 2.0, 0x1p300 })
       {
-        sample.position = scaled(scale, sample.position);
-        sample.value *= slope;
-      }
-      const FitEdge edge{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * slope, scale };
-      const LocalFit found = fit(others, edge, FitOrder::Quadratic);
-      EXPECT_EQ(found.order, FitOrder::Quadratic);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        EXPECT_NEAR(found.position[axis] / scale, expected.position[axis], 1e-9);
-        EXPECT_NEAR(found.gradient[axis] / slope * scale, expected.gradient[axis], 1e-9);
+        for (const double steepness : { 0x1p-300, 0x1p-20, 8.0, 0x1p300 })
+        {
+          const LocalFit found =
+            fitAll(inUnits(samples, scale, steepness), edgeInUnits(scale, steepness), order);
+          EXPECT_EQ(found.order, expected.order);
+          EXPECT_EQ(found.isSmooth, expected.isSmooth);
+          EXPECT_EQ(found.position, scaled(scale, expected.position));
+          EXPECT_EQ(found.gradient, scaled(steepness / scale, expected.gradient));
+          for (std::size_t i = 0; i < expected.hessian.size(); ++i)
+          {
+            EXPECT_EQ(found.hessian[i], expected.hessian[i] * (steepness / scale / scale));
+          }
+        }
       }
     }
   }
+}
+
+TEST(LocalFit, DoesNotDependOnUnits)
+{
+  const std::vector<FitSample> samples = samplesOf(bentField(), 80, 0.05);
+  const LocalFit expected = fitAll(samples, upwards(), FitOrder::Cubic);
+  for (const double scale : { 1e-150, 1e-20, 1e-9, 1e30, 1e150 })
+  {
+    for (const double steepness : { 1e-150, 1e-12, 1e25, 1e150 })
+    {
+      const LocalFit found =
+        fitAll(inUnits(samples, scale, steepness), edgeInUnits(scale, steepness), FitOrder::Cubic);
+      EXPECT_EQ(found.order, expected.order);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_NEAR(found.position[axis] / scale, expected.position[axis], 1e-9);
+        EXPECT_NEAR(found.gradient[axis] / steepness * scale, expected.gradient[axis], 1e-9);
+      }
+    }
+  }
+}
+
+// Denormal numbers have too few digits, and numbers at the limit of double overflow.
+TEST(LocalFit, NothingIsFittedInUnitsThatAreNotNormal)
+{
+  const std::vector<FitSample> samples = samplesOf(bentField(), 80);
+  for (const auto& [scale, steepness] : { std::pair(1e-310, 1.0), std::pair(1.0, 1e-310),
+         std::pair(1e308, 1.0), std::pair(1.0, 1e308), std::pair(1e-310, 1e-310) })
+  {
+    const FitEdge edge = edgeInUnits(scale, steepness);
+    const std::vector<FitSample> others = inUnits(samples, scale, steepness);
+    for (const FitOrder order :
+      { FitOrder::Linear, FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
+    {
+      const std::optional<LocalFit> near = fitNear(others, edge, order);
+      const LocalFit found = near ? *near : fitAll(others, edge, order);
+      EXPECT_FALSE(found.order);
+      EXPECT_FALSE(found.isSmooth);
+      EXPECT_EQ(found.position, edge.position);
+    }
+  }
+}
+
+TEST(LocalFit, SamplesTooFarAwayForDoubleDoNotCount)
+{
+  std::vector<FitSample> samples = samplesOf(bentField(), 80);
+  const LocalFit expected = fitAll(samples, upwards(), FitOrder::Cubic);
+  samples.insert(samples.begin() + 40, { { 1e200, 0.0, 0.0 }, 1.0 });
+  const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
+  EXPECT_EQ(found.position, expected.position);
+  EXPECT_EQ(found.gradient, expected.gradient);
 }
 
 TEST(LocalFit, PointsStayWhereNoFitHolds)
 {
   const Field plane = [](const Vector& p) { return p[2] + 0.1; };
-  const Field step = [](const Vector& p) { return p[2] < 0.1 ? -1.0 : 1.0; };
   std::vector<FitSample> flat = samplesOf(plane, 30);
   for (FitSample& sample : flat)
   {
     sample.position[0] = 0.0;
   }
-  for (const std::vector<FitSample>& samples :
-    { samplesOf(plane, 2), samplesOf(plane, 4), flat, samplesOf(step, 30),
-      samplesOf(plane, 30, 4.0), samplesOf([](const Vector&) { return 0.0; }, 30),
-      samplesOf([](const Vector& p) { return -p[2]; }, 30), // decreases where the edge increases
-      samplesOf([](const Vector& p) { return p[2] + 1.5; }, 30), // too far away
-      samplesOf([](const Vector& p) { return 1e308 * p[2]; }, 30) })
+  for (const FitOrder order :
+    { FitOrder::Linear, FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
-    const LocalFit found = fit(samples, upwards(), FitOrder::Quadratic);
-    EXPECT_EQ(found.order, std::nullopt);
-    EXPECT_EQ(found.position, (Vector{ 0.0, 0.0, 0.0 }));
-    if (!found.isGradientFitted)
+    for (const std::vector<FitSample>& samples :
+      { samplesOf(plane, 2), samplesOf(plane, 4), flat,
+        samplesOf([](const Vector&) { return 0.0; }, 30),
+        samplesOf([](const Vector& p) { return -p[2]; }, 30), // decreases where the edge increases
+        samplesOf([](const Vector& p) { return p[2] + 1.5; }, 30), // too far away
+        samplesOf([](const Vector& p) { return 1e308 * p[2]; }, 30) })
     {
-      EXPECT_EQ(found.gradient, (Vector{ 0.0, 0.0, 1.0 }));
+      const LocalFit found = fitAll(samples, upwards(), order);
+      EXPECT_EQ(found.order, std::nullopt);
+      EXPECT_FALSE(found.isSmooth);
+      EXPECT_EQ(found.hessian, isopoint::Hessian{});
+      EXPECT_EQ(found.position, (Vector{ 0.0, 0.0, 0.0 }));
+      if (!found.isGradientFitted)
+      {
+        EXPECT_EQ(found.gradient, (Vector{ 0.0, 0.0, 1.0 }));
+      }
     }
   }
+  // The affine function of what stays for another reason is its gradient.
+  const LocalFit far = fitAll(
+    samplesOf([](const Vector& p) { return 3.0 * p[2] + 5.0; }, 30), upwards(), FitOrder::Cubic);
+  EXPECT_TRUE(far.isGradientFitted);
+  EXPECT_NEAR(far.gradient[2], 3.0, 1e-9);
 }
 
-// Gathering a wider neighbourhood costs ten times as much as a fit.
-TEST(LocalFit, WiderNeighborhoodsAreGatheredOnlyWhereTheyMayImproveTheFit)
+TEST(LocalFit, SamplesNextToTheEdgeSufficeWhereTheFieldIsSmooth)
 {
-  const auto isWiderGathered = [](FitOrder highest, const Field& field, double noise)
+  const auto near = [](const Field& field, double noise, FitOrder order = FitOrder::Cubic)
+  { return fitNear(samplesOf(field, 40, noise), upwards(), order); };
+  const Field quadratic = [](const Vector& p) { return p[2] - 0.1 + 0.1 * p[0] * p[1]; };
+  ASSERT_TRUE(near(quadratic, 0.0));
+  EXPECT_EQ(near(quadratic, 0.0)->order, FitOrder::Quadratic);
+  EXPECT_TRUE(near(quadratic, 0.0)->isSmooth);
+  EXPECT_NEAR(near(quadratic, 0.0)->position[2], 0.1, 1e-9);
+  EXPECT_TRUE(near(quadratic, 0.0, FitOrder::Crease));
+  EXPECT_FALSE(near(quadratic, 0.0, FitOrder::Linear));
+  EXPECT_FALSE(near(quadratic, 0.05)); // more samples are needed
+  EXPECT_FALSE(near([](const Vector& p) { return std::max(p[2], p[0]) - 0.1; }, 0.0));
+  // Where not even the direction is known, nor will it be.
+  int stayed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
   {
-    bool isGathered = false;
-    const std::vector<FitSample> samples = samplesOf(field, 30, noise);
-    isopoint::DetectionRates rates;
-    isopoint::fitAround(
-      upwards(), 0.0, samples,
-      [&]() -> const std::vector<FitSample>&
+    const std::optional<LocalFit> noise =
+      fitNear(samplesOf(quadratic, 40, 40.0, seed), upwards(), FitOrder::Cubic);
+    if (noise)
+    {
+      EXPECT_FALSE(noise->order);
+      EXPECT_EQ(noise->position, (Vector{ 0.0, 0.0, 0.0 }));
+      ++stayed;
+    }
+  }
+  EXPECT_GT(stayed, 5);
+}
+
+// Where values are noise, the move is a share of that to the zero (docs/algorithm.md, 10.4).
+TEST(LocalFit, PointsMoveByLessWhereTheZeroIsUncertain)
+{
+  int accurate = 0;
+  int uncertain = 0;
+  for (const double noise : { 1e-3, 0.1, 0.5, 1.0 })
+  {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    {
+      const std::vector<FitSample> samples = samplesOf(bentField(), 60, noise, seed);
+      const fitdefinition::Frame frame(upwards(), 0.0, samples);
+      const auto plain = fitdefinition::candidateOf(frame, frame.steep(), 3);
+      const auto robust =
+        fitdefinition::candidateOf(frame, fitdefinition::robustWeights(frame), 3);
+      const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
+      ASSERT_EQ(found.order.has_value(), plain || robust);
+      if (found.order)
       {
-        isGathered = true;
-        return samples;
-      },
-      highest, rates);
-    return isGathered;
-  };
-  const Field plane = [](const Vector& p) { return p[2]; };
-  EXPECT_FALSE(isWiderGathered(FitOrder::Crease, plane, 0.0));
-  EXPECT_FALSE(isWiderGathered(FitOrder::Quadratic, plane, 10.0));
-  const Field wedge = [](const Vector& p) { return std::max(p[2], p[0]) - 0.1; };
-  const Field fold = [](const Vector& p) { return std::abs(p[2] + 0.5) - 0.5; };
-  EXPECT_TRUE(isWiderGathered(FitOrder::Crease, wedge, 0.0));
-  EXPECT_TRUE(isWiderGathered(FitOrder::Crease, fold, 0.0));
-  EXPECT_TRUE(isWiderGathered(FitOrder::Cubic, fold, 0.0));
+        const bool isPlain = plain &&
+          (plain->s < 0.1 * plain->move || !robust || plain->s <= robust->s);
+        const fitdefinition::Candidate& taken = isPlain ? *plain : *robust;
+        const double share =
+          taken.move * taken.move / (taken.move * taken.move + 0.1 * taken.s * taken.s);
+        EXPECT_LE(lengthOf(difference(found.position, scaled(2.0 * share, taken.zero))), 1e-7);
+        accurate += share > 0.999 ? 1 : 0;
+        uncertain += share < 0.9 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(accurate, 5);
+  EXPECT_GT(uncertain, 5);
+}
+
+// The gradient of an affine function is the better known one in noise.
+TEST(LocalFit, TheGradientInNoiseIsTheAffineOne)
+{
+  const Field plane = [](const Vector& p) { return 0.1 + 0.3 * p[0] + p[2]; };
+  int affine = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    const std::vector<FitSample> samples = samplesOf(plane, 80, 0.5, seed);
+    const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
+    const LocalFit linear = fitAll(samples, upwards(), FitOrder::Linear);
+    if (found.order && !found.isSmooth)
+    {
+      EXPECT_EQ(found.gradient, linear.gradient);
+      EXPECT_EQ(found.hessian, isopoint::Hessian{});
+      EXPECT_LT(degreesBetween(found.gradient, { 0.3, 0.0, 1.0 }), 10.0);
+      ++affine;
+    }
+  }
+  EXPECT_GT(affine, 15);
+}
+
+// Robust weights leave the samples of the isopoint's own side of a step or a crease.
+TEST(LocalFit, OneSideOfAStepDecides)
+{
+  int exact = 0;
+  int plainExact = 0;
+  double sum = 0.0;
+  double plainSum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    // On the isopoint's side the surface is z = 0.2.
+    const Field step = [](const Vector& p) { return p[0] > 0.7 ? 30.0 : p[2] - 0.2; };
+    const std::vector<FitSample> samples = samplesOf(step, 80, 0.0, seed);
+    const auto errorOf = [](const Vector& p) { return std::abs(p[2] - 0.2); };
+    const fitdefinition::Frame frame(upwards(), 0.0, samples);
+    const auto plain = fitdefinition::candidateOf(frame, frame.steep(), 3);
+    const double error = errorOf(fitAll(samples, upwards(), FitOrder::Cubic).position);
+    const double plainError = errorOf(plain ? scaled(2.0, plain->zero) : Vector{});
+    exact += error < 0.01 ? 1 : 0;
+    plainExact += plainError < 0.01 ? 1 : 0;
+    sum += error;
+    plainSum += plainError;
+  }
+  EXPECT_GT(exact, 6);
+  EXPECT_EQ(plainExact, 0);
+  EXPECT_LT(sum, plainSum);
 }
 
 TEST(LocalFit, MovesASpheresPointsOntoIt)
@@ -222,7 +471,7 @@ TEST(LocalFit, PointsAtTheLimitOfDoubleStayFinite)
         p[2] - 0.52 - 0.2 * p[0] * p[0] });
     }
     const FitEdge edge{ { 0.0, 0.0, most }, { 0.0, 0.0, 0.2 * most }, 0.2, 0.1 * most };
-    const Vector found = fit(samples, edge, FitOrder::Cubic).position;
+    const Vector found = fitAll(samples, edge, FitOrder::Cubic).position;
     ASSERT_TRUE(std::isfinite(found[0]) && std::isfinite(found[1]) && std::isfinite(found[2]));
   }
 }

@@ -17,6 +17,13 @@ double unitOf(double size)
   return std::ldexp(1.0, std::ilogb(size));
 }
 
+/// Whether positions within a distance on each axis are finite.
+bool areFiniteWithin(double distance, const Vector& position)
+{
+  return std::all_of(position.begin(), position.end(),
+    [distance](double coordinate) { return std::isfinite(std::abs(coordinate) + distance); });
+}
+
 /// Whether units can be divided by.
 bool isNormal(double unit)
 {
@@ -31,7 +38,8 @@ void FitFrame::enter(const FitEdge& edge, double isovalue)
   this->Origin = edge.position;
   this->Isovalue = isovalue;
   const double length = lengthOf(edge.increasing);
-  this->IsUsable = std::isfinite(length) && length > 0.0 && std::isfinite(edge.increase);
+  this->IsUsable =
+    length > 0.0 && areFiniteWithin(length, edge.position) && std::isfinite(edge.increase);
   if (this->IsUsable)
   {
     this->Length = unitOf(length);

@@ -16,7 +16,8 @@ namespace isopoint
 class FitFrame
 {
 public:
-  /// Whether units are finite; otherwise nothing can be fitted.
+  /// Whether units are normal numbers and positions up to an edge's length away are finite; otherwise
+  /// nothing can be fitted.
   bool isUsable() const { return this->IsUsable; }
 
   /// Goes to an edge, without samples.

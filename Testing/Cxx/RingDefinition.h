@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RingDefinition_h
+#define RingDefinition_h
+
+#include "BruteForce.h"
+
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+/// The samples around edges, and their spacing, as docs/algorithm.md defines them in 10.1: from all
+/// pairs of cells, independently of the core. Quadratic.
+namespace ringdefinition
+{
+
+using bruteforce::Cell;
+using bruteforce::Region;
+
+/// Numbers of cells, in order.
+using Cells = std::vector<std::size_t>;
+
+class Rings
+{
+public:
+  explicit Rings(const clouds::Cloud& cloud)
+    : All(bruteforce::Tree(cloud).cells)
+    , Neighbors(bruteforce::neighborhoods(this->All))
+  {
+    for (std::size_t c = 0; c < this->All.size(); ++c)
+    {
+      this->Numbers[this->All[c].id] = c;
+      this->sortAsSearched(c, this->Neighbors[c]);
+    }
+  }
+
+  const std::vector<Cell>& cells() const { return this->All; }
+
+  /// The cell of the sample with this id, the lowest of coincident ones.
+  std::size_t cellOf(std::uint64_t id) const { return this->Numbers.at(id); }
+
+  /// The neighbours of a cell, in the order of the search.
+  const Cells& neighborsOf(std::size_t cell) const { return this->Neighbors[cell]; }
+
+  Cells firstRing(std::size_t a, std::size_t b) const
+  {
+    Cells cells;
+    for (const std::size_t end : { std::min(a, b), std::max(a, b) })
+    {
+      addOnce(cells, { end });
+      addOnce(cells, this->takenAt(end, a, b));
+    }
+    return cells;
+  }
+
+  Cells secondRing(std::size_t a, std::size_t b, double isovalue) const
+  {
+    Cells cells = this->firstRing(a, b);
+    if (cells.size() > 64)
+    {
+      return cells;
+    }
+    for (const std::size_t end : { std::min(a, b), std::max(a, b) })
+    {
+      for (const std::size_t neighbor : this->takenAt(end, a, b))
+      {
+        if ((this->All[neighbor].value < isovalue) != (this->All[end].value < isovalue) &&
+          !this->areTooMany(neighbor))
+        {
+          addOnce(cells, this->Neighbors[neighbor]);
+        }
+      }
+    }
+    return cells;
+  }
+
+  double spacing(std::size_t a, std::size_t b) const
+  {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const std::size_t end : { std::min(a, b), std::max(a, b) })
+    {
+      const Cells taken = this->takenAt(end, a, b);
+      if (!taken.empty())
+      {
+        std::vector<double> distances{ 0.0 };
+        for (const std::size_t cell : taken)
+        {
+          const auto d = bruteforce::difference(this->All[cell].position, this->All[end].position);
+          distances.push_back(std::hypot(d[0], d[1], d[2]));
+        }
+        std::sort(distances.begin(), distances.end());
+        sum += distances[2 * distances.size() / 5];
+        count += 1.0;
+      }
+    }
+    return sum / count;
+  }
+
+  std::vector<isopoint::FitSample> samplesOf(const Cells& cells) const
+  {
+    std::vector<isopoint::FitSample> samples;
+    for (const std::size_t cell : cells)
+    {
+      samples.push_back({ this->All[cell].position, this->All[cell].value });
+    }
+    return samples;
+  }
+
+private:
+  static void addOnce(Cells& cells, const Cells& more)
+  {
+    for (const std::size_t cell : more)
+    {
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end())
+      {
+        cells.push_back(cell);
+      }
+    }
+  }
+
+  bool areTooMany(std::size_t cell) const { return this->Neighbors[cell].size() > 256; }
+
+  /// The neighbours of an end of the edge {a, b} that are taken.
+  Cells takenAt(std::size_t end, std::size_t a, std::size_t b) const
+  {
+    if (!this->areTooMany(end))
+    {
+      return this->Neighbors[end];
+    }
+    return this->areTooMany(a) && this->areTooMany(b) ? this->representativesAt(end) : Cells{};
+  }
+
+  std::size_t commonTurns(std::size_t a, std::size_t b) const
+  {
+    const std::vector<bool>& one = this->All[a].path;
+    const std::vector<bool>& other = this->All[b].path;
+    const std::size_t count = std::min(one.size(), other.size());
+    return static_cast<std::size_t>(
+      std::mismatch(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin())
+        .first -
+      one.begin());
+  }
+
+  /// By the ancestor whose plane is between, the nearest first, and then by the order of the tree.
+  void sortAsSearched(std::size_t cell, Cells& neighbors) const
+  {
+    std::sort(neighbors.begin(), neighbors.end());
+    std::stable_sort(neighbors.begin(), neighbors.end(),
+      [&](std::size_t one, std::size_t other)
+      { return this->commonTurns(cell, one) > this->commonTurns(cell, other); });
+  }
+
+  /// A node: its cells are [begin, end), its depth is the number of turns that these share.
+  struct Node
+  {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t depth;
+  };
+
+  std::pair<Node, Node> childrenOf(const Node& node) const
+  {
+    std::size_t middle = node.begin;
+    while (!this->All[middle].path[node.depth])
+    {
+      ++middle;
+    }
+    return { { node.begin, middle, node.depth + 1 }, { middle, node.end, node.depth + 1 } };
+  }
+
+  bool touches(std::size_t cell, const Node& node) const
+  {
+    Cell whole = this->All[node.begin];
+    for (std::size_t c = node.begin; c < node.end; ++c)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        Region& region = whole.region;
+        region.lower[axis] = std::min(region.lower[axis], this->All[c].region.lower[axis]);
+        region.upper[axis] = std::max(region.upper[axis], this->All[c].region.upper[axis]);
+      }
+    }
+    return bruteforce::touch(this->All[cell], whole);
+  }
+
+  /// Whether the bounding box of a node's samples has a small diagonal from a cell's sample.
+  bool isSmall(std::size_t cell, const Node& node) const
+  {
+    bruteforce::Vector diagonal{};
+    bruteforce::Vector nearest{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [least, greatest] = std::minmax_element(
+        this->All.begin() + static_cast<std::ptrdiff_t>(node.begin),
+        this->All.begin() + static_cast<std::ptrdiff_t>(node.end),
+        [axis](const Cell& a, const Cell& b) { return a.position[axis] < b.position[axis]; });
+      const double own = this->All[cell].position[axis];
+      diagonal[axis] = greatest->position[axis] - least->position[axis];
+      nearest[axis] =
+        std::max({ 0.0, least->position[axis] - own, own - greatest->position[axis] });
+    }
+    return bruteforce::dot(diagonal, diagonal) < 0.2 * 0.2 * bruteforce::dot(nearest, nearest);
+  }
+
+  void addRepresentatives(std::size_t cell, const Node& node, Cells& found) const
+  {
+    if (node.end - node.begin == 1)
+    {
+      found.push_back(node.begin);
+      return;
+    }
+    const auto [lower, upper] = this->childrenOf(node);
+    const bool touchesLower = this->touches(cell, lower);
+    const bool touchesUpper = this->touches(cell, upper);
+    if (touchesLower && touchesUpper && this->isSmall(cell, node))
+    {
+      Node leaf = node;
+      while (leaf.end - leaf.begin > 1)
+      {
+        const auto [low, up] = this->childrenOf(leaf);
+        leaf = this->touches(cell, low) ? low : up;
+      }
+      found.push_back(leaf.begin);
+      return;
+    }
+    if (touchesLower)
+    {
+      this->addRepresentatives(cell, lower, found);
+    }
+    if (touchesUpper)
+    {
+      this->addRepresentatives(cell, upper, found);
+    }
+  }
+
+  /// Of the subtrees across the planes of the ancestors, the nearest first.
+  Cells representativesAt(std::size_t cell) const
+  {
+    std::vector<Node> siblings; // from the root down
+    Node node{ 0, this->All.size(), 0 };
+    while (node.end - node.begin > 1)
+    {
+      const auto [lower, upper] = this->childrenOf(node);
+      const bool isUpper = cell >= upper.begin;
+      siblings.push_back(isUpper ? lower : upper);
+      node = isUpper ? upper : lower;
+    }
+    Cells found;
+    for (auto sibling = siblings.rbegin(); sibling != siblings.rend(); ++sibling)
+    {
+      if (this->touches(cell, *sibling))
+      {
+        this->addRepresentatives(cell, *sibling, found);
+      }
+    }
+    return found;
+  }
+
+  std::vector<Cell> All;
+  std::vector<Cells> Neighbors;
+  std::map<std::uint64_t, std::size_t> Numbers; // of cells, by the ids of their samples
+};
+
+} // namespace ringdefinition
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each fit against the rule written down plainly (docs/algorithm.md, 10.1 to 10.4): samples from all
+// pairs of cells, dense least squares, refits.
+#include "FitDefinition.h"
+#include "FitTesting.h"
+#include "RingDefinition.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+using namespace fittesting;
+
+namespace
+{
+
+using ringdefinition::Rings;
+
+/// How many isopoints each step of the rule decided.
+struct Steps
+{
+  std::size_t quadratic = 0;
+  std::size_t cubic = 0;
+  std::size_t rough = 0; // with the gradient of the affine function
+  std::size_t stayed = 0;
+};
+
+void expectNear(const Vector& expected, const Vector& found, double tolerance)
+{
+  EXPECT_LE(lengthOf(difference(expected, found)), tolerance);
+}
+
+/// @param tolerance of positions and gradients, beside edges and slopes
+Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder highest,
+  double tolerance = 1e-6)
+{
+  const Rings rings(cloud);
+  const isopoint::Isosurface surface = extractFitted(cloud, isovalue, true, 1, highest);
+  EXPECT_GT(surface.size(), 50u);
+  Steps steps;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+  {
+    const std::size_t a = rings.cellOf(surface.edges[i].first);
+    const std::size_t b = rings.cellOf(surface.edges[i].second);
+    const bruteforce::Cell& low = rings.cells()[rings.cells()[a].value < isovalue ? a : b];
+    const bruteforce::Cell& high = rings.cells()[rings.cells()[a].value < isovalue ? b : a];
+    const Vector r = difference(high.position, low.position);
+    const double increase = high.value - low.value;
+    const FitEdge edge{ isopoint::sum(low.position, (isovalue - low.value) / increase, r), r,
+      increase, rings.spacing(a, b) };
+    const fitdefinition::Result expected = fitdefinition::fit(edge, isovalue,
+      rings.samplesOf(rings.firstRing(a, b)),
+      rings.samplesOf(rings.secondRing(a, b, isovalue)), highest);
+    const LocalFit& found = surface.fits[i];
+    const double slope = lengthOf(expected.gradient);
+    EXPECT_EQ(expected.order, found.order);
+    EXPECT_EQ(expected.isSmooth, found.isSmooth);
+    EXPECT_EQ(expected.isGradientFitted, found.isGradientFitted);
+    EXPECT_EQ(edge.spacing, found.spacing);
+    expectNear(expected.position, found.position, tolerance * lengthOf(r));
+    expectNear(expected.gradient, found.gradient, tolerance * slope);
+    for (std::size_t j = 0; j < expected.hessian.size(); ++j)
+    {
+      EXPECT_NEAR(
+        expected.hessian[j], found.hessian[j], 10.0 * tolerance * slope / lengthOf(r));
+    }
+    steps.quadratic += found.order == FitOrder::Quadratic ? 1 : 0;
+    steps.cubic += found.order == FitOrder::Cubic ? 1 : 0;
+    steps.rough += found.order && !found.isSmooth ? 1 : 0;
+    steps.stayed += found.order ? 0 : 1;
+  }
+  return steps;
+}
+
+clouds::Cloud noisy(const Field& field, std::size_t count, double side, double noise)
+{
+  clouds::Random random(17);
+  return cloudOf([&](const Vector& p) { return field(p) + noise * (random() - 0.5); }, count, side);
+}
+
+double distance(const Vector& p)
+{
+  return lengthOf(p);
+}
+
+} // namespace
+
+TEST(FitDefinition, OnSmoothFields)
+{
+  const clouds::Cloud sphere = cloudOf(distance, 600, 8.4);
+  EXPECT_GT(expectTheDefinition(sphere, 3.0, FitOrder::Quadratic).quadratic, 150u);
+  EXPECT_GT(expectTheDefinition(sphere, 3.0, FitOrder::Cubic).cubic, 150u);
+  const clouds::Cloud waves = cloudOf(gyroid(0.6), 600, 8.4);
+  EXPECT_GT(expectTheDefinition(waves, 0.3, FitOrder::Quadratic).quadratic, 150u);
+  EXPECT_GT(expectTheDefinition(waves, 0.3, FitOrder::Cubic).cubic, 150u);
+  // So close to a quadratic that the first ring decides almost everywhere.
+  const Field plane = [](const Vector& p) { return p[2] + 0.2 * p[0] + 1e-4 * p[1] * p[2] * p[2]; };
+  EXPECT_GT(expectTheDefinition(cloudOf(plane, 600, 8.4), 0.1, FitOrder::Cubic).quadratic, 90u);
+}
+
+TEST(FitDefinition, OnNoise)
+{
+  const auto stepsOf = [](double noise, FitOrder highest)
+  { return expectTheDefinition(noisy(distance, 500, 8.0, noise), 3.0, highest); };
+  EXPECT_GT(stepsOf(0.02, FitOrder::Cubic).cubic, 150u);
+  EXPECT_GT(stepsOf(0.2, FitOrder::Cubic).rough, 80u);
+  EXPECT_GT(stepsOf(0.2, FitOrder::Quadratic).rough, 50u);
+  const Steps steps = stepsOf(1.0, FitOrder::Cubic);
+  EXPECT_GT(steps.rough, 80u);
+  EXPECT_GT(steps.stayed, 20u);
+}
+
+TEST(FitDefinition, OnStepsAndCreases)
+{
+  const Field step = [](const Vector& p) { return lengthOf(p) < 3.0 ? 0.1 * p[0] : 1.0; };
+  const Field cube = [](const Vector& p)
+  { return std::max({ std::abs(p[0] + 0.1 * p[1]), std::abs(p[1]), std::abs(p[2]) }); };
+  const Field sheets = [](const Vector& p) { return std::abs(lengthOf(p) - 2.5); };
+  expectTheDefinition(cloudOf(step, 600, 8.4), 0.5, FitOrder::Cubic);
+  expectTheDefinition(cloudOf(cube, 600, 8.4), 2.5, FitOrder::Cubic);
+  expectTheDefinition(cloudOf(sheets, 600, 8.4), 0.6, FitOrder::Cubic);
+}
+
+TEST(FitDefinition, OnClustersSlicesAndCoincidentSamples)
+{
+  const auto withField = [](clouds::Cloud cloud)
+  {
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      const double* const p = cloud.positions.data() + 3 * i;
+      cloud.values[i] = clouds::waves(p[0], p[1], p[2]);
+    }
+    return cloud;
+  };
+  expectTheDefinition(clouds::clustered(500, 18), -4.0, FitOrder::Cubic);
+  clouds::Cloud slices = clouds::uniform(500, 19);
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    slices.positions[3 * i + 2] = std::floor(4.0 * slices.positions[3 * i + 2]) / 4.0;
+  }
+  expectTheDefinition(withField(slices), 0.5, FitOrder::Cubic);
+  expectTheDefinition(clouds::coincident(clouds::uniform(500, 20), 0.2), 0.5, FitOrder::Cubic);
+}
