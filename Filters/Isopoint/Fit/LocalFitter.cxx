@@ -18,7 +18,7 @@ namespace
 
 /// Up to this residual, in mean rises of the field over the mean distance of the samples, a field is
 /// smooth.
-constexpr double smoothResidual = 0.0003;
+constexpr double smoothResidual = 0.0002;
 
 /// Weights so steep that a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
