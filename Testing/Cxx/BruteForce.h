@@ -138,8 +138,7 @@ private:
   }
 
   /// A node whose samples all coincide is a leaf; any other one is split.
-  void build(
-    std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
+  void build(std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
   {
     const auto coincidesWithFirst = [&](std::size_t id) { return this->coincide(id, ids[0]); };
     if (std::all_of(ids.begin(), ids.end(), coincidesWithFirst))
@@ -166,8 +165,7 @@ private:
 
   /// Section 2: coincident samples have the lowest id among them, the coordinates of that sample
   /// and the mean of their values.
-  void addCell(
-    std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
+  void addCell(std::vector<std::size_t> ids, const Region& region, const std::vector<bool>& path)
   {
     std::sort(ids.begin(), ids.end());
     std::vector<double> values;

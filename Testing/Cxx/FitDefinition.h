@@ -14,19 +14,19 @@
 #include <optional>
 #include <vector>
 
-/// Fits as docs/algorithm.md defines them in 10.2 to 10.4, written down plainly and independently of
-/// the core: least squares by Householder's QR of the whole design, residuals of samples left out
-/// and effects of values by fitting again. Equal to the core's but for rounding, since sums are taken
-/// in other orders.
+/// Fits as docs/algorithm.md defines them in 10.2 to 10.4, written down plainly and independently
+/// of the core: least squares by Householder's QR of the whole design, residuals of samples left
+/// out and effects of values by fitting again. Equal to the core's but for rounding, since sums are
+/// taken in other orders.
 namespace fitdefinition
 {
 
+using Eigen::Index;
 using isopoint::FitEdge;
 using isopoint::FitOrder;
 using isopoint::FitSample;
 using isopoint::Hessian;
 using isopoint::Vector;
-using Eigen::Index;
 
 using Weights = std::vector<double>;
 
@@ -98,14 +98,14 @@ struct Polynomial
 inline Eigen::MatrixXd designOf(
   const std::vector<FitSample>& samples, const Weights& weights, int degree)
 {
-  Eigen::MatrixXd design(
-    static_cast<Index>(samples.size()), static_cast<Index>(countOf(degree)));
+  Eigen::MatrixXd design(static_cast<Index>(samples.size()), static_cast<Index>(countOf(degree)));
   for (Index row = 0; row < design.rows(); ++row)
   {
     const auto i = static_cast<std::size_t>(row);
     for (Index column = 0; column < design.cols(); ++column)
     {
-      design(row, column) = std::sqrt(weights[i]) *
+      design(row, column) =
+        std::sqrt(weights[i]) *
         derivative(powers()[static_cast<std::size_t>(column)], samples[i].position, { 0, 0, 0 });
     }
   }
@@ -154,20 +154,20 @@ struct Errors
   double slope;
 };
 
-/// By fitting again: without each of the nearest samples, and to a value of 1 there alone. Nothing if
+/// By fitting again: without each of the first samples, and to a value of 1 there alone. Nothing if
 /// one of them alone determines a coefficient.
-/// @param nearest how many samples, the first ones, are looked at
-inline std::optional<Errors> errorsOf(const std::vector<FitSample>& samples, const Weights& weights, int degree,
-  std::size_t nearest = 16)
+/// @param counted how many samples, the first ones, are looked at
+inline std::optional<Errors> errorsOf(const std::vector<FitSample>& samples, const Weights& weights,
+  int degree, std::size_t counted = 16)
 {
   double squares = 0.0;
   double weightSquares = 0.0;
   double value = 0.0;
   double slope = 0.0;
   const Eigen::MatrixXd whole = designOf(samples, weights, degree);
-  const Eigen::MatrixXd orthogonal = whole.householderQr().householderQ() *
-    Eigen::MatrixXd::Identity(whole.rows(), whole.cols());
-  for (std::size_t i = 0; i < std::min(nearest, samples.size()); ++i)
+  const Eigen::MatrixXd orthogonal =
+    whole.householderQr().householderQ() * Eigen::MatrixXd::Identity(whole.rows(), whole.cols());
+  for (std::size_t i = 0; i < std::min(counted, samples.size()); ++i)
   {
     if (1.0 - orthogonal.row(static_cast<Index>(i)).squaredNorm() <= 1e-7)
     {
@@ -203,27 +203,25 @@ inline double lengthOf(const Vector& a)
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-/// The samples of a list in the frame of an edge (10.2).
+/// The samples of both rings in the frame of an edge (10.2): those of the first ring by distance,
+/// so that the nearest come first, those that the second one adds in their order.
 struct Frame
 {
   Vector increasing; // r
   std::vector<FitSample> samples;
   double h;
 
-  Frame(const FitEdge& edge, double isovalue, const std::vector<FitSample>& list)
+  /// @param more what the second ring adds to the first
+  Frame(const FitEdge& edge, double isovalue, const std::vector<FitSample>& first,
+    const std::vector<FitSample>& more = {})
   {
     this->Length = unitOf(lengthOf(edge.increasing));
     this->Value = unitOf(edge.increase);
     this->increasing = this->placeOf(edge.increasing, {});
-    for (const FitSample& sample : list)
-    {
-      this->samples.push_back(
-        { this->placeOf(sample.position, edge.position), (sample.value - isovalue) / this->Value });
-    }
-    std::stable_sort(this->samples.begin(), this->samples.end(),
-      [](const FitSample& a, const FitSample& b)
-      { return lengthOf(a.position) < lengthOf(b.position); });
-    this->samples.resize(std::min<std::size_t>(this->samples.size(), 256));
+    this->samples = nearestOf(this->placed(first, edge.position, isovalue), 256, true);
+    const std::vector<FitSample> added =
+      nearestOf(this->placed(more, edge.position, isovalue), 256 - this->samples.size(), false);
+    this->samples.insert(this->samples.end(), added.begin(), added.end());
     this->h = 0.0;
     for (const FitSample& sample : this->samples)
     {
@@ -244,6 +242,32 @@ private:
   {
     return { (position[0] - origin[0]) / this->Length, (position[1] - origin[1]) / this->Length,
       (position[2] - origin[2]) / this->Length };
+  }
+
+  std::vector<FitSample> placed(
+    const std::vector<FitSample>& ring, const Vector& origin, double isovalue) const
+  {
+    std::vector<FitSample> result;
+    for (const FitSample& sample : ring)
+    {
+      result.push_back(
+        { this->placeOf(sample.position, origin), (sample.value - isovalue) / this->Value });
+    }
+    return result;
+  }
+
+  /// The nearest samples: as they are if they are no more, or by their distance.
+  static std::vector<FitSample> nearestOf(
+    std::vector<FitSample> all, std::size_t count, bool areSorted)
+  {
+    if (areSorted || all.size() > count)
+    {
+      std::stable_sort(all.begin(), all.end(),
+        [](const FitSample& a, const FitSample& b)
+        { return lengthOf(a.position) < lengthOf(b.position); });
+    }
+    all.resize(std::min(all.size(), count));
+    return all;
   }
 
   Weights weights(double offset, int power) const
@@ -309,14 +333,14 @@ struct Candidate
   double a;
 };
 
-/// The cubic or, if it does not hold, the quadratic (10.4, step 2).
+/// The cubic or, if it does not hold, the quadratic (10.4, step 3).
 inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& weights, int highest)
 {
   for (int degree = highest; degree > 1; --degree)
   {
     const auto polynomial = areEnough(frame.samples.size(), degree)
-      ? leastSquares(frame.samples, weights, degree)
-      : std::nullopt;
+                              ? leastSquares(frame.samples, weights, degree)
+                              : std::nullopt;
     const auto zero = polynomial ? zeroOf(*polynomial, frame.increasing) : std::nullopt;
     const auto errors = zero ? errorsOf(frame.samples, weights, degree) : std::nullopt;
     if (errors)
@@ -330,7 +354,7 @@ inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& w
   return std::nullopt;
 }
 
-/// Robust weights (10.4, step 3).
+/// Robust weights (10.4, step 2).
 inline Weights robustWeights(const Frame& frame)
 {
   const Weights steep = frame.steep();
@@ -359,15 +383,15 @@ inline Weights robustWeights(const Frame& frame)
   return weights;
 }
 
-/// g' of 10.4, step 5.
+/// g' of 10.4, step 4.
 inline std::optional<Vector> affineGradient(const Frame& frame)
 {
   const auto affine = areEnough(frame.samples.size(), 1)
-    ? leastSquares(frame.samples, frame.mild(), 1)
-    : std::nullopt;
+                        ? leastSquares(frame.samples, frame.mild(), 1)
+                        : std::nullopt;
   return affine && !contradicts(affine->gradientAt({}), frame.increasing)
-    ? std::optional<Vector>(affine->gradientAt({}))
-    : std::nullopt;
+           ? std::optional<Vector>(affine->gradientAt({}))
+           : std::nullopt;
 }
 
 /// What the rule yields, in the units of positions and values.
@@ -407,8 +431,7 @@ inline void setHessian(const Frame& frame, const Hessian& hessian, Result& resul
 {
   for (std::size_t i = 0; i < hessian.size(); ++i)
   {
-    result.hessian[i] =
-      hessian[i] * frame.valueUnit() / frame.lengthUnit() / frame.lengthUnit();
+    result.hessian[i] = hessian[i] * frame.valueUnit() / frame.lengthUnit() / frame.lengthUnit();
   }
   result.isSmooth = true;
 }
@@ -444,8 +467,8 @@ inline double angleBetween(const Vector& a, const Vector& b)
 inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
 {
   const auto quadratic = areEnough(frame.samples.size(), 2)
-    ? leastSquares(frame.samples, frame.steep(), 2)
-    : std::nullopt;
+                           ? leastSquares(frame.samples, frame.steep(), 2)
+                           : std::nullopt;
   const auto errors = quadratic ? errorsOf(frame.samples, frame.steep(), 2) : std::nullopt;
   if (!errors)
   {
@@ -471,36 +494,41 @@ inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
 
 } // namespace detail
 
+/// The polynomial of step 3 of the rule, if one holds.
+inline std::optional<Candidate> takenIn(const Frame& frame, FitOrder highest)
+{
+  const int degree = highest == FitOrder::Quadratic ? 2 : 3;
+  const auto robust = candidateOf(frame, robustWeights(frame), degree);
+  return robust ? robust : candidateOf(frame, frame.steep(), degree);
+}
+
+/// The share of the way to its zero that a point moves.
+inline double shareOf(const Candidate& taken)
+{
+  const double square = taken.move * taken.move;
+  return square / (square + 0.1 * taken.s * taken.s);
+}
+
 /// The rule (10.4) for the orders 2 and 3.
-/// @param first,second the samples of both rings
+/// @param more what the second ring adds to the first
 inline Result fit(const FitEdge& edge, double isovalue, const std::vector<FitSample>& first,
-  const std::vector<FitSample>& second, FitOrder highest)
+  const std::vector<FitSample>& more, FitOrder highest)
 {
   if (const auto clear = detail::clearCase(Frame(edge, isovalue, first), edge))
   {
     return *clear;
   }
-  const Frame frame(edge, isovalue, second);
-  std::optional<Candidate> taken =
-    candidateOf(frame, frame.steep(), highest == FitOrder::Quadratic ? 2 : 3);
-  if (!taken || !(taken->s < 0.1 * taken->move))
-  {
-    const auto robust =
-      candidateOf(frame, robustWeights(frame), highest == FitOrder::Quadratic ? 2 : 3);
-    taken = !taken || (robust && robust->s < taken->s) ? robust : taken;
-  }
+  const Frame frame(edge, isovalue, first, more);
+  const std::optional<Candidate> taken = takenIn(frame, highest);
   if (!taken)
   {
     return detail::stay(frame, edge);
   }
-  const double square = taken->move * taken->move;
   Result result;
-  result.position =
-    detail::positionAt(frame, edge, taken->zero, square / (square + 0.1 * taken->s * taken->s));
+  result.position = detail::positionAt(frame, edge, taken->zero, shareOf(*taken));
   result.order = static_cast<FitOrder>(taken->degree);
   const auto affine = affineGradient(frame);
-  if (!(taken->s < 0.1 * taken->move) && affine &&
-    detail::angleBetween(*affine, taken->gradient) < 2.0 * taken->a)
+  if (affine && detail::angleBetween(*affine, taken->gradient) < 2.0 * taken->a)
   {
     detail::setGradient(frame, *affine, result);
     return result;

@@ -50,16 +50,19 @@ inline std::vector<FitSample> samplesOf(
   return samples;
 }
 
-/// Fits as to the samples all around an edge.
+/// Fits to the samples around an edge, as is done for each isopoint.
 /// @param nearCount how many of them, the first ones, are next to its ends; 0: all
 inline LocalFit fitAll(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
   double isovalue = 0.0, std::size_t nearCount = 0)
 {
-  return isopoint::LocalFitter(isovalue, highest)
-    .fit(edge, samples, nearCount > 0 ? nearCount : samples.size());
+  const std::size_t count = nearCount > 0 ? nearCount : samples.size();
+  isopoint::LocalFitter fitter(isovalue, highest);
+  const auto end = samples.begin() + static_cast<std::ptrdiff_t>(count);
+  const std::optional<LocalFit> near = fitter.fitNear(edge, { samples.begin(), end });
+  return near ? *near : fitter.fit(edge, samples, count);
 }
 
-/// Fits as to the samples next to an edge.
+/// What the samples next to an edge decide by themselves.
 inline std::optional<LocalFit> fitNear(const std::vector<FitSample>& samples, const FitEdge& edge,
   FitOrder highest = FitOrder::Cubic, double isovalue = 0.0)
 {

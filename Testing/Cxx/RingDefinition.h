@@ -62,7 +62,7 @@ public:
   Cells secondRing(std::size_t a, std::size_t b, double isovalue) const
   {
     Cells cells = this->firstRing(a, b);
-    if (cells.size() > 64)
+    if (cells.size() > 128)
     {
       return cells;
     }
@@ -71,7 +71,7 @@ public:
       for (const std::size_t neighbor : this->takenAt(end, a, b))
       {
         if ((this->All[neighbor].value < isovalue) != (this->All[end].value < isovalue) &&
-          !this->areTooMany(neighbor))
+            !this->areTooMany(neighbor))
         {
           addOnce(cells, this->Neighbors[neighbor]);
         }
@@ -197,10 +197,10 @@ private:
     bruteforce::Vector nearest{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto [least, greatest] = std::minmax_element(
-        this->All.begin() + static_cast<std::ptrdiff_t>(node.begin),
-        this->All.begin() + static_cast<std::ptrdiff_t>(node.end),
-        [axis](const Cell& a, const Cell& b) { return a.position[axis] < b.position[axis]; });
+      const auto [least, greatest] =
+        std::minmax_element(this->All.begin() + static_cast<std::ptrdiff_t>(node.begin),
+          this->All.begin() + static_cast<std::ptrdiff_t>(node.end),
+          [axis](const Cell& a, const Cell& b) { return a.position[axis] < b.position[axis]; });
       const double own = this->All[cell].position[axis];
       diagonal[axis] = greatest->position[axis] - least->position[axis];
       nearest[axis] =

@@ -174,8 +174,7 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
         for (std::size_t i = 0; i < planes; ++i)
         {
           EXPECT_TRUE(std::any_of(crease->pieces.begin(), crease->pieces.end(),
-            [&](const isopoint::Polynomial& piece)
-            {
+            [&](const isopoint::Polynomial& piece) {
               return lengthOf(difference(piece.gradientAt({}), scaled(sense, faces[i]))) < 1e-8;
             }));
         }
@@ -248,7 +247,7 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
   const auto surfaceAt = [&](const Vector& p)
   {
     return fit.sense *
-      std::max(fit.sense * fit.pieces[0].valueAt(p), fit.sense * fit.pieces[1].valueAt(p));
+           std::max(fit.sense * fit.pieces[0].valueAt(p), fit.sense * fit.pieces[1].valueAt(p));
   };
   clouds::Random random(5);
   int onOne = 0;
@@ -270,10 +269,10 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
     onOne += isOnBoth ? 0 : 1;
     onBoth += isOnBoth ? 1 : 0;
     // The gradient is that of a piece that is zero there.
-    const isopoint::Polynomial& own = fit.pieces[std::abs(one) <= 1e-6 &&
-        found->gradient == fit.pieces[0].gradientAt(found->zero)
-      ? 0
-      : 1];
+    const isopoint::Polynomial& own =
+      fit.pieces[std::abs(one) <= 1e-6 && found->gradient == fit.pieces[0].gradientAt(found->zero)
+                   ? 0
+                   : 1];
     EXPECT_EQ(found->gradient, own.gradientAt(found->zero));
     EXPECT_NEAR(own.valueAt(found->zero), 0.0, 1e-5);
     // The plane of the other piece, that the surface turns to.

@@ -33,8 +33,9 @@ Vector anywhere(const Vector& p)
 Sampling onSlices(double distance)
 {
   const double step = distance * spacing;
-  return [step](const Vector& p)
-  { return Vector{ p[0], p[1], step * (std::floor(p[2] / step) + 0.5) }; };
+  return [step](const Vector& p) {
+    return Vector{ p[0], p[1], step * (std::floor(p[2] / step) + 0.5) };
+  };
 }
 
 /// Vertical lines four spacings apart.
@@ -45,8 +46,8 @@ Vector onLines(const Vector& p)
 }
 
 /// @param noise its standard deviation over that of the field
-clouds::Cloud sampled(const analytic::Surface& surface, const Sampling& sampling, double noise,
-  std::uint64_t seed)
+clouds::Cloud sampled(
+  const analytic::Surface& surface, const Sampling& sampling, double noise, std::uint64_t seed)
 {
   clouds::Random random(seed);
   clouds::Cloud cloud;
@@ -54,8 +55,7 @@ clouds::Cloud sampled(const analytic::Surface& surface, const Sampling& sampling
   double squares = 0.0;
   for (std::size_t i = 0; i < sampleCount; ++i)
   {
-    const Vector p =
-      sampling({ 2.0 * random() - 1.0, 2.0 * random() - 1.0, 2.0 * random() - 1.0 });
+    const Vector p = sampling({ 2.0 * random() - 1.0, 2.0 * random() - 1.0, 2.0 * random() - 1.0 });
     const double value = surface.value(p);
     sum += value / sampleCount;
     squares += value * value / sampleCount;
@@ -131,7 +131,6 @@ double largestRatio(const analytic::Surface& surface, const Sampling& sampling, 
   }
   return largest;
 }
-
 
 } // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each fit against the rule written down plainly (docs/algorithm.md, 10.1 to 10.4): samples from all
-// pairs of cells, dense least squares, refits.
+// Each fit against the rule written down plainly (docs/algorithm.md, 10.1 to 10.4): samples from
+// all pairs of cells, dense least squares, refits.
 #include "FitDefinition.h"
 #include "FitTesting.h"
 #include "RingDefinition.h"
@@ -35,8 +35,8 @@ void expectNear(const Vector& expected, const Vector& found, double tolerance)
 }
 
 /// @param tolerance of positions and gradients, beside edges and slopes
-Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder highest,
-  double tolerance = 1e-6)
+Steps expectTheDefinition(
+  const clouds::Cloud& cloud, double isovalue, FitOrder highest, double tolerance = 1e-6)
 {
   const Rings rings(cloud);
   const isopoint::Isosurface surface = extractFitted(cloud, isovalue, true, 1, highest);
@@ -52,9 +52,12 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     const double increase = high.value - low.value;
     const FitEdge edge{ isopoint::sum(low.position, (isovalue - low.value) / increase, r), r,
       increase, rings.spacing(a, b) };
-    const fitdefinition::Result expected = fitdefinition::fit(edge, isovalue,
-      rings.samplesOf(rings.firstRing(a, b)),
-      rings.samplesOf(rings.secondRing(a, b, isovalue)), highest);
+    const ringdefinition::Cells first = rings.firstRing(a, b);
+    const ringdefinition::Cells second = rings.secondRing(a, b, isovalue);
+    const ringdefinition::Cells more(
+      second.begin() + static_cast<std::ptrdiff_t>(first.size()), second.end());
+    const fitdefinition::Result expected =
+      fitdefinition::fit(edge, isovalue, rings.samplesOf(first), rings.samplesOf(more), highest);
     const LocalFit& found = surface.fits[i];
     const double slope = lengthOf(expected.gradient);
     EXPECT_EQ(expected.order, found.order);
@@ -65,8 +68,7 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     expectNear(expected.gradient, found.gradient, tolerance * slope);
     for (std::size_t j = 0; j < expected.hessian.size(); ++j)
     {
-      EXPECT_NEAR(
-        expected.hessian[j], found.hessian[j], 10.0 * tolerance * slope / lengthOf(r));
+      EXPECT_NEAR(expected.hessian[j], found.hessian[j], 10.0 * tolerance * slope / lengthOf(r));
     }
     steps.quadratic += found.order == FitOrder::Quadratic ? 1 : 0;
     steps.cubic += found.order == FitOrder::Cubic ? 1 : 0;
@@ -117,8 +119,9 @@ TEST(FitDefinition, OnNoise)
 TEST(FitDefinition, OnStepsAndCreases)
 {
   const Field step = [](const Vector& p) { return lengthOf(p) < 3.0 ? 0.1 * p[0] : 1.0; };
-  const Field cube = [](const Vector& p)
-  { return std::max({ std::abs(p[0] + 0.1 * p[1]), std::abs(p[1]), std::abs(p[2]) }); };
+  const Field cube = [](const Vector& p) {
+    return std::max({ std::abs(p[0] + 0.1 * p[1]), std::abs(p[1]), std::abs(p[2]) });
+  };
   const Field sheets = [](const Vector& p) { return std::abs(lengthOf(p) - 2.5); };
   expectTheDefinition(cloudOf(step, 600, 8.4), 0.5, FitOrder::Cubic);
   expectTheDefinition(cloudOf(cube, 600, 8.4), 2.5, FitOrder::Cubic);

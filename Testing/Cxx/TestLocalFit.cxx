@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -43,51 +44,64 @@ FitEdge edgeInUnits(double scale, double steepness)
   return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * scale }, 2.0 * steepness, scale };
 }
 
-std::vector<double> distancesOf(const isopoint::FrameSamples& samples)
-{
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < samples.count(); ++i)
-  {
-    distances.push_back(isopoint::FrameSamples::at(samples.squaredDistance, i));
-  }
-  return distances;
-}
-
 } // namespace
 
-// The nearest sixteen come first, then the others, both in the order in which they are given; of
-// more than 256 the nearest.
+// The nearest sixteen of the first ring come first, then its others, then what the second ring
+// adds; of more than 256 the nearest of the ring that exceeds this.
 TEST(FitFrame, OrdersSamples)
 {
-  for (const std::size_t count : { 5, 16, 17, 40, 256, 257, 700 })
+  for (const auto& [firstCount, moreCount] :
+    { std::pair<std::size_t, std::size_t>(5, 0), { 16, 0 }, { 17, 0 }, { 40, 60 }, { 3, 40 },
+      { 256, 0 }, { 257, 0 }, { 700, 5 }, { 100, 156 }, { 100, 157 }, { 100, 600 } })
   {
-    const std::vector<FitSample> samples = samplesOf(bentField(), count);
+    const std::vector<FitSample> samples = samplesOf(bentField(), firstCount + moreCount);
+    const auto squareOf = [&](std::size_t i) {
+      return dot(samples[i].position, samples[i].position) / 4.0;
+    }; // the unit is the edge's length
+    const auto nearestOf = [&](std::vector<std::size_t> numbers, std::size_t count)
+    {
+      std::sort(numbers.begin(), numbers.end(),
+        [&](std::size_t a, std::size_t b) { return squareOf(a) < squareOf(b); });
+      numbers.resize(std::min(numbers.size(), count));
+      std::sort(numbers.begin(), numbers.end());
+      return numbers;
+    };
+    std::vector<std::size_t> first(firstCount);
+    std::iota(first.begin(), first.end(), std::size_t{ 0 });
+    std::vector<std::size_t> more(moreCount);
+    std::iota(more.begin(), more.end(), firstCount);
+    std::vector<std::size_t> expected = nearestOf(first, 16);
+    const std::vector<std::size_t> sixteen = expected;
+    for (const std::size_t i : nearestOf(first, 256))
+    {
+      if (std::find(sixteen.begin(), sixteen.end(), i) == sixteen.end())
+      {
+        expected.push_back(i);
+      }
+    }
+    for (const std::size_t i : nearestOf(more, 256 - expected.size()))
+    {
+      expected.push_back(i);
+    }
+
     isopoint::FitFrame frame;
-    frame.enter(upwards(), 0.0, samples);
+    frame.enter(upwards(), 0.0);
     ASSERT_TRUE(frame.isUsable());
-    std::vector<std::pair<double, std::size_t>> ranked;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      // The unit is the edge's length, 2.
-      ranked.emplace_back(dot(samples[i].position, samples[i].position) / 4.0, i);
-    }
-    std::sort(ranked.begin(), ranked.end());
-    ranked.resize(std::min<std::size_t>(count, 256));
-    const auto byNumber = [](const auto& a, const auto& b) { return a.second < b.second; };
-    const auto middle =
-      ranked.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(ranked.size(), 16));
-    std::sort(ranked.begin(), middle, byNumber);
-    std::sort(middle, ranked.end(), byNumber);
-    std::vector<double> expected;
+    frame.add(samples.data(), samples.data() + firstCount);
+    frame.add(samples.data() + firstCount, samples.data() + samples.size());
+    ASSERT_EQ(frame.samples().count(), expected.size());
     double mean = 0.0;
-    for (std::size_t i = 0; i < ranked.size(); ++i)
+    for (std::size_t i = 0; i < expected.size(); ++i)
     {
-      expected.push_back(ranked[i].first);
-      mean += std::sqrt(ranked[i].first) / static_cast<double>(ranked.size());
-      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().value, i),
-        samples[ranked[i].second].value / 2.0);
+      const FitSample& sample = samples[expected[i]];
+      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().x, i), sample.position[0] / 2.0);
+      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().y, i), sample.position[1] / 2.0);
+      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().z, i), sample.position[2] / 2.0);
+      EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().value, i), sample.value / 2.0);
+      EXPECT_EQ(
+        isopoint::FrameSamples::at(frame.samples().squaredDistance, i), squareOf(expected[i]));
+      mean += std::sqrt(squareOf(expected[i])) / static_cast<double>(expected.size());
     }
-    EXPECT_EQ(distancesOf(frame.samples()), expected);
     EXPECT_NEAR(frame.meanDistance(), mean, 1e-14 * mean);
   }
 }
@@ -96,15 +110,15 @@ TEST(FitFrame, OrdersSamples)
 TEST(FitFrame, EqualDistancesAreTakenInTheirOrder)
 {
   std::vector<FitSample> samples;
-  for (int i = 0; i < 600; ++i)
+  for (std::size_t i = 0; i < 600; ++i)
   {
-    const double side = i % 2 == 0 ? 1.0 : -1.0;
-    samples.push_back({ { i % 3 == 0 ? 0.5 * side : 0.0, i % 3 == 1 ? 0.5 * side : 0.0,
-                          i % 3 == 2 ? 0.5 * side : 0.0 },
-      static_cast<double>(i) });
+    FitSample sample{ { 0.0, 0.0, 0.0 }, static_cast<double>(i) };
+    sample.position[i % 3] = i % 2 == 0 ? 0.5 : -0.5;
+    samples.push_back(sample);
   }
   isopoint::FitFrame frame;
-  frame.enter(upwards(), 0.0, samples);
+  frame.enter(upwards(), 0.0);
+  frame.add(samples.data(), samples.data() + samples.size());
   ASSERT_EQ(frame.samples().count(), 256u);
   for (std::size_t i = 0; i < 256; ++i)
   {
@@ -362,20 +376,14 @@ TEST(LocalFit, PointsMoveByLessWhereTheZeroIsUncertain)
     for (std::uint64_t seed = 1; seed <= 10; ++seed)
     {
       const std::vector<FitSample> samples = samplesOf(bentField(), 60, noise, seed);
-      const fitdefinition::Frame frame(upwards(), 0.0, samples);
-      const auto plain = fitdefinition::candidateOf(frame, frame.steep(), 3);
-      const auto robust =
-        fitdefinition::candidateOf(frame, fitdefinition::robustWeights(frame), 3);
+      const auto taken =
+        fitdefinition::takenIn(fitdefinition::Frame(upwards(), 0.0, samples), FitOrder::Cubic);
       const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
-      ASSERT_EQ(found.order.has_value(), plain || robust);
-      if (found.order)
+      ASSERT_EQ(found.order.has_value(), taken.has_value());
+      if (taken)
       {
-        const bool isPlain = plain &&
-          (plain->s < 0.1 * plain->move || !robust || plain->s <= robust->s);
-        const fitdefinition::Candidate& taken = isPlain ? *plain : *robust;
-        const double share =
-          taken.move * taken.move / (taken.move * taken.move + 0.1 * taken.s * taken.s);
-        EXPECT_LE(lengthOf(difference(found.position, scaled(2.0 * share, taken.zero))), 1e-7);
+        const double share = fitdefinition::shareOf(*taken);
+        EXPECT_LE(lengthOf(difference(found.position, scaled(2.0 * share, taken->zero))), 1e-7);
         accurate += share > 0.999 ? 1 : 0;
         uncertain += share < 0.9 ? 1 : 0;
       }

@@ -78,8 +78,7 @@ private:
       changed = false;
       for (std::size_t i = 0; i < this->Labels.size(); ++i)
       {
-        const auto piece =
-          static_cast<std::uint8_t>(this->Fit.pieceAt(placeOf(*this->Samples, i)));
+        const auto piece = static_cast<std::uint8_t>(this->Fit.pieceAt(placeOf(*this->Samples, i)));
         changed = changed || piece != this->Labels[i];
         this->Labels[i] = piece;
       }
@@ -104,7 +103,8 @@ private:
       std::optional<Polynomial> polynomial;
       for (int tried = degree; tried > 0 && !polynomial; --tried)
       {
-        polynomial = areEnough(count, tried) ? leastSquares(*this->Samples, own, tried) : std::nullopt;
+        polynomial =
+          areEnough(count, tried) ? leastSquares(*this->Samples, own, tried) : std::nullopt;
       }
       if (!polynomial)
       {
@@ -163,7 +163,8 @@ private:
         if (this->Labels[i] == piece)
         {
           const Vector place = placeOf(*this->Samples, i);
-          use(i, FrameSamples::at(*this->Weights, i), Eigen::Vector3d(place[0], place[1], place[2]));
+          use(
+            i, FrameSamples::at(*this->Weights, i), Eigen::Vector3d(place[0], place[1], place[2]));
         }
       }
     };
@@ -205,13 +206,12 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
   std::vector<std::pair<double, CreasePlane>> found; // by the distance of the crease
   for (std::size_t other = 0; other < fit.pieces.size(); ++other)
   {
-    const std::optional<Vector> zero = other == piece
-      ? std::nullopt
-      : zeroNear(fit.pieces[other], std::numeric_limits<double>::max(), place);
+    const std::optional<Vector> zero =
+      other == piece ? std::nullopt
+                     : zeroNear(fit.pieces[other], std::numeric_limits<double>::max(), place);
     if (zero)
     {
-      const Vector inward =
-        scaled(-fit.sense, directionOf(fit.pieces[other].gradientAt(*zero)));
+      const Vector inward = scaled(-fit.sense, directionOf(fit.pieces[other].gradientAt(*zero)));
       const double distance = std::max(0.0, dot(inward, difference(place, *zero)));
       const double alongPiece = distance / lengthOf(cross(inward, normal));
       if (std::isfinite(alongPiece)) // or else the pieces are parallel
@@ -231,7 +231,8 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
 }
 
 /// The nearest place from the origin on both of two pieces' zero surfaces, by Newton's method.
-std::optional<Vector> commonZeroNear(const Polynomial& first, const Polynomial& second, double farthest)
+std::optional<Vector> commonZeroNear(
+  const Polynomial& first, const Polynomial& second, double farthest)
 {
   return followToZero({}, farthest,
     [&](const Vector& place)
@@ -302,8 +303,8 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
     }
   };
   // Alternation finds local optima: from several starts.
-  for (const auto& [sense, share] : { std::pair(1.0, 0.5), std::pair(-1.0, 0.5), std::pair(1.0, 0.3),
-         std::pair(-1.0, 0.3), std::pair(1.0, 0.7), std::pair(-1.0, 0.7) })
+  for (const auto& [sense, share] : { std::pair(1.0, 0.5), std::pair(-1.0, 0.5),
+         std::pair(1.0, 0.3), std::pair(-1.0, 0.3), std::pair(1.0, 0.7), std::pair(-1.0, 0.7) })
   {
     Alternation parts(samples, weights, sense);
     bool isDetermined = parts.start();

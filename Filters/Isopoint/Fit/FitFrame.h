@@ -12,12 +12,13 @@ namespace isopoint
 {
 
 /// The frame of a fit: its origin is the isopoint on its edge, its units are powers of two near the
-/// edge's length and the increase of values along it, by which numbers are divided without rounding.
+/// edge's length and the increase of values along it, by which numbers are divided without
+/// rounding.
 class FitFrame
 {
 public:
-  /// Whether units are normal numbers and positions up to an edge's length away are finite; otherwise
-  /// nothing can be fitted.
+  /// Whether units are normal numbers and positions up to an edge's length away are finite;
+  /// otherwise nothing can be fitted.
   bool isUsable() const { return this->IsUsable; }
 
   /// Goes to an edge, without samples.

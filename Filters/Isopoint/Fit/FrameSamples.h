@@ -28,7 +28,7 @@ class FrameSamples
 {
 public:
   static constexpr std::size_t most = 256;
-  static constexpr std::size_t nearest = 16; // that come first
+  static constexpr std::size_t nearest = 16;           // that come first
   using Numbers = std::array<Lanes, most / laneCount>; // the first groupCount() are set
 
   Numbers x;

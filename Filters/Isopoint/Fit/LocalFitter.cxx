@@ -16,9 +16,15 @@ namespace isopoint
 namespace
 {
 
+<<<<<<< HEAD
 /// Up to this residual, in mean rises of the field over the mean distance of the samples, a field is
 /// smooth.
 constexpr double smoothResidual = 0.0002;
+=======
+/// Up to this residual, in mean rises of the field over the mean distance of the samples, a field
+/// is smooth.
+constexpr double smoothResidual = 0.0003;
+>>>>>>> 2f7efb4738d823bd3ff79b22baa0ef131f0d6a03
 
 /// Weights so steep that a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
@@ -197,8 +203,7 @@ bool LocalFitter::fitLinear(LocalFit& fit)
   fit.gradient = this->Frame.gradientOf(*gradient);
   fit.isGradientFitted = true;
   const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
-  const std::optional<Vector> zero =
-    zeroNear(*affine, 0.5 * lengthOf(this->Frame.increasing()));
+  const std::optional<Vector> zero = zeroNear(*affine, 0.5 * lengthOf(this->Frame.increasing()));
   if (!zero)
   {
     return false;
@@ -208,12 +213,13 @@ bool LocalFitter::fitLinear(LocalFit& fit)
   return true;
 }
 
-/// Sets the fit to pieces that meet at creases, if they describe the samples well, and far better than
-/// a polynomial. @returns whether they do
+/// Sets the fit to pieces that meet at creases, if they describe the samples well, and far better
+/// than a polynomial. @returns whether they do
 bool LocalFitter::fitCreases(LocalFit& fit)
 {
   constexpr double mostResidual = 0.03; // larger ones come from noise
-  // Pieces are chosen to fit the samples: in noise or detail they leave somewhat less than polynomials.
+  // Pieces are chosen to fit the samples: in noise or detail they leave somewhat less than
+  // polynomials.
   constexpr double mostResidualShare = 0.5;
   const FrameSamples& samples = this->Frame.samples();
   weighMildly(this->Frame, this->Weights);
@@ -269,8 +275,9 @@ void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
 {
   constexpr double doubt = 0.1;
   const double squaredMove = found.move * found.move;
-  const double share =
-    squaredMove > 0.0 ? squaredMove / (squaredMove + doubt * found.zeroError * found.zeroError) : 1.0;
+  const double share = squaredMove > 0.0
+                         ? squaredMove / (squaredMove + doubt * found.zeroError * found.zeroError)
+                         : 1.0;
   fit.position = this->Frame.positionAt(scaled(share, found.zero));
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
   fit.gradient = this->Frame.gradientOf(found.gradient);
@@ -285,9 +292,8 @@ void LocalFitter::preferAffineGradient(const PolynomialFit* found, LocalFit& fit
 {
   constexpr double mostErrors = 2.0; // standard errors between directions that may be the same
   const std::optional<Vector> affine = this->affineGradient();
-  if (affine &&
-      (!found || lengthOf(difference(directionOf(*affine), directionOf(found->gradient))) <
-                   mostErrors * found->directionError))
+  if (affine && (!found || lengthOf(difference(directionOf(*affine),
+                             directionOf(found->gradient))) < mostErrors * found->directionError))
   {
     fit.gradient = this->Frame.gradientOf(*affine);
     fit.isGradientFitted = true;

@@ -15,8 +15,8 @@ namespace isopoint
 {
 
 /// Fits polynomials to the values of the samples around edges, by weighted least squares, and moves
-/// isopoints to their zeros; one edge at a time (docs/algorithm.md, section 10). Memory is kept. For
-/// one thread.
+/// isopoints to their zeros; one edge at a time (docs/algorithm.md, section 10). Memory is kept.
+/// For one thread.
 class LocalFitter
 {
 public:
@@ -30,8 +30,8 @@ public:
   /// The isopoint on its edge, with the slope along the edge.
   static LocalFit onEdge(const FitEdge& edge);
 
-  /// Fits a polynomial of degree two, and accepts it where it leaves next to no residuals: the field
-  /// is smooth at the scale of the samples.
+  /// Fits a polynomial of degree two, and accepts it where it leaves next to no residuals: the
+  /// field is smooth at the scale of the samples.
   /// @param samples those next to the edge's ends suffice; the ends are among them
   /// @returns nothing if more samples are to be tried. Complexity: O(samples)
   std::optional<LocalFit> fitNear(const FitEdge& edge, const std::vector<FitSample>& samples);
@@ -42,8 +42,7 @@ public:
   /// they were found: sums are taken in this order
   /// @param nearCount how many of them, the first ones, were those of fitNear()
   /// Complexity: O(samples)
-  LocalFit fit(
-    const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount);
+  LocalFit fit(const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount);
 
 private:
   bool isSmooth(const PolynomialFit& found) const;
@@ -58,7 +57,7 @@ private:
   const double Isovalue;
   const FitOrder Highest;
   FitFrame Frame;
-  FrameWeights Steep;  // of the present samples
+  FrameWeights Steep;   // of the present samples
   FrameWeights Weights; // others
 };
 

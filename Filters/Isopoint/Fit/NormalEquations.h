@@ -24,8 +24,8 @@ constexpr std::array<std::array<std::size_t, 3>, 20> exponents{ { { 0, 0, 0 }, {
   { 0, 1, 1 }, { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 },
   { 0, 2, 1 }, { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
 
-/// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order: coefficientCount
-/// (order) of them instead of one for each pair of coefficients.
+/// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order:
+/// coefficientCount (order) of them instead of one for each pair of coefficients.
 template <int Order>
 class Moments
 {
@@ -249,7 +249,8 @@ private:
   {
     this->Determined = 0;
     // Stops at the first column that is not determined.
-    static_cast<void>((this->factorColumn<Indices>(moments, std::make_index_sequence<size>()) && ...));
+    static_cast<void>(
+      (this->factorColumn<Indices>(moments, std::make_index_sequence<size>()) && ...));
   }
 
   /// @returns whether the samples determine the coefficient
@@ -293,7 +294,7 @@ private:
     return true;
   }
 
-  std::array<Column, size> Columns; // of L, below the diagonal
+  std::array<Column, size> Columns;     // of L, below the diagonal
   std::array<double, size> Reciprocals; // of the diagonal of L
   std::array<double, size> RightSide;
   int Determined = 0;

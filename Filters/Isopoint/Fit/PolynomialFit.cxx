@@ -49,36 +49,36 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   const std::size_t groups = std::min(samples.groupCount(), FrameSamples::nearest / laneCount);
   for (std::size_t group = 0; group < groups; ++group)
   {
-      const Lanes& weight = weights[group];
-      const Lanes& x = samples.x[group];
-      const Lanes& y = samples.y[group];
-      const Lanes& z = samples.z[group];
-      const auto reduced = equations.reduced(polynomial.degree, x, y, z);
-      Lanes leverage = Lanes::Zero();
-      std::array<Lanes, 4> effect;
-      effect.fill(Lanes::Zero());
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        leverage += reduced[i] * reduced[i];
-        for (std::size_t unit = 0; unit < units.size(); ++unit)
-        {
-          effect[unit] += units[unit][i] * reduced[i];
-        }
-      }
-      const Lanes rest = 1.0 - weight * leverage;
-      const Lanes residual = weight * (samples.value[group] - polynomial.valueAt(x, y, z)) / rest;
-      leastRest = leastRest.min(rest);
-      squares += residual * residual;
-      weightSquares += weight * weight;
+    const Lanes& weight = weights[group];
+    const Lanes& x = samples.x[group];
+    const Lanes& y = samples.y[group];
+    const Lanes& z = samples.z[group];
+    const auto reduced = equations.reduced(polynomial.degree, x, y, z);
+    Lanes leverage = Lanes::Zero();
+    std::array<Lanes, 4> effect;
+    effect.fill(Lanes::Zero());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      leverage += reduced[i] * reduced[i];
       for (std::size_t unit = 0; unit < units.size(); ++unit)
       {
-        effects[unit] += (weight * effect[unit]) * (weight * effect[unit]);
+        effect[unit] += units[unit][i] * reduced[i];
       }
+    }
+    const Lanes rest = 1.0 - weight * leverage;
+    const Lanes residual = weight * (samples.value[group] - polynomial.valueAt(x, y, z)) / rest;
+    leastRest = leastRest.min(rest);
+    squares += residual * residual;
+    weightSquares += weight * weight;
+    for (std::size_t unit = 0; unit < units.size(); ++unit)
+    {
+      effects[unit] += (weight * effect[unit]) * (weight * effect[unit]);
+    }
   }
   // The residual of a sample without which the others determine less is rounding alone.
   const double residual = leastRest.minCoeff() > leastPivot
-    ? std::sqrt(sumOf(squares) / sumOf(weightSquares))
-    : std::numeric_limits<double>::quiet_NaN();
+                            ? std::sqrt(sumOf(squares) / sumOf(weightSquares))
+                            : std::numeric_limits<double>::quiet_NaN();
   return { residual, std::sqrt(sumOf(effects[0])),
     std::sqrt(sumOf(effects[1]) + sumOf(effects[2]) + sumOf(effects[3])) };
 }
@@ -152,8 +152,7 @@ NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const 
   PolynomialFit fit{};
   fit.polynomial = equations.solution(2);
   const ErrorEstimate error = estimateError(equations, fit.polynomial, samples, weights);
-  fit.relativeResidual =
-    error.residual / std::sqrt(squaredLength(fit.polynomial.gradientAt({})));
+  fit.relativeResidual = error.residual / std::sqrt(squaredLength(fit.polynomial.gradientAt({})));
   if (fit.relativeResidual <= smoothResidual)
   {
     if (moveToZero(increasing, fit))

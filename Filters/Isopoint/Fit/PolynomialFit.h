@@ -33,14 +33,14 @@ struct PolynomialFit
 /// @param increasing the edge, from the end below the isovalue to the other one
 bool increasesAlong(const Vector& increasing, const Vector& gradient);
 
-/// The weighted least-squares polynomial of the highest degree, down to two, that holds: the samples
-/// determine it, it does not contradict the edge, neither at the origin nor at its zero, and the
-/// zero is no farther than half the edge's length.
+/// The weighted least-squares polynomial of the highest degree, down to two, that holds: the
+/// samples determine it, it does not contradict the edge, neither at the origin nor at its zero,
+/// and the zero is no farther than half the edge's length.
 /// @param highest 2 or 3
 /// @param increasing the edge, from the end below the isovalue to the other one
 /// Complexity: O(samples)
-std::optional<PolynomialFit> fitPolynomial(const FrameSamples& samples,
-  const FrameWeights& weights, const Vector& increasing, int highest);
+std::optional<PolynomialFit> fitPolynomial(
+  const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing, int highest);
 
 /// What a polynomial of degree two through the samples next to an edge shows.
 struct NearFit
@@ -58,8 +58,8 @@ NearFit fitNear(const FrameSamples& samples, const FrameWeights& weights, const 
 /// estimated from.
 bool areEnough(std::size_t sampleCount, int degree);
 
-/// The polynomial of a degree from one to three of weighted least squares, unless the samples do not
-/// determine it. Complexity: O(samples)
+/// The polynomial of a degree from one to three of weighted least squares, unless the samples do
+/// not determine it. Complexity: O(samples)
 std::optional<Polynomial> leastSquares(
   const FrameSamples& samples, const FrameWeights& weights, int degree);
 
