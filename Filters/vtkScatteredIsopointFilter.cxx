@@ -35,6 +35,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -246,10 +247,16 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   const std::vector<vtkIsopointBlock> blocks(all.begin() + static_cast<std::ptrdiff_t>(begin),
     all.begin() + static_cast<std::ptrdiff_t>(end));
   const vtkIsopointInputState state = this->Kept->Input.GetState(begin, end);
-  if (state != kept.LoadedFrom)
+  const std::size_t count = std::accumulate(blocks.begin(), blocks.end(), std::size_t{ 0 },
+    [](std::size_t sum, const vtkIsopointBlock& block)
+    { return sum + static_cast<std::size_t>(block.GetNumberOfSamples()); });
+  const bool isNew = state != kept.LoadedFrom;
+  const std::vector<double> progress = this->ExpectProgress(count, !isNew);
+  if (isNew)
   {
     kept.LoadedFrom.clear();
-    vtkLoadIsopointInput(execution, blocks, kept.Extractor);
+    vtkLoadIsopointInput(
+      isopoint::partOf(execution, 0.0, progress.front()), blocks, kept.Extractor);
     kept.LoadedFrom = state;
   }
   this->NumberOfSkippedSamples += static_cast<vtkIdType>(kept.Extractor.skippedCount());
@@ -257,26 +264,41 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   {
     this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
   }
-  this->FillOutput(execution, blocks, this->ExtractIsovalues(execution, kept), output);
+  this->FillOutput(execution, blocks, this->ExtractIsovalues(execution, kept, progress), output);
   this->UpdateProgress(1.0);
 }
 
-std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
-  const Execution& execution, KeptTree& kept)
+std::vector<double> vtkScatteredIsopointFilter::ExpectProgress(std::size_t count, bool isTreeKept)
 {
-  constexpr double loadingShare = 0.1;
-  this->UpdateProgress(loadingShare);
+  const isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
+  std::vector<double> ends{ isTreeKept ? 0.0 : isopoint::IsosurfaceExtractor::loadingWork(count) };
+  for (std::size_t i = 0; i < this->GetIsovalues().size(); ++i)
+  {
+    ends.push_back(ends.back() + isopoint::IsosurfaceExtractor::extractionWork(
+                                   count, request, isTreeKept || i > 0));
+  }
+  const double all = std::max(ends.back(), 1.0);
+  std::transform(ends.begin(), ends.end(), ends.begin(), [all](double end) { return end / all; });
+  return ends;
+}
+
+std::set<double> vtkScatteredIsopointFilter::GetIsovalues()
+{
   const double* const values = this->ContourValues->GetValues();
-  const std::set<double> isovalues(values, values + this->ContourValues->GetNumberOfContours());
-  const double share = (1.0 - loadingShare) / static_cast<double>(isovalues.size());
+  return { values, values + this->ContourValues->GetNumberOfContours() };
+}
+
+std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
+  const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
+{
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
   std::vector<isopoint::ExtractedIsosurface> surfaces;
-  for (const double isovalue : isovalues)
+  for (const double isovalue : this->GetIsovalues())
   {
-    const double begin = loadingShare + share * static_cast<double>(surfaces.size());
+    const std::size_t i = surfaces.size();
     request.isosurface.isovalue = isovalue;
     surfaces.push_back(
-      kept.Extractor.extract(isopoint::partOf(execution, begin, begin + share), request));
+      kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request));
     isopoint::throwIfAborted(execution);
   }
   return surfaces;

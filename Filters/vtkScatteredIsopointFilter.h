@@ -98,6 +98,7 @@
 
 #include <cstddef> // for std::size_t
 #include <memory>  // for std::unique_ptr
+#include <set>     // for isovalues
 #include <vector>  // for lists of blocks and surfaces
 
 namespace isopoint
@@ -443,9 +444,12 @@ private:
   class KeptTree;
 
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
+  std::set<double> GetIsovalues();
+  /// The progress after loading so many samples, and after each isovalue.
+  std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
-    const isopoint::Execution& execution, KeptTree& kept);
+    const isopoint::Execution& execution, KeptTree& kept, const std::vector<double>& progress);
   void FillOutput(const isopoint::Execution& execution, const std::vector<vtkIsopointBlock>& blocks,
     std::vector<isopoint::ExtractedIsosurface> surfaces, vtkPolyData* output);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/IsosurfaceExtractor.h"
 
+#include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Thinning.h"
@@ -26,27 +27,48 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Held);
 }
 
+double IsosurfaceExtractor::loadingWork(std::size_t count)
+{
+  return work::loading * static_cast<double>(count);
+}
+
+double IsosurfaceExtractor::extractionWork(
+  std::size_t count, const ExtractionRequest& request, bool isTreeKept)
+{
+  if (count == 0)
+  {
+    return 0.0;
+  }
+  BandForecast forecast(count);
+  forecast.observe(0, 1, isTreeKept ? 0.0 : 1.0);
+  const double forIsopoint = work::finding + work::placing + work::writing +
+                             (request.isosurface.fit ? work::fitting : 0.0) +
+                             (request.splats ? work::splatting : 0.0);
+  return forecast.bandWork(0) + forIsopoint * forecast.isopointCount();
+}
+
 ExtractedIsosurface IsosurfaceExtractor::extract(
   const Execution& execution, const ExtractionRequest& request)
 {
   return std::visit(
     [&](auto& cloud)
     {
-      const double surfaceShare = request.splats ? 0.6 : 1.0;
+      WorkProgress progress(execution);
+      const double splatting = request.splats ? work::splatting : 0.0;
       ExtractedIsosurface result;
-      result.surface = extractIsosurface(partOf(execution, 0.0, surfaceShare), cloud.tree,
-        cloud.neighborhoods, this->ItemCount, request.isosurface);
+      result.surface = extractIsosurface(execution, cloud.tree, cloud.neighborhoods,
+        this->ItemCount, request.isosurface, progress, splatting + work::writing);
       thin(execution, request.minimumSpacing, result.surface);
       throwIfAborted(execution);
       if (request.splats)
       {
         const Isosurface& surface = result.surface;
-        const Execution splatting = partOf(execution, surfaceShare, 1.0);
-        const IsopointNeighbors neighbors(
-          splatting, cloud.tree, cloud.neighborhoods, surface.leaves);
+        const auto count = static_cast<double>(surface.size());
+        const Execution part = progress.part(count * splatting, count * work::writing);
+        const IsopointNeighbors neighbors(part, cloud.tree, cloud.neighborhoods, surface.leaves);
         const SampleExtents extents(cloud.tree);
         result.splats =
-          computeSplats(splatting, { surface.positions, surface.decreasingEdges, surface.fits },
+          computeSplats(part, { surface.positions, surface.decreasingEdges, surface.fits },
             neighbors, &extents, *request.splats);
       }
       result.surface.leaves = {};

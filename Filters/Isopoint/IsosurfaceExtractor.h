@@ -73,7 +73,8 @@ public:
   /// Replaces the values, provided that positions, types and the items that take part are those of
   /// the last load(); the tree is kept. Otherwise nothing changes.
   /// @returns whether it did
-  /// @throws Aborted, the former values kept; std::bad_alloc, and then holds no samples
+  /// @throws Aborted, the former values kept or all samples dropped; std::bad_alloc, and then holds
+  /// no samples
   template <class TCoordinate, class TValue, class Reader>
   bool replaceValues(const Execution& execution, std::size_t count, const Reader& read)
   {
@@ -90,6 +91,13 @@ public:
 
   /// The number of items that do not.
   std::size_t skippedCount() const;
+
+  /// What load() and extract() are expected to take for so many items, in nanoseconds of one
+  /// thread: their ratio is good to a factor of about two, to divide progress.
+  /// @param isTreeKept whether the cloud has been extracted from before
+  static double loadingWork(std::size_t count);
+  static double extractionWork(
+    std::size_t count, const ExtractionRequest& request, bool isTreeKept);
 
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.

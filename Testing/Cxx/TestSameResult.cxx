@@ -325,8 +325,9 @@ TEST(SameResult, ForVeryDeepTrees)
   auto tree =
     isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
   int deepest = 0;
+  isopoint::WorkProgress progress(execution);
   for (const isopoint::BinaryIndex index :
-    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine())
+    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution, progress, 0.0).refine())
   {
     deepest = std::max(deepest, isopoint::depthOf(index));
   }

@@ -83,7 +83,9 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
     // The first isosurface is empty and refines nothing; two others refine different parts.
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
-      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, clouds::executionOn(2)).refine();
+      const isopoint::Execution execution = clouds::executionOn(2);
+      isopoint::WorkProgress progress(execution);
+      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution, progress, 0.0).refine();
       const isopoint::SampleExtents extents(tree);
       for (const ExtentQuery& query : queries)
       {

@@ -15,6 +15,7 @@ namespace isopoint
 /// Sorts the elements and drops repeated ones, with every thread: they are distributed over buckets
 /// by their key, and the buckets are sorted independently.
 /// @param key(element) a number below keyCount, monotonic in the elements' order
+/// @throws Aborted, std::bad_alloc
 /// Complexity: O(n log n)
 template <class T, class Key>
 std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& elements,
@@ -42,7 +43,8 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   }
 
   std::vector<std::size_t> counts(bucketCount);
-  forRanges(execution, bucketCount, 1,
+  throwIfAborted(execution);
+  forBatches(execution, bucketCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t bucket = begin; bucket < end; ++bucket)

@@ -7,6 +7,7 @@
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
+#include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
@@ -47,7 +48,8 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
   FoundEdges<TSample> result;
   std::mutex mutex;
   constexpr std::size_t grain = 256;
-  forBatches(execution, nodes.size(), 64 * grain, grain,
+  forBatches(
+    execution, nodes.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       EdgeFinder<TSample> finder(context, criterion, gapCriterion);
@@ -63,7 +65,8 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
       result.neighborhoods.push_back(std::move(finder.records()));
       result.coincidentLeaves.insert(result.coincidentLeaves.end(),
         finder.coincidentLeaves().begin(), finder.coincidentLeaves().end());
-    });
+    },
+    execution.progress);
   return result;
 }
 
@@ -83,7 +86,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   surface.leaves.resize(edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
-  forRanges(execution, edges.size(), grain,
+  forBatches(execution, edges.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       LeafValueCache<TSample> values(context.tree, context.leafMeans);
@@ -111,14 +114,16 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
 
 /// Adds neighbourhoods to those that are known, as far as memory permits: the others will be
 /// searched for again.
+/// @throws Aborted
 template <class TId>
-void keepNeighborhoods(const std::vector<std::vector<TId>>& found, std::size_t nodeCount,
-  NeighborhoodCache<TId>& neighborhoods)
+void keepNeighborhoods(const Execution& execution, const std::vector<std::vector<TId>>& found,
+  std::size_t nodeCount, NeighborhoodCache<TId>& neighborhoods)
 {
   try
   {
     for (const std::vector<TId>& records : found)
     {
+      throwIfAborted(execution);
       neighborhoods.add(records, nodeCount);
     }
   }
@@ -130,31 +135,42 @@ void keepNeighborhoods(const std::vector<std::vector<TId>>& found, std::size_t n
 /// The canonical isosurface (docs/algorithm.md), refining the tree as far as needed.
 /// @param neighborhoods of the tree's leaves that are known; those found are added
 /// @param idCount above every id
+/// @param progress divided among the band, the edges, the fits and what follows
+/// @param laterWork that follows for each isopoint
 /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighbourhoods
 /// can be used again afterwards
 template <class TSample>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree,
   NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,
-  const IsosurfaceRequest& request)
+  const IsosurfaceRequest& request, WorkProgress& progress, double laterWork)
 {
   if (tree.isEmpty())
   {
     return {};
   }
+  const double fitting = request.fit ? work::fitting : 0.0;
+  const double afterEdges = work::placing + fitting + laterWork;
   const std::vector<BinaryIndex> crossing =
-    NarrowBand<TSample>(tree, request.isovalue, execution).refine();
+    NarrowBand<TSample>(tree, request.isovalue, execution, progress, work::finding + afterEdges)
+      .refine();
+  const auto partFor = [&progress](double isopointCount, double work, double left)
+  { return progress.part(isopointCount * work, isopointCount * left); };
+  const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
   ExtractionContext<TSample> context(tree, neighborhoods, request.isovalue);
-  FoundEdges<TSample> found = findEdges(execution, context, request, crossing);
-  keepNeighborhoods(found.neighborhoods, tree.nodes.size(), neighborhoods);
+  FoundEdges<TSample> found =
+    findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
+  keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
   const std::vector<CrossingEdge<TSample>> edges = sortedUnique(
     execution, found.edges, idCount, [](const CrossingEdge<TSample>& edge) { return edge.first; });
+  const auto count = static_cast<double>(edges.size());
   std::vector<LocalFit> fits;
   if (request.fit)
   {
-    fits = fitNeighborhoods(execution, context, *request.fit, edges);
+    fits = fitNeighborhoods(
+      partFor(count, fitting, work::placing + laterWork), context, *request.fit, edges);
   }
-  Isosurface surface =
-    placeIsopoints(execution, context, edges, std::move(fits), request.fit && request.fit->move);
+  Isosurface surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
+    std::move(fits), request.fit && request.fit->move);
   surface.coincident = coincidentSamplesOf(tree, std::move(found.coincidentLeaves));
   return surface;
 }

@@ -3,6 +3,7 @@
 #define isopoint_NarrowBand_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -46,10 +48,16 @@ template <class TSample>
 class NarrowBand
 {
 public:
-  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution)
+  /// @param progress of the extraction, of which the band is the first part
+  /// @param workForIsopoint that follows for each isopoint
+  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution,
+    WorkProgress& progress, double workForIsopoint)
     : Tree(tree)
     , Isovalue(isovalue)
     , Run(execution)
+    , Progress(progress)
+    , WorkForIsopoint(workForIsopoint)
+    , Forecast(tree.samples.size())
     , ListBudget(tree.samples.size())
   {
   }
@@ -68,12 +76,10 @@ public:
     {
       front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
     }
-    const int expectedDepth = std::max(1, levelsToHalve(root.count()));
     for (int depth = 0; !front.empty();)
     {
       const int bottom = treeletBottom(depth, root.count());
       this->splitFront(front, depth, bottom);
-      this->Run.progress(std::min(1.0, static_cast<double>(bottom) / expectedDepth));
       // To split so few samples all the way takes less time than to determine which are needed.
       const std::size_t few = front.size() / 4;
       const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
@@ -107,6 +113,9 @@ private:
   /// The number of nodes of the front whose subtrees are searched at a time.
   static constexpr std::size_t searchGrain = 64;
 
+  /// The number of them, for each thread, between two looks at an abort.
+  static constexpr std::size_t searchBatch = 64 * searchGrain;
+
   /// A treelet to be built below a node.
   struct TreeletTask
   {
@@ -124,16 +133,19 @@ private:
     const int levels = bottom - depth;
     // All threads split each node together while there are too few nodes to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
-    const bool together = front.size() < 4 * this->Run.threads;
-    const std::size_t batchSamples = (std::size_t{ 1 } << 19) * this->Run.threads;
+    const std::size_t fewNodes = 4 * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 18) * this->Run.threads;
 
+    std::size_t unsplit = this->observeFront(front, depth);
     std::size_t begin = 0;
     while (begin < front.size())
     {
       std::vector<TreeletTask> batch;
       std::size_t pairs = 0;
       std::size_t samples = 0;
-      for (; begin < front.size() && samples < batchSamples; ++begin)
+      const auto isFull = [&]()
+      { return samples >= (batch.size() < fewNodes ? 8 : 1) * batchSamples; };
+      for (; begin < front.size() && !isFull(); ++begin)
       {
         const NodeType& node = this->Tree.nodes[front[begin].nodeIndex];
         if (node.isSplit() || node.isLeaf)
@@ -149,13 +161,50 @@ private:
       {
         task.firstPair += firstPair;
       }
-      this->splitBatch(batch, levels, together ? togetherCount : samples + 1);
+      unsplit -= samples;
+      const auto workOf = [&](std::size_t count)
+      { return this->Forecast.splittingWork(static_cast<double>(count), depth, bottom); };
+      const Execution part = this->Progress.part(
+        workOf(samples), workOf(unsplit) + work::searching * static_cast<double>(front.size()) +
+                           this->workBelow(bottom));
+      this->splitBatch(part, batch, levels, batch.size() < fewNodes ? togetherCount : samples + 1);
+      part.progress(1.0);
       throwIfAborted(this->Run);
     }
   }
 
-  void splitBatch(const std::vector<TreeletTask>& batch, int levels, std::size_t togetherCount)
+  /// Notes how far the front of a depth extends. @returns its samples in nodes that are not split
+  std::size_t observeFront(const std::vector<BandNode>& front, int depth)
   {
+    std::size_t all = 0;
+    std::size_t unsplit = 0;
+    for (const BandNode& bandNode : front)
+    {
+      const NodeType& node = this->Tree.nodes[bandNode.nodeIndex];
+      all += node.count();
+      unsplit += node.isSplit() || node.isLeaf ? 0 : node.count();
+    }
+    this->Forecast.observe(depth, front.size(), static_cast<double>(unsplit) / all);
+    return unsplit;
+  }
+
+  /// The work that is expected below a depth and after the band.
+  double workBelow(int depth) const
+  {
+    return this->Forecast.bandWork(depth) + this->WorkForIsopoint * this->Forecast.isopointCount();
+  }
+
+  double countOf(const TreeletTask& task) const
+  {
+    return static_cast<double>(this->Tree.nodes[task.node.nodeIndex].count());
+  }
+
+  void splitBatch(const Execution& part, const std::vector<TreeletTask>& batch, int levels,
+    std::size_t togetherCount)
+  {
+    const double all = std::accumulate(batch.begin(), batch.end(), 0.0,
+      [this](double sum, const TreeletTask& task) { return sum + this->countOf(task); });
+    double done = 0.0;
     std::vector<TreeletTask> alone;
     for (const TreeletTask& task : batch)
     {
@@ -165,8 +214,11 @@ private:
         alone.push_back(task);
         continue;
       }
+      const double begin = done / all;
+      done += this->countOf(task);
       TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
-      splitter.splitTogether(this->Run, node, pathTo(this->Tree, task.node.index).region, levels);
+      splitter.splitTogether(
+        partOf(part, begin, done / all), node, pathTo(this->Tree, task.node.index).region, levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -189,7 +241,7 @@ private:
     const std::vector<BandNode>& front, int levels, std::size_t limit) const
   {
     std::atomic<std::size_t> samples{ 0 };
-    forRanges(this->Run, front.size(), searchGrain,
+    forBatches(this->Run, front.size(), searchBatch, searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         std::size_t found = 0;
@@ -245,7 +297,10 @@ private:
   void mark(const std::vector<BandNode>& front, int depth)
   {
     this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
-    forRanges(this->Run, front.size(), searchGrain,
+    const Execution part = this->Progress.part(
+      work::searching * static_cast<double>(front.size()), this->workBelow(depth));
+    forBatches(
+      this->Run, front.size(), searchBatch, searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         Path path = pathToRoot(this->Tree);
@@ -266,7 +321,8 @@ private:
               }
             });
         }
-      });
+      },
+      part.progress);
   }
 
   void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
@@ -351,7 +407,7 @@ private:
   {
     std::vector<BandNode> collected;
     std::mutex mutex;
-    forRanges(this->Run, front.size(), searchGrain,
+    forBatches(this->Run, front.size(), searchBatch, searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<BandNode> found;
@@ -377,6 +433,9 @@ private:
   SampleTree<TSample>& Tree;
   const double Isovalue;
   const Execution& Run;
+  WorkProgress& Progress;
+  const double WorkForIsopoint;
+  BandForecast Forecast;
   NeighborListBudget ListBudget;
   std::vector<std::atomic<Mark>> Marks; // by node index, of the present depth and above
 };

@@ -129,7 +129,8 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   // Batches are of few groups: where cells touch hundreds of others, a fit takes long.
   constexpr std::size_t groupSize = 256;
   constexpr std::size_t batch = 4;
-  forBatches(execution, (places.size() + groupSize - 1) / groupSize, batch, 1,
+  forBatches(
+    execution, (places.size() + groupSize - 1) / groupSize, batch, 1,
     [&](std::size_t begin, std::size_t end)
     {
       NeighborhoodFitter<TSample> fitter(context, request);
@@ -142,7 +143,8 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
           fits[edge] = fitter.fit(edges[edge]);
         }
       }
-    });
+    },
+    execution.progress);
   return fits;
 }
 

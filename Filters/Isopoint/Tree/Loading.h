@@ -108,10 +108,11 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
   tree.usedPairs = 1;
 
   // Each slice is packed where it begins; gaps are closed afterwards, if there are any.
-  const std::size_t sliceLength = std::max<std::size_t>(count / (16 * execution.threads), 1 << 16);
+  constexpr std::size_t sliceLength = std::size_t{ 1 } << 16;
   const std::size_t sliceCount = (count + sliceLength - 1) / sliceLength;
   std::vector<SliceSummary<TSample>> slices(sliceCount);
-  forBatches(execution, sliceCount, 4, 1,
+  forBatches(
+    execution, sliceCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t slice = begin; slice < end; ++slice)
@@ -119,13 +120,15 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
         slices[slice] = loadSlice(tree.samples.data(), slice * sliceLength,
           std::min((slice + 1) * sliceLength, count), read);
       }
-    });
+    },
+    execution.progress);
 
   std::size_t size = 0;
   for (std::size_t slice = 0; slice < sliceCount; ++slice)
   {
     if (size != slice * sliceLength)
     {
+      throwIfAborted(execution);
       std::memmove(tree.samples.data() + size, tree.samples.data() + slice * sliceLength,
         slices[slice].kept * sizeof(TSample));
     }
@@ -170,8 +173,9 @@ bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
   const Reader& read)
 {
   constexpr std::size_t grain = 1 << 14;
+  constexpr std::size_t batch = 16 * grain;
   std::atomic<bool> same{ true };
-  forRanges(execution, tree.samples.size(), grain,
+  forBatches(execution, tree.samples.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end && same; ++i)
@@ -184,13 +188,12 @@ bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
         }
       }
     });
-  throwIfAborted(execution);
   if (!same || tree.skipped == 0)
   {
     return same;
   }
   std::atomic<std::size_t> taking{ 0 };
-  forRanges(execution, count, grain,
+  forBatches(execution, count, batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
       std::size_t takingHere = 0;
@@ -201,18 +204,18 @@ bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
       }
       taking += takingHere;
     });
-  throwIfAborted(execution);
   return taking == tree.samples.size();
 }
 
 /// Gives the samples of a tree new values and recomputes the value ranges of its nodes. The tree
 /// keeps its shape, which does not depend on values.
 /// @param read as for loadSamples(); holdsPositions() must be true of it
+/// @throws Aborted, and then some values are new
 template <class TSample, class Reader>
 void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
 {
   constexpr std::size_t grain = 1 << 14;
-  forRanges(execution, tree.samples.size(), grain,
+  forBatches(execution, tree.samples.size(), 16 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

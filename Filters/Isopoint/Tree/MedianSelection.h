@@ -80,11 +80,9 @@ public:
     coordinates.resize(std::max(coordinates.size(), this->PaddedCount));
     this->Coordinates = coordinates.data();
     std::fill(this->Coordinates + count, this->Coordinates + this->PaddedCount, infinity);
-    this->Count = count;
   }
 
   const TCoordinate& operator[](std::size_t i) const { return this->Coordinates[i]; }
-  std::size_t count() const { return this->Count; }
 
   Range range() const
   {
@@ -146,7 +144,6 @@ private:
   static constexpr TCoordinate infinity = std::numeric_limits<TCoordinate>::infinity();
 
   TCoordinate* Coordinates;
-  std::size_t Count;
   std::size_t PaddedCount;
 };
 

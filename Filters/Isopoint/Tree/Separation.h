@@ -243,7 +243,8 @@ void separateTogether(const Execution& execution, TSample* samples, std::size_t 
   const std::size_t lowerCount = count / 2;
   const std::size_t upperCount = count - lowerCount;
   TSample* const middle = samples + lowerCount;
-  const std::size_t partCount = 4 * execution.threads;
+  constexpr std::size_t partSamples = std::size_t{ 1 } << 20;
+  const std::size_t partCount = std::max(4 * execution.threads, count / partSamples);
   std::vector<Part> parts;
   for (std::size_t i = 0; i < partCount; ++i)
   {
@@ -252,7 +253,7 @@ void separateTogether(const Execution& execution, TSample* samples, std::size_t 
         { middle + upperCount * i / partCount, middle + upperCount * (i + 1) / partCount } });
   }
   const Separation<TSample> separation(axis, bracket);
-  forRanges(execution, partCount, 1,
+  forBatches(execution, partCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -168,9 +168,7 @@ std::optional<Halves> halveWithoutBracket(
   return halveAtMiddle(
     samples, count, axis, middle,
     [&](const auto& visit) { std::for_each(samples, samples + count, visit); }, count / 2,
-    [&](const auto& belongsLower) {
-      exchangeMisplaced(samples, count / 2, samples + count / 2, count - count / 2, belongsLower);
-    });
+    [&](const auto& belongsLower) { exchangeMisplaced(samples, count, count / 2, belongsLower); });
 }
 
 /// Swaps the open samples that are in the wrong half.

@@ -64,9 +64,13 @@ public:
   void splitTogether(
     const Execution& execution, Node<TSample>& node, const Region& region, int levels)
   {
-    const auto halveAll = [&execution](TSample* samples, std::size_t count, int axis)
+    const double work = static_cast<double>(node.count()) * levels;
+    double done = 0.0;
+    const auto halveAll = [&](TSample* samples, std::size_t count, int axis)
     {
       throwIfAborted(execution);
+      execution.progress(done / work);
+      done += static_cast<double>(count);
       return halveTogether(execution, samples, count, axis);
     };
     const auto rangeAll = [this, &execution](Node<TSample>& bottom)
