@@ -33,8 +33,8 @@ vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
   return cloud;
 }
 
-/// Whether the clip plane of a splat is the plane of one of the cube's faces, to the side of the
-/// cube.
+/// Whether the clip plane of a splat is the plane of one of the cube's faces, a hundredth of the
+/// spacing of about 1 farther off, to the side of the cube.
 bool isClippedAtAFace(const double* point, const std::array<double, 3>& center, const double* clip)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -42,7 +42,8 @@ bool isClippedAtAFace(const double* point, const std::array<double, 3>& center, 
     constexpr double tolerance = 1e-4;
     const double side = clip[axis] < 0.0 ? 1.0 : -1.0;
     const double inside = 12.0 - side * (point[axis] - center[axis]);
-    if (std::abs(clip[axis]) > 1.0 - tolerance && std::abs(clip[3] - inside) < tolerance)
+    if (std::abs(clip[axis]) > 1.0 - tolerance && clip[3] > inside - tolerance &&
+        clip[3] < inside + 0.02)
     {
       return true;
     }

@@ -7,6 +7,9 @@ using namespace splattesting;
 namespace
 {
 
+/// By how much splats reach over creases, at a spacing of 1.
+constexpr double overlap = 0.01;
+
 /// Two planes that meet at the y axis at a right angle, with fits of one order on each.
 Points wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)
 {
@@ -61,7 +64,7 @@ TEST(SplatCreases, EndAtTheOtherSide)
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t across = i % 2 == 0 ? 0 : 2;
-    const double toCrease = -points.positions[i][across];
+    const double toCrease = overlap - points.positions[i][across];
     const bool reaches = toCrease < std::hypot(splats[i].axis1[across], splats[i].axis2[across]);
     ASSERT_EQ(splats[i].clip.has_value(), reaches) << i;
     if (reaches)
@@ -100,7 +103,7 @@ TEST(SplatCreases, OfOnePointAreTheNearest)
     const isopoint::CreasePlane& nearest = points.fits[i].creases[0];
     const std::size_t axis = nearest.inward[0] < 0.0 ? 0 : 1;
     const double reach = std::hypot(splats[i].axis1[axis], splats[i].axis2[axis]);
-    ASSERT_EQ(splats[i].clip.has_value(), nearest.distance < reach);
+    ASSERT_EQ(splats[i].clip.has_value(), nearest.distance + overlap < reach);
     if (splats[i].clip)
     {
       EXPECT_EQ(splats[i].clip->inward, nearest.inward);
@@ -150,8 +153,8 @@ TEST(SplatCreases, OfPointsOnACreaseCoverTheirOwnSide)
     {
       EXPECT_GT(splats[i].radius, 0.1) << i;
       const Vector inward = i % 2 == 0 ? Vector{ -1.0, 0.0, 0.0 } : Vector{ 0.0, 0.0, -1.0 };
-      EXPECT_EQ(
-        clipOf(splats[i]), (std::array<double, 5>{ inward[0], inward[1], inward[2], 0.0, -sign }))
+      EXPECT_EQ(clipOf(splats[i]),
+        (std::array<double, 5>{ inward[0], inward[1], inward[2], overlap, -sign }))
         << i;
     }
   }

@@ -57,7 +57,7 @@ public:
     splat.radius = size * ellipse.major;
     splat.axis1 = scaled(splat.radius, along);
     splat.axis2 = scaled(size * ellipse.minor, cross(splat.normal, along));
-    splat.clip = this->clipOf(point, splat);
+    splat.clip = this->clipOf(point, splat, creaseOverlap * unit);
   }
 
 private:
@@ -82,6 +82,10 @@ private:
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
   static constexpr double creaseTolerance = 0.1;
+
+  /// How far splats reach over their creases, in spacings, so that those of both sides leave no
+  /// slit where their planes are not exactly the same.
+  static constexpr double creaseOverlap = 0.01;
 
   /// The order of the fit that held, if any.
   std::optional<FitOrder> orderAt(std::size_t point) const
@@ -238,14 +242,15 @@ private:
     return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
   }
 
-  /// The plane of the nearest crease, if it cuts the ellipse.
-  std::optional<CreasePlane> clipOf(std::size_t point, const Splat& splat) const
+  /// The plane of the nearest crease, a little farther off, if it cuts the ellipse.
+  std::optional<CreasePlane> clipOf(std::size_t point, const Splat& splat, double overlap) const
   {
     if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
     {
       return std::nullopt;
     }
-    const CreasePlane& crease = this->Points.fits[point].creases.front();
+    CreasePlane crease = this->Points.fits[point].creases.front();
+    crease.distance += overlap;
     const double a = dot(crease.inward, splat.axis1);
     const double b = dot(crease.inward, splat.axis2);
     return crease.distance < std::sqrt(a * a + b * b) ? std::optional<CreasePlane>(crease)
