@@ -475,7 +475,7 @@ inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
     return std::nullopt;
   }
   const double relative = errors->sigma / lengthOf(quadratic->gradientAt({}));
-  if (relative <= 0.0003 * frame.h)
+  if (relative <= 0.0002 * frame.h)
   {
     const auto zero = zeroOf(*quadratic, frame.increasing);
     if (!zero)

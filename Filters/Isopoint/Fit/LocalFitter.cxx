@@ -16,15 +16,9 @@ namespace isopoint
 namespace
 {
 
-<<<<<<< HEAD
-/// Up to this residual, in mean rises of the field over the mean distance of the samples, a field is
-/// smooth.
-constexpr double smoothResidual = 0.0002;
-=======
 /// Up to this residual, in mean rises of the field over the mean distance of the samples, a field
 /// is smooth.
-constexpr double smoothResidual = 0.0003;
->>>>>>> 2f7efb4738d823bd3ff79b22baa0ef131f0d6a03
+constexpr double smoothResidual = 0.0002;
 
 /// Weights so steep that a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
