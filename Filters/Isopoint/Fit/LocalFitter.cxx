@@ -71,7 +71,7 @@ std::optional<LocalFit> LocalFitter::fitNear(
   }
   else
   {
-    this->preferAffineGradient(nullptr, fit);
+    this->preferMildGradient(nullptr, fit);
   }
   return fit;
 }
@@ -124,7 +124,7 @@ LocalFit LocalFitter::fit(
   {
     this->moveTo(*found, fit);
   }
-  this->preferAffineGradient(found ? &*found : nullptr, fit);
+  this->preferMildGradient(found ? &*found : nullptr, fit);
   return fit;
 }
 
@@ -173,30 +173,27 @@ void LocalFitter::weighRobustly()
   }
 }
 
-/// The gradient of the affine function through all samples, if it does not contradict the edge.
-std::optional<Vector> LocalFitter::affineGradient()
+/// The polynomial with mild weights, if its gradient does not contradict the edge.
+std::optional<Polynomial> LocalFitter::mildPolynomial(int degree)
 {
   weighMildly(this->Frame, this->Weights);
-  const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
-  if (!affine || !areEnough(this->Frame.samples().count(), 1) ||
-      !increasesAlong(this->Frame.increasing(), affine->gradientAt({})))
-  {
-    return std::nullopt;
-  }
-  return affine->gradientAt({});
+  const std::optional<Polynomial> mild = areEnough(this->Frame.samples().count(), degree)
+                                           ? leastSquares(this->Frame.samples(), this->Weights, degree)
+                                           : std::nullopt;
+  return mild && increasesAlong(this->Frame.increasing(), mild->gradientAt({})) ? mild
+                                                                               : std::nullopt;
 }
 
 /// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
 bool LocalFitter::fitLinear(LocalFit& fit)
 {
-  const std::optional<Vector> gradient = this->affineGradient();
-  if (!gradient)
+  const std::optional<Polynomial> affine = this->mildPolynomial(1);
+  if (!affine)
   {
     return false;
   }
-  fit.gradient = this->Frame.gradientOf(*gradient);
+  fit.gradient = this->Frame.gradientOf(affine->gradientAt({}));
   fit.isGradientFitted = true;
-  const std::optional<Polynomial> affine = leastSquares(this->Frame.samples(), this->Weights, 1);
   const std::optional<Vector> zero = zeroNear(*affine, 0.5 * lengthOf(this->Frame.increasing()));
   if (!zero)
   {
@@ -280,19 +277,24 @@ void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
   fit.isSmooth = true;
 }
 
-/// Takes the gradient of the affine function through all samples, mildly weighted, where the
-/// polynomial's does not differ from it beyond doubt, or where there is no polynomial.
-void LocalFitter::preferAffineGradient(const PolynomialFit* found, LocalFit& fit)
+/// Takes the gradient of the polynomial of the lowest degree with mild weights that does not differ
+/// beyond doubt from what was found, which is less certain; of the affine function if nothing was.
+void LocalFitter::preferMildGradient(const PolynomialFit* found, LocalFit& fit)
 {
   constexpr double mostErrors = 2.0; // standard errors between directions that may be the same
-  const std::optional<Vector> affine = this->affineGradient();
-  if (affine && (!found || lengthOf(difference(directionOf(*affine),
-                             directionOf(found->gradient))) < mostErrors * found->directionError))
+  for (int degree = 1; degree <= (found ? 2 : 1); ++degree)
   {
-    fit.gradient = this->Frame.gradientOf(*affine);
-    fit.isGradientFitted = true;
-    fit.hessian = {};
-    fit.isSmooth = false;
+    const std::optional<Polynomial> mild = this->mildPolynomial(degree);
+    const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
+    if (mild && (!found || lengthOf(difference(directionOf(gradient),
+                             directionOf(found->gradient))) < mostErrors * found->directionError))
+    {
+      fit.gradient = this->Frame.gradientOf(gradient);
+      fit.isGradientFitted = true;
+      fit.hessian = this->Frame.hessianOf(mild->hessianAt({}));
+      fit.isSmooth = degree > 1;
+      return;
+    }
   }
 }
 

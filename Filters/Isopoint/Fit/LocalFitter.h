@@ -47,12 +47,12 @@ public:
 private:
   bool isSmooth(const PolynomialFit& found) const;
   void weighRobustly();
-  std::optional<Vector> affineGradient();
+  std::optional<Polynomial> mildPolynomial(int degree);
   bool fitLinear(LocalFit& fit);
   bool fitCreases(LocalFit& fit);
   double polynomialResidual() const;
   void moveTo(const PolynomialFit& found, LocalFit& fit) const;
-  void preferAffineGradient(const PolynomialFit* found, LocalFit& fit);
+  void preferMildGradient(const PolynomialFit* found, LocalFit& fit);
 
   const double Isovalue;
   const FitOrder Highest;
