@@ -21,8 +21,10 @@
  * region, and only the part of the tree around the surface is built.
  *
  * By default each isopoint is then moved to the zero of a polynomial, which is fitted by weighted
- * least squares to the samples around it (see SetProjection()). The gradient of the polynomial
- * gives the normal. This step, thinning (see SetMinimumSpacing()) and the gap criterion (see
+ * least squares to the samples around it, and by less than that where the samples leave doubt about
+ * the zero (see SetProjection()). The gradient of the polynomial gives the normal; in noise it is
+ * that of an affine function. What is fitted depends on samples next to the isopoint alone: in the
+ * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning (see SetMinimumSpacing()) and the gap criterion (see
  * SetGapFactor()) have no counterpart in [RL06]. docs/algorithm.md in the source distribution
  * defines the result exactly.
  *
@@ -163,18 +165,23 @@ public:
    * - NO_PROJECTION: isopoints stay where linear interpolation on the edge puts them.
    * - LINEAR_FIT: an affine function. It smooths noise, but also flattens curved surfaces.
    * - QUADRATIC_FIT: degree two.
-   * - CUBIC_FIT: degree two, or three where degree two leaves residuals of more than 1/500 of the
-   *   mean distance of the samples.
-   * - CREASE_FIT: as CUBIC_FIT; where the residuals indicate a crease, the maximum or minimum of
-   *   two to four polynomials of degree one or two. For bodies with sharp edges; in fields without
-   *   creases it takes longer and may detect false ones.
+   * - CUBIC_FIT: degree two where that describes the nearest samples almost exactly, else degree
+   *   three, or two where no cubic holds.
+   * - CREASE_FIT: as CUBIC_FIT; where the field is not smooth, the maximum or minimum of two to four
+   *   polynomials of degree one or two, if these describe the samples far better. For bodies with
+   *   sharp edges; in fields without creases it takes longer and may detect false ones.
    *
-   * No isopoint is moved by more than half the length of its edge. Where no fit describes the
-   * samples, as in noise, isopoints stay and are counted (see GetNumberOfUnprojectedPoints()).
-   * Detecting this can take up to five times as long as the extraction itself, with CREASE_FIT up
-   * to nine times. What is tried around an isopoint also depends on how often it succeeded at up to
-   * 255 isopoints nearby: options that drop some of these can move others. Values outside the
-   * enumeration are clamped. Default: CUBIC_FIT.
+   * Except with LINEAR_FIT, samples that lie far off what the others indicate, such as those beyond
+   * a step, count less, and an isopoint moves by less than the whole way where the standard error of
+   * the zero, as residuals of samples left out indicate it, is not small beside that way. So fits
+   * are not worse on average than linear interpolation in noise and at steps. No isopoint is moved
+   * by more than half the length of its edge. Where the samples determine no polynomial, where it
+   * has no zero close by or contradicts the edge, and in noise so strong that not even the direction
+   * of the gradient is known, isopoints stay and are counted (see GetNumberOfUnprojectedPoints()).
+   *
+   * A fit depends on nothing but the samples in the regions that touch those of the edge's ends, and
+   * in regions that touch these: changes farther away, with the tree around as it was, change
+   * nothing. Values outside the enumeration are clamped. Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
   vtkGetMacro(Projection, int);
@@ -190,8 +197,9 @@ public:
   /**
    * The source of the normals:
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
-   *   NO_PROJECTION). Where no fit holds, it is that of an affine function if one describes the
-   *   samples, else NORMALS_FROM_PLANES.
+   *   NO_PROJECTION), or that of an affine function where both agree within the error of the former,
+   *   as in noise, and where no fit holds. Where the samples determine no affine function either, or
+   *   its gradient contradicts the edge, NORMALS_FROM_PLANES.
    * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
    *   SetNumberOfNeighbors()).
    *
@@ -204,9 +212,9 @@ public:
   ///@{
   /**
    * Whether to compute the array "Gradients" (three floats): the gradient of the contoured array at
-   * the isopoint, in units of the array per unit of the coordinates. It is that of the fit, as for
-   * NORMALS_FROM_FIELD; where neither a fit nor an affine function describes the samples, it is the
-   * slope along the isopoint's edge. Default: off.
+   * the isopoint, in units of the array per unit of the coordinates. It is that of the fit or the
+   * affine function, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along the
+   * isopoint's edge. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
@@ -279,7 +287,9 @@ public:
    * Fewer isopoints with larger splats then cover the surface. Isopoints are taken in the order of
    * the output, and one is dropped if it is close to one that was kept. Let r be MinimumSpacing
    * times the smaller of the sample spacings around two isopoints; these are close if
-   * - a fit holds around both (see SetProjection(); that of CUBIC_FIT with NO_PROJECTION),
+   * - around both a fit describes a smooth surface (see SetProjection(); that of CUBIC_FIT with
+   *   NO_PROJECTION): one of degree two or more, whose gradient is better known than that of an
+   *   affine function,
    * - their distance is less than r,
    * - each lies within r / 4 of the tangent plane of the other, and
    * - the gradients of their fits differ by less than 25 degrees (their cosine is 0.906 or more).
@@ -287,7 +297,7 @@ public:
    * The sample spacing around an isopoint is the mean, over the ends of its edge, of the distance
    * within which two fifths of the neighbors lie. Thus neither sheets close to each other nor the
    * two sides of a crease thin each other out, the surface stays dense where it is strongly curved,
-   * and nothing is dropped where no fit holds, as in noise.
+   * and nothing is dropped where no fit holds, in noise, or with LINEAR_FIT.
    *
    * 0.5 is a sensible value: it keeps about half of the isopoints and opened no holes in smooth
    * surfaces in tests; larger values open some. About 70 percent remain at 0.25, 20 percent at 1.
@@ -334,7 +344,7 @@ public:
   ///@{
   /**
    * The number of nearest isopoints to which the plane is fitted that gives a normal
-   * (NORMALS_FROM_PLANES, and where no fit holds). More give smoother normals and rounder edges.
+   * (NORMALS_FROM_PLANES, and where the samples yield no gradient). More give smoother normals and rounder edges.
    * Range: 3 to 1000; other values are clamped. Default: 12.
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
@@ -395,7 +405,8 @@ public:
 
   /**
    * The number of points in the output of the last update that no fit moved: all of them with
-   * NO_PROJECTION, otherwise those around which no fit holds.
+   * NO_PROJECTION, otherwise those around which no fit holds. In noise most points move, if only by
+   * a little.
    */
   vtkGetMacro(NumberOfUnprojectedPoints, vtkIdType);
 

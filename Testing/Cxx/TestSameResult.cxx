@@ -43,6 +43,7 @@ void expectSameFit(const isopoint::LocalFit& expected, const isopoint::LocalFit&
   EXPECT_EQ(expected.gradient, found.gradient);
   EXPECT_EQ(expected.isGradientFitted, found.isGradientFitted);
   EXPECT_EQ(expected.hessian, found.hessian);
+  EXPECT_EQ(expected.isSmooth, found.isSmooth);
   EXPECT_EQ(expected.spacing, found.spacing);
   EXPECT_EQ(expected.order, found.order);
   ASSERT_EQ(expected.creases.size(), found.creases.size());

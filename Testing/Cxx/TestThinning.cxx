@@ -24,7 +24,7 @@ bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
   const Vector way = isopoint::difference(a.position, b.position);
   const Vector normalA = isopoint::directionOf(a.gradient);
   const Vector normalB = isopoint::directionOf(b.gradient);
-  return a.order != std::nullopt && b.order != std::nullopt && slopeA > 0.0 && slopeB > 0.0 &&
+  return a.isSmooth && b.isSmooth && slopeA > 0.0 && slopeB > 0.0 &&
          std::isfinite(slopeA) && std::isfinite(slopeB) &&
          std::max(a.spacing, b.spacing) <= 1e290 && isopoint::lengthOf(way) < reach &&
          isopoint::dot(normalA, normalB) >= 0.906 &&
@@ -101,7 +101,8 @@ std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, 
     fit.position[2] *= 0.1;
     fit.spacing = 0.2 * side * std::pow(factor, -random());
     fit.gradient = { random() - 0.5, random() - 0.5, random() < 0.5 ? -2.0 : 2.0 };
-    fit.order = random() < 0.1 ? std::nullopt : std::optional<FitOrder>(FitOrder::Quadratic);
+    fit.order = FitOrder::Quadratic;
+    fit.isSmooth = random() >= 0.1;
   }
   return fits;
 }
@@ -111,7 +112,7 @@ std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, 
 TEST(Thinning, FollowsTheDefinition)
 {
   constexpr std::size_t count = 2000;
-  for (const FitOrder order : { FitOrder::Linear, FitOrder::Cubic, FitOrder::Crease })
+  for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
     EXPECT_LT(expectTheDefinition(extracted(clouds::uniform(count, 62), 0.3, order)), 0.9);
     expectTheDefinition(extracted(clouds::clustered(count, 63), -4.0, order));
@@ -121,6 +122,8 @@ TEST(Thinning, FollowsTheDefinition)
     expectTheDefinition(extracted(clouds::flattened(clouds::uniform(count, 66), 2), 0.4, order));
   }
   expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, 1, false));
+  // Affine functions indicate no sheet.
+  EXPECT_EQ(expectTheDefinition(extracted(clouds::uniform(count, 62), 0.3, FitOrder::Linear)), 1.0);
   EXPECT_TRUE(thinned(extracted(clouds::uniform(count, 67), 9.0), 1.0).edges.empty());
 }
 
@@ -170,6 +173,7 @@ TEST(Thinning, FollowsTheDefinitionOnALattice)
     fit.gradient = { 0.0, 0.0, i % 3 == 0 ? -1.0 : 1.0 };
     fit.spacing = i % 4 == 0 ? 1.0 : 0.5;
     fit.order = FitOrder::Quadratic;
+    fit.isSmooth = true;
     fits.push_back(fit);
   }
   EXPECT_LT(expectTheDefinition(surfaceOf(fits)), 0.9);
@@ -181,6 +185,7 @@ TEST(Thinning, PointsWithoutATangentPlaneAreKept)
   usable.gradient = { 1.0, 0.0, 0.0 };
   usable.spacing = 1.0;
   usable.order = FitOrder::Cubic;
+  usable.isSmooth = true;
   EXPECT_EQ(thinned(surfaceOf({ usable, usable, usable }), 0.5).edges.size(), 1u);
   const auto expectKept = [&](LocalFit fit)
   {
@@ -189,7 +194,7 @@ TEST(Thinning, PointsWithoutATangentPlaneAreKept)
     EXPECT_EQ(thinned(surfaceOf({ usable, fit }), 0.5).edges.size(), 2u);
   };
   LocalFit fit = usable;
-  fit.order = std::nullopt;
+  fit.isSmooth = false;
   expectKept(fit);
   for (const double bad :
     { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })

@@ -77,6 +77,7 @@ TEST(ThinningSheets, ThreeSheetsCloseByDoNotThinEachOther)
     fits[i].gradient = { 0.0, 0.0, i % 3 == 1 ? -1.0 : 1.0 };
     fits[i].spacing = 1.0;
     fits[i].order = FitOrder::Cubic;
+    fits[i].isSmooth = true;
   }
   const auto third = [](const Vector& p) { return static_cast<int>(p[2] / gap); };
   for (const double minimumSpacing : { 1.0, 0.5 })
@@ -99,7 +100,7 @@ TEST(ThinningSheets, SidesOfACreaseDoNotThinEachOther)
   sides.fits.clear();
   for (std::size_t i = 0; i < roof.edges.size(); ++i)
   {
-    if (roof.fits[i].order != std::nullopt)
+    if (roof.fits[i].isSmooth)
     {
       sides.edges.push_back(roof.edges[i]);
       sides.positions.push_back(roof.positions[i]);

@@ -113,10 +113,9 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
 
-/// Fits to the samples around each edge: those of the two cells that it connects and of the cells
-/// that touch one of them. If one of the two touches more than 256, its own are left out; if both
-/// do, a subset represents them (see SampleGatherer). Edges are fitted in groups of 256 that follow
-/// each other in the tree: doubtful fits depend on the detection rates of a group.
+/// Fits to the samples around each edge (see SampleGatherer and LocalFitter), in groups that follow
+/// each other in the tree: what is found for one edge is often that of the next. Each fit depends on
+/// its samples alone.
 /// @returns one fit for each edge
 /// @throws Aborted, std::bad_alloc
 template <class TSample>
