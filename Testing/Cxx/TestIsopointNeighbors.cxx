@@ -45,8 +45,10 @@ struct Extracted
     isopoint::IsosurfaceRequest request{};
     request.isovalue = 0.3;
     request.angle = isopoint::defaultAngle;
+    const isopoint::Execution execution = clouds::executionOn(1);
+    isopoint::WorkProgress progress(execution);
     this->surface = isopoint::extractIsosurface(
-      clouds::executionOn(1), this->tree, this->known, cloud.size(), request);
+      execution, this->tree, this->known, cloud.size(), request, progress, 0.0);
   }
 
   /// By comparing the regions of all leaves.

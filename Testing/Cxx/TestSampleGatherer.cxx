@@ -53,7 +53,9 @@ Seen expectTheDefinition(Cloud cloud, double isovalue)
   const Rings rings(cloud);
   const isopoint::Execution execution;
   auto tree = isopoint::loadSamples<Sample>(execution, cloud.size(), clouds::readerOf(cloud));
-  const auto nodes = isopoint::NarrowBand<Sample>(tree, isovalue, execution).refine();
+  isopoint::WorkProgress progress(execution);
+  const auto nodes =
+    isopoint::NarrowBand<Sample>(tree, isovalue, execution, progress, 0.0).refine();
   isopoint::NeighborhoodCache<Sample::Id> neighborhoods;
   isopoint::ExtractionContext<Sample> context(tree, neighborhoods, isovalue);
   auto found = isopoint::findEdges(execution, context, { isovalue }, nodes);
