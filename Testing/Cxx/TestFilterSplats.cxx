@@ -33,7 +33,7 @@ vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
   return cloud;
 }
 
-/// Whether the clip plane of a splat is the plane of one of the cube's faces, a hundredth of the
+/// Whether the clip plane of a splat is the plane of one of the cube's faces, a thousandth of the
 /// spacing of about 1 farther off, to the side of the cube.
 bool isClippedAtAFace(const double* point, const std::array<double, 3>& center, const double* clip)
 {

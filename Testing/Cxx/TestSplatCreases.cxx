@@ -8,7 +8,7 @@ namespace
 {
 
 /// By how much splats reach over creases, at a spacing of 1.
-constexpr double overlap = 0.01;
+constexpr double overlap = 0.001;
 
 /// Two planes that meet at the y axis at a right angle, with fits of one order on each.
 Points wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)

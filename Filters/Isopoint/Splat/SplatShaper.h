@@ -85,7 +85,7 @@ private:
 
   /// How far splats reach over their creases, in spacings, so that those of both sides leave no
   /// slit where their planes are not exactly the same.
-  static constexpr double creaseOverlap = 0.01;
+  static constexpr double creaseOverlap = 0.001;
 
   /// The order of the fit that held, if any.
   std::optional<FitOrder> orderAt(std::size_t point) const
