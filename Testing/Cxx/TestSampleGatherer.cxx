@@ -66,7 +66,7 @@ Seen expectTheDefinition(Cloud cloud, double isovalue)
   {
     if (areKnown)
     {
-      isopoint::keepNeighborhoods(found.neighborhoods, tree.nodes.size(), neighborhoods);
+      isopoint::keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
       std::reverse(found.edges.begin(), found.edges.end());
     }
     isopoint::SampleGatherer<Sample> gatherer(context);
