@@ -22,8 +22,8 @@
  *
  * By default each isopoint is then moved to the zero of a polynomial, which is fitted by weighted
  * least squares to the samples around it, and by less than that where the samples leave doubt about
- * the zero (see SetProjection()). The gradient of the polynomial gives the normal; in noise it is
- * that of an affine function. What is fitted depends on samples next to the isopoint alone: in the
+ * the zero (see SetProjection()). The gradient of the polynomial gives the normal, in noise that of
+ * a simpler one. What is fitted depends on samples next to the isopoint alone: in the
  * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning (see SetMinimumSpacing()) and the gap criterion (see
  * SetGapFactor()) have no counterpart in [RL06]. docs/algorithm.md in the source distribution
  * defines the result exactly.
@@ -197,8 +197,9 @@ public:
   /**
    * The source of the normals:
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
-   *   NO_PROJECTION), or that of an affine function where both agree within the error of the former,
-   *   as in noise, and where no fit holds. Where the samples determine no affine function either, or
+   *   NO_PROJECTION), or that of a simpler polynomial through the samples where both agree within the
+   *   error of the former: of an affine function, as in noise, or of degree two. Where no fit holds,
+   *   it is that of an affine function. Where the samples determine no affine function either, or
    *   its gradient contradicts the edge, NORMALS_FROM_PLANES.
    * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
    *   SetNumberOfNeighbors()).
@@ -212,8 +213,8 @@ public:
   ///@{
   /**
    * Whether to compute the array "Gradients" (three floats): the gradient of the contoured array at
-   * the isopoint, in units of the array per unit of the coordinates. It is that of the fit or the
-   * affine function, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along the
+   * the isopoint, in units of the array per unit of the coordinates. It is that of the fit or of a
+   * simpler polynomial, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along the
    * isopoint's edge. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
@@ -288,7 +289,7 @@ public:
    * the output, and one is dropped if it is close to one that was kept. Let r be MinimumSpacing
    * times the smaller of the sample spacings around two isopoints; these are close if
    * - around both a fit describes a smooth surface (see SetProjection(); that of CUBIC_FIT with
-   *   NO_PROJECTION): one of degree two or more, whose gradient is better known than that of an
+   *   NO_PROJECTION): one of degree two or more, whose gradient differs beyond doubt from that of an
    *   affine function,
    * - their distance is less than r,
    * - each lies within r / 4 of the tangent plane of the other, and

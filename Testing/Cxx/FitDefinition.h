@@ -383,15 +383,14 @@ inline Weights robustWeights(const Frame& frame)
   return weights;
 }
 
-/// g' of 10.4, step 4.
-inline std::optional<Vector> affineGradient(const Frame& frame)
+/// The polynomial with mild weights of 10.4, step 4, unless it contradicts the edge.
+inline std::optional<Polynomial> mildPolynomial(const Frame& frame, int degree)
 {
-  const auto affine = areEnough(frame.samples.size(), 1)
-                        ? leastSquares(frame.samples, frame.mild(), 1)
-                        : std::nullopt;
-  return affine && !contradicts(affine->gradientAt({}), frame.increasing)
-           ? std::optional<Vector>(affine->gradientAt({}))
-           : std::nullopt;
+  const auto polynomial = areEnough(frame.samples.size(), degree)
+    ? leastSquares(frame.samples, frame.mild(), degree)
+    : std::nullopt;
+  return polynomial && !contradicts(polynomial->gradientAt({}), frame.increasing) ? polynomial
+                                                                                  : std::nullopt;
 }
 
 /// What the rule yields, in the units of positions and values.
@@ -445,9 +444,9 @@ inline Result stay(const Frame& frame, const FitEdge& edge)
   {
     result.gradient[axis] = edge.increase / length * edge.increasing[axis] / length;
   }
-  if (const auto gradient = affineGradient(frame))
+  if (const auto affine = mildPolynomial(frame, 1))
   {
-    setGradient(frame, *gradient, result);
+    setGradient(frame, affine->gradientAt({}), result);
   }
   return result;
 }
@@ -527,11 +526,16 @@ inline Result fit(const FitEdge& edge, double isovalue, const std::vector<FitSam
   Result result;
   result.position = detail::positionAt(frame, edge, taken->zero, shareOf(*taken));
   result.order = static_cast<FitOrder>(taken->degree);
-  const auto affine = affineGradient(frame);
-  if (affine && detail::angleBetween(*affine, taken->gradient) < 2.0 * taken->a)
+  for (const int degree : { 1, 2 })
   {
-    detail::setGradient(frame, *affine, result);
-    return result;
+    const auto mild = mildPolynomial(frame, degree);
+    if (mild && detail::angleBetween(mild->gradientAt({}), taken->gradient) < 2.0 * taken->a)
+    {
+      detail::setGradient(frame, mild->gradientAt({}), result);
+      detail::setHessian(frame, mild->hessianAt({}), result);
+      result.isSmooth = degree > 1;
+      return result;
+    }
   }
   detail::setGradient(frame, taken->gradient, result);
   detail::setHessian(frame, taken->polynomial.hessianAt(taken->zero), result);
