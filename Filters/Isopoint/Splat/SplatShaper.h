@@ -242,14 +242,40 @@ private:
     return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
   }
 
-  /// The plane of the nearest crease, a little farther off, if it cuts the ellipse.
+  /// The plane of the nearest crease, a little farther off, if it cuts the ellipse: of the point's
+  /// own or, without one, of a crease point nearby on the same piece.
   std::optional<CreasePlane> clipOf(std::size_t point, const Splat& splat, double overlap) const
   {
-    if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
+    if (this->Points.fits.empty())
     {
       return std::nullopt;
     }
-    CreasePlane crease = this->Points.fits[point].creases.front();
+    if (!this->Points.fits[point].creases.empty())
+    {
+      return cutting(this->Points.fits[point].creases.front(), splat, overlap);
+    }
+    for (const NearbyPoint& other : this->Nearby)
+    {
+      const LocalFit& fit = this->Points.fits[other.point];
+      if (!fit.creases.empty() &&
+          dot(splat.normal, this->Splats[other.point].normal) > mostCreaseCosine)
+      {
+        CreasePlane crease = fit.creases.front();
+        crease.distance += dot(crease.inward,
+          difference(this->Points.positions[point], this->Points.positions[other.point]));
+        const std::optional<CreasePlane> clip = cutting(crease, splat, overlap);
+        if (clip && crease.distance >= 0.0)
+        {
+          return clip;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// A crease plane, a little farther off, if it cuts the ellipse.
+  static std::optional<CreasePlane> cutting(CreasePlane crease, const Splat& splat, double overlap)
+  {
     crease.distance += overlap;
     const double a = dot(crease.inward, splat.axis1);
     const double b = dot(crease.inward, splat.axis2);
