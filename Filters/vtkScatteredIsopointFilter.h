@@ -24,9 +24,9 @@
  * least squares to the samples around it, and by less than that where the samples leave doubt about
  * the zero (see SetProjection()). The gradient of the polynomial gives the normal, in noise that of
  * a simpler one. What is fitted depends on samples next to the isopoint alone: in the
- * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning (see SetMinimumSpacing()) and the gap criterion (see
- * SetGapFactor()) have no counterpart in [RL06]. docs/algorithm.md in the source distribution
- * defines the result exactly.
+ * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning
+ * (see SetMinimumSpacing()) and the gap criterion (see SetGapFactor()) have no counterpart in
+ * [RL06]. docs/algorithm.md in the source distribution defines the result exactly.
  *
  * The filter guarantees:
  * 1. The output depends on the input and the options alone, to the last bit and including the order
@@ -167,20 +167,21 @@ public:
    * - QUADRATIC_FIT: degree two.
    * - CUBIC_FIT: degree two where that describes the nearest samples almost exactly, else degree
    *   three, or two where no cubic holds.
-   * - CREASE_FIT: as CUBIC_FIT; where the field is not smooth, the maximum or minimum of two to four
-   *   polynomials of degree one or two, if these describe the samples far better. For bodies with
-   *   sharp edges; in fields without creases it takes longer and may detect false ones.
+   * - CREASE_FIT: as CUBIC_FIT; where the field is not smooth, the maximum or minimum of two to
+   * four polynomials of degree one or two, if these describe the samples far better. For bodies
+   * with sharp edges; in fields without creases it takes longer and may detect false ones.
    *
    * Except with LINEAR_FIT, samples that lie far off what the others indicate, such as those beyond
-   * a step, count less, and an isopoint moves by less than the whole way where the standard error of
-   * the zero, as residuals of samples left out indicate it, is not small beside that way. So fits
-   * are not worse on average than linear interpolation in noise and at steps. No isopoint is moved
-   * by more than half the length of its edge. Where the samples determine no polynomial, where it
-   * has no zero close by or contradicts the edge, and in noise so strong that not even the direction
-   * of the gradient is known, isopoints stay and are counted (see GetNumberOfUnprojectedPoints()).
+   * a step, count less, and an isopoint moves by less than the whole way where the standard error
+   * of the zero, as residuals of samples left out indicate it, is not small beside that way. So
+   * fits are not worse on average than linear interpolation in noise and at steps. No isopoint is
+   * moved by more than half the length of its edge. Where the samples determine no polynomial,
+   * where it has no zero close by or contradicts the edge, and in noise so strong that not even the
+   * direction of the gradient is known, isopoints stay and are counted (see
+   * GetNumberOfUnprojectedPoints()).
    *
-   * A fit depends on nothing but the samples in the regions that touch those of the edge's ends, and
-   * in regions that touch these: changes farther away, with the tree around as it was, change
+   * A fit depends on nothing but the samples in the regions that touch those of the edge's ends,
+   * and in regions that touch these: changes farther away, with the tree around as it was, change
    * nothing. Values outside the enumeration are clamped. Default: CUBIC_FIT.
    */
   vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
@@ -197,10 +198,10 @@ public:
   /**
    * The source of the normals:
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
-   *   NO_PROJECTION), or that of a simpler polynomial through the samples where both agree within the
-   *   error of the former: of an affine function, as in noise, or of degree two. Where no fit holds,
-   *   it is that of an affine function. Where the samples determine no affine function either, or
-   *   its gradient contradicts the edge, NORMALS_FROM_PLANES.
+   *   NO_PROJECTION), or that of a simpler polynomial through the samples where both agree within
+   * the error of the former: of an affine function, as in noise, or of degree two. Where no fit
+   * holds, it is that of an affine function. Where the samples determine no affine function either,
+   * or its gradient contradicts the edge, NORMALS_FROM_PLANES.
    * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
    *   SetNumberOfNeighbors()).
    *
@@ -214,8 +215,8 @@ public:
   /**
    * Whether to compute the array "Gradients" (three floats): the gradient of the contoured array at
    * the isopoint, in units of the array per unit of the coordinates. It is that of the fit or of a
-   * simpler polynomial, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along the
-   * isopoint's edge. Default: off.
+   * simpler polynomial, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along
+   * the isopoint's edge. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
@@ -289,8 +290,8 @@ public:
    * the output, and one is dropped if it is close to one that was kept. Let r be MinimumSpacing
    * times the smaller of the sample spacings around two isopoints; these are close if
    * - around both a fit describes a smooth surface (see SetProjection(); that of CUBIC_FIT with
-   *   NO_PROJECTION): one of degree two or more, whose gradient differs beyond doubt from that of an
-   *   affine function,
+   *   NO_PROJECTION): one of degree two or more, whose gradient differs beyond doubt from that of
+   * an affine function,
    * - their distance is less than r,
    * - each lies within r / 4 of the tangent plane of the other, and
    * - the gradients of their fits differ by less than 25 degrees (their cosine is 0.906 or more).
@@ -345,8 +346,8 @@ public:
   ///@{
   /**
    * The number of nearest isopoints to which the plane is fitted that gives a normal
-   * (NORMALS_FROM_PLANES, and where the samples yield no gradient). More give smoother normals and rounder edges.
-   * Range: 3 to 1000; other values are clamped. Default: 12.
+   * (NORMALS_FROM_PLANES, and where the samples yield no gradient). More give smoother normals and
+   * rounder edges. Range: 3 to 1000; other values are clamped. Default: 12.
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
   vtkGetMacro(NumberOfNeighbors, int);

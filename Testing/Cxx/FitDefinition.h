@@ -387,8 +387,8 @@ inline Weights robustWeights(const Frame& frame)
 inline std::optional<Polynomial> mildPolynomial(const Frame& frame, int degree)
 {
   const auto polynomial = areEnough(frame.samples.size(), degree)
-    ? leastSquares(frame.samples, frame.mild(), degree)
-    : std::nullopt;
+                            ? leastSquares(frame.samples, frame.mild(), degree)
+                            : std::nullopt;
   return polynomial && !contradicts(polynomial->gradientAt({}), frame.increasing) ? polynomial
                                                                                   : std::nullopt;
 }

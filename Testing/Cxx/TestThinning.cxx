@@ -24,10 +24,9 @@ bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
   const Vector way = isopoint::difference(a.position, b.position);
   const Vector normalA = isopoint::directionOf(a.gradient);
   const Vector normalB = isopoint::directionOf(b.gradient);
-  return a.isSmooth && b.isSmooth && slopeA > 0.0 && slopeB > 0.0 &&
-         std::isfinite(slopeA) && std::isfinite(slopeB) &&
-         std::max(a.spacing, b.spacing) <= 1e290 && isopoint::lengthOf(way) < reach &&
-         isopoint::dot(normalA, normalB) >= 0.906 &&
+  return a.isSmooth && b.isSmooth && slopeA > 0.0 && slopeB > 0.0 && std::isfinite(slopeA) &&
+         std::isfinite(slopeB) && std::max(a.spacing, b.spacing) <= 1e290 &&
+         isopoint::lengthOf(way) < reach && isopoint::dot(normalA, normalB) >= 0.906 &&
          std::abs(isopoint::dot(way, normalA)) <= 0.25 * reach &&
          std::abs(isopoint::dot(way, normalB)) <= 0.25 * reach;
 }

@@ -114,8 +114,8 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 }
 
 /// Fits to the samples around each edge (see SampleGatherer and LocalFitter), in groups that follow
-/// each other in the tree: what is found for one edge is often that of the next. Each fit depends on
-/// its samples alone.
+/// each other in the tree: what is found for one edge is often that of the next. Each fit depends
+/// on its samples alone.
 /// @returns one fit for each edge
 /// @throws Aborted, std::bad_alloc
 template <class TSample>

@@ -19,8 +19,8 @@ namespace isopoint
 {
 
 /// Gathers the samples around edges, one edge at a time: within one ring of touching cells
-/// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept. For
-/// one thread.
+/// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept.
+/// For one thread.
 template <class TSample>
 class SampleGatherer
 {
@@ -174,8 +174,8 @@ private:
     return { found.neighbors.data(), found.neighbors.size() };
   }
 
-  /// Lists some of very many neighbours: one for each subtree whose size over its distance is small,
-  /// as often as it represents that many.
+  /// Lists some of very many neighbours: one for each subtree whose size over its distance is
+  /// small, as often as it represents that many.
   void listSome(Id leaf, std::vector<Id>& neighbors)
   {
     constexpr double smallSize = 0.2;

@@ -177,11 +177,12 @@ void LocalFitter::weighRobustly()
 std::optional<Polynomial> LocalFitter::mildPolynomial(int degree)
 {
   weighMildly(this->Frame, this->Weights);
-  const std::optional<Polynomial> mild = areEnough(this->Frame.samples().count(), degree)
-                                           ? leastSquares(this->Frame.samples(), this->Weights, degree)
-                                           : std::nullopt;
+  const std::optional<Polynomial> mild =
+    areEnough(this->Frame.samples().count(), degree)
+      ? leastSquares(this->Frame.samples(), this->Weights, degree)
+      : std::nullopt;
   return mild && increasesAlong(this->Frame.increasing(), mild->gradientAt({})) ? mild
-                                                                               : std::nullopt;
+                                                                                : std::nullopt;
 }
 
 /// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does

@@ -19,8 +19,8 @@ struct PolynomialFit
   Vector zero;     // the nearest one from the origin along gradients
   Vector gradient; // there
   double move;     // the distance of the zero from the origin
-  /// The root mean square residual of the samples that come first, each left out of the fit, over the
-  /// slope of the polynomial.
+  /// The root mean square residual of the samples that come first, each left out of the fit, over
+  /// the slope of the polynomial.
   double relativeResidual;
   double zeroError; // standard error of the zero along the gradient
   /// Standard error of the gradient's direction in radians, if small.
