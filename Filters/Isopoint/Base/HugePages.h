@@ -26,10 +26,9 @@ inline void preferHugePages(void* memory, std::size_t bytes)
     // Whole pages, with the one that holds the allocator's own data: advice for a part of a mapping
     // divides it, and then it could not grow by remapping.
     constexpr std::uintptr_t pageSize = 4096;
-    const auto begin = reinterpret_cast<std::uintptr_t>(memory) / pageSize * pageSize;
-    const auto end = reinterpret_cast<std::uintptr_t>(memory) + bytes;
+    const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % pageSize;
     // Advice that is not taken changes nothing.
-    static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+    static_cast<void>(madvise(static_cast<char*>(memory) - before, before + bytes, MADV_HUGEPAGE));
   }
 #else
   static_cast<void>(memory);

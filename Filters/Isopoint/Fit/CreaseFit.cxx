@@ -223,6 +223,7 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
   std::sort(
     found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<CreasePlane> creases;
+  creases.reserve(found.size());
   for (const auto& [alongPiece, crease] : found)
   {
     creases.push_back(crease);

@@ -50,7 +50,7 @@ public:
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
       this->Nearby[count] = { squaredDistance, other };
-      count += (squaredDistance > 0.0) & (squaredDistance <= squaredLimit) ? 1 : 0;
+      count += ((squaredDistance > 0.0) & (squaredDistance <= squaredLimit)) ? 1 : 0;
     }
     this->Nearby.resize(count);
     std::sort(this->Nearby.begin(), this->Nearby.end(),
