@@ -170,8 +170,8 @@ double noisyDistance(const Vector& p, clouds::Random& random)
   return lengthOf(p) + 0.3 * (random() - 0.5);
 }
 
-/// Two clusters of equal counts, far apart along x, with interleaved ids. The one at higher x has
-/// as many items again that take no part. Its first sample and two opposite corners are fixed, so
+/// Two clusters of equal counts, far apart along x, with interleaved ids. One of them has as many
+/// items again that take no part. Its sample nearest to the other cluster and two opposite corners are fixed, so
 /// that the tree stays as it is in the other one as long as the counts are equal.
 class Clusters
 {
@@ -181,6 +181,7 @@ public:
 
   explicit Clusters(std::uint64_t seed)
     : Generator(seed)
+    , Side(seed % 2 == 0 ? 1.0 : -1.0)
   {
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -247,11 +248,11 @@ private:
     switch (number)
     {
       case 0:
-        return { x - 40.0, 0.0, 0.0 };
+        return { this->Side * (x - 40.0), 0.0, 0.0 };
       case 1:
-        return { x + 40.0, 40.0, 40.0 };
+        return { this->Side * (x + 40.0), 40.0, 40.0 };
       case 2:
-        return { x + 40.0, -40.0, -40.0 };
+        return { this->Side * (x + 40.0), -40.0, -40.0 };
       default:
         break;
     }
@@ -262,12 +263,13 @@ private:
       p[2] = number % 4 == 0 ? -9.0 : 9.0;
       p[0] = number % 4 == 0 ? p[0] : 2.0;
     }
-    return { x + p[0], p[1], p[2] };
+    return { this->Side * (x + p[0]), p[1], p[2] };
   }
 
   double farValue(const Vector& p) { return 0.1 * std::abs(p[1]) + this->Generator(); }
 
   clouds::Random Generator;
+  double Side; // of the cluster that changes: 1 at higher x, behind the other one in the tree, or -1
   clouds::Cloud All;
   std::vector<std::size_t> Far; // ids of what may change
 };
@@ -350,13 +352,13 @@ TEST(FitLocality, SamplesBeyondTwoRingsDoNotCount)
 
 TEST(FitLocality, ClustersFarApartDoNotCount)
 {
-  for (const std::uint64_t seed : { 1, 2, 3 })
+  for (const std::uint64_t seed : { 1, 2, 3, 4 })
   {
     SCOPED_TRACE(seed);
-    const FitOrder order = seed % 2 == 0 ? FitOrder::Crease : FitOrder::Cubic;
+    const FitOrder order = seed > 2 ? FitOrder::Crease : FitOrder::Cubic;
     Clusters clusters(seed);
     const Numbers expected = extracted(clusters.cloud(), 2.0, order, true);
-    for (int round = 0; round < 5; ++round)
+    for (int round = 0; round < 4; ++round)
     {
       SCOPED_TRACE(round);
       clusters.change();
