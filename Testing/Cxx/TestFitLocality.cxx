@@ -171,8 +171,8 @@ double noisyDistance(const Vector& p, clouds::Random& random)
 }
 
 /// Two clusters of equal counts, far apart along x, with interleaved ids. One of them has as many
-/// items again that take no part. Its sample nearest to the other cluster and two opposite corners are fixed, so
-/// that the tree stays as it is in the other one as long as the counts are equal.
+/// items again that take no part. Its sample nearest to the other cluster and two opposite corners
+/// are fixed, so that the tree stays as it is in the other one as long as the counts are equal.
 class Clusters
 {
 public:
@@ -269,7 +269,8 @@ private:
   double farValue(const Vector& p) { return 0.1 * std::abs(p[1]) + this->Generator(); }
 
   clouds::Random Generator;
-  double Side; // of the cluster that changes: 1 at higher x, behind the other one in the tree, or -1
+  double
+    Side; // of the cluster that changes: 1 at higher x, behind the other one in the tree, or -1
   clouds::Cloud All;
   std::vector<std::size_t> Far; // ids of what may change
 };
