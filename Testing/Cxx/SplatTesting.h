@@ -90,7 +90,7 @@ public:
     {
       const Vector& center = this->Around.Positions[point];
       std::vector<Vector> near = this->Around.Distinct;
-      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
+      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 * (rings - 1) : 49);
       std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1,
         near.end(),
         [&](const Vector& a, const Vector& b)
