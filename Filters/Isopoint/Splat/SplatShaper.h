@@ -67,8 +67,8 @@ private:
   static constexpr double mostOverlap = 1.2;
 
   /// How far a cell may reach, in spacings, where no point bounds it; twice as far where points do
-  /// but no fit determines a smooth surface, three times where one does, and four times if
-  /// points stand all around as well, as between samples in lines.
+  /// but no fit determines a smooth surface, and four times where one does, as between samples in
+  /// lines.
   static constexpr double openReach = 1.1;
 
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
