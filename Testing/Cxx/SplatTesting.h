@@ -90,8 +90,7 @@ public:
       {
         near.emplace_back(lengthOf(difference(position, this->Around.Positions[point])), &points);
       }
-      const std::size_t count =
-        std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
+      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
       std::nth_element(
         near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
       found.clear();
