@@ -251,7 +251,7 @@ private:
     }
     else if (list.isEmpty())
     {
-      visitTouching(tree, pathToLeaf(tree, leaf), maximumDepth,
+      visitNeighbors(tree, pathToLeaf(tree, leaf),
         [&](std::size_t node)
         {
           add(node);
