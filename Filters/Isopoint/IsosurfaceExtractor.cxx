@@ -8,6 +8,7 @@
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Ranks/ExtractOnRanks.h"
 #include "Isopoint/Ranks/NodeExchange.h"
+#include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Splat/SplatGeometry.h"
 
@@ -99,12 +100,20 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
   NodeExchange<TSample> exchange(*this->Ranks, cloud.tree, cloud.begins);
   RankSurface<TSample> ofRank(
     execution, cloud.tree, exchange, cloud.neighborhoods, this->ItemCount);
-  Isosurface surface = ofRank.extract(request.isosurface, progress, work::writing);
+  const double splatting = request.splats ? work::splatting : 0.0;
+  Isosurface surface = ofRank.extract(request.isosurface, progress, splatting + work::writing);
+  const bool hasFits = request.isosurface.fit.has_value();
+  if (request.minimumSpacing > 0.0 && hasFits)
+  {
+    keepOnRanks(execution, *this->Ranks, request.minimumSpacing, surface);
+  }
   ExtractedIsosurface result;
+  std::vector<std::size_t> home;
+  std::vector<bool> isHome;
   exchange.together(
     [&]()
     {
-      std::vector<std::size_t> home;
+      isHome.resize(surface.size(), false);
       for (std::size_t i = 0; i < surface.size(); ++i)
       {
         if (ofRank.isHome(surface.leaves[i]))
@@ -112,6 +121,30 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
           home.push_back(i);
         }
       }
+      for (const std::size_t i : home)
+      {
+        isHome[i] = true;
+      }
+    });
+  if (request.splats && !cloud.tree.isEmpty())
+  {
+    const auto count = static_cast<double>(surface.size());
+    const Execution part = progress.part(count * splatting, count * work::writing);
+    std::vector<Splat> splats =
+      RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
+        .compute(surface, isHome, hasFits);
+    exchange.together(
+      [&]()
+      {
+        for (const std::size_t i : home)
+        {
+          result.splats.push_back(splats[i]);
+        }
+      });
+  }
+  exchange.together(
+    [&]()
+    {
       result.surface = chosenIsopoints(surface, home);
       result.surface.coincident = coincidentEnds(cloud.tree, result.surface.leaves);
       result.surface.leaves = {};

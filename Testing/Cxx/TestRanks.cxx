@@ -62,3 +62,40 @@ TEST(Ranks, GapsAndAnglesAndFurtherIsovalues)
     }
   }
 }
+
+TEST(Ranks, YieldTheFitsOfOneProcess)
+{
+  std::vector<isopoint::ExtractionRequest> requests(3);
+  requests[0].isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  requests[1].isosurface = { -0.2, 54.7, 3.0, isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
+  requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
+  for (const Cloud& cloud : variousClouds())
+  {
+    for (const int size : { 2, 7 })
+    {
+      ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::RoundRobin, requests);
+    }
+  }
+}
+
+TEST(Ranks, YieldTheSplatsOfOneProcess)
+{
+  std::vector<isopoint::ExtractionRequest> requests(4);
+  requests[0].isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  requests[1].isosurface = { -0.2, 54.7, 3.0, isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
+  requests[1].minimumSpacing = 0.5;
+  requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
+  requests[3].isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  for (isopoint::ExtractionRequest& request : requests)
+  {
+    request.splats = isopoint::SplatOptions();
+  }
+  requests[2].splats->fieldNormals = false;
+  for (const Cloud& cloud : variousClouds())
+  {
+    for (const int size : { 2, 7 })
+    {
+      ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::RoundRobin, requests);
+    }
+  }
+}

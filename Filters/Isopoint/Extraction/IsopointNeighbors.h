@@ -35,15 +35,25 @@ public:
   /// @param tree in which the leaves' neighbourhoods are complete
   /// @param known neighbourhoods; others are searched for
   /// @param leaves of the isopoints' edges
+  /// @param isInner for each isopoint, whether others will be looked for around it; null for all
   /// @throws std::bad_alloc, Aborted
   /// Complexity: O(nodes + isopoints)
   IsopointNeighbors(const Execution& execution, const SampleTree<TSample>& tree,
-    const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves)
+    const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves,
+    const std::vector<bool>* isInner = nullptr)
   {
     std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
     this->numberLeaves(leaves, numbers);
     this->listIsopoints();
-    this->listTouching(execution, tree, known, numbers);
+    std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
+    for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
+    {
+      for (const Id end : this->Ends[i])
+      {
+        isSurrounded[end] = isSurrounded[end] || (*isInner)[i];
+      }
+    }
+    this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
   /// All isopoints, mostly close ones after each other.
@@ -201,7 +211,8 @@ private:
 
   /// Lists for each leaf the others that touch it.
   void listTouching(const Execution& execution, const SampleTree<TSample>& tree,
-    const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers)
+    const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers,
+    const std::vector<bool>& isSurrounded)
   {
     constexpr std::size_t grain = 256;
     constexpr std::size_t batch = 64;
@@ -216,7 +227,10 @@ private:
           const std::size_t last = std::min(count, (part + 1) * grain);
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
-            addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+            if (isSurrounded[leaf])
+            {
+              addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+            }
             this->Touching.ends[leaf] = parts[part].size();
           }
         }

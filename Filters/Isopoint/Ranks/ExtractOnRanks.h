@@ -10,6 +10,7 @@
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/RankSurface.h"
+#include "Isopoint/Ranks/RankThinning.h"
 #include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -38,6 +39,26 @@ inline Isosurface chosenIsopoints(Isosurface& surface, const std::vector<std::si
     }
   }
   return chosen;
+}
+
+/// Thins the isopoints of all ranks; see thin(). Collective.
+inline void keepOnRanks(
+  const Execution& execution, Team& team, double minimumSpacing, Isosurface& surface)
+{
+  const std::vector<bool> isKept = RankThinning(execution, team, minimumSpacing).kept(surface);
+  team.together(
+    [&]()
+    {
+      std::vector<std::size_t> kept;
+      for (std::size_t i = 0; i < isKept.size(); ++i)
+      {
+        if (isKept[i])
+        {
+          kept.push_back(i);
+        }
+      }
+      surface = chosenIsopoints(surface, kept);
+    });
 }
 
 /// The coincident samples among the ends of edges, by lowest id.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 
@@ -42,8 +43,16 @@ struct Node
 
 /// Thrown by a search for samples that this rank does not hold, or not in the form that is needed:
 /// nobody guesses. Once they have been fetched, the search is to be repeated.
-struct MissingNode
+struct MissingNode : std::exception
 {
+  MissingNode(std::size_t node, const Region& needed)
+    : nodeIndex(node)
+    , box(needed)
+  {
+  }
+
+  const char* what() const noexcept override { return "samples of another rank are missing"; }
+
   std::size_t nodeIndex;
   Region box; // where the samples are needed
 };

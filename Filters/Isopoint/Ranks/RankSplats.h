@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_RankSplats_h
+#define isopoint_RankSplats_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Extraction/IsopointNeighbors.h"
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Neighbors/SampleExtent.h"
+#include "Isopoint/Ranks/NodeExchange.h"
+#include "Isopoint/Ranks/Rounds.h"
+#include "Isopoint/Ranks/SurfaceHalo.h"
+#include "Isopoint/Splat/NearbyPoints.h"
+#include "Isopoint/Splat/NearestPositions.h"
+#include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Splat/SplatNormals.h"
+#include "Isopoint/Splat/SplatShaper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The positions and edges of all ranks' isopoints, in the order of the whole surface.
+struct WholeSurface
+{
+  std::vector<IsopointEdge> edges;
+  std::vector<Vector> positions;
+  std::vector<Vector> decreasingEdges;
+
+  std::size_t indexOf(const IsopointEdge& edge) const
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(this->edges.begin(), this->edges.end(), edge,
+        [](const IsopointEdge& a, const IsopointEdge& b)
+        { return a.first != b.first ? a.first < b.first : a.second < b.second; }) -
+      this->edges.begin());
+  }
+};
+
+/// What computeSplats() does, for the isopoints of one of several ranks. All functions are
+/// collective.
+template <class TSample>
+class RankSplats
+{
+public:
+  using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
+  using Neighbors = IsopointNeighbors<TSample>;
+
+  RankSplats(const Execution& execution, NodeExchange<TSample>& exchange,
+    const Neighborhoods& known, const SplatOptions& options)
+    : Run(execution)
+    , Exchange(exchange)
+    , Known(known)
+    , Options(options)
+  {
+  }
+
+  /// @param own the isopoints on edges with an end in this rank's leaves
+  /// @param isShaped which of them are to have shapes; all get normals
+  /// @returns one splat for each
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  std::vector<Splat> compute(
+    const Isosurface& own, const std::vector<bool>& isShaped, bool hasFits)
+  {
+    SurfaceHalo<TSample> halo(this->Run, this->Exchange, this->Known, own, hasFits);
+    halo.gather();
+    const Isosurface& all = halo.surface();
+    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
+    std::vector<Splat> splats;
+    std::unique_ptr<Neighbors> neighbors;
+    this->Exchange.together(
+      [&]()
+      {
+        splats.resize(all.size());
+        neighbors = std::make_unique<Neighbors>(
+          this->Run, this->Exchange.tree(), this->Known, all.leaves, &halo.isInner());
+      });
+    this->setNormals(halo, points, *neighbors, splats);
+    this->shareNormals(halo, splats);
+    this->shape(halo, points, *neighbors, isShaped, splats);
+    std::vector<Splat> result;
+    this->Exchange.together(
+      [&]()
+      {
+        for (const std::size_t index : halo.ownIndices())
+        {
+          result.push_back(splats[index]);
+        }
+      });
+    return result;
+  }
+
+private:
+  void setNormals(const SurfaceHalo<TSample>& halo, const SurfacePoints& points,
+    const Neighbors& neighbors, std::vector<Splat>& splats)
+  {
+    std::vector<std::size_t> unfitted; // of this rank's
+    this->Exchange.together(
+      [&]()
+      {
+        const std::vector<std::size_t> ofAll = setFieldNormals(points, this->Options, splats);
+        std::set_intersection(ofAll.begin(), ofAll.end(), halo.ownIndices().begin(),
+          halo.ownIndices().end(), std::back_inserter(unfitted));
+      });
+    if (!this->Options.fieldNormals)
+    {
+      this->setPlaneNormals(halo, unfitted, splats);
+      return;
+    }
+    const auto count = static_cast<std::size_t>(this->Options.neighborCount);
+    inRounds(
+      this->Run, this->Exchange, unfitted.size(),
+      [&]() { return NearbyPoints<Neighbors>(neighbors, points.positions); },
+      [&](NearbyPoints<Neighbors>& nearby, std::size_t i)
+      {
+        const std::size_t point = unfitted[i];
+        std::vector<std::size_t> around;
+        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
+        splats[point].normal = planeNormal(points, point, around);
+      });
+  }
+
+  /// Normals of planes through the nearest of all points, which therefore all ranks hold.
+  void setPlaneNormals(const SurfaceHalo<TSample>& halo, const std::vector<std::size_t>& unfitted,
+    std::vector<Splat>& splats)
+  {
+    const WholeSurface whole = this->gatherWhole(halo);
+    this->Exchange.together(
+      [&]()
+      {
+        const NearestPositions nearest(whole.positions);
+        const std::vector<LocalFit> none;
+        const SurfacePoints points{ whole.positions, whole.decreasingEdges, none };
+        const auto count = static_cast<std::size_t>(this->Options.neighborCount);
+        constexpr std::size_t batch = 8192;
+        constexpr std::size_t grain = 512;
+        forBatches(this->Run, unfitted.size(), batch, grain,
+          [&](std::size_t begin, std::size_t end)
+          {
+            std::vector<std::size_t> around;
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              const std::size_t point = whole.indexOf(halo.surface().edges[unfitted[i]]);
+              nearest.find(point, count, around);
+              splats[unfitted[i]].normal = planeNormal(points, point, around);
+            }
+          });
+      });
+  }
+
+  struct SentPoint
+  {
+    IsopointEdge edge;
+    Vector position;
+    Vector decreasingEdge;
+  };
+
+  WholeSurface gatherWhole(const SurfaceHalo<TSample>& halo)
+  {
+    std::vector<std::vector<SentPoint>> outgoing;
+    this->Exchange.together(
+      [&]()
+      {
+        std::vector<SentPoint> own;
+        const Isosurface& all = halo.surface();
+        for (const std::size_t i : halo.ownIndices())
+        {
+          own.push_back({ all.edges[i], all.positions[i], all.decreasingEdges[i] });
+        }
+        outgoing.assign(static_cast<std::size_t>(this->Exchange.team().size()), own);
+      });
+    const auto arrived = this->Exchange.team().exchange(outgoing);
+    WholeSurface whole;
+    this->Exchange.together(
+      [&]()
+      {
+        std::vector<SentPoint> points;
+        for (const std::vector<SentPoint>& list : arrived)
+        {
+          points.insert(points.end(), list.begin(), list.end());
+        }
+        std::sort(points.begin(), points.end(),
+          [](const SentPoint& a, const SentPoint& b)
+          {
+            return a.edge.first != b.edge.first ? a.edge.first < b.edge.first
+                                                : a.edge.second < b.edge.second;
+          });
+        points.erase(std::unique(points.begin(), points.end(),
+                       [](const SentPoint& a, const SentPoint& b) { return a.edge == b.edge; }),
+          points.end());
+        for (const SentPoint& point : points)
+        {
+          whole.edges.push_back(point.edge);
+          whole.positions.push_back(point.position);
+          whole.decreasingEdges.push_back(point.decreasingEdge);
+        }
+      });
+    return whole;
+  }
+
+  void shareNormals(SurfaceHalo<TSample>& halo, std::vector<Splat>& splats)
+  {
+    std::vector<Vector> normals;
+    this->Exchange.together(
+      [&]()
+      {
+        for (const Splat& splat : splats)
+        {
+          normals.push_back(splat.normal);
+        }
+      });
+    halo.share(normals);
+    // The ends of an edge between two ranks yield the same normal on both.
+    for (std::size_t i = 0; i < splats.size(); ++i)
+    {
+      splats[i].normal = normals[i];
+    }
+  }
+
+  void shape(const SurfaceHalo<TSample>& halo, const SurfacePoints& points,
+    const Neighbors& neighbors, const std::vector<bool>& isShaped, std::vector<Splat>& splats)
+  {
+    using Extents = SampleExtents<TSample>;
+    const Extents extents(this->Exchange.tree());
+    std::vector<std::size_t> order;
+    this->Exchange.together(
+      [&]()
+      {
+        std::vector<bool> isWanted(splats.size(), false);
+        for (std::size_t i = 0; i < isShaped.size(); ++i)
+        {
+          isWanted[halo.ownIndices()[i]] = isShaped[i] && this->Options.shapes;
+        }
+        for (const std::size_t point : neighbors.inOrder())
+        {
+          if (isWanted[point])
+          {
+            order.push_back(point);
+          }
+        }
+      });
+    inRounds(
+      this->Run, this->Exchange, order.size(),
+      [&]() { return SplatShaper<Neighbors, Extents>(neighbors, points, &extents, splats); },
+      [&](SplatShaper<Neighbors, Extents>& shaper, std::size_t i)
+      { shaper.shape(order[i], splats[order[i]]); });
+  }
+
+  const Execution& Run;
+  NodeExchange<TSample>& Exchange;
+  const Neighborhoods& Known;
+  const SplatOptions Options;
+};
+
+} // namespace isopoint
+
+#endif
