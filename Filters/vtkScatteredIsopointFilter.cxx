@@ -467,8 +467,10 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
   const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
 {
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
+  const std::set<double> isovalues = this->GetIsovalues();
   std::vector<isopoint::ExtractedIsosurface> surfaces;
-  for (const double isovalue : this->GetIsovalues())
+  surfaces.reserve(isovalues.size());
+  for (const double isovalue : isovalues)
   {
     const std::size_t i = surfaces.size();
     request.isosurface.isovalue = isovalue;

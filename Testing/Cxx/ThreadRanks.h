@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <mutex>
@@ -22,6 +23,7 @@ public:
     : Size(size)
     , Outgoing(static_cast<std::size_t>(size))
   {
+    this->Reduced.reserve(std::size_t{ 1 } << 18); // so that no exchange lacks memory
   }
 
   /// Calls the function once for each rank, all at the same time, each with its communicator.

@@ -53,13 +53,20 @@ public:
   BandPeers& operator=(const BandPeers&) = delete;
   virtual ~BandPeers() = default;
 
-  /// See Team.
-  virtual void together(const std::function<void()>& work) = 0;
+  /// See Team. Takes no memory itself, for lack of which one rank alone would fail.
+  template <class Work>
+  void together(const Work& work)
+  {
+    this->runTogether(std::cref(work));
+  }
   virtual bool isAny(bool mine) = 0;
 
   /// Fetches the nodes of a depth below the missing ones, as far as they touch their boxes, with
   /// their ranges of values. Empties the list. @returns whether any rank lacked any
   virtual bool fetchNodes(std::vector<MissingNode>& missing, int depth) = 0;
+
+private:
+  virtual void runTogether(const std::function<void()>& work) = 0;
 };
 
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
@@ -138,7 +145,7 @@ public:
             isDone = this->finishIfFew(front, depth, bottom);
           }
         });
-      this->markWith(peers, isDone ? std::vector<BandNode>() : front, bottom);
+      this->markWith(peers, front, isDone, bottom);
       peers.together(
         [&]()
         {
@@ -412,10 +419,21 @@ private:
 
   /// The same on one of several ranks. What touches nodes that are not known is put aside, until
   /// they have been fetched.
-  void markWith(BandPeers& peers, std::vector<BandNode> front, int depth)
+  /// @param isDone whether this rank has nothing to mark any more
+  void markWith(
+    BandPeers& peers, const std::vector<BandNode>& allOfFront, bool isDone, int depth)
   {
+    std::vector<BandNode> front;
     std::vector<MissingNode> missing;
-    peers.together([&]() { this->Marks = std::vector<std::atomic<Mark>>(); });
+    peers.together(
+      [&]()
+      {
+        this->Marks = std::vector<std::atomic<Mark>>();
+        if (!isDone)
+        {
+          front = allOfFront;
+        }
+      });
     do
     {
       peers.together(

@@ -38,7 +38,6 @@ public:
   Team& team() { return this->Ranks; }
   const SampleTree<TSample>& tree() const { return this->Tree; }
 
-  void together(const std::function<void()>& work) override { this->Ranks.together(work); }
   bool isAny(bool mine) override { return this->Ranks.isAny(mine); }
 
   bool fetchNodes(std::vector<MissingNode>& missing, int depth) override
@@ -98,6 +97,8 @@ public:
   }
 
 private:
+  void runTogether(const std::function<void()>& work) override { this->Ranks.together(work); }
+
   /// Writes the questions for each rank: node, depth, boxes. What is missing of this rank's own
   /// nodes is split at once.
   void ask(std::map<std::size_t, std::vector<Region>>& boxes, int depth,

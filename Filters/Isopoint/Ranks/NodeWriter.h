@@ -202,10 +202,20 @@ public:
   }
 
   /// @param nodeIndex an absent node
+  /// @throws std::bad_alloc, std::length_error, the node as before
   void read(std::size_t nodeIndex, ByteReader& in)
   {
+    const Node<TSample> former = this->Tree.nodes[nodeIndex];
     Path path = pathToLeaf(this->Tree, nodeIndex);
-    this->read(path, in);
+    try
+    {
+      this->read(path, in);
+    }
+    catch (...)
+    {
+      this->Tree.nodes[nodeIndex] = former;
+      throw;
+    }
   }
 
 private:
