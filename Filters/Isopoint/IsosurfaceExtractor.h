@@ -89,8 +89,7 @@ public:
     this->clear();
     auto team = std::make_unique<Team>(communicator);
     const std::vector<std::uint64_t> counts = team->gather(count);
-    const std::uint64_t all =
-      std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
+    const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
     if (isNarrow(all))
     {
       this->loadShared<SampleFor<TCoordinate, TValue>>(execution, *team, counts, all, read);
@@ -161,11 +160,7 @@ private:
       {
         const auto own = counts.begin() + team.rank();
         const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
-        loaded = loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read);
-        for (std::size_t i = 0; i < loaded.samples.size(); ++i)
-        {
-          loaded.samples[i].id += static_cast<typename TSample::Id>(first);
-        }
+        loaded = loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
       });
     SharedTree<TSample> shared =
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
@@ -202,7 +197,7 @@ private:
   std::variant<Cloud<FloatSample>, Cloud<FloatSampleOfDouble>, Cloud<DoubleSampleOfFloat>,
     Cloud<WideSample>>
     Held;
-  std::size_t ItemCount = 0; // of all ranks
+  std::size_t ItemCount = 0;   // of all ranks
   std::unique_ptr<Team> Ranks; // of a cloud on ranks
 };
 
