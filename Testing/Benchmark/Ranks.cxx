@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
- * RanksBenchmark RANKS SAMPLES [all]: extracts a sphere from random samples on ranks that are threads of
- * this process, points alone or with "all" fits, normals and radii. Prints for each rank the
- * processor seconds, what it sent to others and the number of exchanges: of loading, of the first
- * isovalue, and of another one.
+ * RanksBenchmark RANKS SAMPLES [all]: extracts a sphere from random samples on ranks that are
+ * threads of this process, points alone or with "all" fits, normals and radii. Prints for each rank
+ * the processor seconds, what it sent to others and the number of exchanges: of loading, of the
+ * first isovalue, and of another one.
  */
 #include "ThreadRanks.h"
 

@@ -33,7 +33,8 @@ enum class Deal
 constexpr Deal allDeals[] = { Deal::Even, Deal::RoundRobin, Deal::First, Deal::Last, Deal::Skewed,
   Deal::Spatial };
 
-inline std::size_t rankOf(const clouds::Cloud& cloud, std::size_t sample, std::size_t size, Deal deal)
+inline std::size_t rankOf(
+  const clouds::Cloud& cloud, std::size_t sample, std::size_t size, Deal deal)
 {
   const std::size_t count = cloud.size();
   switch (deal)
@@ -49,7 +50,8 @@ inline std::size_t rankOf(const clouds::Cloud& cloud, std::size_t sample, std::s
     case Deal::Skewed:
     {
       std::size_t rank = 0;
-      for (std::size_t left = count / 2; sample > left && rank + 1 < size; left += (count - left) / 2)
+      for (std::size_t left = count / 2; sample > left && rank + 1 < size;
+           left += (count - left) / 2)
       {
         ++rank;
       }
@@ -177,8 +179,8 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
         const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
         const auto byEnds = [](const isopoint::IsopointEdge& a, const isopoint::IsopointEdge& b)
         { return a.first != b.first ? a.first < b.first : a.second < b.second; };
-        EXPECT_TRUE(std::is_sorted(
-          extracted.surface.edges.begin(), extracted.surface.edges.end(), byEnds));
+        EXPECT_TRUE(
+          std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end(), byEnds));
         const Description own = described(extracted);
         const std::lock_guard<std::mutex> lock(mutex);
         all[i].insert(all[i].end(), own.begin(), own.end());

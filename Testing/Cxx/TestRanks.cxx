@@ -29,7 +29,8 @@ TEST(Ranks, YieldThePointsOfOneProcess)
     {
       for (const ranks::Deal deal : ranks::allDeals)
       {
-        SCOPED_TRACE(std::to_string(size) + " ranks, deal " + std::to_string(static_cast<int>(deal)));
+        SCOPED_TRACE(
+          std::to_string(size) + " ranks, deal " + std::to_string(static_cast<int>(deal)));
         isopoint::ExtractionRequest request;
         request.isosurface.isovalue = 0.3;
         ranks::expectSameAsOneProcess(cloud, size, deal, { request });
@@ -44,7 +45,8 @@ TEST(Ranks, MoreThanSamples)
   {
     isopoint::ExtractionRequest request;
     request.isosurface.isovalue = 0.3;
-    ranks::expectSameAsOneProcess(clouds::uniform(count, 12), 7, ranks::Deal::RoundRobin, { request });
+    ranks::expectSameAsOneProcess(
+      clouds::uniform(count, 12), 7, ranks::Deal::RoundRobin, { request });
   }
 }
 
@@ -66,8 +68,10 @@ TEST(Ranks, GapsAndAnglesAndFurtherIsovalues)
 TEST(Ranks, YieldTheFitsOfOneProcess)
 {
   std::vector<isopoint::ExtractionRequest> requests(3);
-  requests[0].isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, 3.0, isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
+  requests[0].isosurface = { 0.3, 54.7, 0.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  requests[1].isosurface = { -0.2, 54.7, 3.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
   requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
   for (const Cloud& cloud : variousClouds())
   {
@@ -81,8 +85,10 @@ TEST(Ranks, YieldTheFitsOfOneProcess)
 TEST(Ranks, YieldTheSplatsOfOneProcess)
 {
   std::vector<isopoint::ExtractionRequest> requests(4);
-  requests[0].isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, 3.0, isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
+  requests[0].isosurface = { 0.3, 54.7, 0.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  requests[1].isosurface = { -0.2, 54.7, 3.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
   requests[1].minimumSpacing = 0.5;
   requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
   requests[3].isosurface = { 0.3, 54.7, 0.0, std::nullopt };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fails on one rank ends the work of all; none of them waits for ever, and the next call works.
+// What fails on one rank ends the work of all; none of them waits for ever, and the next call
+// works.
 #include "FailingAllocator.h"
 #include "RankTesting.h"
 
@@ -14,8 +15,7 @@ namespace
 isopoint::ExtractionRequest everything()
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, 2.0,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.isosurface = { 0.3, 54.7, 2.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   request.minimumSpacing = 0.3;
   request.splats = isopoint::SplatOptions();
   return request;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random clouds, options and ranks. The environment variables RANKS_FIRST_SEED and RANKS_SEEDS choose
-// others than the first hundred. The points of all ranks are those of one process.
+// Random clouds, options and ranks. The environment variables RANKS_FIRST_SEED and RANKS_SEEDS
+// choose others than the first hundred. The points of all ranks are those of one process.
 #include "RankTesting.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ public:
 
   std::size_t operator()(std::size_t limit)
   {
-    return std::min(limit - 1, static_cast<std::size_t>(this->Uniform() * static_cast<double>(limit)));
+    return std::min(
+      limit - 1, static_cast<std::size_t>(this->Uniform() * static_cast<double>(limit)));
   }
   double real() { return this->Uniform(); }
 
@@ -80,14 +81,15 @@ isopoint::ExtractionRequest randomRequest(Dice& dice)
   }
   if (order > 1)
   {
-    request.isosurface.fit = isopoint::FitRequest{ static_cast<FitOrder>(std::min<std::size_t>(
-                                                     order - 1, 4)),
-      dice(3) > 0 };
+    request.isosurface.fit =
+      isopoint::FitRequest{ static_cast<FitOrder>(std::min<std::size_t>(order - 1, 4)),
+        dice(3) > 0 };
     request.minimumSpacing = dice(3) == 0 ? dice.real() : 0.0;
   }
   if (dice(4) > 0)
   {
-    request.splats = isopoint::SplatOptions{ 3 + static_cast<int>(dice(12)), dice(5) > 0, dice(5) > 0 };
+    request.splats =
+      isopoint::SplatOptions{ 3 + static_cast<int>(dice(12)), dice(5) > 0, dice(5) > 0 };
   }
   return request;
 }

@@ -91,12 +91,12 @@ private:
   {
     const DealtNode* node;
     int axis;
-    int stage;          // which key is looked at
-    std::uint64_t low;  // the interval of this key
-    std::uint64_t high; // the last one in it
-    std::uint64_t rank; // of the middle among the samples in it
-    std::uint64_t size; // how many they are, on all ranks
-    bool isWhole;       // whether all of the node's samples are in it
+    int stage;                           // which key is looked at
+    std::uint64_t low;                   // the interval of this key
+    std::uint64_t high;                  // the last one in it
+    std::uint64_t rank;                  // of the middle among the samples in it
+    std::uint64_t size;                  // how many they are, on all ranks
+    bool isWhole;                        // whether all of the node's samples are in it
     std::vector<std::size_t> candidates; // this rank's, unless it is whole
   };
 
@@ -179,8 +179,9 @@ private:
       const int shift = shiftFor(search, this->Bits);
       std::uint64_t* const counters = counts.data() + (i << this->Bits);
       this->forEachCandidate(search,
-        [&](std::size_t sample)
-        { ++counters[(keyOf(this->Samples[sample], search, search.stage) - search.low) >> shift]; });
+        [&](std::size_t sample) {
+          ++counters[(keyOf(this->Samples[sample], search, search.stage) - search.low) >> shift];
+        });
     }
   }
 

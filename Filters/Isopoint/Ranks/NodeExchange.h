@@ -6,8 +6,8 @@
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
 #include "Isopoint/Ranks/NodeWriter.h"
-#include "Isopoint/Tree/SampleTree.h"
 #include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -26,8 +26,7 @@ class NodeExchange : public BandPeers
 {
 public:
   /// @param begins see SharedTree
-  NodeExchange(
-    Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
+  NodeExchange(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
     : Ranks(team)
     , Tree(tree)
     , Begins(begins)

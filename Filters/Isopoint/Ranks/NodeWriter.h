@@ -91,7 +91,7 @@ private:
   void write(Path& path, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
   {
     const std::size_t nodeIndex = path.nodeIndex();
-    if (path.depth < depth && this->Tree.nodes[nodeIndex].count() > fewSamples)
+    if (path.depth<depth&& this->Tree.nodes[nodeIndex].count()> fewSamples)
     {
       this->splitOnce(path);
     }
@@ -140,9 +140,8 @@ private:
   {
     std::vector<Region> touching;
     std::copy_if(boxes.begin(), boxes.end(), std::back_inserter(touching),
-      [&](const Region& box) {
-        return upper ? node.plane <= box.upper[node.axis] : node.plane >= box.lower[node.axis];
-      });
+      [&](const Region& box)
+      { return upper ? node.plane <= box.upper[node.axis] : node.plane >= box.lower[node.axis]; });
     return touching;
   }
 
@@ -275,8 +274,7 @@ private:
       ascend(path);
     }
     Node<TSample>& parent = this->Tree.nodes[nodeIndex];
-    uniteRanges(
-      parent, this->Tree.nodes[parent.lowerNode()], this->Tree.nodes[parent.upperNode()]);
+    uniteRanges(parent, this->Tree.nodes[parent.lowerNode()], this->Tree.nodes[parent.upperNode()]);
   }
 
   SampleTree<TSample>& Tree;

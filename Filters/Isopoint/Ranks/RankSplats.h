@@ -64,8 +64,7 @@ public:
   /// @param isShaped which of them are to have shapes; all get normals
   /// @returns one splat for each
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
-  std::vector<Splat> compute(
-    const Isosurface& own, const std::vector<bool>& isShaped, bool hasFits)
+  std::vector<Splat> compute(const Isosurface& own, const std::vector<bool>& isShaped, bool hasFits)
   {
     SurfaceHalo<TSample> halo(this->Run, this->Exchange, this->Known, own, hasFits);
     halo.gather();

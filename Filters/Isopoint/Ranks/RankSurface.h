@@ -44,8 +44,7 @@ struct SentEdge
 /// The leaf at a place in the order of the tree, where a sample of it is.
 /// @throws MissingNode if this rank does not hold it as a leaf. O(depth)
 template <class TSample>
-std::size_t leafAt(
-  const SampleTree<TSample>& tree, std::uint64_t place, const Vector& position)
+std::size_t leafAt(const SampleTree<TSample>& tree, std::uint64_t place, const Vector& position)
 {
   std::size_t nodeIndex = SampleTree<TSample>::rootNode;
   while (tree.nodes[nodeIndex].isSplit())
@@ -99,8 +98,7 @@ public:
     const auto partFor = [&progress](double isopointCount, double work, double left)
     { return progress.part(isopointCount * work, isopointCount * left); };
     const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
-    this->findEdges(
-      partFor(expected, work::finding, afterEdges), context, request, crossing);
+    this->findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
     const auto count = static_cast<double>(this->Edges.size());
     if (request.fit)
     {
@@ -119,8 +117,8 @@ public:
   /// leaf that comes first in the order of the tree.
   bool isHome(const EdgeLeaves& leaves) const
   {
-    const auto place = std::min(
-      this->Tree.nodes[leaves.first].begin, this->Tree.nodes[leaves.second].begin);
+    const auto place =
+      std::min(this->Tree.nodes[leaves.first].begin, this->Tree.nodes[leaves.second].begin);
     return place >= this->Tree.ownBegin && place < this->Tree.ownEnd;
   }
 
@@ -180,16 +178,16 @@ private:
           open.insert(open.end(), list.begin(), list.end());
         }
       });
-    inRounds(Execution(), this->Exchange, open.size(),
-      [&]() { return 0; },
+    inRounds(
+      Execution(), this->Exchange, open.size(), [&]() { return 0; },
       [&](int, std::size_t i)
       {
         const SentEdge& edge = open[i];
         const std::size_t firstLeaf = leafAt(this->Tree, edge.firstPlace, edge.firstPosition);
         const std::size_t secondLeaf = leafAt(this->Tree, edge.secondPlace, edge.secondPosition);
-        edges.push_back({ edge.first, edge.second, edge.crossing,
-          static_cast<typename TSample::Id>(firstLeaf),
-          static_cast<typename TSample::Id>(secondLeaf) });
+        edges.push_back(
+          { edge.first, edge.second, edge.crossing, static_cast<typename TSample::Id>(firstLeaf),
+            static_cast<typename TSample::Id>(secondLeaf) });
       });
   }
 
@@ -210,7 +208,8 @@ private:
         this->Fits.resize(this->Edges.size());
         places = placesOf(part, this->Tree, this->Edges);
       });
-    inRounds(part, this->Exchange, places.size(),
+    inRounds(
+      part, this->Exchange, places.size(),
       [&]() { return NeighborhoodFitter<TSample>(context, request); },
       [&](NeighborhoodFitter<TSample>& fitter, std::size_t i)
       { this->Fits[places[i].edge] = fitter.fit(this->Edges[places[i].edge]); });

@@ -29,7 +29,7 @@ struct SentIsopoint
   Vector position;
   Vector decreasingEdge;
   std::array<SentEnd, 2> ends;
-  LocalFit fit; // if the surface has fits
+  LocalFit fit;              // if the surface has fits
   EdgeLeaves leaves{ 0, 0 }; // in the tree of the rank that received it
 };
 
@@ -73,8 +73,7 @@ void appendIsopoint(ByteBuffer& buffer, const SampleTree<TSample>& tree, const I
   append(buffer, surface.edges[isopoint]);
   append(buffer, surface.positions[isopoint]);
   append(buffer, surface.decreasingEdges[isopoint]);
-  for (const std::size_t leaf :
-    { surface.leaves[isopoint].first, surface.leaves[isopoint].second })
+  for (const std::size_t leaf : { surface.leaves[isopoint].first, surface.leaves[isopoint].second })
   {
     const std::size_t begin = tree.nodes[leaf].begin;
     append(buffer, SentEnd{ begin, positionOf(tree.samples[begin]) });

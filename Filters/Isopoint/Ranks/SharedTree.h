@@ -34,7 +34,8 @@ template <class TSample>
 class SharedTreeBuilder
 {
 public:
-  /// @param loaded this rank's samples, with the ids of the whole cloud, in a tree with a root alone
+  /// @param loaded this rank's samples, with the ids of the whole cloud, in a tree with a root
+  /// alone
   /// @param idCount of the whole cloud
   SharedTreeBuilder(Team& team, SampleTree<TSample> loaded, std::uint64_t idCount)
     : Ranks(team)
@@ -65,8 +66,8 @@ public:
   }
 
 private:
-  /// Subtrees are alike in size but for coincident samples: as many as there are ranks, or a few for
-  /// each where that is no power of two.
+  /// Subtrees are alike in size but for coincident samples: as many as there are ranks, or a few
+  /// for each where that is no power of two.
   static int topDepth(int ranks)
   {
     const int levels = levelsToHalve(static_cast<std::size_t>(ranks));
@@ -112,8 +113,8 @@ private:
     std::uint64_t less = 0;       // at lower positions, in the order of the node's axes
     std::uint64_t equalBelow = 0; // at its position with lower ids
     std::uint64_t greater = 0;
-    std::uint64_t last = 0;      // the greatest key on the axis of those less, 0 without any
-    std::uint64_t notFirst = 0;  // inverted, the least key on the axis of those greater
+    std::uint64_t last = 0;     // the greatest key on the axis of those less, 0 without any
+    std::uint64_t notFirst = 0; // inverted, the least key on the axis of those greater
   };
 
   /// Below, at or above the position of a middle sample: -1, 0 or 1.
@@ -206,7 +207,8 @@ private:
       {
         throwIfAborted(execution);
         std::copy_if(this->Level.begin(), this->Level.end(), std::back_inserter(nodes),
-          [this](const DealtNode& node) { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
+          [this](const DealtNode& node)
+          { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
       });
     if (nodes.empty())
     {
@@ -322,7 +324,8 @@ private:
   std::size_t ownerOf(const DealtNode& node, std::uint64_t all) const
   {
     const auto begin = static_cast<double>(this->Result.tree.nodes[node.nodeIndex].begin);
-    const double middle = (begin + 0.5 * static_cast<double>(node.count)) / static_cast<double>(all);
+    const double middle =
+      (begin + 0.5 * static_cast<double>(node.count)) / static_cast<double>(all);
     const auto ranks = static_cast<std::size_t>(this->Ranks.size());
     return std::min(ranks - 1, static_cast<std::size_t>(middle * static_cast<double>(ranks)));
   }

@@ -169,8 +169,7 @@ private:
     std::mutex mutex;
     this->Exchange.together([&]() { all = leaves; });
     inRounds(
-      this->Run, this->Exchange, leaves.size(),
-      []() { return std::vector<std::size_t>(); },
+      this->Run, this->Exchange, leaves.size(), []() { return std::vector<std::size_t>(); },
       [&](std::vector<std::size_t>& touching, std::size_t i)
       {
         touching.clear();
@@ -190,9 +189,9 @@ private:
         }
         if (touching.size() <= most)
         {
-          touching.erase(std::remove_if(touching.begin(), touching.end(),
-                           [this](std::size_t node)
-                           { return this->Tree.hasOwn(this->Tree.nodes[node]); }),
+          touching.erase(
+            std::remove_if(touching.begin(), touching.end(),
+              [this](std::size_t node) { return this->Tree.hasOwn(this->Tree.nodes[node]); }),
             touching.end());
           const std::lock_guard<std::mutex> lock(mutex);
           all.insert(all.end(), touching.begin(), touching.end());
@@ -202,8 +201,8 @@ private:
     return all;
   }
 
-  /// Fetches the isopoints whose edges end in those of the leaves that are other ranks', unless that
-  /// was done before.
+  /// Fetches the isopoints whose edges end in those of the leaves that are other ranks', unless
+  /// that was done before.
   void requestIn(const std::vector<std::size_t>& leaves)
   {
     std::vector<std::vector<std::uint64_t>> questions;
@@ -220,8 +219,7 @@ private:
           }
         }
       });
-    const std::vector<std::vector<std::uint64_t>> asked =
-      this->Exchange.team().exchange(questions);
+    const std::vector<std::vector<std::uint64_t>> asked = this->Exchange.team().exchange(questions);
     std::vector<ByteBuffer> answers;
     this->Exchange.together(
       [&]()
@@ -246,14 +244,13 @@ private:
   }
 
   /// Writes the isopoints that end in some of this rank's leaves, each once.
-  void answer(
-    const std::vector<std::uint64_t>& places, std::size_t rank, ByteBuffer& answer)
+  void answer(const std::vector<std::uint64_t>& places, std::size_t rank, ByteBuffer& answer)
   {
     std::vector<std::size_t> isopoints;
     for (const std::uint64_t place : places)
     {
-      for (auto end = std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(),
-             OwnEnd{ place, 0 });
+      for (auto end =
+             std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
            end != this->OwnEnds.end() && end->place == place; ++end)
       {
         isopoints.push_back(end->isopoint);
@@ -352,10 +349,10 @@ private:
   const Isosurface& Own;
   const bool HasFits;
   std::vector<OwnEnd> OwnEnds;
-  std::unordered_set<std::size_t> Requested;        // leaves
-  std::vector<std::vector<SentIsopoint>> Received;  // from each rank, in the order they came
-  std::vector<std::vector<std::size_t>> Given;      // to each rank, in the order they went
-  std::vector<IsopointEdge> FirstRing;              // received with the first request
+  std::unordered_set<std::size_t> Requested;       // leaves
+  std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
+  std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
+  std::vector<IsopointEdge> FirstRing;             // received with the first request
   Isosurface All;
   std::vector<std::size_t> OwnIndices;
   std::vector<bool> IsInner;
