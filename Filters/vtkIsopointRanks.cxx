@@ -16,10 +16,14 @@ namespace
 
 constexpr int tag = 72671; // of messages between the ranks of one filter
 
+constexpr std::size_t reducedAtOnce = std::size_t{ 1 } << 15;
+
 } // namespace
 
 vtkIsopointCommunicator::vtkIsopointCommunicator(vtkMultiProcessController* controller)
   : Controller(controller)
+  , OwnNumbers(reducedAtOnce)
+  , AllNumbers(reducedAtOnce)
 {
 }
 
@@ -40,16 +44,13 @@ void vtkIsopointCommunicator::allReduce(
 {
   const int operation =
     reduction == isopoint::Reduction::Sum ? vtkCommunicator::SUM_OP : vtkCommunicator::MAX_OP;
-  // Parts of a fixed size need no memory, which might be lacking on one rank alone.
-  constexpr std::size_t part = 1024;
-  unsigned long long own[part];
-  unsigned long long all[part];
-  for (std::size_t done = 0; done < count; done += part)
+  for (std::size_t done = 0; done < count; done += reducedAtOnce)
   {
-    const std::size_t length = std::min(part, count - done);
-    std::copy_n(numbers + done, length, own);
-    this->Controller->AllReduce(own, all, static_cast<vtkIdType>(length), operation);
-    std::copy_n(all, length, numbers + done);
+    const std::size_t length = std::min(reducedAtOnce, count - done);
+    std::copy_n(numbers + done, length, this->OwnNumbers.begin());
+    this->Controller->AllReduce(
+      this->OwnNumbers.data(), this->AllNumbers.data(), static_cast<vtkIdType>(length), operation);
+    std::copy_n(this->AllNumbers.begin(), length, numbers + done);
   }
 }
 

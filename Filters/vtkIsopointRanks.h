@@ -37,6 +37,9 @@ private:
   void Receive(const isopoint::IncomingBytes& message, int rank);
 
   vtkSmartPointer<vtkMultiProcessController> Controller;
+  // Memory for sums and maxima, which must not be lacking on one rank alone.
+  std::vector<unsigned long long> OwnNumbers;
+  std::vector<unsigned long long> AllNumbers;
 };
 
 /**

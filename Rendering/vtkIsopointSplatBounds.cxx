@@ -57,8 +57,7 @@ double usable(double reach)
 /// The radii of points, or null.
 vtkDataArray* radiiOf(vtkPolyData* data, const std::string& name)
 {
-  vtkDataArray* const radii =
-    name.empty() ? nullptr : data->GetPointData()->GetArray(name.c_str());
+  vtkDataArray* const radii = name.empty() ? nullptr : data->GetPointData()->GetArray(name.c_str());
   return radii && radii->GetNumberOfTuples() >= data->GetNumberOfPoints() ? radii : nullptr;
 }
 
@@ -80,8 +79,8 @@ vtkBoundingBox vtkIsopointSplatBounds::Of(
   {
     vtkPoints* const points = leaf.Data->GetPoints();
     vtkDataArray* const radii = radiiOf(leaf.Data, reach.ArrayName);
-    const Key key(points, points->GetMTime(), radii, radii ? radii->GetMTime() : 0, reach.Radius,
-      reach.Scale);
+    const Key key(
+      points, points->GetMTime(), radii, radii ? radii->GetMTime() : 0, reach.Radius, reach.Scale);
     const auto former = this->Kept.find(key);
     const vtkBoundingBox own =
       former != this->Kept.end()

@@ -40,8 +40,7 @@ public:
 
 private:
   /// Points, radii and scale, and when they were modified.
-  using Key =
-    std::tuple<vtkPoints*, vtkMTimeType, vtkDataArray*, vtkMTimeType, double, double>;
+  using Key = std::tuple<vtkPoints*, vtkMTimeType, vtkDataArray*, vtkMTimeType, double, double>;
   std::map<Key, vtkBoundingBox> Kept;
 };
 

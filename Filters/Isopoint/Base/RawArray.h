@@ -75,8 +75,7 @@ public:
     }
     this->Size = this->Capacity = size;
     this->SpreadBytes = size * sizeof(T);
-    preferHugePagesInside(
-      this->Elements, this->SpreadBytes, first * sizeof(T), count * sizeof(T));
+    preferHugePagesInside(this->Elements, this->SpreadBytes, first * sizeof(T), count * sizeof(T));
   }
 
   std::size_t size() const { return this->Size; }

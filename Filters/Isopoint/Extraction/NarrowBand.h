@@ -120,15 +120,14 @@ public:
   }
 
   /// The same on one of several ranks, which all call it. Nodes of which no sample is this rank's
-  /// are not split; they count as the others' ranges of values, which are fetched where they matter.
-  /// So everything that touches a leaf of a crossing edge is split to leaves only as far as it is
-  /// this rank's and touches one of its own nodes that are crossing.
+  /// are not split; they count as the others' ranges of values, which are fetched where they
+  /// matter. So everything that touches a leaf of a crossing edge is split to leaves only as far as
+  /// it is this rank's and touches one of its own nodes that are crossing.
   std::vector<BinaryIndex> refine(BandPeers& peers)
   {
     std::vector<BandNode> front;
     const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
-    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue &&
-        this->Tree.hasOwn(root))
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
     {
       front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
     }
@@ -333,8 +332,8 @@ private:
       const double begin = done / all;
       done += this->countOf(task);
       TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
-      splitter.splitTogether(
-        partOf(part, begin, done / all), node, pathTo(this->Tree, task.node.index).region, task.levels);
+      splitter.splitTogether(partOf(part, begin, done / all), node,
+        pathTo(this->Tree, task.node.index).region, task.levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -346,8 +345,7 @@ private:
         {
           moveTo(this->Tree, path, alone[i].node.index);
           splitter.moveTo(alone[i].firstPair);
-          splitter.split(
-            this->Tree.nodes[alone[i].node.nodeIndex], path.region, alone[i].levels);
+          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, alone[i].levels);
         }
       });
   }
@@ -420,8 +418,7 @@ private:
   /// The same on one of several ranks. What touches nodes that are not known is put aside, until
   /// they have been fetched.
   /// @param isDone whether this rank has nothing to mark any more
-  void markWith(
-    BandPeers& peers, const std::vector<BandNode>& allOfFront, bool isDone, int depth)
+  void markWith(BandPeers& peers, const std::vector<BandNode>& allOfFront, bool isDone, int depth)
   {
     std::vector<BandNode> front;
     std::vector<MissingNode> missing;
@@ -476,8 +473,8 @@ private:
             continue;
           }
           moveTo(this->Tree, path, front[i].index);
-          forEachBelow(this->Tree, path, depth,
-            [&](const Path& below) { this->markAt(below, depth); });
+          forEachBelow(
+            this->Tree, path, depth, [&](const Path& below) { this->markAt(below, depth); });
         }
       },
       part.progress);

@@ -98,7 +98,7 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  RawArray<Box> Boxes; // by the number of the node's pair of children
+  RawArray<Box> Boxes;                       // by the number of the node's pair of children
   mutable ConcurrentMemo<Box> BoxesOnDemand; // likewise, of a partial tree
   std::once_flag Computed;
 };
