@@ -48,7 +48,7 @@ inline void appendFit(ByteBuffer& buffer, const LocalFit& fit)
 
 inline LocalFit readFit(ByteReader& in)
 {
-  LocalFit fit;
+  LocalFit fit{};
   fit.position = in.read<Vector>();
   fit.gradient = in.read<Vector>();
   fit.isGradientFitted = in.read<bool>();
@@ -86,7 +86,7 @@ void appendIsopoint(ByteBuffer& buffer, const SampleTree<TSample>& tree, const I
 
 inline SentIsopoint readIsopoint(ByteReader& in, bool hasFit)
 {
-  SentIsopoint isopoint;
+  SentIsopoint isopoint{};
   isopoint.edge = in.read<IsopointEdge>();
   isopoint.position = in.read<Vector>();
   isopoint.decreasingEdge = in.read<Vector>();
