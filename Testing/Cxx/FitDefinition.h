@@ -204,11 +204,13 @@ inline double lengthOf(const Vector& a)
 }
 
 /// The samples of both rings in the frame of an edge (10.2): those of the first ring by distance,
-/// so that the nearest come first, those that the second one adds in their order.
+/// so that the nearest come first, those that the second one adds in their order; but if the first
+/// ring has fewer than 16, the nearest of the second one come next.
 struct Frame
 {
   Vector increasing; // r
   std::vector<FitSample> samples;
+  std::size_t firstCount; // how many are of the first ring
   double h;
 
   /// @param more what the second ring adds to the first
@@ -219,8 +221,9 @@ struct Frame
     this->Value = unitOf(edge.increase);
     this->increasing = this->placeOf(edge.increasing, {});
     this->samples = nearestOf(this->placed(first, edge.position, isovalue), 256, true);
-    const std::vector<FitSample> added =
-      nearestOf(this->placed(more, edge.position, isovalue), 256 - this->samples.size(), false);
+    this->firstCount = this->samples.size();
+    const std::vector<FitSample> added = nearestOf(this->placed(more, edge.position, isovalue),
+      256 - this->samples.size(), this->firstCount < 16);
     this->samples.insert(this->samples.end(), added.begin(), added.end());
     this->h = 0.0;
     for (const FitSample& sample : this->samples)
@@ -321,7 +324,7 @@ inline std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& 
   return std::nullopt;
 }
 
-/// A polynomial that holds, with its errors (10.3).
+/// A polynomial that holds, with its errors (10.3), which are over the slope at p.
 struct Candidate
 {
   Polynomial polynomial;
@@ -346,7 +349,7 @@ inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& w
     if (errors)
     {
       const Vector gradient = polynomial->gradientAt(*zero);
-      const double relative = errors->sigma / lengthOf(gradient);
+      const double relative = errors->sigma / lengthOf(polynomial->gradientAt({}));
       return Candidate{ *polynomial, degree, *zero, gradient, lengthOf(*zero),
         relative * errors->value, relative * errors->slope };
     }
@@ -359,6 +362,10 @@ inline Weights robustWeights(const Frame& frame)
 {
   const Weights steep = frame.steep();
   Weights weights = steep;
+  if (!areEnough(frame.samples.size(), 1))
+  {
+    return weights;
+  }
   for (int round = 0; round < 2; ++round)
   {
     const auto affine = leastSquares(frame.samples, weights, 1);
@@ -371,9 +378,14 @@ inline Weights robustWeights(const Frame& frame)
     {
       residuals.push_back(std::abs(sample.value - affine->valueAt(sample.position)));
     }
-    std::vector<double> sorted = residuals;
+    std::vector<double> sorted(
+      residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(frame.firstCount));
     std::sort(sorted.begin(), sorted.end());
-    const double c = sorted[sorted.size() / 2];
+    const double c = sorted[2 * sorted.size() / 3];
+    if (c == 0.0)
+    {
+      return weights;
+    }
     for (std::size_t i = 0; i < weights.size(); ++i)
     {
       const double e = residuals[i] / c;
@@ -462,6 +474,12 @@ inline double angleBetween(const Vector& a, const Vector& b)
   return std::sqrt(squares); // the chord
 }
 
+/// The share of the way to its zero that a point moves.
+inline double shareOf(double m, double s)
+{
+  return m > 0.0 ? m * m / (m * m + 0.1 * s * s) : 1.0;
+}
+
 /// Step 1: the result, if it is a clear case.
 inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
 {
@@ -482,7 +500,8 @@ inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
       return std::nullopt;
     }
     Result result;
-    result.position = positionAt(frame, edge, *zero, 1.0);
+    result.position =
+      positionAt(frame, edge, *zero, shareOf(lengthOf(*zero), relative * errors->value));
     setGradient(frame, quadratic->gradientAt(*zero), result);
     setHessian(frame, quadratic->hessianAt(*zero), result);
     result.order = FitOrder::Quadratic;
@@ -501,13 +520,6 @@ inline std::optional<Candidate> takenIn(const Frame& frame, FitOrder highest)
   return robust ? robust : candidateOf(frame, frame.steep(), degree);
 }
 
-/// The share of the way to its zero that a point moves.
-inline double shareOf(const Candidate& taken)
-{
-  const double square = taken.move * taken.move;
-  return square / (square + 0.1 * taken.s * taken.s);
-}
-
 /// The rule (10.4) for the orders 2 and 3.
 /// @param more what the second ring adds to the first
 inline Result fit(const FitEdge& edge, double isovalue, const std::vector<FitSample>& first,
@@ -524,7 +536,8 @@ inline Result fit(const FitEdge& edge, double isovalue, const std::vector<FitSam
     return detail::stay(frame, edge);
   }
   Result result;
-  result.position = detail::positionAt(frame, edge, taken->zero, shareOf(*taken));
+  result.position =
+    detail::positionAt(frame, edge, taken->zero, detail::shareOf(taken->move, taken->s));
   result.order = static_cast<FitOrder>(taken->degree);
   for (const int degree : { 1, 2 })
   {

@@ -15,6 +15,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 /// Shared by the tests of splats.
@@ -54,7 +55,8 @@ inline std::array<double, 5> clipOf(const Splat& splat)
                     : std::array<double, 5>{};
 }
 
-/// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.
+/// Lists the points at the 48 nearest positions or, in two rings and more, at 192 for each ring but
+/// the first.
 class NearestAround
 {
 public:
@@ -64,10 +66,6 @@ public:
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
       this->At[positions[i]].push_back(i);
-    }
-    for (const auto& [position, points] : this->At)
-    {
-      this->Distinct.push_back(position);
     }
   }
 
@@ -88,18 +86,19 @@ public:
 
     void find(std::size_t point, int rings, std::vector<std::size_t>& found)
     {
-      const Vector& center = this->Around.Positions[point];
-      std::vector<Vector> near = this->Around.Distinct;
-      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
-      std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1,
-        near.end(),
-        [&](const Vector& a, const Vector& b)
-        { return lengthOf(difference(a, center)) < lengthOf(difference(b, center)); });
+      std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
+      for (const auto& [position, points] : this->Around.At)
+      {
+        near.emplace_back(lengthOf(difference(position, this->Around.Positions[point])), &points);
+      }
+      const std::size_t count =
+        std::min<std::size_t>(near.size(), rings > 1 ? 193 * (rings - 1) : 49);
+      std::nth_element(
+        near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
       found.clear();
       for (std::size_t i = 0; i < count; ++i)
       {
-        const std::vector<std::size_t>& points = this->Around.At.at(near[i]);
-        found.insert(found.end(), points.begin(), points.end());
+        found.insert(found.end(), near[i].second->begin(), near[i].second->end());
       }
     }
 
@@ -110,7 +109,6 @@ public:
 private:
   const std::vector<Vector>& Positions;
   std::map<Vector, std::vector<std::size_t>> At;
-  std::vector<Vector> Distinct;
 };
 
 /// The splats of points, one for each.

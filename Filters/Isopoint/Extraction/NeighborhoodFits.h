@@ -113,8 +113,8 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
 
-/// Fits to the samples around each edge (see SampleGatherer and LocalFitter), in groups that follow
-/// each other in the tree: what is found for one edge is often that of the next. Each fit depends
+/// Fits to the samples around each edge (see SampleGatherer and LocalFitter), as they follow each
+/// other in the tree: what is found for one edge is often that of the next. Each fit depends
 /// on its samples alone.
 /// @returns one fit for each edge
 /// @throws Aborted, std::bad_alloc
@@ -125,22 +125,17 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
 {
   std::vector<LocalFit> fits(edges.size());
   const std::vector<TreePlace> places = placesOf(execution, context.tree, edges);
-  // Batches are of few groups: where cells touch hundreds of others, a fit takes long.
-  constexpr std::size_t groupSize = 256;
-  constexpr std::size_t batch = 4;
+  // Batches are small: where cells touch hundreds of others, a fit takes long.
+  constexpr std::size_t grain = 256;
   forBatches(
-    execution, (places.size() + groupSize - 1) / groupSize, batch, 1,
+    execution, places.size(), 4 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       NeighborhoodFitter<TSample> fitter(context, request);
-      for (std::size_t group = begin; group < end; ++group)
+      for (std::size_t i = begin; i < end; ++i)
       {
-        const std::size_t groupEnd = std::min((group + 1) * groupSize, places.size());
-        for (std::size_t i = group * groupSize; i < groupEnd; ++i)
-        {
-          const std::size_t edge = places[i].edge;
-          fits[edge] = fitter.fit(edges[edge]);
-        }
+        const std::size_t edge = places[i].edge;
+        fits[edge] = fitter.fit(edges[edge]);
       }
     },
     execution.progress);

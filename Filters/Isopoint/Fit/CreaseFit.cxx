@@ -2,12 +2,10 @@
 #include "Isopoint/Fit/CreaseFit.h"
 
 #include "Isopoint/Fit/PolynomialFit.h"
-#include "Isopoint/Fit/PolynomialZero.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,8 +37,8 @@ public:
     this->Fit.pieces.resize(1);
   }
 
-  /// Starts with a single piece. @returns whether the samples determine it
-  bool start() { return this->settle(1); }
+  /// Starts with a single piece, of at most a degree. @returns whether the samples determine it
+  bool start(int degree = 1) { return this->settle(degree); }
 
   /// Parts the piece of the largest residuals in two, `share` of its samples staying. @returns
   /// whether the samples determine the parts
@@ -131,8 +129,10 @@ private:
       squares += FrameSamples::at(*this->Weights, i) * residual * residual;
       weights += FrameSamples::at(*this->Weights, i);
     }
-    this->Fit.residual = correctedResidual(squares / weights, this->Labels.size(), coefficients);
-    return std::isfinite(this->Fit.residual);
+    const auto count = static_cast<double>(this->Labels.size());
+    this->Fit.residual =
+      count / (count - static_cast<double>(coefficients)) * std::sqrt(squares / weights);
+    return this->Labels.size() > coefficients && std::isfinite(this->Fit.residual);
   }
 
   double residualAt(std::size_t i) const
@@ -324,6 +324,13 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
     }
   }
   return best;
+}
+
+double polynomialResidual(const FrameSamples& samples, const FrameWeights& weights)
+{
+  Alternation single(samples, weights, 1.0);
+  return single.start(Polynomial::highestDegree) ? single.result().residual
+                                                 : std::numeric_limits<double>::infinity();
 }
 
 std::optional<CreasePoint> zeroNear(const CreaseFit& fit, double farthest)

@@ -20,7 +20,9 @@ struct CreaseFit
 {
   double sense = 1.0;
   std::vector<Polynomial> pieces;
-  double residual = 0.0; // root mean square, weighted, corrected for the degrees of freedom
+  /// Root mean square, weighted, as by generalised cross-validation [GHW79]: that of samples left
+  /// out of the fit, on average.
+  double residual = 0.0;
 
   /// The piece that counts at a place.
   std::size_t pieceAt(const Vector& place) const;
@@ -47,6 +49,10 @@ struct CreasePoint
 /// In the end pieces whose samples determine it are of degree two, if that is better.
 /// @returns nothing where pieces have too few samples. Complexity: O(samples)
 std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeights& weights);
+
+/// The residual of the polynomial of the highest degree that the samples determine, as that of a
+/// crease fit of one piece; infinite if they determine none.
+double polynomialResidual(const FrameSamples& samples, const FrameWeights& weights);
 
 /// The nearest zero of one piece that belongs to the whole surface, or else of the crease between
 /// two; nothing if that is farther than a distance.

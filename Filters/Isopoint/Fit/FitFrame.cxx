@@ -51,27 +51,32 @@ void FitFrame::enter(const FitEdge& edge, double isovalue)
 
 void FitFrame::add(const FitSample* first, const FitSample* last)
 {
-  const auto count = static_cast<std::size_t>(last - first);
-  this->Distances.clear();
-  for (const FitSample* sample = first; sample != last; ++sample)
-  {
-    const Vector place = this->placeOf(sample->position);
-    this->Distances.push_back(dot(place, place));
-  }
   const std::size_t former = this->Samples.count();
-  std::size_t nearest = 0;
-  if (former == 0)
+  const auto count = static_cast<std::size_t>(last - first);
+  const std::size_t added = std::min(FrameSamples::most - former, count);
+  const std::size_t nearest =
+    std::min(FrameSamples::nearest - std::min(FrameSamples::nearest, former), count);
+  if (nearest == 0 && added == count)
   {
-    nearest = std::min(FrameSamples::nearest, count);
-    this->addNearest(first, nearest);
+    std::for_each(first, last, [this](const FitSample& sample) { this->add(sample); });
   }
-  this->addNearest(first, std::min(FrameSamples::most - former, count) - nearest);
+  else
+  {
+    this->Distances.clear();
+    for (const FitSample* sample = first; sample != last; ++sample)
+    {
+      const Vector place = this->placeOf(sample->position);
+      this->Distances.push_back(dot(place, place));
+    }
+    this->addNearest(first, nearest);
+    this->addNearest(first, added - nearest);
+  }
   this->MeanDistance = this->Samples.sum([this](std::size_t group)
                          { return Lanes(this->Samples.squaredDistance[group].sqrt()); }) /
                        static_cast<double>(this->Samples.count());
 }
 
-/// Adds the nearest ones of the samples whose distances are still finite, and makes these infinite.
+/// Adds the nearest ones of the samples that are left, and marks these as taken.
 void FitFrame::addNearest(const FitSample* samples, std::size_t count)
 {
   constexpr double taken = std::numeric_limits<double>::infinity();
@@ -92,7 +97,7 @@ void FitFrame::addNearest(const FitSample* samples, std::size_t count)
     if (distance < limit || (distance == limit && distance < taken && equal > 0))
     {
       equal -= distance == limit ? 1 : 0;
-      this->Samples.add(this->placeOf(samples[i].position), this->valueOf(samples[i].value));
+      this->add(samples[i]);
       distance = taken;
       --count;
     }

@@ -44,11 +44,15 @@ public:
 
 private:
   void addNearest(const FitSample* samples, std::size_t count);
+  void add(const FitSample& sample)
+  {
+    this->Samples.add(
+      this->placeOf(sample.position), (sample.value - this->Isovalue) / this->Value);
+  }
   Vector placeOf(const Vector& position) const
   {
     return scaled(1.0 / this->Length, difference(position, this->Origin));
   }
-  double valueOf(double value) const { return (value - this->Isovalue) / this->Value; }
 
   FrameSamples Samples;
   Vector Origin{};

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -14,8 +15,8 @@ namespace isopoint
 
 /// Numbers of four samples side by side. A sum over samples is that of each lane and then sumOf():
 /// it does not depend on how wide the processor's vectors are.
-using Lanes = Eigen::Array<double, 4, 1>;
 constexpr std::size_t laneCount = 4;
+using Lanes = Eigen::Array<double, laneCount, 1>;
 
 inline double sumOf(const Lanes& lanes)
 {
@@ -23,7 +24,8 @@ inline double sumOf(const Lanes& lanes)
 }
 
 /// Samples in the frame of a fit: offsets from an origin and values of a size near 1. The nearest
-/// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0.
+/// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0, and
+/// so are the groups of the nearest ones if there are fewer.
 class FrameSamples
 {
 public:
@@ -38,21 +40,28 @@ public:
   Numbers squaredDistance; // from the origin
 
   std::size_t count() const { return this->Count; }
-  std::size_t groupCount() const { return (this->Count + laneCount - 1) / laneCount; }
+  std::size_t groupCount() const
+  {
+    return (std::max(this->Count, nearest) + laneCount - 1) / laneCount;
+  }
 
-  void clear() { this->Count = 0; }
+  FrameSamples() { this->clear(); }
+
+  void clear()
+  {
+    this->Count = 0;
+    for (std::size_t group = 0; group < nearest / laneCount; ++group)
+    {
+      this->clearGroup(group);
+    }
+  }
 
   /// Up to `most` samples can be added.
   void add(const Vector& offset, double sampleValue)
   {
     if (this->Count % laneCount == 0)
     {
-      const std::size_t group = this->Count / laneCount;
-      for (Numbers* const numbers :
-        { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
-      {
-        (*numbers)[group] = Lanes::Zero();
-      }
+      this->clearGroup(this->Count / laneCount);
     }
     at(this->x, this->Count) = offset[0];
     at(this->y, this->Count) = offset[1];
@@ -92,11 +101,43 @@ public:
   }
 
 private:
+  void clearGroup(std::size_t group)
+  {
+    for (Numbers* const numbers :
+      { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
+    {
+      (*numbers)[group] = Lanes::Zero();
+    }
+  }
+
   std::size_t Count = 0;
 };
 
 /// One weight for each sample.
 using FrameWeights = FrameSamples::Numbers;
+
+/// The numbers of the nearest samples side by side.
+using NearestNumbers = Eigen::Array<double, FrameSamples::nearest, 1>;
+
+inline NearestNumbers nearestOf(const FrameSamples::Numbers& numbers)
+{
+  NearestNumbers result;
+  for (std::size_t i = 0; i < FrameSamples::nearest / laneCount; ++i)
+  {
+    result.segment<laneCount>(static_cast<Eigen::Index>(laneCount * i)) = numbers[i];
+  }
+  return result;
+}
+
+inline double sumOfSquares(const NearestNumbers& numbers)
+{
+  Lanes total = Lanes::Zero();
+  for (std::size_t i = 0; i < FrameSamples::nearest / laneCount; ++i)
+  {
+    total += numbers.segment<laneCount>(static_cast<Eigen::Index>(laneCount * i)).square();
+  }
+  return sumOf(total);
+}
 
 /// Sets the weights of the places behind the last sample to 0.
 inline void endWeights(const FrameSamples& samples, FrameWeights& weights)

@@ -3,13 +3,9 @@
 
 #include "Isopoint/Fit/CreaseFit.h"
 #include "Isopoint/Fit/Polynomial.h"
-#include "Isopoint/Fit/PolynomialZero.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace isopoint
 {
@@ -58,21 +54,28 @@ std::optional<LocalFit> LocalFitter::fitNear(
     return std::nullopt;
   }
   weighSteeply(this->Frame, this->Steep);
-  const NearFit found = isopoint::fitNear(this->Frame.samples(), this->Steep,
-    this->Frame.increasing(), smoothResidual * this->Frame.meanDistance());
-  if (!found.smooth && !found.isNoise)
+  const std::optional<PolynomialFit> found =
+    fitPolynomial(this->Frame.samples(), this->Steep, this->Frame.increasing(), 2);
+  if (!found)
   {
     return std::nullopt;
   }
   LocalFit fit = onEdge(edge);
-  if (found.smooth)
+  if (this->isSmooth(*found))
   {
-    this->moveTo(*found.smooth, fit);
+    if (!found->zero)
+    {
+      return std::nullopt;
+    }
+    this->moveTo(*found, fit);
+    return fit;
   }
-  else
+  constexpr double mostDirectionError = 1.0;
+  if (!(found->directionError > mostDirectionError))
   {
-    this->preferMildGradient(nullptr, fit);
+    return std::nullopt;
   }
+  this->preferMildGradient(std::nullopt, fit);
   return fit;
 }
 
@@ -94,16 +97,11 @@ LocalFit LocalFitter::fit(
     return fit;
   }
   weighSteeply(this->Frame, this->Steep);
-  this->weighRobustly();
-  const auto fitWith = [this](const FrameWeights& weights)
-  {
-    return fitPolynomial(this->Frame.samples(), weights, this->Frame.increasing(),
-      this->Highest == FitOrder::Quadratic ? 2 : 3);
-  };
-  std::optional<PolynomialFit> found = fitWith(this->Weights);
+  this->weighRobustly(nearCount);
+  std::optional<PolynomialFit> found = this->fitHolding(this->Weights);
   if (!found)
   {
-    found = fitWith(this->Steep);
+    found = this->fitHolding(this->Steep);
   }
   if (this->Highest == FitOrder::Crease && !(found && this->isSmooth(*found)))
   {
@@ -124,7 +122,7 @@ LocalFit LocalFitter::fit(
   {
     this->moveTo(*found, fit);
   }
-  this->preferMildGradient(found ? &*found : nullptr, fit);
+  this->preferMildGradient(found, fit);
   return fit;
 }
 
@@ -133,12 +131,27 @@ bool LocalFitter::isSmooth(const PolynomialFit& found) const
   return found.relativeResidual <= smoothResidual * this->Frame.meanDistance();
 }
 
+/// The polynomial of the highest degree, down to two, that holds.
+std::optional<PolynomialFit> LocalFitter::fitHolding(const FrameWeights& weights) const
+{
+  for (int degree = this->Highest == FitOrder::Quadratic ? 2 : 3; degree > 1; --degree)
+  {
+    const std::optional<PolynomialFit> found =
+      fitPolynomial(this->Frame.samples(), weights, this->Frame.increasing(), degree);
+    if (found && found->zero)
+    {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Reduces the steep weights of samples far off an affine function, which is fitted with these
 /// weights in turn: near a crease or step those of one side remain.
-void LocalFitter::weighRobustly()
+void LocalFitter::weighRobustly(std::size_t nearCount)
 {
   const FrameSamples& samples = this->Frame.samples();
-  samples.forEachGroup([this](std::size_t i) { this->Weights[i] = this->Steep[i]; });
+  this->Weights = this->Steep;
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round)
   {
@@ -154,15 +167,21 @@ void LocalFitter::weighRobustly()
         residuals[i] =
           (samples.value[i] - affine->valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
       });
-    std::array<double, FrameSamples::most> sorted;
-    for (std::size_t i = 0; i < samples.count(); ++i)
+    // Two thirds of the samples next to the edge are no farther off than that.
+    std::vector<double>& near = this->NearResiduals;
+    near.resize(std::min(nearCount, samples.count()));
+    for (std::size_t i = 0; i < near.size(); ++i)
     {
-      sorted[i] = FrameSamples::at(residuals, i);
+      near[i] = FrameSamples::at(residuals, i);
     }
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(samples.count() / 2);
-    std::nth_element(
-      sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(samples.count()));
-    const double scale = 1.0 / *middle;
+    const auto rank = near.begin() + static_cast<std::ptrdiff_t>(2 * near.size() / 3);
+    std::nth_element(near.begin(), rank, near.end());
+    const double usual = *rank;
+    if (!(usual > 0.0))
+    {
+      return;
+    }
+    const double scale = 1.0 / usual;
     samples.forEachGroup(
       [&](std::size_t i)
       {
@@ -173,14 +192,10 @@ void LocalFitter::weighRobustly()
   }
 }
 
-/// The polynomial with mild weights, if its gradient does not contradict the edge.
-std::optional<Polynomial> LocalFitter::mildPolynomial(int degree)
+/// The polynomial with the present weights, if its gradient does not contradict the edge.
+std::optional<Polynomial> LocalFitter::mildPolynomial(int degree) const
 {
-  weighMildly(this->Frame, this->Weights);
-  const std::optional<Polynomial> mild =
-    areEnough(this->Frame.samples().count(), degree)
-      ? leastSquares(this->Frame.samples(), this->Weights, degree)
-      : std::nullopt;
+  const std::optional<Polynomial> mild = leastSquares(this->Frame.samples(), this->Weights, degree);
   return mild && increasesAlong(this->Frame.increasing(), mild->gradientAt({})) ? mild
                                                                                 : std::nullopt;
 }
@@ -188,6 +203,7 @@ std::optional<Polynomial> LocalFitter::mildPolynomial(int degree)
 /// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
 bool LocalFitter::fitLinear(LocalFit& fit)
 {
+  weighMildly(this->Frame, this->Weights);
   const std::optional<Polynomial> affine = this->mildPolynomial(1);
   if (!affine)
   {
@@ -205,20 +221,17 @@ bool LocalFitter::fitLinear(LocalFit& fit)
   return true;
 }
 
-/// Sets the fit to pieces that meet at creases, if they describe the samples well, and far better
+/// Sets the fit to pieces that meet at creases, if they describe the samples well, and better
 /// than a polynomial. @returns whether they do
 bool LocalFitter::fitCreases(LocalFit& fit)
 {
   constexpr double mostResidual = 0.03; // larger ones come from noise
-  // Pieces are chosen to fit the samples: in noise or detail they leave somewhat less than
-  // polynomials.
-  constexpr double mostResidualShare = 0.5;
   const FrameSamples& samples = this->Frame.samples();
   weighMildly(this->Frame, this->Weights);
   const std::optional<CreaseFit> crease = fitCrease(samples, this->Weights);
   if (!crease || !crease->isSharp() ||
       !(crease->residual <= mostResidual * crease->leastSlope() * this->Frame.meanDistance()) ||
-      !(crease->residual < mostResidualShare * this->polynomialResidual()))
+      !(crease->residual < polynomialResidual(samples, this->Weights)))
   {
     return false;
   }
@@ -238,57 +251,35 @@ bool LocalFitter::fitCreases(LocalFit& fit)
   return true;
 }
 
-/// The corrected residual of the polynomial of the highest degree that the samples determine.
-double LocalFitter::polynomialResidual() const
-{
-  const FrameSamples& samples = this->Frame.samples();
-  const auto weight = [&](std::size_t i) { return this->Weights[i]; };
-  for (int degree = Polynomial::highestDegree; degree > 0; --degree)
-  {
-    const std::optional<Polynomial> polynomial = leastSquares(samples, this->Weights, degree);
-    if (polynomial && areEnough(samples.count(), degree))
-    {
-      const double squares = samples.sum(
-        [&](std::size_t i)
-        {
-          const Lanes residual =
-            samples.value[i] - polynomial->valueAt(samples.x[i], samples.y[i], samples.z[i]);
-          return Lanes(this->Weights[i] * residual * residual);
-        });
-      return correctedResidual(
-        squares / samples.sum(weight), samples.count(), coefficientCount(degree));
-    }
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 /// Moves the isopoint by less than the polynomial's zero where the error of that is as large.
 void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
 {
   constexpr double doubt = 0.1;
-  const double squaredMove = found.move * found.move;
+  const double squaredMove = dot(*found.zero, *found.zero);
   const double share = squaredMove > 0.0
                          ? squaredMove / (squaredMove + doubt * found.zeroError * found.zeroError)
                          : 1.0;
-  fit.position = this->Frame.positionAt(scaled(share, found.zero));
+  fit.position = this->Frame.positionAt(scaled(share, *found.zero));
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
-  fit.gradient = this->Frame.gradientOf(found.gradient);
+  fit.gradient = this->Frame.gradientOf(found.polynomial.gradientAt(*found.zero));
   fit.isGradientFitted = true;
-  fit.hessian = this->Frame.hessianOf(found.polynomial.hessianAt(found.zero));
+  fit.hessian = this->Frame.hessianOf(found.polynomial.hessianAt(*found.zero));
   fit.isSmooth = true;
 }
 
 /// Takes the gradient of the polynomial of the lowest degree with mild weights that does not differ
 /// beyond doubt from what was found, which is less certain; of the affine function if nothing was.
-void LocalFitter::preferMildGradient(const PolynomialFit* found, LocalFit& fit)
+void LocalFitter::preferMildGradient(const std::optional<PolynomialFit>& found, LocalFit& fit)
 {
   constexpr double mostErrors = 2.0; // standard errors between directions that may be the same
+  const Vector direction = directionOf(fit.gradient);
+  weighMildly(this->Frame, this->Weights);
   for (int degree = 1; degree <= (found ? 2 : 1); ++degree)
   {
     const std::optional<Polynomial> mild = this->mildPolynomial(degree);
     const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
-    if (mild && (!found || lengthOf(difference(directionOf(gradient),
-                             directionOf(found->gradient))) < mostErrors * found->directionError))
+    if (mild && (!found || lengthOf(difference(directionOf(gradient), direction)) <
+                             mostErrors * found->directionError))
     {
       fit.gradient = this->Frame.gradientOf(gradient);
       fit.isGradientFitted = true;

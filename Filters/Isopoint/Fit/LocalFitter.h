@@ -46,19 +46,20 @@ public:
 
 private:
   bool isSmooth(const PolynomialFit& found) const;
-  void weighRobustly();
-  std::optional<Polynomial> mildPolynomial(int degree);
+  std::optional<PolynomialFit> fitHolding(const FrameWeights& weights) const;
+  void weighRobustly(std::size_t nearCount);
+  std::optional<Polynomial> mildPolynomial(int degree) const;
   bool fitLinear(LocalFit& fit);
   bool fitCreases(LocalFit& fit);
-  double polynomialResidual() const;
   void moveTo(const PolynomialFit& found, LocalFit& fit) const;
-  void preferMildGradient(const PolynomialFit* found, LocalFit& fit);
+  void preferMildGradient(const std::optional<PolynomialFit>& found, LocalFit& fit);
 
   const double Isovalue;
   const FitOrder Highest;
   FitFrame Frame;
   FrameWeights Steep;   // of the present samples
   FrameWeights Weights; // others
+  std::vector<double> NearResiduals;
 };
 
 } // namespace isopoint

@@ -33,13 +33,8 @@ public:
   /// @param weights by which the products are multiplied
   Moments(const FrameSamples& samples, const FrameWeights& weights)
   {
-    const std::size_t groups = samples.groupCount();
-    FrameSamples::Numbers powers;
-    for (std::size_t i = 0; i < groups; ++i)
-    {
-      powers[i] = weights[i];
-    }
-    this->addPlane<0>(samples, groups, powers);
+    Products products;
+    this->addPlane<0>(samples, weights, products);
   }
 
   double at(std::size_t a, std::size_t b, std::size_t c) const { return this->Sums[a][b][c]; }
@@ -56,37 +51,44 @@ public:
 private:
   static constexpr std::size_t size = Order + 1;
 
+  struct Products
+  {
+    FrameSamples::Numbers ofPlane; // weight x^a
+    FrameSamples::Numbers ofRow;   // weight x^a y^b
+  };
+
   /// All sums with x^a, and then those with higher powers of x.
   /// @param powers weight x^a
   template <int A>
-  void addPlane(const FrameSamples& samples, std::size_t groups, FrameSamples::Numbers& powers)
+  void addPlane(
+    const FrameSamples& samples, const FrameSamples::Numbers& powers, Products& products)
   {
-    FrameSamples::Numbers products;
-    for (std::size_t i = 0; i < groups; ++i)
-    {
-      products[i] = powers[i];
-    }
-    this->addRow<A, 0>(samples, groups, products);
+    this->addRow<A, 0>(samples, powers, products);
     if constexpr (A < Order)
     {
-      for (std::size_t i = 0; i < groups; ++i)
+      for (std::size_t i = 0; i < samples.groupCount(); ++i)
       {
-        powers[i] *= samples.x[i];
+        products.ofPlane[i] = powers[i] * samples.x[i];
       }
-      this->addPlane<A + 1>(samples, groups, powers);
+      this->addPlane<A + 1>(samples, products.ofPlane, products);
     }
   }
 
   /// All sums with x^a y^b, and then those with higher powers of y.
+  /// @param powers weight x^a y^b
   template <int A, int B>
-  void addRow(const FrameSamples& samples, std::size_t groups, FrameSamples::Numbers& products)
+  void addRow(const FrameSamples& samples, const FrameSamples::Numbers& powers, Products& products)
   {
     constexpr std::size_t count = Order - A - B + 1;
     std::array<Lanes, count> sums;
     sums.fill(Lanes::Zero());
-    for (std::size_t i = 0; i < groups; ++i)
+    for (std::size_t i = 0; i < samples.groupCount(); ++i)
     {
-      Lanes product = products[i];
+      Lanes product = powers[i];
+      if constexpr (A + B < Order)
+      {
+        products.ofRow[i] = product * samples.y[i];
+      }
       sums[0] += product;
 #pragma GCC unroll 8
       for (std::size_t c = 1; c < count; ++c)
@@ -101,11 +103,7 @@ private:
     }
     if constexpr (A + B < Order)
     {
-      for (std::size_t i = 0; i < groups; ++i)
-      {
-        products[i] *= samples.y[i];
-      }
-      this->addRow<A, B + 1>(samples, groups, products);
+      this->addRow<A, B + 1>(samples, products.ofRow, products);
     }
   }
 
@@ -148,14 +146,7 @@ public:
     polynomial.degree = degree;
     auto& x = polynomial.coefficients;
     std::copy_n(this->RightSide.begin(), count, x.begin());
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      x[i] *= this->Reciprocals[i];
-      for (std::size_t j = i + 1; j < count; ++j)
-      {
-        x[j] -= this->below(i, j) * x[i];
-      }
-    }
+    this->reduce(degree, x);
     for (std::size_t i = count; i-- > 0;)
     {
       for (std::size_t j = i + 1; j < count; ++j)
@@ -167,54 +158,30 @@ public:
     return polynomial;
   }
 
-  /// L^-1 p, p being the products of coordinates at four places that coefficients belong to. With
-  /// two such vectors u and v, u . v is the effect of a value of weight 1 at the place of v on the
-  /// polynomial at that of u.
-  std::array<Lanes, size> reduced(int degree, const Lanes& x, const Lanes& y, const Lanes& z) const
+  /// Replaces p by L^-1 p, p being the products of coordinates at a place (or at several side by
+  /// side) that coefficients belong to, or the unit vector of a coefficient. With two such vectors
+  /// u and v, u . v is the effect of a value of weight 1 at the place of v on the polynomial at
+  /// that of u, or on the coefficient.
+  template <class Vectors>
+  void reduce(int degree, Vectors& p) const
   {
-    std::array<Lanes, size> rest = products(x, y, z);
     const std::size_t count = coefficientCount(degree);
     for (std::size_t i = 0; i < count; ++i)
     {
-      rest[i] *= this->Reciprocals[i];
+      p[i] *= this->Reciprocals[i];
       for (std::size_t j = i + 1; j < count; ++j)
       {
-        rest[j] -= this->below(i, j) * rest[i];
+        p[j] -= this->below(i, j) * p[i];
       }
     }
-    return rest;
   }
 
-  /// L^-1 e, e being the unit vector of a coefficient.
-  std::array<double, size> reducedUnit(int degree, std::size_t coefficient) const
+  /// The products of coordinates that coefficients belong to.
+  template <class Number>
+  static std::array<Number, size> products(const Number& x, const Number& y, const Number& z)
   {
-    std::array<double, size> rest{};
-    rest[coefficient] = 1.0;
-    const std::size_t count = coefficientCount(degree);
-    for (std::size_t i = coefficient; i < count; ++i)
-    {
-      rest[i] *= this->Reciprocals[i];
-      for (std::size_t j = i + 1; j < count; ++j)
-      {
-        rest[j] -= this->below(i, j) * rest[i];
-      }
-    }
-    return rest;
-  }
-
-private:
-  static constexpr std::size_t groups = (size + laneCount - 1) / laneCount;
-  using Column = std::array<Lanes, groups>;
-
-  double below(std::size_t column, std::size_t row) const
-  {
-    return this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)];
-  }
-
-  static std::array<Lanes, size> products(const Lanes& x, const Lanes& y, const Lanes& z)
-  {
-    std::array<Lanes, size> result;
-    result[0] = 1.0;
+    std::array<Number, size> result;
+    result[0] = Number::Ones();
     result[1] = x;
     result[2] = y;
     result[3] = z;
@@ -241,6 +208,15 @@ private:
       result[19] = result[7] * z;
     }
     return result;
+  }
+
+private:
+  static constexpr std::size_t groups = (size + laneCount - 1) / laneCount;
+  using Column = std::array<Lanes, groups>;
+
+  double below(std::size_t column, std::size_t row) const
+  {
+    return this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)];
   }
 
   /// One column of L after the other, with zeros on and above the diagonal.

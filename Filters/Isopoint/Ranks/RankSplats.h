@@ -11,36 +11,17 @@
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Splat/NearbyPoints.h"
-#include "Isopoint/Splat/NearestPositions.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatNormals.h"
 #include "Isopoint/Splat/SplatShaper.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The positions and edges of all ranks' isopoints, in the order of the whole surface.
-struct WholeSurface
-{
-  std::vector<IsopointEdge> edges;
-  std::vector<Vector> positions;
-  std::vector<Vector> decreasingEdges;
-
-  std::size_t indexOf(const IsopointEdge& edge) const
-  {
-    return static_cast<std::size_t>(
-      std::lower_bound(this->edges.begin(), this->edges.end(), edge,
-        [](const IsopointEdge& a, const IsopointEdge& b)
-        { return a.first != b.first ? a.first < b.first : a.second < b.second; }) -
-      this->edges.begin());
-  }
-};
 
 /// What computeSplats() does, for the isopoints of one of several ranks. All functions are
 /// collective.
@@ -68,19 +49,12 @@ public:
   {
     SurfaceHalo<TSample> halo(this->Run, this->Exchange, this->Known, own, hasFits);
     halo.gather();
-    const Isosurface& all = halo.surface();
-    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
     std::vector<Splat> splats;
     std::unique_ptr<Neighbors> neighbors;
-    this->Exchange.together(
-      [&]()
-      {
-        splats.resize(all.size());
-        neighbors = std::make_unique<Neighbors>(
-          this->Run, this->Exchange.tree(), this->Known, all.leaves, &halo.isInner());
-      });
-    this->setNormals(halo, points, *neighbors, splats);
+    this->setNormals(halo, own, neighbors, splats);
     this->shareNormals(halo, splats);
+    const Isosurface& all = halo.surface();
+    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
     this->shape(halo, points, *neighbors, isShaped, splats);
     std::vector<Splat> result;
     this->Exchange.together(
@@ -95,111 +69,81 @@ public:
   }
 
 private:
-  void setNormals(const SurfaceHalo<TSample>& halo, const SurfacePoints& points,
-    const Neighbors& neighbors, std::vector<Splat>& splats)
+  /// Those of the points around which fits do not determine them are computed from the points
+  /// around; the halo grows as long as they need more of these.
+  void setNormals(SurfaceHalo<TSample>& halo, const Isosurface& own,
+    std::unique_ptr<Neighbors>& neighbors, std::vector<Splat>& splats)
   {
-    std::vector<std::size_t> unfitted; // of this rank's
+    std::vector<Vector> normals; // of this rank's points
+    std::vector<std::size_t> unfitted;
     this->Exchange.together(
       [&]()
       {
-        const std::vector<std::size_t> ofAll = setFieldNormals(points, this->Options, splats);
-        std::set_intersection(ofAll.begin(), ofAll.end(), halo.ownIndices().begin(),
-          halo.ownIndices().end(), std::back_inserter(unfitted));
+        const SurfacePoints points{ own.positions, own.decreasingEdges, own.fits };
+        std::vector<Splat> ofOwn(own.size());
+        unfitted = setFieldNormals(points, this->Options, ofOwn);
+        for (const Splat& splat : ofOwn)
+        {
+          normals.push_back(splat.normal);
+        }
       });
-    if (!this->Options.fieldNormals)
+    for (;;)
     {
-      this->setPlaneNormals(halo, unfitted, splats);
-      return;
+      this->Exchange.together(
+        [&]()
+        {
+          neighbors = std::make_unique<Neighbors>(
+            this->Run, this->Exchange.tree(), this->Known, halo.surface().leaves, &halo.isInner());
+        });
+      this->setPlaneNormals(halo, *neighbors, unfitted, normals);
+      if (!this->Exchange.isAny(!unfitted.empty()))
+      {
+        break;
+      }
+      halo.grow();
     }
+    this->Exchange.together(
+      [&]()
+      {
+        const Isosurface& all = halo.surface();
+        const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
+        splats.resize(all.size());
+        setFieldNormals(points, this->Options, splats);
+        for (std::size_t i = 0; i < normals.size(); ++i)
+        {
+          splats[halo.ownIndices()[i]].normal = normals[i];
+        }
+      });
+  }
+
+  /// @param unfitted of this rank's points; those remain for which the halo is too small
+  void setPlaneNormals(const SurfaceHalo<TSample>& halo, const Neighbors& neighbors,
+    std::vector<std::size_t>& unfitted, std::vector<Vector>& normals)
+  {
+    const Isosurface& all = halo.surface();
+    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
     const auto count = static_cast<std::size_t>(this->Options.neighborCount);
+    std::vector<std::size_t> beyond;
+    std::mutex mutex;
     inRounds(
       this->Run, this->Exchange, unfitted.size(),
-      [&]() { return NearbyPoints<Neighbors>(neighbors, points.positions); },
+      [&]() { return NearbyPoints<Neighbors>(neighbors, all.positions); },
       [&](NearbyPoints<Neighbors>& nearby, std::size_t i)
       {
-        const std::size_t point = unfitted[i];
+        const std::size_t point = halo.ownIndices()[unfitted[i]];
         std::vector<std::size_t> around;
-        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
-        splats[point].normal = planeNormal(points, point, around);
-      });
-  }
-
-  /// Normals of planes through the nearest of all points, which therefore all ranks hold.
-  void setPlaneNormals(const SurfaceHalo<TSample>& halo, const std::vector<std::size_t>& unfitted,
-    std::vector<Splat>& splats)
-  {
-    const WholeSurface whole = this->gatherWhole(halo);
-    this->Exchange.together(
-      [&]()
-      {
-        const NearestPositions nearest(whole.positions);
-        const std::vector<LocalFit> none;
-        const SurfacePoints points{ whole.positions, whole.decreasingEdges, none };
-        const auto count = static_cast<std::size_t>(this->Options.neighborCount);
-        constexpr std::size_t batch = 8192;
-        constexpr std::size_t grain = 512;
-        forBatches(this->Run, unfitted.size(), batch, grain,
-          [&](std::size_t begin, std::size_t end)
-          {
-            std::vector<std::size_t> around;
-            for (std::size_t i = begin; i < end; ++i)
-            {
-              const std::size_t point = whole.indexOf(halo.surface().edges[unfitted[i]]);
-              nearest.find(point, count, around);
-              splats[unfitted[i]].normal = planeNormal(points, point, around);
-            }
-          });
-      });
-  }
-
-  struct SentPoint
-  {
-    IsopointEdge edge;
-    Vector position;
-    Vector decreasingEdge;
-  };
-
-  WholeSurface gatherWhole(const SurfaceHalo<TSample>& halo)
-  {
-    std::vector<std::vector<SentPoint>> outgoing;
-    this->Exchange.together(
-      [&]()
-      {
-        std::vector<SentPoint> own;
-        const Isosurface& all = halo.surface();
-        for (const std::size_t i : halo.ownIndices())
+        try
         {
-          own.push_back({ all.edges[i], all.positions[i], all.decreasingEdges[i] });
+          nearby.nearest(point, lengthOf(all.decreasingEdges[point]), count, around);
+          normals[unfitted[i]] = planeNormal(points, point, around);
         }
-        outgoing.assign(static_cast<std::size_t>(this->Exchange.team().size()), own);
-      });
-    const auto arrived = this->Exchange.team().exchange(outgoing);
-    WholeSurface whole;
-    this->Exchange.together(
-      [&]()
-      {
-        std::vector<SentPoint> points;
-        for (const std::vector<SentPoint>& list : arrived)
+        catch (const MissingRing&)
         {
-          points.insert(points.end(), list.begin(), list.end());
-        }
-        std::sort(points.begin(), points.end(),
-          [](const SentPoint& a, const SentPoint& b)
-          {
-            return a.edge.first != b.edge.first ? a.edge.first < b.edge.first
-                                                : a.edge.second < b.edge.second;
-          });
-        points.erase(std::unique(points.begin(), points.end(),
-                       [](const SentPoint& a, const SentPoint& b) { return a.edge == b.edge; }),
-          points.end());
-        for (const SentPoint& point : points)
-        {
-          whole.edges.push_back(point.edge);
-          whole.positions.push_back(point.position);
-          whole.decreasingEdges.push_back(point.decreasingEdge);
+          const std::lock_guard<std::mutex> lock(mutex);
+          beyond.push_back(unfitted[i]);
         }
       });
-    return whole;
+    unfitted.swap(beyond);
   }
 
   void shareNormals(SurfaceHalo<TSample>& halo, std::vector<Splat>& splats)

@@ -24,8 +24,8 @@
 namespace isopoint
 {
 
-/// This rank's isopoints and those of others within two rings around them (see IsopointNeighbors),
-/// in the order of the whole surface. All functions are collective.
+/// This rank's isopoints and those of others within two or more rings around them (see
+/// IsopointNeighbors), in the order of the whole surface. All functions are collective.
 template <class TSample>
 class SurfaceHalo
 {
@@ -45,6 +45,7 @@ public:
   {
   }
 
+  /// Gathers two rings.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   void gather()
   {
@@ -58,15 +59,24 @@ public:
         ends = endsOf(this->Own.leaves);
       });
     this->requestIn(this->withTouching(ends));
+    this->grow();
+  }
+
+  /// Adds a ring.
+  void grow()
+  {
+    std::vector<std::size_t> ends;
     this->Exchange.together(
       [&]()
       {
-        for (std::vector<SentIsopoint>& list : this->Received)
+        ends = endsOf(this->Own.leaves);
+        this->Surrounded.clear();
+        for (const std::vector<SentIsopoint>& list : this->Received)
         {
           for (const SentIsopoint& isopoint : list)
           {
             ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-            this->FirstRing.push_back(isopoint.edge);
+            this->Surrounded.push_back(isopoint.edge);
           }
         }
         keepUnique(ends);
@@ -81,8 +91,8 @@ public:
   /// Where this rank's own isopoints are among them.
   const std::vector<std::size_t>& ownIndices() const { return this->OwnIndices; }
 
-  /// Whether each is one of this rank's or of those in their first ring, so that its own first ring
-  /// is complete.
+  /// Whether each is one of this rank's or not in the last ring, so that its own first ring is
+  /// complete.
   const std::vector<bool>& isInner() const { return this->IsInner; }
 
   /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
@@ -310,7 +320,9 @@ private:
     sources.erase(std::unique(sources.begin(), sources.end(),
                     [](const Source& a, const Source& b) { return a.edge == b.edge; }),
       sources.end());
-    std::sort(this->FirstRing.begin(), this->FirstRing.end(), isBefore);
+    std::sort(this->Surrounded.begin(), this->Surrounded.end(), isBefore);
+    this->All = Isosurface();
+    this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
     this->All.isovalue = this->Own.isovalue;
     for (const Source& source : sources)
@@ -329,8 +341,8 @@ private:
       {
         this->All.fits.push_back(isOwn ? this->Own.fits[source.own] : source.received->fit);
       }
-      this->IsInner.push_back(isOwn || std::binary_search(this->FirstRing.begin(),
-                                         this->FirstRing.end(), source.edge, isBefore));
+      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
+                                         this->Surrounded.end(), source.edge, isBefore));
       this->All.edges.push_back(source.edge);
     }
   }
@@ -352,7 +364,7 @@ private:
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
-  std::vector<IsopointEdge> FirstRing;             // received with the first request
+  std::vector<IsopointEdge> Surrounded;            // received before the last ring
   Isosurface All;
   std::vector<std::size_t> OwnIndices;
   std::vector<bool> IsInner;

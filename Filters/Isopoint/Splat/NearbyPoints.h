@@ -62,15 +62,18 @@ public:
     this->dropCoincident();
   }
 
-  /// Lists the nearest ones around a point, in one ring or, if these are too few, in two.
+  /// Lists the nearest ones around a point, in as few rings as have so many.
   void nearest(std::size_t point, double unit, std::size_t count, std::vector<std::size_t>& found)
   {
-    for (int rings = 1; rings <= 2 && (rings == 1 || this->Nearby.size() < count); ++rings)
+    std::size_t former = 0;
+    this->find(point, 1, unit);
+    for (int rings = 2; this->size() < count && this->size() > former; ++rings)
     {
+      former = this->size();
       this->find(point, rings, unit);
     }
     found.clear();
-    for (std::size_t i = 0; i < std::min(count, this->Nearby.size()); ++i)
+    for (std::size_t i = 0; i < std::min(count, this->size()); ++i)
     {
       found.push_back(this->Nearby[i].point);
     }
@@ -78,6 +81,7 @@ public:
 
   auto begin() const { return this->Nearby.begin(); }
   auto end() const { return this->Nearby.end(); }
+  std::size_t size() const { return this->Nearby.size(); }
 
 private:
   void dropCoincident()

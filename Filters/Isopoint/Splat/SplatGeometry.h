@@ -4,13 +4,11 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Splat/NearbyPoints.h"
-#include "Isopoint/Splat/NearestPositions.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatNormals.h"
 #include "Isopoint/Splat/SplatShaper.h"
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -21,18 +19,13 @@ namespace isopoint
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 /// @param extents of the samples, or null: then no border is known; see SplatBorder
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(n) and what the few requests of extents take; O(n log n) if planes are requested.
+/// Complexity: O(n), and what the few requests of extents take.
 template <class TNeighbors, class TExtents>
 std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints& points,
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options)
 {
   std::vector<Splat> splats(points.positions.size());
   const std::vector<std::size_t> unfitted = setFieldNormals(points, options, splats);
-  std::optional<NearestPositions> nearest;
-  if (!options.fieldNormals)
-  {
-    nearest.emplace(points.positions);
-  }
   throwIfAborted(execution);
   const double normalsShare = options.shapes ? 0.4 : 1.0;
   constexpr std::size_t batch = 8192;
@@ -47,14 +40,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       for (std::size_t i = begin; i < end; ++i)
       {
         const std::size_t point = unfitted[i];
-        if (nearest)
-        {
-          nearest->find(point, count, around);
-        }
-        else
-        {
-          nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
-        }
+        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
         splats[point].normal = planeNormal(points, point, around);
       }
     },

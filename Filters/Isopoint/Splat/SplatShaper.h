@@ -41,7 +41,7 @@ public:
   void shape(std::size_t point, Splat& splat)
   {
     const double unit = this->unitAt(point);
-    TangentCell cell(splat.normal, mostReach);
+    TangentCell cell(splat.normal, 4.0 * openReach);
     this->cutOut(point, unit, cell);
     const bool isBent = this->isSmooth(point);
     std::array<PrincipalDirection, 2> curvatures{};
@@ -61,22 +61,14 @@ public:
   }
 
 private:
-  /// Another point, seen from the one whose splat is shaped, in its unit of length.
-  struct Neighbor
-  {
-    Vector offset;
-    double squaredDistance;
-    std::size_t point;
-  };
-
   /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
   /// least and the greatest, which also holds where no fit determines the curvature.
   static constexpr double leastOverlap = 1.1;
   static constexpr double mostOverlap = 1.2;
 
-  /// How far a cell may reach, in spacings: where other points bound it on all sides, and where
-  /// they do not.
-  static constexpr double mostReach = 4.5;
+  /// How far a cell may reach, in spacings, where no point bounds it; twice as far where points do
+  /// but no fit determines a smooth surface, and four times where one does, as between samples in
+  /// lines.
   static constexpr double openReach = 1.1;
 
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
@@ -86,12 +78,6 @@ private:
   /// How far splats reach over their creases, in spacings, so that those of both sides leave no
   /// slit where their planes are not exactly the same.
   static constexpr double creaseOverlap = 0.001;
-
-  /// The order of the fit that held, if any.
-  std::optional<FitOrder> orderAt(std::size_t point) const
-  {
-    return this->Points.fits.empty() ? std::nullopt : this->Points.fits[point].order;
-  }
 
   /// Whether a fit held that describes a smooth surface.
   bool isSmooth(std::size_t point) const
@@ -147,6 +133,11 @@ private:
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
     this->Nearby.find(point, 1, unit, 4.0 * near);
+    const double reach = openReach * (this->isSmooth(point) ? 1.0 : this->crowding());
+    if (!this->isSmooth(point))
+    {
+      cell.limit(2.0 * reach);
+    }
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
     {
@@ -154,48 +145,64 @@ private:
       this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
-    // Where no fit determines a smooth surface, points may bound a cell by chance, far off.
-    if (cell.isOpen() || (!this->isSmooth(point) && !cell.isRound()))
+    if (cell.isOpen())
     {
-      cell.limit(openReach);
+      cell.limit(reach);
     }
+  }
+
+  /// By how much less than samples the points around are spread, as where samples stand in
+  /// clusters: up to 1.
+  double crowding() const
+  {
+    constexpr std::size_t count = 12; // about those of a first ring, and
+    constexpr double share = 0.8;     // of their distance that is a spacing
+    return this->Nearby.size() < count
+             ? 1.0
+             : std::min(1.0, share * std::sqrt(this->Nearby.begin()[count - 1].squaredDistance));
   }
 
   void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
   {
-    const double scale = 1.0 / unit;
     for (const NearbyPoint& other : this->Nearby)
     {
       if (other.squaredDistance >= 4.0 * cell.squaredReach())
       {
         break;
       }
-      const Vector& position = this->Points.positions[other.point];
-      this->cutTowards(point,
-        { scaled(scale, difference(position, this->Points.positions[point])), other.squaredDistance,
-          other.point },
-        unit, cell);
+      this->cutTowards(point, other, unit, cell);
     }
   }
 
-  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
-  void cutTowards(std::size_t point, const Neighbor& other, double unit, TangentCell& cell)
+  /// Cuts a cell towards another point: halfway, but not on this side of a crease. Only points of
+  /// its own sheet bound the cell of a smooth surface for good.
+  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
   {
-    const double a = dot(other.offset, cell.first());
-    const double b = dot(other.offset, cell.second());
+    const Vector offset = scaled(1.0 / unit,
+      difference(this->Points.positions[other.point], this->Points.positions[point]));
+    const double a = dot(offset, cell.first());
+    const double b = dot(offset, cell.second());
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
-    if (!cell.reachesBeyond(a, b, 0.5 * along) || this->isBeyondCrease(point, other, unit) ||
-        this->isUnfittedBeside(point, other) || this->isCutAtCrease(point, other, unit, cell))
+    if (!cell.reachesBeyond(a, b, 0.5 * along) ||
+        this->isBeyondCrease(point, other.point, offset, unit) ||
+        this->isUnfittedBeside(point, other) ||
+        this->isCutAtCrease(point, other.point, offset, unit, cell))
     {
       return;
     }
-    cell.cut(a, b, 0.5 * (this->bendsTowards(point, other) ? along : other.squaredDistance));
+    const bool isOnSheet = this->isOnSheet(point, other.point);
+    const double distance = isOnSheet && this->bendsTowards(point, other.point, offset)
+                              ? along
+                              : other.squaredDistance;
+    cell.cut(a, b, 0.5 * distance);
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
   /// there: nothing is to be cut halfway to it.
-  bool isBeyondCrease(std::size_t point, const Neighbor& other, double unit) const
+  bool isBeyondCrease(
+    std::size_t point, std::size_t other, const Vector& offset, double unit) const
   {
+    const double tolerance = creaseTolerance * lengthOf(offset);
     if (this->Points.fits.empty())
     {
       return false;
@@ -204,28 +211,27 @@ private:
     return std::any_of(creases.begin(), creases.end(),
       [&](const CreasePlane& crease)
       {
-        const bool isOnPiece = this->isOnPiece(other.point, point, crease);
-        const double height = dot(crease.inward, other.offset) + crease.distance / unit;
-        return height <
-               (isOnPiece ? creaseTolerance : -creaseTolerance) * std::sqrt(other.squaredDistance);
+        const double height = dot(crease.inward, offset) + crease.distance / unit;
+        return height < (this->isOnPiece(other, point, crease) ? tolerance : -tolerance);
       });
   }
 
   /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
   /// at one of its creases. @returns whether it does
-  bool isCutAtCrease(std::size_t point, const Neighbor& other, double unit, TangentCell& cell) const
+  bool isCutAtCrease(std::size_t point, std::size_t other, const Vector& offset, double unit,
+    TangentCell& cell) const
   {
-    if (this->orderAt(other.point) != FitOrder::Crease)
+    if (this->Points.fits.empty())
     {
       return false;
     }
-    const double tolerance = creaseTolerance * std::sqrt(other.squaredDistance);
-    for (const CreasePlane& crease : this->Points.fits[other.point].creases)
+    const double tolerance = creaseTolerance * lengthOf(offset);
+    for (const CreasePlane& crease : this->Points.fits[other].creases)
     {
-      const Vector outward = scaled(-crease.turn, this->Splats[other.point].normal);
-      const double height = dot(outward, other.offset);
-      if (this->isOnPiece(point, other.point, crease) && height > -tolerance &&
-          crease.distance / unit - dot(crease.inward, other.offset) < tolerance)
+      const Vector outward = scaled(-crease.turn, this->Splats[other].normal);
+      const double height = dot(outward, offset);
+      if (this->isOnPiece(point, other, crease) && height > -tolerance &&
+          crease.distance / unit - dot(crease.inward, offset) < tolerance)
       {
         cell.cut(outward, std::max(0.0, height));
         return true;
@@ -283,24 +289,25 @@ private:
                                                       : std::nullopt;
   }
 
-  /// Whether the surface bends from a point to another, as a sphere would, so that half the
-  /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
-  /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
-  /// close by are not what it bends to, nor what lies across an edge.
-  bool bendsTowards(std::size_t point, const Neighbor& other) const
+  /// Whether another point lies on one smooth surface with a point, as far as normals show. Other
+  /// sheets close by do not, nor what lies across an edge.
+  bool isOnSheet(std::size_t point, std::size_t other) const
   {
-    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other.point)))
-    {
-      return false;
-    }
-    const Vector& normal = this->Splats[point].normal;
-    const Vector& otherNormal = this->Splats[other.point].normal;
-    return dot(normal, otherNormal) > 0.0 &&
-           dot(other.offset, normal) * dot(other.offset, otherNormal) <= 0.0;
+    const bool areSmooth =
+      this->Points.fits.empty() || (this->isSmooth(point) && this->isSmooth(other));
+    return areSmooth && dot(this->Splats[point].normal, this->Splats[other].normal) > 0.0;
+  }
+
+  /// Whether the surface bends from a point to another of its sheet, as a sphere would, so that half
+  /// the distance in the tangent plane is the farthest that is nearer to the point: the plane
+  /// between the two meets the tangent plane farther off, and a splat up to there sticks out.
+  bool bendsTowards(std::size_t point, std::size_t other, const Vector& offset) const
+  {
+    return dot(offset, this->Splats[point].normal) * dot(offset, this->Splats[other].normal) <= 0.0;
   }
 
   /// Whether a smooth fit held at a point but not at another very close to it.
-  bool isUnfittedBeside(std::size_t point, const Neighbor& other) const
+  bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
   {
     return other.squaredDistance < sampleReach * sampleReach && this->isSmooth(point) &&
            !this->isSmooth(other.point);

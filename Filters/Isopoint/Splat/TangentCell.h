@@ -114,27 +114,6 @@ public:
       this->begin(), this->end(), [](const Corner& corner) { return corner.isLimit; });
   }
 
-  /// Whether the sides turn by no more than 120 degrees at any corner, so that none is much farther
-  /// off than the points across its sides.
-  bool isRound() const
-  {
-    constexpr double leastCosine = -0.5;
-    for (std::size_t i = 0; i < this->Count; ++i)
-    {
-      const Corner& from = this->Corners[i];
-      const Corner& at = this->Corners[(i + 1) % this->Count];
-      const Corner& to = this->Corners[(i + 2) % this->Count];
-      const std::array<double, 2> a{ at.x - from.x, at.y - from.y };
-      const std::array<double, 2> b{ to.x - at.x, to.y - at.y };
-      if (a[0] * b[0] + a[1] * b[1] <
-          leastCosine * std::sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1])))
-      {
-        return false;
-      }
-    }
-    return this->Count > 2;
-  }
-
   /// The corners, counterclockwise around first x second, each once.
   const Corner* begin() const { return this->Corners.data(); }
   const Corner* end() const { return this->Corners.data() + this->Count; }
