@@ -210,7 +210,6 @@ struct Frame
 {
   Vector increasing; // r
   std::vector<FitSample> samples;
-  std::size_t firstCount; // how many are of the first ring
   double h;
 
   /// @param more what the second ring adds to the first
@@ -221,9 +220,8 @@ struct Frame
     this->Value = unitOf(edge.increase);
     this->increasing = this->placeOf(edge.increasing, {});
     this->samples = nearestOf(this->placed(first, edge.position, isovalue), 256, true);
-    this->firstCount = this->samples.size();
     const std::vector<FitSample> added = nearestOf(this->placed(more, edge.position, isovalue),
-      256 - this->samples.size(), this->firstCount < 16);
+      256 - this->samples.size(), this->samples.size() < 16);
     this->samples.insert(this->samples.end(), added.begin(), added.end());
     this->h = 0.0;
     for (const FitSample& sample : this->samples)
@@ -378,10 +376,9 @@ inline Weights robustWeights(const Frame& frame)
     {
       residuals.push_back(std::abs(sample.value - affine->valueAt(sample.position)));
     }
-    std::vector<double> sorted(
-      residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(frame.firstCount));
+    std::vector<double> sorted = residuals;
     std::sort(sorted.begin(), sorted.end());
-    const double c = sorted[2 * sorted.size() / 3];
+    const double c = sorted[sorted.size() / 2];
     if (c == 0.0)
     {
       return weights;

@@ -55,8 +55,7 @@ inline std::array<double, 5> clipOf(const Splat& splat)
                     : std::array<double, 5>{};
 }
 
-/// Lists the points at the 48 nearest positions or, in two rings and more, at 192 for each ring but
-/// the first.
+/// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.
 class NearestAround
 {
 public:
@@ -92,7 +91,7 @@ public:
         near.emplace_back(lengthOf(difference(position, this->Around.Positions[point])), &points);
       }
       const std::size_t count =
-        std::min<std::size_t>(near.size(), rings > 1 ? 193 * (rings - 1) : 49);
+        std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
       std::nth_element(
         near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
       found.clear();

@@ -106,14 +106,6 @@ TEST(IsopointNeighbors, EndInTouchingLeaves)
         {
           finder.find(i, 2, found);
           EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), wider) << i;
-          std::set<std::size_t> widest;
-          for (const std::size_t other : wider)
-          {
-            const std::set<std::size_t> more = extracted.around(other);
-            widest.insert(more.begin(), more.end());
-          }
-          finder.find(i, 3, found);
-          EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), widest) << i;
         }
       }
       std::vector<std::size_t> order = neighbors.inOrder();

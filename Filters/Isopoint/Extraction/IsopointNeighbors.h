@@ -91,7 +91,7 @@ public:
     }
 
     /// Lists the isopoints around one, itself among them, each once or twice.
-    /// @param rings 1, or more with those around the ones found. All samples that determine which
+    /// @param rings 1, or 2 with those around the ones found. All samples that determine which
     /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
     /// than 2 rings - 1 touching leaves.
     /// @throws MissingRing
@@ -101,14 +101,9 @@ public:
       this->Ends.clear();
       this->Visited.clear();
       this->addAround(isopoint, found);
-      std::size_t begin = 0;
-      for (int ring = 1; ring < rings; ++ring)
+      for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
       {
-        const std::size_t end = found.size();
-        for (; begin < end; ++begin)
-        {
-          this->addAround(found[begin], found);
-        }
+        this->addAround(found[i], found);
       }
     }
 

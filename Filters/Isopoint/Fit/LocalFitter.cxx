@@ -97,7 +97,7 @@ LocalFit LocalFitter::fit(
     return fit;
   }
   weighSteeply(this->Frame, this->Steep);
-  this->weighRobustly(nearCount);
+  this->weighRobustly();
   std::optional<PolynomialFit> found = this->fitHolding(this->Weights);
   if (!found)
   {
@@ -148,7 +148,7 @@ std::optional<PolynomialFit> LocalFitter::fitHolding(const FrameWeights& weights
 
 /// Reduces the steep weights of samples far off an affine function, which is fitted with these
 /// weights in turn: near a crease or step those of one side remain.
-void LocalFitter::weighRobustly(std::size_t nearCount)
+void LocalFitter::weighRobustly()
 {
   const FrameSamples& samples = this->Frame.samples();
   this->Weights = this->Steep;
@@ -167,21 +167,19 @@ void LocalFitter::weighRobustly(std::size_t nearCount)
         residuals[i] =
           (samples.value[i] - affine->valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
       });
-    // Two thirds of the samples next to the edge are no farther off than that.
-    std::vector<double>& near = this->NearResiduals;
-    near.resize(std::min(nearCount, samples.count()));
-    for (std::size_t i = 0; i < near.size(); ++i)
+    std::vector<double>& sorted = this->Residuals;
+    sorted.resize(samples.count());
+    for (std::size_t i = 0; i < sorted.size(); ++i)
     {
-      near[i] = FrameSamples::at(residuals, i);
+      sorted[i] = FrameSamples::at(residuals, i);
     }
-    const auto rank = near.begin() + static_cast<std::ptrdiff_t>(2 * near.size() / 3);
-    std::nth_element(near.begin(), rank, near.end());
-    const double usual = *rank;
-    if (!(usual > 0.0))
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    if (!(*middle > 0.0))
     {
       return;
     }
-    const double scale = 1.0 / usual;
+    const double scale = 1.0 / *middle;
     samples.forEachGroup(
       [&](std::size_t i)
       {

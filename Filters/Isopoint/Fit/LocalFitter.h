@@ -47,7 +47,7 @@ public:
 private:
   bool isSmooth(const PolynomialFit& found) const;
   std::optional<PolynomialFit> fitHolding(const FrameWeights& weights) const;
-  void weighRobustly(std::size_t nearCount);
+  void weighRobustly();
   std::optional<Polynomial> mildPolynomial(int degree) const;
   bool fitLinear(LocalFit& fit);
   bool fitCreases(LocalFit& fit);
@@ -59,7 +59,7 @@ private:
   FitFrame Frame;
   FrameWeights Steep;   // of the present samples
   FrameWeights Weights; // others
-  std::vector<double> NearResiduals;
+  std::vector<double> Residuals;
 };
 
 } // namespace isopoint

@@ -62,14 +62,11 @@ public:
     this->dropCoincident();
   }
 
-  /// Lists the nearest ones around a point, in as few rings as have so many.
+  /// Lists the nearest ones around a point, in one ring or, if these are too few, in two.
   void nearest(std::size_t point, double unit, std::size_t count, std::vector<std::size_t>& found)
   {
-    std::size_t former = 0;
-    this->find(point, 1, unit);
-    for (int rings = 2; this->size() < count && this->size() > former; ++rings)
+    for (int rings = 1; rings <= 2 && (rings == 1 || this->size() < count); ++rings)
     {
-      former = this->size();
       this->find(point, rings, unit);
     }
     found.clear();

@@ -178,8 +178,8 @@ private:
   /// its own sheet bound the cell of a smooth surface for good.
   void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
   {
-    const Vector offset = scaled(1.0 / unit,
-      difference(this->Points.positions[other.point], this->Points.positions[point]));
+    const Vector offset = scaled(
+      1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
     const double a = dot(offset, cell.first());
     const double b = dot(offset, cell.second());
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
@@ -191,16 +191,14 @@ private:
       return;
     }
     const bool isOnSheet = this->isOnSheet(point, other.point);
-    const double distance = isOnSheet && this->bendsTowards(point, other.point, offset)
-                              ? along
-                              : other.squaredDistance;
+    const double distance =
+      isOnSheet && this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
     cell.cut(a, b, 0.5 * distance);
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
   /// there: nothing is to be cut halfway to it.
-  bool isBeyondCrease(
-    std::size_t point, std::size_t other, const Vector& offset, double unit) const
+  bool isBeyondCrease(std::size_t point, std::size_t other, const Vector& offset, double unit) const
   {
     const double tolerance = creaseTolerance * lengthOf(offset);
     if (this->Points.fits.empty())
@@ -298,8 +296,8 @@ private:
     return areSmooth && dot(this->Splats[point].normal, this->Splats[other].normal) > 0.0;
   }
 
-  /// Whether the surface bends from a point to another of its sheet, as a sphere would, so that half
-  /// the distance in the tangent plane is the farthest that is nearer to the point: the plane
+  /// Whether the surface bends from a point to another of its sheet, as a sphere would, so that
+  /// half the distance in the tangent plane is the farthest that is nearer to the point: the plane
   /// between the two meets the tangent plane farther off, and a splat up to there sticks out.
   bool bendsTowards(std::size_t point, std::size_t other, const Vector& offset) const
   {
