@@ -80,7 +80,8 @@ inline void preferHugePagesInside(
   const std::uintptr_t last = (base + begin + count) / hugePage * hugePage;
   if (first < last && last <= base + bytes)
   {
-    static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+    static_cast<void>(
+      madvise(static_cast<char*>(memory) + (first - base), last - first, MADV_HUGEPAGE));
   }
 #else
   static_cast<void>(memory);
