@@ -141,12 +141,12 @@ void vtkIsopointBlocks::Collect(
   this->KeptCenters.erase(this->KeptCenters.lower_bound(this->LeafCount), this->KeptCenters.end());
   if (remedy.empty())
   {
-    throw vtkIsopointUsageError(
+    throw vtkIsopointNothingError(
       "The input has no points or cells. Connect a data set with a scalar array.");
   }
   if (this->Blocks.empty())
   {
-    throw vtkIsopointUsageError(choice.DescribeMissing() + remedy);
+    throw vtkIsopointNothingError(choice.DescribeMissing() + remedy);
   }
 }
 

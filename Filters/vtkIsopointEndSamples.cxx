@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointEndSamples.h"
 
+#include "Isopoint/Base/Team.h"
 #include "vtkIsopointAllocation.h"
+#include "vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace
 {
@@ -140,7 +143,181 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   }
 }
 
+/// The headers of the arrays that all blocks have, without the contoured ones and those that are
+/// never interpolated; behind them that of the contoured array: float if it is in all blocks.
+std::vector<vtkIsopointArrayHeader> headersOf(const std::vector<vtkIsopointBlock>& blocks)
+{
+  std::vector<std::vector<vtkIsopointArrayHeader>> lists;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    std::vector<vtkIsopointArrayHeader> list =
+      vtkListIsopointArrays(block.Attributes, block.GetNumberOfSamples());
+    const char* const contoured = block.Scalars->GetName();
+    list.erase(std::remove_if(list.begin(), list.end(),
+                 [contoured](const vtkIsopointArrayHeader& header)
+                 {
+                   return header.Attribute == vtkDataSetAttributes::GLOBALIDS ||
+                          header.Name == vtkDataSetAttributes::GhostArrayName() ||
+                          (contoured && header.Name == contoured);
+                 }),
+      list.end());
+    lists.push_back(std::move(list));
+  }
+  std::vector<vtkIsopointArrayHeader> common = vtkIntersectIsopointArrays(lists);
+  if (!blocks.empty())
+  {
+    vtkIsopointArrayHeader contoured;
+    const char* const name = blocks.front().Scalars->GetName();
+    contoured.Name = name ? name : "";
+    contoured.Type = allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE;
+    common.push_back(contoured);
+  }
+  return common;
+}
+
+/// Those that the blocks of all ranks have in common. Collective.
+std::vector<vtkIsopointArrayHeader> headersOf(
+  isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks)
+{
+  std::vector<std::vector<char>> outgoing;
+  team.together(
+    [&]()
+    {
+      outgoing.assign(
+        static_cast<std::size_t>(team.size()), vtkWriteIsopointArrayHeaders(headersOf(blocks)));
+    });
+  const std::vector<std::vector<char>> arrived = team.exchange(outgoing);
+  std::vector<vtkIsopointArrayHeader> common;
+  team.together(
+    [&]()
+    {
+      std::vector<std::vector<vtkIsopointArrayHeader>> lists;
+      vtkIsopointArrayHeader contoured;
+      for (const std::vector<char>& bytes : arrived)
+      {
+        std::vector<vtkIsopointArrayHeader> list = vtkReadIsopointArrayHeaders(bytes);
+        if (!list.empty())
+        {
+          const bool isFloat =
+            list.back().Type == VTK_FLOAT && (lists.empty() || contoured.Type == VTK_FLOAT);
+          contoured.Name = lists.empty() ? list.back().Name : contoured.Name;
+          contoured.Type = isFloat ? VTK_FLOAT : VTK_DOUBLE;
+          list.pop_back();
+          lists.push_back(std::move(list));
+        }
+      }
+      common = vtkIntersectIsopointArrays(lists);
+      common.push_back(contoured);
+    });
+  return common;
+}
+
+/// The values of some samples of blocks, array by array.
+std::vector<char> writeSamples(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<std::uint64_t>& ids, const std::vector<vtkIsopointArrayHeader>& headers)
+{
+  std::vector<char> bytes;
+  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
+  for (const vtkIsopointArrayHeader& header : headers)
+  {
+    for (const IdRange& range : ranges)
+    {
+      vtkAbstractArray* const array =
+        blocks[range.block].Attributes->GetAbstractArray(header.Name.c_str());
+      for (std::size_t i = range.begin; i < range.end; ++i)
+      {
+        vtkWriteIsopointTuple(array, static_cast<vtkIdType>(ids[i] - range.firstId), bytes);
+      }
+    }
+  }
+  return bytes;
+}
+
 } // namespace
+
+vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  std::vector<std::uint64_t> ids;
+  team.together([&]() { ids = idsOf(surfaces); });
+  this->CopyFromRanks(team, blocks, ids);
+  renumber(surfaces, ids);
+}
+
+void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  std::uint64_t ownCount = 0;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    ownCount += static_cast<std::uint64_t>(block.GetNumberOfSamples());
+  }
+  const std::vector<std::uint64_t> counts = team.gather(ownCount);
+  std::vector<std::vector<std::uint64_t>> questions;
+  team.together(
+    [&]()
+    {
+      questions.resize(counts.size());
+      std::uint64_t first = 0;
+      auto next = ids.begin();
+      for (std::size_t rank = 0; rank < counts.size(); ++rank)
+      {
+        for (; next != ids.end() && *next < first + counts[rank]; ++next)
+        {
+          questions[rank].push_back(*next - first);
+        }
+        first += counts[rank];
+      }
+    });
+  const std::vector<std::vector<std::uint64_t>> asked = team.exchange(questions);
+  std::vector<vtkIsopointArrayHeader> headers = headersOf(team, blocks);
+  const vtkIsopointArrayHeader contoured = headers.back();
+  headers.pop_back();
+  std::vector<std::vector<char>> answers;
+  team.together(
+    [&]()
+    {
+      for (const std::vector<std::uint64_t>& wanted : asked)
+      {
+        answers.push_back(writeSamples(blocks, wanted, headers));
+      }
+    });
+  const std::vector<std::vector<char>> arrived = team.exchange(answers);
+  team.together(
+    [&]()
+    {
+      this->Copied = vtkSmartPointer<vtkPointData>::New();
+      const auto count = static_cast<vtkIdType>(ids.size());
+      std::vector<const char*> next;
+      for (const std::vector<char>& bytes : arrived)
+      {
+        next.push_back(bytes.data());
+      }
+      for (const vtkIsopointArrayHeader& header : headers)
+      {
+        const vtkSmartPointer<vtkAbstractArray> array = vtkNewIsopointArray(header, count);
+        vtkIdType tuple = 0;
+        for (std::size_t rank = 0; rank < next.size(); ++rank)
+        {
+          for (std::size_t i = 0; i < questions[rank].size(); ++i)
+          {
+            next[rank] = vtkReadIsopointTuple(next[rank], array, tuple++);
+          }
+        }
+        const int index = this->Copied->AddArray(array);
+        if (header.Attribute >= 0)
+        {
+          this->Copied->SetActiveAttribute(index, header.Attribute);
+        }
+      }
+      // Of the contoured array nothing but name and type is asked for.
+      const vtkSmartPointer<vtkAbstractArray> scalars = vtkNewIsopointArray(contoured, count);
+      scalars->SetName(contoured.Name.empty() ? nullptr : contoured.Name.c_str());
+      this->Scalars = vtkDataArray::SafeDownCast(scalars);
+      this->Copied->AddArray(scalars);
+      this->Attributes = this->Copied;
+    });
+}
 
 vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
 

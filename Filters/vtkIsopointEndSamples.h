@@ -7,8 +7,13 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <vector>
 
+namespace isopoint
+{
+class Team;
+}
 class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkPointData;
@@ -29,6 +34,16 @@ public:
    */
   vtkIsopointEndSamples(const std::vector<vtkIsopointBlock>& blocks,
     std::vector<isopoint::ExtractedIsosurface>& surfaces);
+
+  /**
+   * The same where the blocks of several ranks form one cloud: what is at the ends of this rank's
+   * isopoints is fetched from the ranks that have it. Arrays that not all ranks with blocks have,
+   * and those of other values than numbers and strings, are dropped. Collective.
+   * @param blocks of this rank, perhaps none; some rank has one
+   * @throws what isopoint::Team does
+   */
+  vtkIsopointEndSamples(isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks,
+    std::vector<isopoint::ExtractedIsosurface>& surfaces);
   ~vtkIsopointEndSamples();
 
   vtkDataSetAttributes* GetAttributes() const { return this->Attributes; }
@@ -37,9 +52,12 @@ public:
   vtkDataArray* GetScalars() const { return this->Scalars; }
 
 private:
+  void CopyFromRanks(isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks,
+    const std::vector<std::uint64_t>& ids);
+
   vtkSmartPointer<vtkPointData> Copied; // null for a single block
-  vtkDataSetAttributes* Attributes;
-  vtkDataArray* Scalars;
+  vtkDataSetAttributes* Attributes = nullptr;
+  vtkDataArray* Scalars = nullptr;
 };
 
 #endif

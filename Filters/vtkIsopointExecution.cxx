@@ -109,12 +109,13 @@ void vtkForIsopointRanges(
   work();
 }
 
-isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores)
+isopoint::Execution vtkMakeIsopointExecution(
+  vtkAlgorithm* filter, bool useAllCores, std::size_t ranksOnHost)
 {
   isopoint::Execution execution;
   if (useAllCores && isSequentialByDefault())
   {
-    const std::size_t threads = allowedThreads();
+    const std::size_t threads = std::max<std::size_t>(1, allowedThreads() / ranksOnHost);
     execution.threads = threads;
     execution.parallelFor = [threads](
                               std::size_t count, std::size_t grain, const isopoint::RangeTask& task)

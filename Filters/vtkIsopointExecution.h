@@ -14,8 +14,11 @@ class vtkAlgorithm;
  * sequential merely by default, it runs on threads of its own instead (see
  * vtkScatteredIsopointFilter::SetUseAllCores()). The backend of vtkSMPTools is not changed, since
  * that is global and unsafe while other filters run.
+ * @param ranksOnHost the number of processes that do the same on this host, among which its cores
+ * are shared
  */
-isopoint::Execution vtkMakeIsopointExecution(vtkAlgorithm* filter, bool useAllCores);
+isopoint::Execution vtkMakeIsopointExecution(
+  vtkAlgorithm* filter, bool useAllCores, std::size_t ranksOnHost = 1);
 
 /**
  * An isopoint::ParallelFor on at most this many threads (1 or more), the calling one included; the

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointInput.h"
 
+#include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlock.h"
 
@@ -286,6 +288,19 @@ private:
   std::size_t Count = 0;
 };
 
+bool haveFloatValues(const std::vector<vtkIsopointBlock>& blocks)
+{
+  return std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return isExactInFloat(block.Scalars); });
+}
+
+/// Null unless positions are stored as x y z, x y z, ... of float.
+const float* packedPositions(const vtkIsopointBlock& block)
+{
+  vtkDataArray* const points = coordinatesOf(block.Positions);
+  return points ? packedArray<float>(points) : nullptr;
+}
+
 } // namespace
 
 void vtkLoadIsopointInput(const isopoint::Execution& execution,
@@ -298,13 +313,52 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
   }
   const BlockReader read(blocks);
   const bool floatPositions = vtkHaveFloatPositions(blocks);
-  const bool floatValues = std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block) { return isExactInFloat(block.Scalars); });
+  const bool floatValues = haveFloatValues(blocks);
   const auto load = [&](auto coordinate, auto value) {
     loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
   };
   floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                  : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+}
+
+void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
+  isopoint::Communicator& communicator, isopoint::IsosurfaceExtractor& extractor)
+{
+  const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
+  const bool floatValues = !team.isAny(!haveFloatValues(blocks));
+  const auto loadWith = [&](std::size_t count, const auto& read)
+  {
+    const auto load = [&](auto coordinate, auto value)
+    {
+      extractor.loadOnRanks<decltype(coordinate), decltype(value)>(
+        execution, communicator, count, read);
+    };
+    floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
+                   : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+  };
+  const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
+  const float* const positions = single ? packedPositions(*single) : nullptr;
+  const float* const values = single ? packedArray<float>(single->Scalars) : nullptr;
+  if (!positions || !values)
+  {
+    const BlockReader read(blocks);
+    loadWith(read.count(), read);
+    return;
+  }
+  // The commonest types are known to the compiler.
+  const unsigned char* const ghosts = ghostsOf(*single);
+  loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
+    [=](std::size_t point, auto* position, auto& value)
+    {
+      if (ghosts && (ghosts[point] & excluding) != 0)
+      {
+        return false;
+      }
+      PackedPositions<float>{ positions }(point, position);
+      value = static_cast<std::decay_t<decltype(value)>>(values[point]);
+      return true;
+    });
 }
 
 bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)

@@ -6,8 +6,10 @@
 
 namespace isopoint
 {
-struct Execution;
+class Communicator;
 class IsosurfaceExtractor;
+class Team;
+struct Execution;
 } // namespace isopoint
 struct vtkIsopointBlock;
 
@@ -18,6 +20,16 @@ struct vtkIsopointBlock;
  */
 void vtkLoadIsopointInput(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
+
+/**
+ * Loads the samples of the blocks of all ranks as one cloud, the blocks of one rank after those of
+ * the other. Collective. Throws what IsosurfaceExtractor::loadOnRanks() throws.
+ * @param blocks of this rank, perhaps none
+ * @param team of the same ranks as the communicator
+ */
+void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
+  isopoint::Communicator& communicator, isopoint::IsosurfaceExtractor& extractor);
 
 /**
  * Whether the positions of all blocks are stored as float.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointOptions.h"
 
+#include "Isopoint/Base/Team.h"
 #include "vtkIsopointUsageError.h"
 #include "vtkScatteredIsopointFilter.h"
 
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <sstream>
 
@@ -80,6 +83,46 @@ void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter)
     throw vtkIsopointUsageError(
       "The minimum spacing is not a number. Set one within 0 and 1 with SetMinimumSpacing().");
   }
+}
+
+void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFilter* filter)
+{
+  std::uint64_t hash = 14695981039346656037u; // FNV-1a
+  const auto add = [&hash](double number)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    hash = (hash ^ bits) * 1099511628211u;
+    hash ^= hash >> 32;
+  };
+  for (int i = 0; i < filter->GetNumberOfContours(); ++i)
+  {
+    add(filter->GetValue(i));
+  }
+  for (const double number :
+    { filter->GetAngle(), filter->GetGapFactor(), filter->GetMinimumSpacing() })
+  {
+    add(number);
+  }
+  for (const int number :
+    { filter->GetProjection(), filter->GetNormalMethod(), filter->GetNumberOfNeighbors(),
+      filter->GetComputeNormals(), filter->GetComputeRadii(), filter->GetComputeScalars(),
+      filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(), filter->GetComputeGradients(),
+      filter->GetComputeProjectionOrders(), filter->GetOutputPointsPrecision() })
+  {
+    add(number);
+  }
+  const bool differ = team.maximum(hash) != ~team.maximum(~hash);
+  team.together(
+    [&]()
+    {
+      if (differ && team.rank() == 0)
+      {
+        throw vtkIsopointUsageError(
+          "The filters of the ranks have different options. Set the same on all of them, or"
+          " contour each rank's samples by themselves with SetController(nullptr).");
+      }
+    });
 }
 
 vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter)

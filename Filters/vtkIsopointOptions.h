@@ -5,6 +5,10 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointComputedArrays.h"
 
+namespace isopoint
+{
+class Team;
+}
 class vtkScatteredIsopointFilter;
 
 /**
@@ -12,6 +16,12 @@ class vtkScatteredIsopointFilter;
  * @throws vtkIsopointUsageError
  */
 void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter);
+
+/**
+ * Checks that the filters of all ranks have the same options. Collective.
+ * @throws vtkIsopointUsageError on one rank and isopoint::FailedElsewhere on the others
+ */
+void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFilter* filter);
 
 /**
  * The arrays that a filter is to compute.

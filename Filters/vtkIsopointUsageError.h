@@ -13,4 +13,12 @@ struct vtkIsopointUsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/**
+ * There is nothing to contour, which on one of several ranks is no error unless it is so on all.
+ */
+struct vtkIsopointNothingError : vtkIsopointUsageError
+{
+  using vtkIsopointUsageError::vtkIsopointUsageError;
+};
+
 #endif

@@ -2,6 +2,7 @@
 #include "vtkScatteredIsopointFilter.h"
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlock.h"
 #include "vtkIsopointBlocks.h"
@@ -13,6 +14,7 @@
 #include "vtkIsopointInterpolatedArrays.h"
 #include "vtkIsopointOptions.h"
 #include "vtkIsopointOutput.h"
+#include "vtkIsopointRanks.h"
 #include "vtkIsopointUsageError.h"
 
 #include "vtkCellArray.h"
@@ -23,6 +25,7 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -34,6 +37,7 @@
 #include <cstring>
 #include <exception>
 #include <map>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <set>
@@ -56,6 +60,8 @@ public:
 class vtkScatteredIsopointFilter::Internals
 {
 public:
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
   vtkIsopointBlocks Input;
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 
@@ -75,9 +81,24 @@ vtkScatteredIsopointFilter::vtkScatteredIsopointFilter()
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->Kept->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkScatteredIsopointFilter::~vtkScatteredIsopointFilter() = default;
+
+void vtkScatteredIsopointFilter::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Kept->Controller != controller)
+  {
+    this->Kept->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkScatteredIsopointFilter::GetController() const
+{
+  return this->Kept->Controller;
+}
 
 void vtkScatteredIsopointFilter::SetValue(int i, double value)
 {
@@ -178,37 +199,23 @@ int vtkScatteredIsopointFilter::RequestData(
 void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObject* output)
 {
   std::string problem;
+  this->ConnectRanks();
   try
   {
-    vtkCheckIsopointOptions(this);
-    vtkIsopointBlocks& blocks = this->Kept->Input;
-    blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
-      vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
-    this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
-    const std::size_t count = blocks.GetBlocks().size();
-    if (auto* const surface = vtkPolyData::SafeDownCast(output))
+    if (this->Kept->Link)
     {
-      this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
-      this->ExtractBlocks(0, count, this->Kept->Trees[0], surface);
-      return;
+      this->ExtractOnRanks(input, output);
     }
-    this->Kept->Trees.erase(
-      this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
-    std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-    for (std::size_t i = 0; i < count; ++i)
+    else
     {
-      const double share = 1.0 / static_cast<double>(count);
-      this->SetProgressShiftScale(share * static_cast<double>(i), share);
-      const std::size_t leaf = blocks.GetBlocks()[i].Leaf;
-      surfaces.resize(leaf);
-      surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
-      this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
+      this->ExtractInput(input, output);
     }
-    surfaces.resize(blocks.GetNumberOfLeaves());
-    vtkSetIsopointLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
     return;
   }
   catch (const isopoint::Aborted&)
+  {
+  }
+  catch (const isopoint::FailedElsewhere&)
   {
   }
   catch (const vtkIsopointUsageError& error)
@@ -233,10 +240,175 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
               "). Report this as a bug, with the input.";
   }
   output->Initialize();
-  if (!problem.empty())
+  this->ReportProblem(problem);
+}
+
+void vtkScatteredIsopointFilter::ReportProblem(const std::string& problem)
+{
+  std::string message = problem;
+  if (this->Kept->Link)
   {
-    vtkErrorMacro(<< problem);
+    try
+    {
+      isopoint::Team team(*this->Kept->Link);
+      message = vtkGatherIsopointProblem(team, problem);
+    }
+    catch (const std::exception&)
+    {
+      // For lack of memory each rank reports its own.
+    }
   }
+  if (!message.empty())
+  {
+    vtkErrorMacro(<< message);
+  }
+}
+
+void vtkScatteredIsopointFilter::ConnectRanks()
+{
+  vtkMultiProcessController* const controller = this->Kept->Controller;
+  const bool isShared = controller && controller->GetNumberOfProcesses() > 1;
+  const bool wasShared = this->Kept->Link != nullptr;
+  if (isShared != wasShared || (isShared && this->Kept->Link->GetController() != controller))
+  {
+    this->Kept->Clear(); // what is kept belongs to other ranks
+    this->Kept->Link = isShared ? std::make_unique<vtkIsopointCommunicator>(controller) : nullptr;
+  }
+}
+
+void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObject* output)
+{
+  vtkCheckIsopointOptions(this);
+  vtkIsopointBlocks& blocks = this->Kept->Input;
+  blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
+    vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
+  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+  const std::size_t count = blocks.GetBlocks().size();
+  if (auto* const surface = vtkPolyData::SafeDownCast(output))
+  {
+    this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
+    this->ExtractBlocks(0, count, this->Kept->Trees[0], surface);
+    return;
+  }
+  this->Kept->Trees.erase(
+    this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double share = 1.0 / static_cast<double>(count);
+    this->SetProgressShiftScale(share * static_cast<double>(i), share);
+    const std::size_t leaf = blocks.GetBlocks()[i].Leaf;
+    surfaces.resize(leaf);
+    surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
+    this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
+  }
+  surfaces.resize(blocks.GetNumberOfLeaves());
+  vtkSetIsopointLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+}
+
+void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObject* output)
+{
+  isopoint::Team team(*this->Kept->Link);
+  const Execution execution =
+    vtkMakeIsopointExecution(this, this->UseAllCores != 0, vtkCountIsopointRanksOnHost(team));
+  team.together(
+    [&]()
+    {
+      vtkCheckIsopointOptions(this);
+      if (!vtkPolyData::SafeDownCast(output))
+      {
+        throw vtkIsopointUsageError("Blocks cannot be contoured by themselves on several ranks."
+                                    " Switch ContourBlocks off, or run on one rank.");
+      }
+    });
+  vtkCheckIsopointOptionsOnRanks(team, this);
+  this->CollectOnRanks(team, execution, input);
+  const vtkIsopointBlocks& collected = this->Kept->Input;
+  const std::vector<vtkIsopointBlock>& blocks = collected.GetBlocks();
+  vtkIsopointInputState state;
+  bool isNew = true;
+  KeptTree* kept = nullptr;
+  team.together(
+    [&]()
+    {
+      kept = &this->Kept->Trees[0];
+      state = collected.GetState(0, blocks.size());
+      state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
+      isNew = state != kept->LoadedFrom;
+    });
+  isNew = team.isAny(isNew);
+  std::vector<double> progress;
+  team.together(
+    [&]()
+    {
+      std::size_t count = kept->Extractor.sampleCount();
+      for (const vtkIsopointBlock& block : blocks)
+      {
+        count = std::max(count, static_cast<std::size_t>(block.GetNumberOfSamples()));
+      }
+      progress = this->ExpectProgress(count, !isNew);
+      kept->LoadedFrom.clear();
+    });
+  if (isNew)
+  {
+    vtkLoadIsopointInputOnRanks(isopoint::partOf(execution, 0.0, progress.front()), blocks, team,
+      *this->Kept->Link, kept->Extractor);
+  }
+  std::uint64_t skipped = kept->Extractor.skippedCount() +
+                          static_cast<std::uint64_t>(collected.GetNumberOfPointsWithoutArray());
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    skipped -= static_cast<std::uint64_t>(block.NumberOfUnusedIds);
+  }
+  this->NumberOfSkippedSamples = static_cast<vtkIdType>(team.sum(skipped));
+  std::vector<isopoint::ExtractedIsosurface> surfaces =
+    this->ExtractIsovalues(execution, *kept, progress);
+  const vtkIsopointEndSamples samples(team, blocks, surfaces);
+  const bool haveFloatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
+  team.together(
+    [&]()
+    {
+      this->FillOutput(
+        execution, samples, surfaces, haveFloatPositions, vtkPolyData::SafeDownCast(output));
+      kept->LoadedFrom = state;
+    });
+  this->NumberOfUnprojectedPoints =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
+  this->UpdateProgress(1.0);
+}
+
+void vtkScatteredIsopointFilter::CollectOnRanks(
+  isopoint::Team& team, const Execution& execution, vtkDataObject* input)
+{
+  std::string nothing; // why this rank has no blocks
+  team.together(
+    [&]()
+    {
+      try
+      {
+        this->Kept->Input.Collect(
+          execution, input, vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
+      }
+      catch (const vtkIsopointNothingError& error)
+      {
+        nothing = error.what();
+      }
+    });
+  if (team.isAny(nothing.empty()))
+  {
+    return;
+  }
+  // A rank that has points without the array knows what there is to choose from.
+  const bool hasPoints = this->Kept->Input.GetNumberOfPointsWithoutArray() > 0;
+  const bool isAnyWithPoints = team.isAny(hasPoints);
+  team.together(
+    [&]()
+    {
+      if (hasPoints == isAnyWithPoints)
+      {
+        throw vtkIsopointUsageError(nothing);
+      }
+    });
 }
 
 void vtkScatteredIsopointFilter::ExtractBlocks(
@@ -264,7 +436,10 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   {
     this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
   }
-  this->FillOutput(execution, blocks, this->ExtractIsovalues(execution, kept, progress), output);
+  std::vector<isopoint::ExtractedIsosurface> surfaces =
+    this->ExtractIsovalues(execution, kept, progress);
+  const vtkIsopointEndSamples samples(blocks, surfaces);
+  this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
   this->UpdateProgress(1.0);
 }
 
@@ -292,32 +467,36 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
   const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
 {
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
+  const std::set<double> isovalues = this->GetIsovalues();
   std::vector<isopoint::ExtractedIsosurface> surfaces;
-  for (const double isovalue : this->GetIsovalues())
+  surfaces.reserve(isovalues.size());
+  for (const double isovalue : isovalues)
   {
     const std::size_t i = surfaces.size();
     request.isosurface.isovalue = isovalue;
     surfaces.push_back(
       kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request));
-    isopoint::throwIfAborted(execution);
+    if (!this->Kept->Link)
+    {
+      isopoint::throwIfAborted(execution);
+    }
   }
   return surfaces;
 }
 
 void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface> surfaces,
-  vtkPolyData* output)
+  const vtkIsopointEndSamples& samples, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
+  bool haveFloatPositions, vtkPolyData* output)
 {
-  const bool isSingle = this->OutputPointsPrecision == vtkAlgorithm::SINGLE_PRECISION ||
-                        (this->OutputPointsPrecision == vtkAlgorithm::DEFAULT_PRECISION &&
-                          vtkHaveFloatPositions(blocks));
+  const bool isSingle =
+    this->OutputPointsPrecision == vtkAlgorithm::SINGLE_PRECISION ||
+    (this->OutputPointsPrecision == vtkAlgorithm::DEFAULT_PRECISION && haveFloatPositions);
   const vtkSmartPointer<vtkPoints> points =
     vtkNewIsopointPositions(surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
   output->SetPoints(points);
   output->SetVerts(vtkNewIsopointVertices(count));
 
-  const vtkIsopointEndSamples samples(blocks, surfaces);
   vtkPointData* const pointData = output->GetPointData();
   vtkInterpolateIsopointArrays(
     execution, samples.GetAttributes(), samples.GetScalars(), surfaces, pointData);
@@ -336,6 +515,10 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
     this->Projection == NO_PROJECTION ? count : computed.GetNumberWithoutFit();
   for (const std::string& name : computed.AddTo(pointData))
   {
+    if (this->Kept->Link && this->Kept->Link->rank() > 0)
+    {
+      continue; // all ranks have the same arrays
+    }
     vtkWarningMacro(<< "The computed array \"" << name
                     << "\" replaces the input array of this name."
                     << " To keep that, rename it or switch the computed array off.");

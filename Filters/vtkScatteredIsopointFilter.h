@@ -101,15 +101,19 @@
 #include <cstddef> // for std::size_t
 #include <memory>  // for std::unique_ptr
 #include <set>     // for isovalues
+#include <string>  // for messages
 #include <vector>  // for lists of blocks and surfaces
 
 namespace isopoint
 {
 struct Execution;
 struct ExtractedIsosurface;
+class Team;
 } // namespace isopoint
 class vtkContourValues;
 class vtkDataObject;
+class vtkIsopointEndSamples;
+class vtkMultiProcessController;
 struct vtkIsopointBlock;
 
 class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsopointFilter : public vtkPolyDataAlgorithm
@@ -389,6 +393,19 @@ public:
 
   ///@{
   /**
+   * The processes (ranks) whose inputs form one cloud, those of one rank after those of the other.
+   * The outputs of all ranks are then, as a set of points with all their arrays, what one process
+   * yields for that cloud, bit for bit, however the cloud is dealt out; each point is in the output
+   * of one rank. All ranks have to update the filter, with the same options. A rank may have no
+   * samples. Null, or a controller of one process: the filter runs by itself. Default: the global
+   * controller when the filter is created (that of MPI in ParaView's servers and in pvbatch).
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const;
+  ///@}
+
+  ///@{
+  /**
    * Whether to run on all cores if vtkSMPTools was merely built with "Sequential" as its default
    * backend, as in Debian's ParaView. This is assumed if "Sequential" is the active backend and the
    * environment variable VTK_SMP_BACKEND_IN_USE is not set. The number of threads then stays within
@@ -458,14 +475,22 @@ private:
   class KeptTree;
 
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
+  void ExtractInput(vtkDataObject* input, vtkDataObject* output);
+  /// The same on one of several ranks, which all call it. @throws on all of them, if on any
+  void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
+  void CollectOnRanks(
+    isopoint::Team& team, const isopoint::Execution& execution, vtkDataObject* input);
+  void ReportProblem(const std::string& problem);
+  void ConnectRanks();
   std::set<double> GetIsovalues();
   /// The progress after loading so many samples, and after each isovalue.
   std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
     const isopoint::Execution& execution, KeptTree& kept, const std::vector<double>& progress);
-  void FillOutput(const isopoint::Execution& execution, const std::vector<vtkIsopointBlock>& blocks,
-    std::vector<isopoint::ExtractedIsosurface> surfaces, vtkPolyData* output);
+  void FillOutput(const isopoint::Execution& execution, const vtkIsopointEndSamples& samples,
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
+    vtkPolyData* output);
 
   std::unique_ptr<Internals> Kept;
 };

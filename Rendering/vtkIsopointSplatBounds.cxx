@@ -3,6 +3,8 @@
 
 #include "vtkIsopointSplatBlocks.h"
 
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPThreadLocal.h"
@@ -10,8 +12,13 @@
 
 #include <cmath>
 
-//------------------------------------------------------------------------------
-vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
+namespace
+{
+
+/// Bounds of boxes around the finite points.
+/// @param reachOf(point) half the side of its box
+template <class ReachOf>
+vtkBoundingBox boundsOf(vtkPoints* points, const ReachOf& reachOf)
 {
   vtkSMPThreadLocal<vtkBoundingBox> boxes;
   vtkSMPTools::For(0, points->GetNumberOfPoints(),
@@ -22,10 +29,16 @@ vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
       {
         double position[3];
         points->GetPoint(i, position);
-        if (std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]))
+        if (!std::isfinite(position[0]) || !std::isfinite(position[1]) ||
+            !std::isfinite(position[2]))
         {
-          box.AddPoint(position);
+          continue;
         }
+        const double reach = reachOf(i);
+        double lower[3] = { position[0] - reach, position[1] - reach, position[2] - reach };
+        double upper[3] = { position[0] + reach, position[1] + reach, position[2] + reach };
+        box.AddPoint(lower);
+        box.AddPoint(upper);
       }
     });
   vtkBoundingBox result;
@@ -36,18 +49,44 @@ vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
   return result;
 }
 
+double usable(double reach)
+{
+  return reach > 0.0 && std::isfinite(reach) ? reach : 0.0;
+}
+
+/// The radii of points, or null.
+vtkDataArray* radiiOf(vtkPolyData* data, const std::string& name)
+{
+  vtkDataArray* const radii = name.empty() ? nullptr : data->GetPointData()->GetArray(name.c_str());
+  return radii && radii->GetNumberOfTuples() >= data->GetNumberOfPoints() ? radii : nullptr;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
+{
+  return boundsOf(points, [](vtkIdType) { return 0.0; });
+}
+
 //------------------------------------------------------------------------------
 vtkBoundingBox vtkIsopointSplatBounds::Of(
-  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes)
+  vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes, const Reach& reach)
 {
   vtkBoundingBox box;
   decltype(this->Kept) kept;
   for (const vtkIsopointSplatLeaf& leaf : vtkIsopointSplatLeaves(input, attributes))
   {
     vtkPoints* const points = leaf.Data->GetPoints();
-    const auto key = std::make_pair(points, points->GetMTime());
+    vtkDataArray* const radii = radiiOf(leaf.Data, reach.ArrayName);
+    const Key key(
+      points, points->GetMTime(), radii, radii ? radii->GetMTime() : 0, reach.Radius, reach.Scale);
     const auto former = this->Kept.find(key);
-    const vtkBoundingBox own = former == this->Kept.end() ? OfFinite(points) : former->second;
+    const vtkBoundingBox own =
+      former != this->Kept.end()
+        ? former->second
+        : boundsOf(points, [&](vtkIdType i)
+            { return usable(reach.Scale * (radii ? radii->GetComponent(i, 0) : reach.Radius)); });
     kept.emplace(key, own);
     if (leaf.Visible)
     {

@@ -6,15 +6,17 @@
 #include "vtkType.h"
 
 #include <map>
-#include <utility>
+#include <string>
+#include <tuple>
 
 class vtkCompositeDataDisplayAttributes;
+class vtkDataArray;
 class vtkDataObject;
 class vtkPoints;
 
 /**
- * Bounds of the points with finite coordinates, the only ones that are drawn: one point that is not
- * finite would make the bounds, and a camera reset to them, infinite.
+ * Bounds of splats whose points have finite coordinates, the only ones that are drawn: one point
+ * that is not finite would make the bounds, and a camera reset to them, infinite.
  */
 class vtkIsopointSplatBounds
 {
@@ -22,12 +24,24 @@ public:
   /// Bounds of points; not valid if none is finite. O(points).
   static vtkBoundingBox OfFinite(vtkPoints* points);
 
-  /// Bounds of all visible polydata in a data object. O(points) for those that changed since the
-  /// last call.
-  vtkBoundingBox Of(vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
+  /// How far splats reach from their points: the value of the array of this name or, without it,
+  /// the same for all, times a scale; nothing where that is not positive and finite.
+  struct Reach
+  {
+    std::string ArrayName;
+    double Radius;
+    double Scale;
+  };
+
+  /// Bounds of the splats of all visible polydata in a data object; of points that reach somewhere.
+  /// O(points) for those that changed since the last call.
+  vtkBoundingBox Of(
+    vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes, const Reach& reach);
 
 private:
-  std::map<std::pair<vtkPoints*, vtkMTimeType>, vtkBoundingBox> Kept;
+  /// Points, radii and scale, and when they were modified.
+  using Key = std::tuple<vtkPoints*, vtkMTimeType, vtkDataArray*, vtkMTimeType, double, double>;
+  std::map<Key, vtkBoundingBox> Kept;
 };
 
 #endif

@@ -72,8 +72,9 @@ void vtkIsopointSplatMapper::ComputeBounds()
   this->Internal->Try(this,
     [&]
     {
-      box =
-        this->Internal->Bounds.Of(this->GetInputDataObject(0, 0), this->Internal->BlockAttributes);
+      const char* const radii = this->RadiusArrayName;
+      box = this->Internal->Bounds.Of(this->GetInputDataObject(0, 0),
+        this->Internal->BlockAttributes, { radii ? radii : "", this->Radius, this->RadiusScale });
     });
   if (box.IsValid())
   {

@@ -6,6 +6,10 @@
 #include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
+#include "Isopoint/Ranks/ExtractOnRanks.h"
+#include "Isopoint/Ranks/NodeExchange.h"
+#include "Isopoint/Ranks/RankSplats.h"
+#include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Splat/SplatGeometry.h"
 
 namespace isopoint
@@ -14,12 +18,19 @@ namespace isopoint
 void IsosurfaceExtractor::clear()
 {
   this->Held = Cloud<FloatSample>();
+  this->Ranks.reset();
   this->ItemCount = 0;
 }
 
 std::size_t IsosurfaceExtractor::sampleCount() const
 {
-  return std::visit([](const auto& cloud) { return cloud.tree.samples.size(); }, this->Held);
+  return std::visit(
+    [](const auto& cloud)
+    {
+      return cloud.tree.isPartial ? cloud.tree.ownEnd - cloud.tree.ownBegin
+                                  : cloud.tree.samples.size();
+    },
+    this->Held);
 }
 
 std::size_t IsosurfaceExtractor::skippedCount() const
@@ -53,6 +64,10 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
   return std::visit(
     [&](auto& cloud)
     {
+      if (this->Ranks)
+      {
+        return this->extractOnRanks(execution, cloud, request);
+      }
       WorkProgress progress(execution);
       const double splatting = request.splats ? work::splatting : 0.0;
       ExtractedIsosurface result;
@@ -75,6 +90,66 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       return result;
     },
     this->Held);
+}
+
+template <class TSample>
+ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
+  const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
+{
+  WorkProgress progress(execution);
+  NodeExchange<TSample> exchange(*this->Ranks, cloud.tree, cloud.begins);
+  RankSurface<TSample> ofRank(
+    execution, cloud.tree, exchange, cloud.neighborhoods, this->ItemCount);
+  const double splatting = request.splats ? work::splatting : 0.0;
+  Isosurface surface = ofRank.extract(request.isosurface, progress, splatting + work::writing);
+  const bool hasFits = request.isosurface.fit.has_value();
+  if (request.minimumSpacing > 0.0 && hasFits)
+  {
+    keepOnRanks(execution, *this->Ranks, request.minimumSpacing, surface);
+  }
+  ExtractedIsosurface result;
+  std::vector<std::size_t> home;
+  std::vector<bool> isHome;
+  exchange.together(
+    [&]()
+    {
+      isHome.resize(surface.size(), false);
+      for (std::size_t i = 0; i < surface.size(); ++i)
+      {
+        if (ofRank.isHome(surface.leaves[i]))
+        {
+          home.push_back(i);
+        }
+      }
+      for (const std::size_t i : home)
+      {
+        isHome[i] = true;
+      }
+    });
+  if (request.splats && !cloud.tree.isEmpty())
+  {
+    const auto count = static_cast<double>(surface.size());
+    const Execution part = progress.part(count * splatting, count * work::writing);
+    std::vector<Splat> splats =
+      RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
+        .compute(surface, isHome, hasFits);
+    exchange.together(
+      [&]()
+      {
+        for (const std::size_t i : home)
+        {
+          result.splats.push_back(splats[i]);
+        }
+      });
+  }
+  exchange.together(
+    [&]()
+    {
+      result.surface = chosenIsopoints(surface, home);
+      result.surface.coincident = coincidentEnds(cloud.tree, result.surface.leaves);
+      result.surface.leaves = {};
+    });
+  return result;
 }
 
 } // namespace isopoint

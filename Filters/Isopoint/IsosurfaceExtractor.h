@@ -2,15 +2,21 @@
 #ifndef isopoint_IsosurfaceExtractor_h
 #define isopoint_IsosurfaceExtractor_h
 
+#include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Ranks/SharedTree.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <variant>
@@ -61,14 +67,43 @@ public:
     if (isNarrow(count))
     {
       using TSample = SampleFor<TCoordinate, TValue>;
-      this->Held = Cloud<TSample>{ loadSamples<TSample>(execution, count, read), {} };
+      this->Held = Cloud<TSample>{ loadSamples<TSample>(execution, count, read), {}, {} };
     }
     else
     {
-      this->Held = Cloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {} };
+      this->Held = Cloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {}, {} };
     }
     this->ItemCount = count;
   }
+
+  /// Loads this rank's items of a cloud that is distributed over the ranks of a communicator. Ids
+  /// are those of the concatenation of all ranks' items, in the order of the ranks. Collective, and
+  /// so is each extract() that follows.
+  /// @param communicator must outlive this extractor, or the next clear()
+  /// @param count of this rank's items, read as load() does with local ids from 0 on
+  /// @throws what load() throws, or FailedElsewhere; then no rank holds samples
+  template <class TCoordinate, class TValue, class Reader>
+  void loadOnRanks(
+    const Execution& execution, Communicator& communicator, std::size_t count, const Reader& read)
+  {
+    this->clear();
+    auto team = std::make_unique<Team>(communicator);
+    const std::vector<std::uint64_t> counts = team->gather(count);
+    const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
+    if (isNarrow(all))
+    {
+      this->loadShared<SampleFor<TCoordinate, TValue>>(execution, *team, counts, all, read);
+    }
+    else
+    {
+      this->loadShared<WideSample>(execution, *team, counts, all, read);
+    }
+    this->ItemCount = all;
+    this->Ranks = std::move(team);
+  }
+
+  /// What this rank has exchanged with others since loadOnRanks(); null without.
+  const Traffic* traffic() const { return this->Ranks ? &this->Ranks->traffic() : nullptr; }
 
   /// Replaces the values, provided that positions, types and the items that take part are those of
   /// the last load(); the tree is kept. Otherwise nothing changes.
@@ -112,7 +147,29 @@ private:
   {
     SampleTree<TSample> tree;
     NeighborhoodCache<typename TSample::Id> neighborhoods;
+    std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks
   };
+
+  template <class TSample, class Reader>
+  void loadShared(const Execution& execution, Team& team, const std::vector<std::uint64_t>& counts,
+    std::uint64_t all, const Reader& read)
+  {
+    SampleTree<TSample> loaded;
+    team.together(
+      [&]()
+      {
+        const auto own = counts.begin() + team.rank();
+        const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
+        loaded = loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
+      });
+    SharedTree<TSample> shared =
+      SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
+    this->Held = Cloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
+  }
+
+  template <class TSample>
+  ExtractedIsosurface extractOnRanks(
+    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 
@@ -140,7 +197,8 @@ private:
   std::variant<Cloud<FloatSample>, Cloud<FloatSampleOfDouble>, Cloud<DoubleSampleOfFloat>,
     Cloud<WideSample>>
     Held;
-  std::size_t ItemCount = 0;
+  std::size_t ItemCount = 0;   // of all ranks
+  std::unique_ptr<Team> Ranks; // of a cloud on ranks
 };
 
 } // namespace isopoint

@@ -18,7 +18,8 @@ CORE_FOLDERS = {
     "Fit": ["Base"],
     "Extraction": ["Base", "Tree", "Neighbors", "Fit"],
     "Splat": ["Base", "Tree", "Neighbors", "Fit"],
-    "": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
+    "Ranks": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
+    "": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Ranks"],
 }
 
 # The other folders with sources, and the headers of the project that they may include.

@@ -259,8 +259,7 @@ def main(plugin, server=None):
     if ranks == 1 and not server:
         level_of_detail(view, isopoints, display)
     simple.Hide(isopoints, view)
-    if ranks == 1:
-        sharp_edges(view)  # several ranks' pictures are cut at the points' bounds
+    sharp_edges(view)
     other_data(view)
 
 

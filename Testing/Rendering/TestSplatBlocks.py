@@ -56,7 +56,7 @@ def visibilities():
     check(seen(scene) == [WHITE] * 3, "all blocks")
     attributes.SetBlockVisibility(left, False)
     check(seen(scene) == [nothing(), WHITE, WHITE], "a leaf hidden")
-    check(list(mapper.GetBounds()[:2]) == [0.0, 0.6], "bounds of what is visible")
+    check(list(mapper.GetBounds()[:2]) == [-0.25, 0.85], "bounds of what is visible")
     attributes.SetBlockVisibility(inner, False)
     check(seen(scene) == [nothing()] * 3, "a block of blocks hidden as well")
     low, high = mapper.GetBounds()[:2]

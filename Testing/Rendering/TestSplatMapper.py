@@ -532,15 +532,18 @@ def defaults_and_ranges():
 def bounds():
     mapper = vtkIsopointSplatMapper()
     mapper.SetInputDataObject(blocks_of(disk((-1, 0, 0)), None, disk((2, 3, 4))))
-    check(list(mapper.GetBounds()) == [-1, 2, 0, 3, 0, 4], "bounds of blocks")
+    check(np.allclose(mapper.GetBounds(), [-1.3, 2.3, -0.3, 3.3, -0.3, 4.3]), "bounds of blocks")
+    mapper.SetRadiusScale(2.0)
+    check(np.allclose(mapper.GetBounds()[:2], [-1.6, 2.6]), "bounds of larger splats")
+    mapper.SetRadiusScale(1.0)
     for bad in (np.nan, np.inf, -np.inf):
         points = [(-1, 0, 1), (bad, 7, 7), (1, 2, 3), (8, bad, 8), (9, 9, bad)]
         data = polydata(points, [UP] * 5, Radius=np.ones(5))
         mapper.SetInputDataObject(data)
-        check(list(mapper.GetBounds()) == [-1, 1, 0, 2, 1, 3], f"bounds beside {bad}")
+        check(list(mapper.GetBounds()) == [-2, 2, -1, 3, 0, 4], f"bounds beside {bad}")
         data.GetPoints().SetPoint(1, 4, 4, 4)
         data.GetPoints().Modified()
-        check(list(mapper.GetBounds()) == [-1, 4, 0, 4, 1, 4], f"changed points beside {bad}")
+        check(list(mapper.GetBounds()) == [-2, 5, -1, 5, 0, 5], f"changed points beside {bad}")
         mapper.SetInputDataObject(disk((bad, 0, 0)))
         low, high = mapper.GetBounds()[:2]
         check(low > high, f"no bounds of {bad} alone")

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -33,6 +34,60 @@ inline void preferHugePages(void* memory, std::size_t bytes)
 #else
   static_cast<void>(memory);
   static_cast<void>(bytes);
+#endif
+}
+
+/// Addresses for so many bytes, most of which will never be written: only pages that are written
+/// take memory, and none is set aside. Where the system knows no such thing, plain memory.
+/// @returns null if there are none
+inline void* reserveSpread(std::size_t bytes)
+{
+#ifdef MAP_NORESERVE
+  void* const memory = mmap(nullptr, bytes > 0 ? bytes : 1, PROT_READ | PROT_WRITE,
+    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED)
+  {
+    return nullptr;
+  }
+#ifdef MADV_NOHUGEPAGE
+  static_cast<void>(madvise(memory, bytes, MADV_NOHUGEPAGE));
+#endif
+  return memory;
+#else
+  return std::malloc(bytes > 0 ? bytes : 1);
+#endif
+}
+
+/// Gives back what reserveSpread() reserved.
+inline void releaseSpread(void* memory, std::size_t bytes)
+{
+#ifdef MAP_NORESERVE
+  static_cast<void>(munmap(memory, bytes > 0 ? bytes : 1));
+#else
+  static_cast<void>(bytes);
+  std::free(memory);
+#endif
+}
+
+/// Asks for huge pages behind a part of what reserveSpread() reserved that will be written whole.
+inline void preferHugePagesInside(
+  void* memory, std::size_t bytes, std::size_t begin, std::size_t count)
+{
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
+  const auto base = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (base + begin + hugePage - 1) / hugePage * hugePage;
+  const std::uintptr_t last = (base + begin + count) / hugePage * hugePage;
+  if (first < last && last <= base + bytes)
+  {
+    static_cast<void>(
+      madvise(static_cast<char*>(memory) + (first - base), last - first, MADV_HUGEPAGE));
+  }
+#else
+  static_cast<void>(memory);
+  static_cast<void>(bytes);
+  static_cast<void>(begin);
+  static_cast<void>(count);
 #endif
 }
 

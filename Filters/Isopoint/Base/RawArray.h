@@ -32,7 +32,7 @@ public:
     this->swap(other);
     return *this;
   }
-  ~RawArray() { std::free(this->Elements); }
+  ~RawArray() { this->release(); }
 
   /// Keeps the first min(size(), newSize) elements. @throws std::bad_alloc, the array unchanged.
   void resize(std::size_t newSize)
@@ -51,6 +51,31 @@ public:
     {
       this->reallocate(this->Size);
     }
+  }
+
+  /// Makes an empty array one of so many elements of which few will be written: no memory is taken,
+  /// nor set aside, for pages that are not, as far as the system can. Its size stays.
+  /// @param first, count the elements that will all be written
+  /// @throws std::bad_alloc
+  void spread(std::size_t size, std::size_t first, std::size_t count)
+  {
+    if (size > std::numeric_limits<std::size_t>::max() / sizeof(T))
+    {
+      throw std::bad_alloc();
+    }
+    this->release();
+    if (size == 0)
+    {
+      return;
+    }
+    this->Elements = static_cast<T*>(reserveSpread(size * sizeof(T)));
+    if (!this->Elements)
+    {
+      throw std::bad_alloc();
+    }
+    this->Size = this->Capacity = size;
+    this->SpreadBytes = size * sizeof(T);
+    preferHugePagesInside(this->Elements, this->SpreadBytes, first * sizeof(T), count * sizeof(T));
   }
 
   std::size_t size() const { return this->Size; }
@@ -76,8 +101,23 @@ private:
     this->Capacity = capacity;
   }
 
+  void release()
+  {
+    if (this->SpreadBytes > 0)
+    {
+      releaseSpread(this->Elements, this->SpreadBytes);
+    }
+    else
+    {
+      std::free(this->Elements);
+    }
+    this->Elements = nullptr;
+    this->Size = this->Capacity = this->SpreadBytes = 0;
+  }
+
   void swap(RawArray& other) noexcept
   {
+    std::swap(this->SpreadBytes, other.SpreadBytes);
     std::swap(this->Elements, other.Elements);
     std::swap(this->Size, other.Size);
     std::swap(this->Capacity, other.Capacity);
@@ -86,6 +126,7 @@ private:
   T* Elements = nullptr;
   std::size_t Size = 0;
   std::size_t Capacity = 0;
+  std::size_t SpreadBytes = 0; // of an array made by spread(), or 0
 };
 
 } // namespace isopoint

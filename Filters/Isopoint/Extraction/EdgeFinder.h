@@ -42,7 +42,40 @@ public:
 
   /// Adds the edges from the leaf's sample to the neighbours that survive the angle criterion there
   /// and lie on the other side of the isovalue ([RL06] sections 6 and 7), but not across a gap.
+  /// @throws MissingNode, nothing added
   void find(const Path& leaf)
+  {
+    const std::size_t edgeCount = this->Edges.size();
+    const std::size_t coincidentCount = this->CoincidentLeaves.size();
+    const std::size_t keptRecords = this->KeptRecords;
+    try
+    {
+      this->addEdgesOf(leaf);
+    }
+    catch (const MissingNode&)
+    {
+      this->Edges.erase(
+        this->Edges.begin() + static_cast<std::ptrdiff_t>(edgeCount), this->Edges.end());
+      this->CoincidentLeaves.resize(coincidentCount);
+      this->KeptRecords = keptRecords;
+      throw;
+    }
+  }
+
+  const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
+
+  /// Node indices of the leaves with coincident samples among the edges' ends, with repetitions.
+  const std::vector<std::size_t>& coincidentLeaves() const { return this->CoincidentLeaves; }
+
+  /// The neighbourhoods that were searched for, as NeighborhoodCache::add() takes them.
+  std::vector<Id>& records()
+  {
+    this->Records.resize(this->KeptRecords);
+    return this->Records;
+  }
+
+private:
+  void addEdgesOf(const Path& leaf)
   {
     const double value = this->Values.at(leaf.nodeIndex());
     const bool isBelow = value < this->Isovalue;
@@ -77,19 +110,6 @@ public:
     }
   }
 
-  const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
-
-  /// Node indices of the leaves with coincident samples among the edges' ends, with repetitions.
-  const std::vector<std::size_t>& coincidentLeaves() const { return this->CoincidentLeaves; }
-
-  /// The neighbourhoods that were searched for, as NeighborhoodCache::add() takes them.
-  std::vector<Id>& records()
-  {
-    this->Records.resize(this->KeptRecords);
-    return this->Records;
-  }
-
-private:
   struct Crossing
   {
     std::size_t neighbor;
@@ -102,7 +122,7 @@ private:
     this->Records.resize(begin);
     this->Records.push_back(static_cast<Id>(leaf));
     this->Records.push_back(0);
-    visitTouching(this->Tree, surroundings, maximumDepth,
+    visitNeighbors(this->Tree, surroundings,
       [this](std::size_t nodeIndex)
       {
         this->Records.push_back(static_cast<Id>(nodeIndex));

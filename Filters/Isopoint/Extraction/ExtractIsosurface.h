@@ -37,15 +37,24 @@ struct FoundEdges
   std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
 };
 
-/// Finds the crossing edges of all leaves below the given nodes.
+/// What could not be done for lack of samples that other ranks hold.
+struct MissingWork
+{
+  std::vector<BinaryIndex> leaves;  // whose edges were not found
+  std::vector<MissingNode> missing; // what is to be fetched first
+};
+
+/// Finds the crossing edges of all leaves of this rank below the given nodes.
+/// @returns what was left out
 /// @throws Aborted, std::bad_alloc
 template <class TSample>
-FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSample>& context,
-  const IsosurfaceRequest& request, const std::vector<BinaryIndex>& nodes)
+MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& context,
+  const IsosurfaceRequest& request, const std::vector<BinaryIndex>& nodes,
+  FoundEdges<TSample>& result)
 {
   const AngleCriterion criterion(request.angle);
   const GapCriterion gapCriterion(request.gapFactor);
-  FoundEdges<TSample> result;
+  MissingWork left;
   std::mutex mutex;
   constexpr std::size_t grain = 256;
   forBatches(
@@ -53,12 +62,28 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
     [&](std::size_t begin, std::size_t end)
     {
       EdgeFinder<TSample> finder(context, criterion, gapCriterion);
+      const auto findAt = [&](const Path& leaf)
+      {
+        if (!context.tree.hasOwn(context.tree.nodes[leaf.nodeIndex()]))
+        {
+          return;
+        }
+        try
+        {
+          finder.find(leaf);
+        }
+        catch (const MissingNode& missing)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          left.leaves.push_back(leaf.index);
+          left.missing.push_back(missing);
+        }
+      };
       Path path = pathToRoot(context.tree);
       for (std::size_t i = begin; i < end; ++i)
       {
         moveTo(context.tree, path, nodes[i]);
-        forEachBelow(
-          context.tree, path, maximumDepth, [&finder](const Path& leaf) { finder.find(leaf); });
+        forEachBelow(context.tree, path, maximumDepth, findAt);
       }
       const std::lock_guard<std::mutex> lock(mutex);
       result.edges.insert(result.edges.end(), finder.edges().begin(), finder.edges().end());
@@ -67,7 +92,18 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
         finder.coincidentLeaves().begin(), finder.coincidentLeaves().end());
     },
     execution.progress);
-  return result;
+  return left;
+}
+
+/// The crossing edges of all leaves below the given nodes, none of which is missing.
+/// @throws Aborted, std::bad_alloc
+template <class TSample>
+FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSample>& context,
+  const IsosurfaceRequest& request, const std::vector<BinaryIndex>& nodes)
+{
+  FoundEdges<TSample> found;
+  addEdges(execution, context, request, nodes, found);
+  return found;
 }
 
 /// The isosurface of edges: positions where the fits put them, or else where linear interpolation

@@ -30,10 +30,14 @@ struct ExtractionContext
     , isovalue(extractedIsovalue)
     , bounds(tree)
     , leafMeans(tree)
-    , listBudget(tree.samples.size())
+    , listBudget(tree.isPartial ? unlimited : tree.samples.size())
     , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(2 * tree.samples.size())))
   {
   }
+
+  /// Boxes of all samples, which searches without lists need, are not at hand on one of several
+  /// ranks.
+  static constexpr std::size_t unlimited = std::size_t{ 1 } << 62;
 
   const SampleTree<TSample>& tree;
   const Neighborhoods& neighborhoods;

@@ -13,11 +13,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <numeric>
 #include <vector>
 
 namespace isopoint
 {
+
+/// Thrown where isopoints are looked for around one around which they are not known.
+struct MissingRing : std::exception
+{
+  const char* what() const noexcept override { return "isopoints of another rank are missing"; }
+};
 
 /// The isopoints around each isopoint: those whose edges end in the two leaves of its own edge or
 /// in leaves that touch one of these, so that around an isopoint there are others in all directions
@@ -35,15 +42,26 @@ public:
   /// @param tree in which the leaves' neighbourhoods are complete
   /// @param known neighbourhoods; others are searched for
   /// @param leaves of the isopoints' edges
+  /// @param isInner for each isopoint, whether others will be looked for around it; null for all
   /// @throws std::bad_alloc, Aborted
   /// Complexity: O(nodes + isopoints)
   IsopointNeighbors(const Execution& execution, const SampleTree<TSample>& tree,
-    const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves)
+    const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves,
+    const std::vector<bool>* isInner = nullptr)
   {
     std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
     this->numberLeaves(leaves, numbers);
     this->listIsopoints();
-    this->listTouching(execution, tree, known, numbers);
+    std::vector<bool>& isSurrounded = this->IsSurrounded;
+    isSurrounded.assign(this->Leaves.size(), !isInner);
+    for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
+    {
+      for (const Id end : this->Ends[i])
+      {
+        isSurrounded[end] = isSurrounded[end] || (*isInner)[i];
+      }
+    }
+    this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
   /// All isopoints, mostly close ones after each other.
@@ -76,6 +94,7 @@ public:
     /// @param rings 1, or 2 with those around the ones found. All samples that determine which
     /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
     /// than 2 rings - 1 touching leaves.
+    /// @throws MissingRing
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
@@ -96,6 +115,10 @@ public:
         if (!this->Ends.add(end))
         {
           continue;
+        }
+        if (!this->Neighbors.IsSurrounded[end])
+        {
+          throw MissingRing();
         }
         this->addLeaf(end, found);
         for (const Id leaf : this->Neighbors.Touching.at(end))
@@ -201,7 +224,8 @@ private:
 
   /// Lists for each leaf the others that touch it.
   void listTouching(const Execution& execution, const SampleTree<TSample>& tree,
-    const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers)
+    const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers,
+    const std::vector<bool>& isSurrounded)
   {
     constexpr std::size_t grain = 256;
     constexpr std::size_t batch = 64;
@@ -216,7 +240,10 @@ private:
           const std::size_t last = std::min(count, (part + 1) * grain);
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
-            addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+            if (isSurrounded[leaf])
+            {
+              addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+            }
             this->Touching.ends[leaf] = parts[part].size();
           }
         }
@@ -251,7 +278,7 @@ private:
     }
     else if (list.isEmpty())
     {
-      visitTouching(tree, pathToLeaf(tree, leaf), maximumDepth,
+      visitNeighbors(tree, pathToLeaf(tree, leaf),
         [&](std::size_t node)
         {
           add(node);
@@ -266,6 +293,7 @@ private:
 
   std::vector<Id> Leaves;              // node indices of the leaves that edges end in, by number
   std::vector<std::array<Id, 2>> Ends; // of the isopoints' edges, numbers of leaves
+  std::vector<bool> IsSurrounded;      // of the leaves, whether what touches them is listed
   Lists<std::size_t> Isopoints;        // whose edges end in each leaf, ascending
   Lists<Id> Touching;                  // each leaf, numbers of leaves
 };

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <numeric>
 #include <stdexcept>
@@ -41,6 +42,32 @@ bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
   return (hasBelow && hasAbove) ||
          touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
 }
+
+/// The other ranks that share a tree, as the band of one of them needs them. All functions are
+/// collective.
+class BandPeers
+{
+public:
+  BandPeers() = default;
+  BandPeers(const BandPeers&) = delete;
+  BandPeers& operator=(const BandPeers&) = delete;
+  virtual ~BandPeers() = default;
+
+  /// See Team. Takes no memory itself, for lack of which one rank alone would fail.
+  template <class Work>
+  void together(const Work& work)
+  {
+    this->runTogether(std::cref(work));
+  }
+  virtual bool isAny(bool mine) = 0;
+
+  /// Fetches the nodes of a depth below the missing ones, as far as they touch their boxes, with
+  /// their ranges of values. Empties the list. @returns whether any rank lacked any
+  virtual bool fetchNodes(std::vector<MissingNode>& missing, int depth) = 0;
+
+private:
+  virtual void runTogether(const std::function<void()>& work) = 0;
+};
 
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
 /// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, section 9).
@@ -80,15 +107,8 @@ public:
     {
       const int bottom = treeletBottom(depth, root.count());
       this->splitFront(front, depth, bottom);
-      // To split so few samples all the way takes less time than to determine which are needed.
-      const std::size_t few = front.size() / 4;
-      const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
-      if (unfinished <= few)
+      if (this->finishIfFew(front, depth, bottom))
       {
-        if (unfinished > 0)
-        {
-          this->finish(front, bottom);
-        }
         break;
       }
       this->mark(front, bottom);
@@ -96,6 +116,54 @@ public:
       depth = bottom;
       throwIfAborted(this->Run);
     }
+    return crossingOf(front);
+  }
+
+  /// The same on one of several ranks, which all call it. Nodes of which no sample is this rank's
+  /// are not split; they count as the others' ranges of values, which are fetched where they
+  /// matter. So everything that touches a leaf of a crossing edge is split to leaves only as far as
+  /// it is this rank's and touches one of its own nodes that are crossing.
+  std::vector<BinaryIndex> refine(BandPeers& peers)
+  {
+    std::vector<BandNode> front;
+    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
+    {
+      front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
+    }
+    bool isDone = front.empty();
+    for (int depth = 0; peers.isAny(!isDone);)
+    {
+      const int bottom = treeletBottom(depth, root.count());
+      peers.together(
+        [&]()
+        {
+          if (!isDone)
+          {
+            this->splitFront(front, depth, bottom);
+            isDone = this->finishIfFew(front, depth, bottom);
+          }
+        });
+      this->markWith(peers, front, isDone, bottom);
+      peers.together(
+        [&]()
+        {
+          if (!isDone)
+          {
+            front = this->neededBelow(front, bottom);
+            isDone = front.empty();
+          }
+        });
+      depth = bottom;
+    }
+    return crossingOf(front);
+  }
+
+private:
+  using NodeType = Node<TSample>;
+
+  static std::vector<BinaryIndex> crossingOf(const std::vector<BandNode>& front)
+  {
     std::vector<BinaryIndex> crossing;
     for (const BandNode& node : front)
     {
@@ -107,8 +175,22 @@ public:
     return crossing;
   }
 
-private:
-  using NodeType = Node<TSample>;
+  /// To split few samples all the way takes less time than to determine which are needed.
+  /// @returns whether that was done
+  bool finishIfFew(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    const std::size_t few = front.size() / 4;
+    const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
+    if (unfinished > few)
+    {
+      return false;
+    }
+    if (unfinished > 0)
+    {
+      this->finish(front, bottom);
+    }
+    return true;
+  }
 
   /// The number of nodes of the front whose subtrees are searched at a time.
   static constexpr std::size_t searchGrain = 64;
@@ -121,16 +203,48 @@ private:
   {
     BandNode node;
     std::size_t firstPair;
+    int levels;
   };
 
   /// Splits the nodes of one depth down to another.
   void splitFront(const std::vector<BandNode>& front, int depth, int bottom)
   {
+    if (this->Tree.isPartial)
+    {
+      this->splitNodes(this->unsplitBelow(front, bottom), depth, bottom);
+    }
+    else
+    {
+      this->splitNodes(front, depth, bottom);
+    }
+  }
+
+  /// The nodes of a front that are not split, and those below it down to a depth: what other ranks
+  /// asked for may have been split less far. Those of other ranks alone are left out.
+  std::vector<BandNode> unsplitBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth - 1,
+      [this](const Path& below, std::vector<BandNode>& unsplit)
+      {
+        const NodeType& node = this->Tree.nodes[below.nodeIndex()];
+        if (!node.isSplit() && !node.isLeaf)
+        {
+          unsplit.push_back({ below.index, below.nodeIndex(), true });
+        }
+      });
+  }
+
+  /// @param depth the least of the nodes'
+  void splitNodes(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    if (front.empty())
+    {
+      return;
+    }
     if (bottom > maximumDepth)
     {
       throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
     }
-    const int levels = bottom - depth;
     // All threads split each node together while there are too few nodes to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const std::size_t fewNodes = 4 * this->Run.threads;
@@ -152,7 +266,8 @@ private:
         {
           continue;
         }
-        batch.push_back({ front[begin], pairs });
+        const int levels = bottom - depthOf(front[begin].index);
+        batch.push_back({ front[begin], pairs, levels });
         pairs += maximumTreeletPairs(node.count(), levels);
         samples += node.count();
       }
@@ -167,7 +282,7 @@ private:
       const Execution part = this->Progress.part(
         workOf(samples), workOf(unsplit) + work::searching * static_cast<double>(front.size()) +
                            this->workBelow(bottom));
-      this->splitBatch(part, batch, levels, batch.size() < fewNodes ? togetherCount : samples + 1);
+      this->splitBatch(part, batch, batch.size() < fewNodes ? togetherCount : samples + 1);
       part.progress(1.0);
       throwIfAborted(this->Run);
     }
@@ -199,8 +314,8 @@ private:
     return static_cast<double>(this->Tree.nodes[task.node.nodeIndex].count());
   }
 
-  void splitBatch(const Execution& part, const std::vector<TreeletTask>& batch, int levels,
-    std::size_t togetherCount)
+  void splitBatch(
+    const Execution& part, const std::vector<TreeletTask>& batch, std::size_t togetherCount)
   {
     const double all = std::accumulate(batch.begin(), batch.end(), 0.0,
       [this](double sum, const TreeletTask& task) { return sum + this->countOf(task); });
@@ -217,8 +332,8 @@ private:
       const double begin = done / all;
       done += this->countOf(task);
       TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
-      splitter.splitTogether(
-        partOf(part, begin, done / all), node, pathTo(this->Tree, task.node.index).region, levels);
+      splitter.splitTogether(partOf(part, begin, done / all), node,
+        pathTo(this->Tree, task.node.index).region, task.levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
     forRanges(this->Run, alone.size(), grain,
@@ -230,7 +345,7 @@ private:
         {
           moveTo(this->Tree, path, alone[i].node.index);
           splitter.moveTo(alone[i].firstPair);
-          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, levels);
+          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, alone[i].levels);
         }
       });
   }
@@ -258,7 +373,7 @@ private:
   {
     if (!node.isSplit() || levels == 0)
     {
-      return node.isLeaf ? 0 : node.count();
+      return node.isLeaf || !this->Tree.hasOwn(node) ? 0 : node.count();
     }
     return this->unfinishedSamples(this->Tree.nodes[node.lowerNode()], levels - 1) +
            this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
@@ -297,6 +412,53 @@ private:
   void mark(const std::vector<BandNode>& front, int depth)
   {
     this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
+    this->markBelowFront(front, depth);
+  }
+
+  /// The same on one of several ranks. What touches nodes that are not known is put aside, until
+  /// they have been fetched.
+  /// @param isDone whether this rank has nothing to mark any more
+  void markWith(BandPeers& peers, const std::vector<BandNode>& allOfFront, bool isDone, int depth)
+  {
+    std::vector<BandNode> front;
+    std::vector<MissingNode> missing;
+    peers.together(
+      [&]()
+      {
+        this->Marks = std::vector<std::atomic<Mark>>();
+        if (!isDone)
+        {
+          front = allOfFront;
+        }
+      });
+    do
+    {
+      peers.together(
+        [&]()
+        {
+          this->keepMarks();
+          this->Aside.clear();
+          this->markBelowFront(front, depth);
+          front = this->Aside;
+          missing.swap(this->Missing);
+          this->Missing.clear();
+        });
+    } while (peers.fetchNodes(missing, depth));
+  }
+
+  /// Makes room for the marks of nodes that were added.
+  void keepMarks()
+  {
+    std::vector<std::atomic<Mark>> marks(this->Tree.nodes.size());
+    for (std::size_t i = 0; i < this->Marks.size(); ++i)
+    {
+      marks[i].store(this->Marks[i].load(std::memory_order_relaxed), std::memory_order_relaxed);
+    }
+    this->Marks.swap(marks);
+  }
+
+  void markBelowFront(const std::vector<BandNode>& front, int depth)
+  {
     const Execution part = this->Progress.part(
       work::searching * static_cast<double>(front.size()), this->workBelow(depth));
     forBatches(
@@ -311,18 +473,34 @@ private:
             continue;
           }
           moveTo(this->Tree, path, front[i].index);
-          forEachBelow(this->Tree, path, depth,
-            [&](const Path& below)
-            {
-              const Surroundings surroundings(below);
-              if (isCrossing(this->Tree, below.nodeIndex(), surroundings, depth, this->Isovalue))
-              {
-                this->markAround(below.nodeIndex(), surroundings, depth);
-              }
-            });
+          forEachBelow(
+            this->Tree, path, depth, [&](const Path& below) { this->markAt(below, depth); });
         }
       },
       part.progress);
+  }
+
+  /// Marks a node, if it is crossing and of this rank, and what touches it.
+  void markAt(const Path& path, int depth)
+  {
+    if (!this->Tree.hasOwn(this->Tree.nodes[path.nodeIndex()]))
+    {
+      return;
+    }
+    const Surroundings surroundings(path);
+    try
+    {
+      if (isCrossing(this->Tree, path.nodeIndex(), surroundings, depth, this->Isovalue))
+      {
+        this->markAround(path.nodeIndex(), surroundings, depth);
+      }
+    }
+    catch (const MissingNode& missing)
+    {
+      const std::lock_guard<std::mutex> lock(this->AsideMutex);
+      this->Missing.push_back(missing);
+      this->Aside.push_back({ path.index, path.nodeIndex(), true });
+    }
   }
 
   void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
@@ -400,7 +578,8 @@ private:
       });
   }
 
-  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, to a list or not
+  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, of which samples
+  /// are this rank's own, to a list or not
   template <class Collect>
   std::vector<BandNode> collectBelow(
     const std::vector<BandNode>& front, int depth, const Collect& collect)
@@ -415,7 +594,14 @@ private:
         for (std::size_t i = begin; i < end; ++i)
         {
           moveTo(this->Tree, path, front[i].index);
-          forEachBelow(this->Tree, path, depth, [&](const Path& below) { collect(below, found); });
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below)
+            {
+              if (this->Tree.hasOwn(this->Tree.nodes[below.nodeIndex()]))
+              {
+                collect(below, found);
+              }
+            });
         }
         const std::lock_guard<std::mutex> lock(mutex);
         collected.insert(collected.end(), found.begin(), found.end());
@@ -438,6 +624,9 @@ private:
   BandForecast Forecast;
   NeighborListBudget ListBudget;
   std::vector<std::atomic<Mark>> Marks; // by node index, of the present depth and above
+  std::mutex AsideMutex;
+  std::vector<BandNode> Aside;      // nodes of the present depth that wait for others
+  std::vector<MissingNode> Missing; // which these are
 };
 
 } // namespace isopoint

@@ -158,9 +158,9 @@ private:
       this->RecentlyFound[static_cast<std::size_t>(leaf) % this->RecentlyFound.size()];
     if (found.leaf != leaf)
     {
-      found.leaf = leaf;
+      found.leaf = 0; // for as long as the list is incomplete
       found.neighbors.clear();
-      const bool areMany = visitTouching(this->Tree, pathToLeaf(this->Tree, leaf), maximumDepth,
+      const bool areMany = visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaf),
         [&found](std::size_t neighbor)
         {
           found.neighbors.push_back(static_cast<Id>(neighbor));
@@ -170,6 +170,7 @@ private:
       {
         found.neighbors.clear();
       }
+      found.leaf = leaf;
     }
     return { found.neighbors.data(), found.neighbors.size() };
   }

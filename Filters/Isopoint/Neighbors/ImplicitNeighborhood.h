@@ -178,6 +178,7 @@ private:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (!node.isSplit())
     {
+      requireLeaf(this->Tree, nodeIndex, this->Region);
       visit(nodeIndex, std::size_t{ 1 });
     }
     else if (this->touchesBoth(node) && this->isSmall(node, size))
@@ -213,6 +214,7 @@ private:
       nodeIndex = isLower ? node->lowerNode() : node->upperNode();
       node = &this->Tree.nodes[nodeIndex];
     }
+    requireLeaf(this->Tree, nodeIndex, this->Region);
     return nodeIndex;
   }
 

@@ -19,12 +19,23 @@ struct FoundNode
   int depth;
 };
 
+/// @throws MissingNode if a node that is not split is no leaf
+template <class TSample>
+void requireLeaf(const SampleTree<TSample>& tree, std::size_t nodeIndex, const Region& box)
+{
+  if (!tree.nodes[nodeIndex].isLeaf || tree.nodes[nodeIndex].isAbsent)
+  {
+    throw MissingNode{ nodeIndex, box };
+  }
+}
+
 /// Visits, in the subtree at `top`, the nodes of the depth `nodeDepth`, and those above it that are
 /// not split, whose regions touch the given one. That of `top` must touch it: then each splitting
 /// plane takes a single comparison.
 /// @param enter(node) whether the node and its descendants are of interest
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
+/// @throws MissingNode at a node above that depth whose samples another rank holds
 template <class TSample, class Filter, class Visitor>
 bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int nodeDepth,
   const Region& region, const Filter& enter, const Visitor& visit)
@@ -42,6 +53,10 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
     }
     if (found.depth == nodeDepth || !node.isSplit())
     {
+      if (node.isAbsent && found.depth < nodeDepth)
+      {
+        throw MissingNode{ found.nodeIndex, region };
+      }
       if (visit(found.nodeIndex))
       {
         return true;
@@ -115,6 +130,22 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
 {
   const auto enterAll = [](const Node<TSample>&) { return true; };
   return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
+}
+
+/// Visits the neighbours of a leaf, around which the tree has to be split down to leaves.
+/// @param visit(nodeIndex) returns whether to end the search
+/// @returns whether a visit did
+/// @throws MissingNode where it is not, as may be where ranks share it
+template <class TSample, class Visitor>
+bool visitNeighbors(
+  const SampleTree<TSample>& tree, const Surroundings& surroundings, const Visitor& visit)
+{
+  return visitTouching(tree, surroundings, maximumDepth,
+    [&](std::size_t nodeIndex)
+    {
+      requireLeaf(tree, nodeIndex, surroundings.region);
+      return visit(nodeIndex);
+    });
 }
 
 /// Visits the nodes, other than the path's own, that are not split and touch a box that touches the

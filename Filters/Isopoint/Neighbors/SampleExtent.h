@@ -82,6 +82,7 @@ private:
   static constexpr double leastCosine = 0.7071; // of 45 degrees, but for rounding
 
   /// @param box the intersection of the search's box and the node's region
+  /// @throws MissingNode at a node whose samples another rank holds
   void visit(std::size_t nodeIndex, const Region& box)
   {
     if (!this->mayContribute(box))
@@ -91,6 +92,10 @@ private:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (!node.isSplit())
     {
+      if (node.isAbsent)
+      {
+        throw MissingNode{ nodeIndex, box };
+      }
       this->addSamples(nodeIndex);
       return;
     }

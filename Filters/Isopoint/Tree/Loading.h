@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -54,13 +55,13 @@ struct SliceSummary
 /// Reads the items [begin, end) into samples[begin] and following, packed.
 template <class TSample, class Reader>
 SliceSummary<TSample> loadSlice(
-  TSample* samples, std::size_t begin, std::size_t end, const Reader& read)
+  TSample* samples, std::size_t begin, std::size_t end, const Reader& read, std::uint64_t firstId)
 {
   SliceSummary<TSample> summary;
   TSample* next = samples + begin;
   for (std::size_t id = begin; id < end; ++id)
   {
-    next->id = static_cast<typename TSample::Id>(id);
+    next->id = static_cast<typename TSample::Id>(firstId + id);
     if (read(id, next->position, next->value) && isFinite(*next))
     {
       summary.add(*next++);
@@ -98,9 +99,11 @@ void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>
 /// Creates a tree with nothing but a root from an input of `count` items, each read once.
 /// @param read(id, position, value) writes an item's coordinates and value and returns whether it
 /// takes part. Items with a non-finite coordinate or value are left out as well.
+/// @param firstId of the samples, whose ids count from there on
 /// @throws std::bad_alloc, Aborted
 template <class TSample, class Reader>
-SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, const Reader& read)
+SampleTree<TSample> loadSamples(
+  const Execution& execution, std::size_t count, const Reader& read, std::uint64_t firstId = 0)
 {
   SampleTree<TSample> tree;
   tree.samples.resize(count);
@@ -118,7 +121,7 @@ SampleTree<TSample> loadSamples(const Execution& execution, std::size_t count, c
       for (std::size_t slice = begin; slice < end; ++slice)
       {
         slices[slice] = loadSlice(tree.samples.data(), slice * sliceLength,
-          std::min((slice + 1) * sliceLength, count), read);
+          std::min((slice + 1) * sliceLength, count), read, firstId);
       }
     },
     execution.progress);

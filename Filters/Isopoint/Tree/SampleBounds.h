@@ -2,12 +2,14 @@
 #ifndef isopoint_SampleBounds_h
 #define isopoint_SampleBounds_h
 
+#include "Isopoint/Base/ConcurrentMemo.h"
 #include "Isopoint/Base/Offset.h"
 #include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Tree/SampleBox.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
+#include <limits>
 #include <mutex>
 
 namespace isopoint
@@ -15,7 +17,7 @@ namespace isopoint
 
 /// The bounding boxes of the samples of each split node, which can be far smaller than its region.
 /// They exist once compute() was called and take six coordinates for each split node. The tree must
-/// not change while they are in use.
+/// not change while they are in use, but for being split further where ranks share it.
 template <class TSample>
 class SampleBounds
 {
@@ -29,6 +31,10 @@ public:
   /// @throws std::bad_alloc; then the next call tries again
   void compute()
   {
+    if (this->Tree.isPartial)
+    {
+      return; // each on demand: the tree grows where samples of other ranks are fetched
+    }
     std::call_once(this->Computed,
       [this]()
       {
@@ -38,14 +44,19 @@ public:
   }
 
   /// Bounds on the offsets from a position to the samples of a node, which is a leaf or split.
+  /// @throws MissingNode if some of them are held by another rank
   OffsetBounds offsets(const Vector& from, const Node<TSample>& node) const
   {
     if (!node.isSplit())
     {
+      this->requireSamples(node);
       const auto* const position = this->Tree.samples[node.begin].position;
       return offsetsToBox(from, position, position);
     }
-    const Box& box = this->Boxes[static_cast<std::size_t>(node.childPair)];
+    const auto pair = static_cast<std::size_t>(node.childPair);
+    const Box box = this->Tree.isPartial
+                      ? this->BoxesOnDemand.at(pair, [&]() { return this->wholeBoxOf(node); })
+                      : this->Boxes[pair];
     return offsetsToBox(from, box.lower, box.upper);
   }
 
@@ -64,8 +75,31 @@ private:
     return box;
   }
 
+  void requireSamples(const Node<TSample>& node) const
+  {
+    if (node.isAbsent)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      const Region everywhere{ { -infinity, -infinity, -infinity },
+        { infinity, infinity, infinity } };
+      throw MissingNode{ static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere };
+    }
+  }
+
+  Box wholeBoxOf(const Node<TSample>& node) const
+  {
+    if (!node.isSplit())
+    {
+      this->requireSamples(node);
+      return boxOfSamples(this->Tree, node);
+    }
+    return united(this->wholeBoxOf(this->Tree.nodes[node.lowerNode()]),
+      this->wholeBoxOf(this->Tree.nodes[node.upperNode()]));
+  }
+
   const SampleTree<TSample>& Tree;
-  RawArray<Box> Boxes; // by the number of the node's pair of children
+  RawArray<Box> Boxes;                       // by the number of the node's pair of children
+  mutable ConcurrentMemo<Box> BoxesOnDemand; // likewise, of a partial tree
   std::once_flag Computed;
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 
@@ -31,12 +32,29 @@ struct Node
   Value maximum;     //
   std::uint8_t axis; // the plane's, once split
   bool isLeaf;       // all its samples share one position
+  bool isAbsent;     // its samples are held by another rank; see MissingNode
 
   /// Whether it has children; a node that is neither split nor a leaf may be split later.
   bool isSplit() const { return this->childPair != 0; }
   std::size_t lowerNode() const { return 2 * static_cast<std::size_t>(this->childPair); }
   std::size_t upperNode() const { return this->lowerNode() + 1; }
   std::size_t count() const { return static_cast<std::size_t>(this->end - this->begin); }
+};
+
+/// Thrown by a search for samples that this rank does not hold, or not in the form that is needed:
+/// nobody guesses. Once they have been fetched, the search is to be repeated.
+struct MissingNode : std::exception
+{
+  MissingNode(std::size_t node, const Region& needed)
+    : nodeIndex(node)
+    , box(needed)
+  {
+  }
+
+  const char* what() const noexcept override { return "samples of another rank are missing"; }
+
+  std::size_t nodeIndex;
+  Region box; // where the samples are needed
 };
 
 /// The samples in the order of the tree, and as much of the kd-tree as the isovalues so far needed
@@ -54,9 +72,22 @@ struct SampleTree
   Region region{};           // the root's
   std::size_t skipped = 0;   // samples left out
 
+  /// Where a tree is shared among ranks, each of them has the samples [ownBegin, ownEnd) for its
+  /// own and copies of some others; `samples` has room for all, of which no page is touched that
+  /// holds none. Every node that is split lies in the same place in the trees of all ranks.
+  bool isPartial = false;
+  std::size_t ownBegin = 0;
+  std::size_t ownEnd = std::numeric_limits<std::size_t>::max();
+
   static constexpr std::size_t rootNode = 1;
 
   bool isEmpty() const { return this->samples.size() == 0; }
+
+  /// Whether any of a node's samples is this rank's own.
+  bool hasOwn(const NodeType& node) const
+  {
+    return node.begin < this->ownEnd && node.end > this->ownBegin;
+  }
 
   std::size_t child(const NodeType& node, bool upper) const
   {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ExtractOnRanks_h
+#define isopoint_ExtractOnRanks_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
+#include "Isopoint/Extraction/ExpectedWork.h"
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Extraction/IsosurfaceRequest.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Ranks/NodeExchange.h"
+#include "Isopoint/Ranks/RankSurface.h"
+#include "Isopoint/Ranks/RankThinning.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The isopoints of some indices, ascending; those of the surface are left in an undefined state.
+inline Isosurface chosenIsopoints(Isosurface& surface, const std::vector<std::size_t>& indices)
+{
+  Isosurface chosen;
+  chosen.isovalue = surface.isovalue;
+  for (const std::size_t i : indices)
+  {
+    chosen.edges.push_back(surface.edges[i]);
+    chosen.positions.push_back(surface.positions[i]);
+    chosen.decreasingEdges.push_back(surface.decreasingEdges[i]);
+    chosen.leaves.push_back(surface.leaves[i]);
+    if (!surface.fits.empty())
+    {
+      chosen.fits.push_back(std::move(surface.fits[i]));
+    }
+  }
+  return chosen;
+}
+
+/// Thins the isopoints of all ranks; see thin(). Collective.
+inline void keepOnRanks(
+  const Execution& execution, Team& team, double minimumSpacing, Isosurface& surface)
+{
+  const std::vector<bool> isKept = RankThinning(execution, team, minimumSpacing).kept(surface);
+  team.together(
+    [&]()
+    {
+      std::vector<std::size_t> kept;
+      for (std::size_t i = 0; i < isKept.size(); ++i)
+      {
+        if (isKept[i])
+        {
+          kept.push_back(i);
+        }
+      }
+      surface = chosenIsopoints(surface, kept);
+    });
+}
+
+/// The coincident samples among the ends of edges, by lowest id.
+template <class TSample>
+std::vector<CoincidentSamples> coincidentEnds(
+  const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
+{
+  std::vector<std::size_t> leaves;
+  for (const EdgeLeaves& edge : edges)
+  {
+    for (const std::size_t leaf : { edge.first, edge.second })
+    {
+      if (tree.nodes[leaf].count() > 1)
+      {
+        leaves.push_back(leaf);
+      }
+    }
+  }
+  return coincidentSamplesOf(tree, std::move(leaves));
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SurfaceHalo_h
+#define isopoint_SurfaceHalo_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Ranks/ByteBuffer.h"
+#include "Isopoint/Ranks/NodeExchange.h"
+#include "Isopoint/Ranks/RankSurface.h"
+#include "Isopoint/Ranks/Rounds.h"
+#include "Isopoint/Ranks/SentIsopoint.h"
+#include "Isopoint/Tree/Path.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// This rank's isopoints and those of others within two or more rings around them (see
+/// IsopointNeighbors), in the order of the whole surface. All functions are collective.
+template <class TSample>
+class SurfaceHalo
+{
+public:
+  using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
+
+  /// @param own the isopoints on edges with an end in this rank's leaves
+  /// @param hasFits whether surfaces have them, which an empty one does not show
+  SurfaceHalo(const Execution& execution, NodeExchange<TSample>& exchange,
+    const Neighborhoods& known, const Isosurface& own, bool hasFits)
+    : Run(execution)
+    , Tree(exchange.tree())
+    , Exchange(exchange)
+    , Known(known)
+    , Own(own)
+    , HasFits(hasFits)
+  {
+  }
+
+  /// Gathers two rings.
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  void gather()
+  {
+    std::vector<std::size_t> ends;
+    this->Exchange.together(
+      [&]()
+      {
+        this->indexOwn();
+        this->Received.resize(static_cast<std::size_t>(this->Exchange.team().size()));
+        this->Given.resize(this->Received.size());
+        ends = endsOf(this->Own.leaves);
+      });
+    this->requestIn(this->withTouching(ends));
+    this->grow();
+  }
+
+  /// Adds a ring.
+  void grow()
+  {
+    std::vector<std::size_t> ends;
+    this->Exchange.together(
+      [&]()
+      {
+        ends = endsOf(this->Own.leaves);
+        this->Surrounded.clear();
+        for (const std::vector<SentIsopoint>& list : this->Received)
+        {
+          for (const SentIsopoint& isopoint : list)
+          {
+            ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
+            this->Surrounded.push_back(isopoint.edge);
+          }
+        }
+        keepUnique(ends);
+      });
+    this->requestIn(this->withTouching(ends));
+    this->Exchange.together([&]() { this->unite(); });
+  }
+
+  /// All of them, each once, without coincident samples.
+  const Isosurface& surface() const { return this->All; }
+
+  /// Where this rank's own isopoints are among them.
+  const std::vector<std::size_t>& ownIndices() const { return this->OwnIndices; }
+
+  /// Whether each is one of this rank's or not in the last ring, so that its own first ring is
+  /// complete.
+  const std::vector<bool>& isInner() const { return this->IsInner; }
+
+  /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
+  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
+  void share(std::vector<Vector>& ofAll)
+  {
+    std::vector<std::vector<Vector>> outgoing;
+    this->Exchange.together(
+      [&]()
+      {
+        outgoing.resize(this->Given.size());
+        for (std::size_t rank = 0; rank < this->Given.size(); ++rank)
+        {
+          for (const std::size_t isopoint : this->Given[rank])
+          {
+            outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
+          }
+        }
+      });
+    const std::vector<std::vector<Vector>> arrived = this->Exchange.team().exchange(outgoing);
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < arrived[rank].size(); ++i)
+      {
+        ofAll[this->indexOf(this->Received[rank][i].edge)] = arrived[rank][i];
+      }
+    }
+  }
+
+private:
+  struct OwnEnd
+  {
+    std::uint64_t place; // of a leaf
+    std::size_t isopoint;
+
+    bool operator<(const OwnEnd& other) const
+    {
+      return this->place != other.place ? this->place < other.place
+                                        : this->isopoint < other.isopoint;
+    }
+  };
+
+  static bool isBefore(const IsopointEdge& a, const IsopointEdge& b)
+  {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  }
+
+  template <class T>
+  static void keepUnique(std::vector<T>& list)
+  {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
+  {
+    std::vector<std::size_t> ends;
+    for (const EdgeLeaves& edge : leaves)
+    {
+      ends.insert(ends.end(), { edge.first, edge.second });
+    }
+    keepUnique(ends);
+    return ends;
+  }
+
+  void indexOwn()
+  {
+    for (std::size_t i = 0; i < this->Own.size(); ++i)
+    {
+      for (const std::size_t leaf : { this->Own.leaves[i].first, this->Own.leaves[i].second })
+      {
+        this->OwnEnds.push_back({ this->Tree.nodes[leaf].begin, i });
+      }
+    }
+    std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
+  }
+
+  /// The given leaves and all that touch them, but for leaves that touch too many others: around
+  /// those no isopoints are looked for.
+  std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
+  {
+    constexpr std::size_t most = 256; // see IsopointNeighbors
+    std::vector<std::size_t> all;
+    std::mutex mutex;
+    this->Exchange.together([&]() { all = leaves; });
+    inRounds(
+      this->Run, this->Exchange, leaves.size(), []() { return std::vector<std::size_t>(); },
+      [&](std::vector<std::size_t>& touching, std::size_t i)
+      {
+        touching.clear();
+        const auto known = this->Known.at(leaves[i]);
+        if (known.isEmpty())
+        {
+          visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaves[i]),
+            [&](std::size_t node)
+            {
+              touching.push_back(node);
+              return touching.size() > most;
+            });
+        }
+        else
+        {
+          touching.assign(known.begin(), known.end());
+        }
+        if (touching.size() <= most)
+        {
+          touching.erase(
+            std::remove_if(touching.begin(), touching.end(),
+              [this](std::size_t node) { return this->Tree.hasOwn(this->Tree.nodes[node]); }),
+            touching.end());
+          const std::lock_guard<std::mutex> lock(mutex);
+          all.insert(all.end(), touching.begin(), touching.end());
+        }
+      });
+    this->Exchange.together([&]() { keepUnique(all); });
+    return all;
+  }
+
+  /// Fetches the isopoints whose edges end in those of the leaves that are other ranks', unless
+  /// that was done before.
+  void requestIn(const std::vector<std::size_t>& leaves)
+  {
+    std::vector<std::vector<std::uint64_t>> questions;
+    this->Exchange.together(
+      [&]()
+      {
+        questions.resize(this->Received.size());
+        for (const std::size_t leaf : leaves)
+        {
+          const Node<TSample>& node = this->Tree.nodes[leaf];
+          if (!this->Tree.hasOwn(node) && this->Requested.insert(leaf).second)
+          {
+            questions[this->Exchange.ownerOf(node.begin)].push_back(node.begin);
+          }
+        }
+      });
+    const std::vector<std::vector<std::uint64_t>> asked = this->Exchange.team().exchange(questions);
+    std::vector<ByteBuffer> answers;
+    this->Exchange.together(
+      [&]()
+      {
+        answers.resize(asked.size());
+        for (std::size_t rank = 0; rank < asked.size(); ++rank)
+        {
+          this->answer(asked[rank], rank, answers[rank]);
+        }
+      });
+    const std::vector<ByteBuffer> arrived = this->Exchange.team().exchange(answers);
+    std::vector<SentIsopoint*> added;
+    this->Exchange.together([&]() { added = this->receive(arrived); });
+    inRounds(
+      Execution(), this->Exchange, added.size(), []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const auto& ends = added[i]->ends;
+        added[i]->leaves = { leafAt(this->Tree, ends[0].place, ends[0].position),
+          leafAt(this->Tree, ends[1].place, ends[1].position) };
+      });
+  }
+
+  /// Writes the isopoints that end in some of this rank's leaves, each once.
+  void answer(const std::vector<std::uint64_t>& places, std::size_t rank, ByteBuffer& answer)
+  {
+    std::vector<std::size_t> isopoints;
+    for (const std::uint64_t place : places)
+    {
+      for (auto end =
+             std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
+           end != this->OwnEnds.end() && end->place == place; ++end)
+      {
+        isopoints.push_back(end->isopoint);
+      }
+    }
+    keepUnique(isopoints);
+    for (const std::size_t isopoint : isopoints)
+    {
+      appendIsopoint(answer, this->Tree, this->Own, isopoint);
+      this->Given[rank].push_back(isopoint);
+    }
+  }
+
+  /// @returns those that arrived, which stay where they are until the next call
+  std::vector<SentIsopoint*> receive(const std::vector<ByteBuffer>& arrived)
+  {
+    std::vector<SentIsopoint*> added;
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      const std::size_t before = this->Received[rank].size();
+      ByteReader in(arrived[rank]);
+      while (!in.isAtEnd())
+      {
+        this->Received[rank].push_back(readIsopoint(in, this->HasFits));
+      }
+      for (std::size_t i = before; i < this->Received[rank].size(); ++i)
+      {
+        added.push_back(&this->Received[rank][i]);
+      }
+    }
+    return added;
+  }
+
+  /// Brings own and received isopoints into one order.
+  void unite()
+  {
+    struct Source
+    {
+      IsopointEdge edge;
+      const SentIsopoint* received; // null for one of this rank's
+      std::size_t own;
+    };
+    std::vector<Source> sources;
+    for (std::size_t i = 0; i < this->Own.size(); ++i)
+    {
+      sources.push_back({ this->Own.edges[i], nullptr, i });
+    }
+    for (const std::vector<SentIsopoint>& list : this->Received)
+    {
+      for (const SentIsopoint& isopoint : list)
+      {
+        sources.push_back({ isopoint.edge, &isopoint, 0 });
+      }
+    }
+    std::stable_sort(sources.begin(), sources.end(),
+      [](const Source& a, const Source& b) { return isBefore(a.edge, b.edge); });
+    sources.erase(std::unique(sources.begin(), sources.end(),
+                    [](const Source& a, const Source& b) { return a.edge == b.edge; }),
+      sources.end());
+    std::sort(this->Surrounded.begin(), this->Surrounded.end(), isBefore);
+    this->All = Isosurface();
+    this->IsInner.clear();
+    this->OwnIndices.resize(this->Own.size());
+    this->All.isovalue = this->Own.isovalue;
+    for (const Source& source : sources)
+    {
+      const bool isOwn = !source.received;
+      if (isOwn)
+      {
+        this->OwnIndices[source.own] = this->All.size();
+      }
+      this->All.positions.push_back(
+        isOwn ? this->Own.positions[source.own] : source.received->position);
+      this->All.decreasingEdges.push_back(
+        isOwn ? this->Own.decreasingEdges[source.own] : source.received->decreasingEdge);
+      this->All.leaves.push_back(isOwn ? this->Own.leaves[source.own] : source.received->leaves);
+      if (this->HasFits)
+      {
+        this->All.fits.push_back(isOwn ? this->Own.fits[source.own] : source.received->fit);
+      }
+      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
+                                         this->Surrounded.end(), source.edge, isBefore));
+      this->All.edges.push_back(source.edge);
+    }
+  }
+
+  std::size_t indexOf(const IsopointEdge& edge) const
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(this->All.edges.begin(), this->All.edges.end(), edge, isBefore) -
+      this->All.edges.begin());
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  NodeExchange<TSample>& Exchange;
+  const Neighborhoods& Known;
+  const Isosurface& Own;
+  const bool HasFits;
+  std::vector<OwnEnd> OwnEnds;
+  std::unordered_set<std::size_t> Requested;       // leaves
+  std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
+  std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
+  std::vector<IsopointEdge> Surrounded;            // received before the last ring
+  Isosurface All;
+  std::vector<std::size_t> OwnIndices;
+  std::vector<bool> IsInner;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RankTesting_h
+#define RankTesting_h
+
+#include "Clouds.h"
+#include "ThreadRanks.h"
+
+#include "Isopoint/IsosurfaceExtractor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace ranks
+{
+
+/// How a cloud is dealt out. Ids count through the ranks: the cloud of one process is that of all
+/// ranks in their order.
+enum class Deal
+{
+  Even,       // consecutive samples, as many to each rank
+  RoundRobin, // one to each in turn
+  First,      // all to the first rank
+  Last,       // all to the last one
+  Skewed,     // half of what is left to each
+  Spatial     // by x
+};
+
+constexpr Deal allDeals[] = { Deal::Even, Deal::RoundRobin, Deal::First, Deal::Last, Deal::Skewed,
+  Deal::Spatial };
+
+inline std::size_t rankOf(
+  const clouds::Cloud& cloud, std::size_t sample, std::size_t size, Deal deal)
+{
+  const std::size_t count = cloud.size();
+  switch (deal)
+  {
+    case Deal::Even:
+      return sample * size / count;
+    case Deal::RoundRobin:
+      return sample % size;
+    case Deal::First:
+      return 0;
+    case Deal::Last:
+      return size - 1;
+    case Deal::Skewed:
+    {
+      std::size_t rank = 0;
+      for (std::size_t left = count / 2; sample > left && rank + 1 < size;
+           left += (count - left) / 2)
+      {
+        ++rank;
+      }
+      return rank;
+    }
+    default:
+    {
+      const double x = 4.0 * cloud.positions[3 * sample];
+      const auto slab = static_cast<std::size_t>(std::abs(std::floor(std::clamp(x, -1e6, 1e6))));
+      return slab % size;
+    }
+  }
+}
+
+inline std::vector<clouds::Cloud> dealOut(const clouds::Cloud& cloud, std::size_t size, Deal deal)
+{
+  std::vector<clouds::Cloud> pieces(size);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const position = cloud.positions.data() + 3 * i;
+    pieces[rankOf(cloud, i, size, deal)].add(
+      position[0], position[1], position[2], cloud.values[i]);
+  }
+  return pieces;
+}
+
+inline clouds::Cloud concatenated(const std::vector<clouds::Cloud>& pieces)
+{
+  clouds::Cloud all;
+  for (const clouds::Cloud& piece : pieces)
+  {
+    all.positions.insert(all.positions.end(), piece.positions.begin(), piece.positions.end());
+    all.values.insert(all.values.end(), piece.values.begin(), piece.values.end());
+  }
+  return all;
+}
+
+/// All that is known of one isopoint, as text to compare: every number by its bits.
+inline std::string described(const isopoint::ExtractedIsosurface& extracted, std::size_t i)
+{
+  std::string text;
+  const auto put = [&text](const auto& value)
+  { text.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  const isopoint::Isosurface& surface = extracted.surface;
+  put(surface.edges[i].first);
+  put(surface.edges[i].second);
+  put(surface.edges[i].parameter);
+  put(surface.positions[i]);
+  put(surface.decreasingEdges[i]);
+  const auto putPlane = [&](const isopoint::CreasePlane& plane)
+  {
+    put(plane.inward);
+    put(plane.distance);
+    put(plane.turn);
+  };
+  if (!surface.fits.empty())
+  {
+    const isopoint::LocalFit& fit = surface.fits[i];
+    put(fit.position);
+    put(fit.gradient);
+    put(fit.isGradientFitted);
+    put(fit.hessian);
+    put(fit.isSmooth);
+    put(fit.spacing);
+    put(fit.order ? static_cast<int>(*fit.order) : 0);
+    std::for_each(fit.creases.begin(), fit.creases.end(), putPlane);
+  }
+  if (!extracted.splats.empty())
+  {
+    const isopoint::Splat& splat = extracted.splats[i];
+    put(splat.normal);
+    put(splat.radius);
+    put(splat.axis1);
+    put(splat.axis2);
+    if (splat.clip)
+    {
+      putPlane(*splat.clip);
+    }
+  }
+  for (const std::uint64_t id : { surface.edges[i].first, surface.edges[i].second })
+  {
+    if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))
+    {
+      text.append("coincident");
+      for (const std::uint64_t other : group->ids)
+      {
+        put(other);
+      }
+    }
+  }
+  return text;
+}
+
+using Description = std::vector<std::string>;
+
+inline Description described(const isopoint::ExtractedIsosurface& extracted)
+{
+  Description all;
+  for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+  {
+    all.push_back(described(extracted, i));
+  }
+  return all;
+}
+
+/// Extracts, one after the other, on ranks that are threads. @returns the points of all ranks, by
+/// request
+template <class TCoordinate = double, class TValue = double>
+std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces,
+  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1)
+{
+  std::vector<Description> all(requests.size());
+  std::mutex mutex;
+  ThreadRanks team(static_cast<int>(pieces.size()));
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+      const isopoint::Execution execution = clouds::executionOn(threads);
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<TCoordinate, TValue>(
+        execution, communicator, piece.size(), clouds::readerOf(piece));
+      for (std::size_t i = 0; i < requests.size(); ++i)
+      {
+        const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
+        const auto byEnds = [](const isopoint::IsopointEdge& a, const isopoint::IsopointEdge& b)
+        { return a.first != b.first ? a.first < b.first : a.second < b.second; };
+        EXPECT_TRUE(
+          std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end(), byEnds));
+        const Description own = described(extracted);
+        const std::lock_guard<std::mutex> lock(mutex);
+        all[i].insert(all[i].end(), own.begin(), own.end());
+      }
+    });
+  return all;
+}
+
+template <class TCoordinate = double, class TValue = double>
+void expectSameAsOneProcess(const clouds::Cloud& cloud, int size, Deal deal,
+  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1)
+{
+  const std::vector<clouds::Cloud> pieces = dealOut(cloud, static_cast<std::size_t>(size), deal);
+  const clouds::Cloud all = concatenated(pieces);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<TCoordinate, TValue>(isopoint::Execution(), all.size(), clouds::readerOf(all));
+  std::vector<Description> found = extractOnRanks<TCoordinate, TValue>(pieces, requests, threads);
+  for (std::size_t i = 0; i < requests.size(); ++i)
+  {
+    Description expected = described(extractor.extract(isopoint::Execution(), requests[i]));
+    std::sort(expected.begin(), expected.end());
+    std::sort(found[i].begin(), found[i].end());
+    ASSERT_EQ(expected.size(), found[i].size()) << "request " << i;
+    std::size_t differing = 0;
+    for (std::size_t point = 0; point < expected.size(); ++point)
+    {
+      differing += expected[point] != found[i][point] ? 1 : 0;
+    }
+    ASSERT_EQ(0u, differing) << "of " << expected.size() << ", request " << i;
+  }
+}
+
+} // namespace ranks
+
+#endif

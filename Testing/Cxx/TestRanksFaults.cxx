@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What fails on one rank ends the work of all; none of them waits for ever, and the next call
+// works.
+#include "FailingAllocator.h"
+#include "RankTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+
+namespace
+{
+
+isopoint::ExtractionRequest everything()
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 2.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.minimumSpacing = 0.3;
+  request.splats = isopoint::SplatOptions();
+  return request;
+}
+
+void wait(isopoint::Communicator& communicator)
+{
+  std::uint64_t number = 0;
+  communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
+}
+
+/// Loads and extracts on two ranks while the n-th large allocation of both fails, then again.
+/// @returns whether there were that many
+bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Description& expected)
+{
+  std::atomic<int> failures{ 0 };
+  std::atomic<int> others{ 0 };
+  std::atomic<bool> wasReached{ false };
+  ranks::Description found;
+  std::mutex mutex;
+  ThreadRanks team(static_cast<int>(pieces.size()));
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+      isopoint::IsosurfaceExtractor extractor;
+      const auto load = [&]()
+      {
+        extractor.loadOnRanks<double, double>(
+          isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
+      };
+      bool isLoaded = false;
+      if (communicator.rank() == 0)
+      {
+        failingallocator::failAt(n, false);
+      }
+      wait(communicator);
+      try
+      {
+        load();
+        isLoaded = true;
+        extractor.extract(isopoint::Execution(), everything());
+      }
+      catch (const std::bad_alloc&)
+      {
+        ++failures;
+      }
+      catch (const isopoint::FailedElsewhere&)
+      {
+        ++others;
+      }
+      wait(communicator);
+      if (communicator.rank() == 0)
+      {
+        wasReached = failingallocator::stop() >= n;
+      }
+      wait(communicator);
+      if (!isLoaded)
+      {
+        load();
+      }
+      const auto extracted = extractor.extract(isopoint::Execution(), everything());
+      const ranks::Description own = ranks::described(extracted);
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.insert(found.end(), own.begin(), own.end());
+    });
+  std::sort(found.begin(), found.end());
+  EXPECT_TRUE(failures + others == 0 || failures + others == static_cast<int>(pieces.size()));
+  EXPECT_LE(failures, 1);
+  EXPECT_TRUE(found == expected);
+  return wasReached;
+}
+
+} // namespace
+
+TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
+{
+  const std::vector<clouds::Cloud> pieces =
+    ranks::dealOut(clouds::coincident(clouds::uniform(1500, 1), 0.05), 3, ranks::Deal::RoundRobin);
+  ranks::Description expected = ranks::extractOnRanks(pieces, { everything() }).front();
+  std::sort(expected.begin(), expected.end());
+  ASSERT_FALSE(expected.empty());
+  long n = 1;
+  while (failsAt(n, pieces, expected) && !HasFailure())
+  {
+    SCOPED_TRACE(n);
+    n += n < 200 ? 1 : 7;
+  }
+  EXPECT_GT(n, 100);
+}
+
+TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
+{
+  const std::vector<clouds::Cloud> pieces =
+    ranks::dealOut(clouds::uniform(3000, 2), 3, ranks::Deal::Even);
+  const std::vector<ranks::Description> expected = ranks::extractOnRanks(pieces, { everything() });
+  for (int last = 0; last < 40; ++last)
+  {
+    std::atomic<int> aborts{ 0 };
+    std::atomic<int> finished{ 0 };
+    ThreadRanks team(3);
+    team.run(
+      [&](isopoint::Communicator& communicator)
+      {
+        const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+        isopoint::Execution execution;
+        int questions = 0;
+        execution.aborted = [&]() { return communicator.rank() == 1 && questions++ >= last; };
+        isopoint::IsosurfaceExtractor extractor;
+        try
+        {
+          extractor.loadOnRanks<double, double>(
+            execution, communicator, piece.size(), clouds::readerOf(piece));
+          extractor.extract(execution, everything());
+          ++finished;
+        }
+        catch (const isopoint::Aborted&)
+        {
+          ++aborts;
+        }
+      });
+    EXPECT_EQ(aborts + finished, 3);
+    EXPECT_TRUE(aborts == 0 || finished == 0);
+  }
+}
