@@ -123,8 +123,8 @@ std::string vtkIsopointArrayChoice::DescribeMissing() const
            : "The input has no " + element + " array named \"" + this->Name + "\".";
 }
 
-void vtkIsopointBlocks::Collect(
-  const isopoint::Execution& execution, vtkDataObject* input, const vtkIsopointArrayChoice& choice)
+void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObject* input,
+  const vtkIsopointArrayChoice& choice, const int* wholeExtent)
 {
   this->ReleaseInput();
   std::string remedy;
@@ -135,7 +135,7 @@ void vtkIsopointBlocks::Collect(
       if (elementCount(leaf) > 0)
       {
         remedy = remedy.empty() ? remedyFor(leaf) : remedy;
-        this->AddLeaf(execution, leaf, number, choice);
+        this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
       }
     });
   this->KeptCenters.erase(this->KeptCenters.lower_bound(this->LeafCount), this->KeptCenters.end());
@@ -151,7 +151,7 @@ void vtkIsopointBlocks::Collect(
 }
 
 void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf,
-  std::size_t number, const vtkIsopointArrayChoice& choice)
+  std::size_t number, const vtkIsopointArrayChoice& choice, const int* wholeExtent)
 {
   // A hyper tree grid has cell data only.
   const bool hasPoints = vtkDataSet::SafeDownCast(leaf) != nullptr;
@@ -175,7 +175,11 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   if (ofPoints)
   {
     block.Positions = vtkDataSet::SafeDownCast(leaf);
-    block.Ghosts = vtkFindGhostPoints(block.Positions);
+    block.Ghosts = vtkFindGhostPoints(block.Positions, wholeExtent);
+    for (int i = 0; wholeExtent && i < 6; ++i)
+    {
+      state.push_back(static_cast<vtkMTimeType>(wholeExtent[i]));
+    }
   }
   else
   {

@@ -60,10 +60,12 @@ class vtkIsopointBlocks
 {
 public:
   /// Collects the blocks of an input, except those without the array or without points or cells.
+  /// @param wholeExtent of the structured grid of which the input is a piece of one of several
+  /// ranks, or null
   /// @throws vtkIsopointUsageError if no block remains, or if the array of a block is not a scalar
   /// array with one value for each point or cell; std::bad_alloc; isopoint::Aborted
   void Collect(const isopoint::Execution& execution, vtkDataObject* input,
-    const vtkIsopointArrayChoice& choice);
+    const vtkIsopointArrayChoice& choice, const int* wholeExtent);
 
   const std::vector<vtkIsopointBlock>& GetBlocks() const { return this->Blocks; }
 
@@ -81,7 +83,7 @@ public:
 
 private:
   void AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf, std::size_t number,
-    const vtkIsopointArrayChoice& choice);
+    const vtkIsopointArrayChoice& choice, const int* wholeExtent);
   void AddCenters(const isopoint::Execution& execution, vtkDataObject* leaf,
     const vtkIsopointInputState& geometry, vtkIsopointBlock& block);
 

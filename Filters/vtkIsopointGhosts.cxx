@@ -4,9 +4,11 @@
 #include "vtkIsopointAllocation.h"
 
 #include "vtkCellData.h"
+#include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
@@ -61,7 +63,11 @@ vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtk
            : nullptr;
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input)
+namespace
+{
+
+/// The points of a data set without regard to other ranks; see vtkFindGhostPoints().
+vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(vtkDataSet* input)
 {
   const vtkIdType count = input->GetNumberOfPoints();
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
@@ -90,6 +96,44 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input)
     const int value =
       (own ? own->GetValue(point) : 0) | (isExcluded ? vtkDataSetAttributes::HIDDENPOINT : 0);
     ghosts->SetValue(point, static_cast<unsigned char>(value));
+  }
+  return ghosts;
+}
+
+/// Whether the pieces of a structured grid go on beyond this one.
+bool goesOn(const int* extent, const int* wholeExtent)
+{
+  return extent[1] < wholeExtent[1] || extent[3] < wholeExtent[3] || extent[5] < wholeExtent[5];
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input, const int* wholeExtent)
+{
+  const vtkSmartPointer<vtkUnsignedCharArray> own = findOwnGhostPoints(input);
+  const int* const extent = wholeExtent && input->GetExtentType() == VTK_3D_EXTENT
+                              ? input->GetInformation()->Get(vtkDataObject::DATA_EXTENT())
+                              : nullptr;
+  if (!extent || !goesOn(extent, wholeExtent))
+  {
+    return own;
+  }
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(input->GetNumberOfPoints());
+  vtkIdType point = 0;
+  for (int z = extent[4]; z <= extent[5]; ++z)
+  {
+    for (int y = extent[2]; y <= extent[3]; ++y)
+    {
+      for (int x = extent[0]; x <= extent[1]; ++x, ++point)
+      {
+        const bool isOfNext = (x == extent[1] && x < wholeExtent[1]) ||
+                              (y == extent[3] && y < wholeExtent[3]) ||
+                              (z == extent[5] && z < wholeExtent[5]);
+        const int value =
+          (own ? own->GetValue(point) : 0) | (isOfNext ? vtkDataSetAttributes::DUPLICATEPOINT : 0);
+        ghosts->SetValue(point, static_cast<unsigned char>(value));
+      }
+    }
   }
   return ghosts;
 }

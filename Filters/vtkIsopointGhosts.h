@@ -19,9 +19,11 @@ vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtk
  * The points of a data set that take no part, as vtkIsopointBlock::Ghosts: ghost and hidden points,
  * and points all of whose cells are hidden, covered by a finer level or, if the points have no
  * ghost array, ghosts. Points without cells take part. Null only if all points do.
+ * @param wholeExtent of the structured grid of which the data set is a piece of one of several
+ * ranks, or null: the last points along each axis, which the next piece has as well, are left out
  * @throws std::bad_alloc
  */
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input);
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input, const int* wholeExtent);
 
 /**
  * The cells of a data set that take no part, as vtkIsopointBlock::Ghosts: ghost and hidden cells,

@@ -31,6 +31,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -281,7 +282,7 @@ void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObjec
   vtkCheckIsopointOptions(this);
   vtkIsopointBlocks& blocks = this->Kept->Input;
   blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
-    vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
+    vtkIsopointArrayChoice(this->GetInputArrayInformation(0)), nullptr);
   this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
   const std::size_t count = blocks.GetBlocks().size();
   if (auto* const surface = vtkPolyData::SafeDownCast(output))
@@ -386,8 +387,9 @@ void vtkScatteredIsopointFilter::CollectOnRanks(
     {
       try
       {
-        this->Kept->Input.Collect(
-          execution, input, vtkIsopointArrayChoice(this->GetInputArrayInformation(0)));
+        this->Kept->Input.Collect(execution, input,
+          vtkIsopointArrayChoice(this->GetInputArrayInformation(0)),
+          this->GetInputInformation(0, 0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
       }
       catch (const vtkIsopointNothingError& error)
       {

@@ -444,31 +444,6 @@ TEST(LocalFit, OneSideOfAStepDecides)
   EXPECT_LT(sum, plainSum);
 }
 
-// Where an affine function goes through the samples next to the edge, exactly, there is no scale of
-// residuals: the weights stay as they are.
-TEST(LocalFit, ResidualsOfZeroLeaveTheWeights)
-{
-  std::vector<FitSample> samples;
-  for (const double x : { -1.0, 0.0, 1.0 })
-  {
-    for (const double y : { -1.0, 1.0 })
-    {
-      for (const double z : { -1.0, 1.0 })
-      {
-        samples.push_back({ { x, y, z }, z });
-      }
-    }
-  }
-  const std::size_t nearCount = samples.size(); // too few for a quadratic
-  for (const FitSample& sample : samplesOf([](const Vector& p) { return p[2]; }, 40))
-  {
-    samples.push_back(sample);
-  }
-  const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic, 0.0, nearCount);
-  EXPECT_EQ(found.order, FitOrder::Cubic);
-  EXPECT_NEAR(lengthOf(found.position), 0.0, 1e-12);
-}
-
 TEST(LocalFit, MovesASpheresPointsOntoIt)
 {
   const Field field = [](const Vector& p) { return lengthOf(p); };

@@ -84,28 +84,31 @@ TEST(Splats, OfAnIsolatedPointStaySmall)
   EXPECT_LT(splatsOf(sphere.positions, sphere.edges).back().radius, 0.12);
 }
 
-// Isopoints crowd within a cluster of samples. Where no fit describes a surface, those of other
-// clusters do not make plates of them.
-TEST(Splats, OfAClusterWithoutFitsStaySmall)
+// Where a coarse lattice meets a fine one, many isopoints crowd at one coarse sample. Their splats
+// cover what lies between that and the next.
+TEST(Splats, CoverTheGapsBetweenCrowds)
 {
   const Vector gradient{ 0.0, 0.0, -1.0 };
   Points points;
-  clouds::Random random(7);
-  for (int i = 0; i < 40; ++i)
+  for (int i = -4; i <= 4; ++i)
   {
-    addFitted(points, { 0.1 * random(), 0.1 * random(), 0.0 }, std::nullopt, gradient);
-  }
-  for (int i = 0; i < 12; ++i)
-  {
-    const double angle = 0.52 * i;
-    addFitted(
-      points, { 3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0 }, std::nullopt, gradient);
+    for (int k = -4; k <= 4; ++k)
+    {
+      for (int n = 0; n < 14; ++n)
+      {
+        addFitted(
+          points, { i + 0.001 * std::cos(n), k + 0.001 * std::sin(n), 0.0 }, std::nullopt, gradient);
+      }
+    }
   }
   const std::vector<Splat> splats = splatsOf(points);
-  for (int i = 0; i < 40; ++i)
+  double farthest = 0.0; // of the splats at the middle
+  for (std::size_t i = splats.size() / 2 - 7; i < splats.size() / 2 + 7; ++i)
   {
-    EXPECT_LT(splats[i].radius, 0.3);
+    farthest = std::max(farthest, splats[i].radius);
   }
+  EXPECT_GT(farthest, 0.7);
+  EXPECT_LT(farthest, 1.5);
 }
 
 TEST(Splats, PlanesAreFittedToAsManyPointsAsRequested)

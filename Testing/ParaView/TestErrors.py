@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An error on the last rank only: TestErrors.py [PVSERVER]. The output of the test must contain it,
+"""An error on the last rank only: TestErrors.py [PVSERVER...]. The output of the test must contain it,
 also if that rank is not the one that runs the script."""
 
 import sys
@@ -17,5 +17,5 @@ if ranks.GetLocalProcessId() == ranks.GetNumberOfProcesses() - 1:
 """
 
 if len(sys.argv) > 1:
-    connect_to(sys.argv[1])
+    connect_to(*sys.argv[1:])
 simple.ProgrammableSource(Script=SCRIPT).UpdatePipeline()

@@ -12,6 +12,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import vtkScatteredIsopointFilter
 
@@ -272,6 +273,21 @@ class RanksTest(unittest.TestCase):
         mine = [number for number in range(8) if number * SIZE // 8 == RANK]
         self.same(prepared(blocks(mine), RANKS).GetOutput(),
                   lambda: prepared(blocks(range(8)), None).GetOutput())
+
+    def test_pieces_of_an_image(self):
+        """Consecutive pieces both have the points between them, which count once."""
+        def isopoints_of_image(controller, piece, pieces):
+            image = vtkRTAnalyticSource()
+            image.SetWholeExtent(-9, 8, -7, 9, -8, 8)
+            isopoints = vtkScatteredIsopointFilter()
+            isopoints.SetController(controller)
+            isopoints.SetInputConnection(image.GetOutputPort())
+            isopoints.SetValue(0, 150.0)
+            isopoints.UpdatePiece(piece, pieces, 0)
+            return isopoints
+
+        isopoints = isopoints_of_image(RANKS, RANK, SIZE)
+        self.same(isopoints.GetOutput(), lambda: isopoints_of_image(None, 0, 1).GetOutput())
 
     def test_ghosts_are_left_out(self):
         points = cloud("uniform", 2000, 6)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The representation Isopoint Splats. Runs in pvbatch, under MPI too, and in a client of a server:
 
-TestSplats.py PLUGIN [PVSERVER], with a server that the script starts."""
+TestSplats.py PLUGIN [PVSERVER...], with a server that the script starts by this command."""
 
 import os
 import socket
@@ -14,6 +14,9 @@ from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+
+BALL_POINTS = 39193  # of ball(), on any number of ranks
 
 
 def check(condition, message):
@@ -228,20 +231,20 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def connect_to(server):
-    """Starts a server and connects to it. The server ends when this client does; if it ended before,
+def connect_to(*server):
+    """Starts a server by a command and connects to it. The server ends when this client does; if it ended before,
     the client would report an error."""
     port = free_port()
     # The client listens and the server calls, so that neither has to wait for the other.
     subprocess.Popen(
-        [server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
+        [*server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
     )
     simple.ReverseConnect(str(port))
 
 
-def main(plugin, server=None):
+def main(plugin, *server):
     if server:
-        connect_to(server)
+        connect_to(*server)
         simple.LoadPlugin(plugin, remote=True)
     simple.LoadPlugin(plugin, remote=False)
     simple._DisableFirstRenderCameraReset()
@@ -250,6 +253,8 @@ def main(plugin, server=None):
     isopoints = simple.ScatteredIsopoints(Input=source)
     isopoints.ContourBy = ["POINTS", "r"]
     isopoints.Isosurfaces = [48.0]
+    isopoints.UpdatePipeline()
+    check(isopoints.GetDataInformation().GetNumberOfPoints() == BALL_POINTS, "points of all ranks")
     display, image = shows_the_ball(view, isopoints)
     colors(view, isopoints, display)
     properties(view, isopoints, display, image)

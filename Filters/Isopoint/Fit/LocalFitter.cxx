@@ -219,17 +219,19 @@ bool LocalFitter::fitLinear(LocalFit& fit)
   return true;
 }
 
-/// Sets the fit to pieces that meet at creases, if they describe the samples well, and better
+/// Sets the fit to pieces that meet at creases, if they describe the samples well, and far better
 /// than a polynomial. @returns whether they do
 bool LocalFitter::fitCreases(LocalFit& fit)
 {
   constexpr double mostResidual = 0.03; // larger ones come from noise
+  // Pieces are chosen to fit the samples: in noise they leave somewhat less than polynomials.
+  constexpr double mostResidualShare = 0.5;
   const FrameSamples& samples = this->Frame.samples();
   weighMildly(this->Frame, this->Weights);
   const std::optional<CreaseFit> crease = fitCrease(samples, this->Weights);
   if (!crease || !crease->isSharp() ||
       !(crease->residual <= mostResidual * crease->leastSlope() * this->Frame.meanDistance()) ||
-      !(crease->residual < polynomialResidual(samples, this->Weights)))
+      !(crease->residual < mostResidualShare * polynomialResidual(samples, this->Weights)))
   {
     return false;
   }

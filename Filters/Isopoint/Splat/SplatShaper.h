@@ -133,10 +133,9 @@ private:
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
     this->Nearby.find(point, 1, unit, 4.0 * near);
-    const double reach = openReach * (this->isSmooth(point) ? 1.0 : this->crowding());
     if (!this->isSmooth(point))
     {
-      cell.limit(2.0 * reach);
+      cell.limit(2.0 * openReach);
     }
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
@@ -147,19 +146,8 @@ private:
     }
     if (cell.isOpen())
     {
-      cell.limit(reach);
+      cell.limit(openReach);
     }
-  }
-
-  /// By how much less than samples the points around are spread, as where samples stand in
-  /// clusters: up to 1.
-  double crowding() const
-  {
-    constexpr std::size_t count = 12; // about those of a first ring, and
-    constexpr double share = 0.8;     // of their distance that is a spacing
-    return this->Nearby.size() < count
-             ? 1.0
-             : std::min(1.0, share * std::sqrt(this->Nearby.begin()[count - 1].squaredDistance));
   }
 
   void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
