@@ -96,8 +96,8 @@ TEST(Splats, CoverTheGapsBetweenCrowds)
     {
       for (int n = 0; n < 14; ++n)
       {
-        addFitted(
-          points, { i + 0.001 * std::cos(n), k + 0.001 * std::sin(n), 0.0 }, std::nullopt, gradient);
+        addFitted(points, { i + 0.001 * std::cos(n), k + 0.001 * std::sin(n), 0.0 }, std::nullopt,
+          gradient);
       }
     }
   }

@@ -287,7 +287,13 @@ class RanksTest(unittest.TestCase):
             return isopoints
 
         isopoints = isopoints_of_image(RANKS, RANK, SIZE)
-        self.same(isopoints.GetOutput(), lambda: isopoints_of_image(None, 0, 1).GetOutput())
+        # The samples have another order, on which the last bits depend.
+        parts = gather(vtk_to_numpy(isopoints.GetOutput().GetPoints().GetData()).tolist())
+        if RANK == 0:
+            whole = isopoints_of_image(None, 0, 1).GetOutput()
+            expected = vtk_to_numpy(whole.GetPoints().GetData()).tolist()
+            self.assertEqual(sorted(tuple(np.round(p, 4) + 0.0) for part in parts for p in part),
+                             sorted(tuple(np.round(p, 4) + 0.0) for p in expected))
 
     def test_ghosts_are_left_out(self):
         points = cloud("uniform", 2000, 6)

@@ -232,12 +232,17 @@ def free_port():
 
 
 def connect_to(*server):
-    """Starts a server by a command and connects to it. The server ends when this client does; if it ended before,
-    the client would report an error."""
+    """Starts a server by a command and connects to it. The server ends when this client does; if it
+    ended before, the client would report an error."""
     port = free_port()
+    # What MPI has set in this process would keep mpiexec from starting ranks.
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_"))
+    }
     # The client listens and the server calls, so that neither has to wait for the other.
     subprocess.Popen(
-        [*server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"]
+        [*server, "--reverse-connection", "--client-host=127.0.0.1", f"--server-port={port}"],
+        env=environment,
     )
     simple.ReverseConnect(str(port))
 
