@@ -289,6 +289,7 @@ void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
       this->Copied = vtkSmartPointer<vtkPointData>::New();
       const auto count = static_cast<vtkIdType>(ids.size());
       std::vector<const char*> next;
+      next.reserve(arrived.size());
       for (const std::vector<char>& bytes : arrived)
       {
         next.push_back(bytes.data());
