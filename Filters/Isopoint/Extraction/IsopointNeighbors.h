@@ -13,18 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <exception>
 #include <numeric>
 #include <vector>
 
 namespace isopoint
 {
-
-/// Thrown where isopoints are looked for around one around which they are not known.
-struct MissingRing : std::exception
-{
-  const char* what() const noexcept override { return "isopoints of another rank are missing"; }
-};
 
 /// The isopoints around each isopoint: those whose edges end in the two leaves of its own edge or
 /// in leaves that touch one of these, so that around an isopoint there are others in all directions
@@ -52,8 +45,7 @@ public:
     std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
     this->numberLeaves(leaves, numbers);
     this->listIsopoints();
-    std::vector<bool>& isSurrounded = this->IsSurrounded;
-    isSurrounded.assign(this->Leaves.size(), !isInner);
+    std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
     for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
     {
       for (const Id end : this->Ends[i])
@@ -94,7 +86,6 @@ public:
     /// @param rings 1, or 2 with those around the ones found. All samples that determine which
     /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
     /// than 2 rings - 1 touching leaves.
-    /// @throws MissingRing
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
@@ -115,10 +106,6 @@ public:
         if (!this->Ends.add(end))
         {
           continue;
-        }
-        if (!this->Neighbors.IsSurrounded[end])
-        {
-          throw MissingRing();
         }
         this->addLeaf(end, found);
         for (const Id leaf : this->Neighbors.Touching.at(end))
@@ -293,7 +280,6 @@ private:
 
   std::vector<Id> Leaves;              // node indices of the leaves that edges end in, by number
   std::vector<std::array<Id, 2>> Ends; // of the isopoints' edges, numbers of leaves
-  std::vector<bool> IsSurrounded;      // of the leaves, whether what touches them is listed
   Lists<std::size_t> Isopoints;        // whose edges end in each leaf, ascending
   Lists<Id> Touching;                  // each leaf, numbers of leaves
 };

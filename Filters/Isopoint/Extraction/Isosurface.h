@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace isopoint
@@ -65,6 +66,30 @@ struct Isosurface
     return found != this->coincident.end() && found->ids.front() == id ? &*found : nullptr;
   }
 };
+
+/// The isopoints of some indices of a surface, in their order, without coincident samples.
+inline Isosurface chosenIsopoints(
+  const Isosurface& surface, const std::vector<std::size_t>& indices)
+{
+  const auto chosen = [&indices](const auto& all)
+  {
+    std::decay_t<decltype(all)> few;
+    few.reserve(all.empty() ? 0 : indices.size());
+    for (std::size_t i = 0; !all.empty() && i < indices.size(); ++i)
+    {
+      few.push_back(all[indices[i]]);
+    }
+    return few;
+  };
+  Isosurface few;
+  few.isovalue = surface.isovalue;
+  few.edges = chosen(surface.edges);
+  few.positions = chosen(surface.positions);
+  few.decreasingEdges = chosen(surface.decreasingEdges);
+  few.leaves = chosen(surface.leaves);
+  few.fits = chosen(surface.fits);
+  return few;
+}
 
 /// An attribute of the samples at the ends of a surface's edges: their own or, of coincident
 /// samples, the mean, computed once for each surface.

@@ -196,16 +196,6 @@ std::vector<std::size_t> keptPoints(
   return kept;
 }
 
-template <class T>
-std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>& indices)
-{
-  std::vector<T> few;
-  few.reserve(indices.size());
-  std::transform(indices.begin(), indices.end(), std::back_inserter(few),
-    [&all](std::size_t index) { return all[index]; });
-  return few;
-}
-
 /// The coincident samples that are ends of edges.
 std::vector<CoincidentSamples> endsAmong(
   const std::vector<CoincidentSamples>& coincident, const std::vector<IsopointEdge>& edges)
@@ -241,13 +231,7 @@ void thin(const Execution& execution, double minimumSpacing, Isosurface& surface
   {
     return;
   }
-  Isosurface thinned;
-  thinned.isovalue = surface.isovalue;
-  thinned.edges = chosen(surface.edges, kept);
-  thinned.positions = chosen(surface.positions, kept);
-  thinned.decreasingEdges = chosen(surface.decreasingEdges, kept);
-  thinned.leaves = surface.leaves.empty() ? surface.leaves : chosen(surface.leaves, kept);
-  thinned.fits = chosen(surface.fits, kept);
+  Isosurface thinned = chosenIsopoints(surface, kept);
   thinned.coincident = endsAmong(surface.coincident, thinned.edges);
   surface = std::move(thinned);
 }

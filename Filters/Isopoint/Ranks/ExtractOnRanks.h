@@ -22,25 +22,6 @@
 namespace isopoint
 {
 
-/// The isopoints of some indices, ascending; those of the surface are left in an undefined state.
-inline Isosurface chosenIsopoints(Isosurface& surface, const std::vector<std::size_t>& indices)
-{
-  Isosurface chosen;
-  chosen.isovalue = surface.isovalue;
-  for (const std::size_t i : indices)
-  {
-    chosen.edges.push_back(surface.edges[i]);
-    chosen.positions.push_back(surface.positions[i]);
-    chosen.decreasingEdges.push_back(surface.decreasingEdges[i]);
-    chosen.leaves.push_back(surface.leaves[i]);
-    if (!surface.fits.empty())
-    {
-      chosen.fits.push_back(std::move(surface.fits[i]));
-    }
-  }
-  return chosen;
-}
-
 /// Thins the isopoints of all ranks; see thin(). Collective.
 inline void keepOnRanks(
   const Execution& execution, Team& team, double minimumSpacing, Isosurface& surface)

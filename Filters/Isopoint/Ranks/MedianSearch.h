@@ -37,7 +37,7 @@ struct MiddleSample
 
 /// Finds the middles of several nodes at once, exactly, by counting: each round counts how many
 /// samples of a node fall into each of some intervals of keys, and keeps the one that holds the
-/// middle. Samples of equal coordinates are told apart by the next coordinate, in the end by id.
+/// middle. The next coordinate distinguishes samples of equal coordinates, in the end the id.
 template <class TSample>
 class MedianSearch
 {

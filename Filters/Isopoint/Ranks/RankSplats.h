@@ -15,9 +15,10 @@
 #include "Isopoint/Splat/SplatNormals.h"
 #include "Isopoint/Splat/SplatShaper.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace isopoint
@@ -49,12 +50,19 @@ public:
   {
     SurfaceHalo<TSample> halo(this->Run, this->Exchange, this->Known, own, hasFits);
     halo.gather();
-    std::vector<Splat> splats;
-    std::unique_ptr<Neighbors> neighbors;
-    this->setNormals(halo, own, neighbors, splats);
-    this->shareNormals(halo, splats);
     const Isosurface& all = halo.surface();
     const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
+    std::vector<Splat> splats;
+    std::unique_ptr<Neighbors> neighbors;
+    this->Exchange.together(
+      [&]()
+      {
+        splats.resize(all.size());
+        neighbors = std::make_unique<Neighbors>(
+          this->Run, this->Exchange.tree(), this->Known, all.leaves, &halo.isInner());
+      });
+    this->setNormals(halo, points, *neighbors, splats);
+    this->shareNormals(halo, splats);
     this->shape(halo, points, *neighbors, isShaped, splats);
     std::vector<Splat> result;
     this->Exchange.together(
@@ -69,81 +77,28 @@ public:
   }
 
 private:
-  /// Those of the points around which fits do not determine them are computed from the points
-  /// around; the halo grows as long as they need more of these.
-  void setNormals(SurfaceHalo<TSample>& halo, const Isosurface& own,
-    std::unique_ptr<Neighbors>& neighbors, std::vector<Splat>& splats)
+  void setNormals(const SurfaceHalo<TSample>& halo, const SurfacePoints& points,
+    const Neighbors& neighbors, std::vector<Splat>& splats)
   {
-    std::vector<Vector> normals; // of this rank's points
-    std::vector<std::size_t> unfitted;
+    std::vector<std::size_t> unfitted; // of this rank's
     this->Exchange.together(
       [&]()
       {
-        const SurfacePoints points{ own.positions, own.decreasingEdges, own.fits };
-        std::vector<Splat> ofOwn(own.size());
-        unfitted = setFieldNormals(points, this->Options, ofOwn);
-        for (const Splat& splat : ofOwn)
-        {
-          normals.push_back(splat.normal);
-        }
+        const std::vector<std::size_t> ofAll = setFieldNormals(points, this->Options, splats);
+        std::set_intersection(ofAll.begin(), ofAll.end(), halo.ownIndices().begin(),
+          halo.ownIndices().end(), std::back_inserter(unfitted));
       });
-    for (;;)
-    {
-      this->Exchange.together(
-        [&]()
-        {
-          neighbors = std::make_unique<Neighbors>(
-            this->Run, this->Exchange.tree(), this->Known, halo.surface().leaves, &halo.isInner());
-        });
-      this->setPlaneNormals(halo, *neighbors, unfitted, normals);
-      if (!this->Exchange.isAny(!unfitted.empty()))
-      {
-        break;
-      }
-      halo.grow();
-    }
-    this->Exchange.together(
-      [&]()
-      {
-        const Isosurface& all = halo.surface();
-        const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
-        splats.resize(all.size());
-        setFieldNormals(points, this->Options, splats);
-        for (std::size_t i = 0; i < normals.size(); ++i)
-        {
-          splats[halo.ownIndices()[i]].normal = normals[i];
-        }
-      });
-  }
-
-  /// @param unfitted of this rank's points; those remain for which the halo is too small
-  void setPlaneNormals(const SurfaceHalo<TSample>& halo, const Neighbors& neighbors,
-    std::vector<std::size_t>& unfitted, std::vector<Vector>& normals)
-  {
-    const Isosurface& all = halo.surface();
-    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
     const auto count = static_cast<std::size_t>(this->Options.neighborCount);
-    std::vector<std::size_t> beyond;
-    std::mutex mutex;
     inRounds(
       this->Run, this->Exchange, unfitted.size(),
-      [&]() { return NearbyPoints<Neighbors>(neighbors, all.positions); },
+      [&]() { return NearbyPoints<Neighbors>(neighbors, points.positions); },
       [&](NearbyPoints<Neighbors>& nearby, std::size_t i)
       {
-        const std::size_t point = halo.ownIndices()[unfitted[i]];
+        const std::size_t point = unfitted[i];
         std::vector<std::size_t> around;
-        try
-        {
-          nearby.nearest(point, lengthOf(all.decreasingEdges[point]), count, around);
-          normals[unfitted[i]] = planeNormal(points, point, around);
-        }
-        catch (const MissingRing&)
-        {
-          const std::lock_guard<std::mutex> lock(mutex);
-          beyond.push_back(unfitted[i]);
-        }
+        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
+        splats[point].normal = planeNormal(points, point, around);
       });
-    unfitted.swap(beyond);
   }
 
   void shareNormals(SurfaceHalo<TSample>& halo, std::vector<Splat>& splats)

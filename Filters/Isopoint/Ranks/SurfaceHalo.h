@@ -24,7 +24,7 @@
 namespace isopoint
 {
 
-/// This rank's isopoints and those of others within two or more rings around them (see
+/// This rank's isopoints and those of others within two rings around them (see
 /// IsopointNeighbors), in the order of the whole surface. All functions are collective.
 template <class TSample>
 class SurfaceHalo
@@ -59,18 +59,9 @@ public:
         ends = endsOf(this->Own.leaves);
       });
     this->requestIn(this->withTouching(ends));
-    this->grow();
-  }
-
-  /// Adds a ring.
-  void grow()
-  {
-    std::vector<std::size_t> ends;
     this->Exchange.together(
       [&]()
       {
-        ends = endsOf(this->Own.leaves);
-        this->Surrounded.clear();
         for (const std::vector<SentIsopoint>& list : this->Received)
         {
           for (const SentIsopoint& isopoint : list)
@@ -91,7 +82,7 @@ public:
   /// Where this rank's own isopoints are among them.
   const std::vector<std::size_t>& ownIndices() const { return this->OwnIndices; }
 
-  /// Whether each is one of this rank's or not in the last ring, so that its own first ring is
+  /// Whether each is one of this rank's or in the first ring, so that its own first ring is
   /// complete.
   const std::vector<bool>& isInner() const { return this->IsInner; }
 
@@ -364,7 +355,7 @@ private:
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
-  std::vector<IsopointEdge> Surrounded;            // received before the last ring
+  std::vector<IsopointEdge> Surrounded;            // received with the first ring
   Isosurface All;
   std::vector<std::size_t> OwnIndices;
   std::vector<bool> IsInner;

@@ -41,7 +41,7 @@ public:
   void shape(std::size_t point, Splat& splat)
   {
     const double unit = this->unitAt(point);
-    TangentCell cell(splat.normal, 4.0 * openReach);
+    TangentCell cell(splat.normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
     this->cutOut(point, unit, cell);
     const bool isBent = this->isSmooth(point);
     std::array<PrincipalDirection, 2> curvatures{};
@@ -133,10 +133,6 @@ private:
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
     this->Nearby.find(point, 1, unit, 4.0 * near);
-    if (!this->isSmooth(point))
-    {
-      cell.limit(2.0 * openReach);
-    }
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
     {
@@ -162,8 +158,7 @@ private:
     }
   }
 
-  /// Cuts a cell towards another point: halfway, but not on this side of a crease. Only points of
-  /// its own sheet bound the cell of a smooth surface for good.
+  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
   void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
   {
     const Vector offset = scaled(
@@ -178,9 +173,8 @@ private:
     {
       return;
     }
-    const bool isOnSheet = this->isOnSheet(point, other.point);
     const double distance =
-      isOnSheet && this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
+      this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
     cell.cut(a, b, 0.5 * distance);
   }
 
@@ -275,21 +269,19 @@ private:
                                                       : std::nullopt;
   }
 
-  /// Whether another point lies on one smooth surface with a point, as far as normals show. Other
-  /// sheets close by do not, nor what lies across an edge.
-  bool isOnSheet(std::size_t point, std::size_t other) const
-  {
-    const bool areSmooth =
-      this->Points.fits.empty() || (this->isSmooth(point) && this->isSmooth(other));
-    return areSmooth && dot(this->Splats[point].normal, this->Splats[other].normal) > 0.0;
-  }
-
-  /// Whether the surface bends from a point to another of its sheet, as a sphere would, so that
-  /// half the distance in the tangent plane is the farthest that is nearer to the point: the plane
-  /// between the two meets the tangent plane farther off, and a splat up to there sticks out.
+  /// Whether the surface bends from a point to another, as a sphere would, so that half the
+  /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
+  /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
+  /// close by are not what it bends to, nor what lies across an edge.
   bool bendsTowards(std::size_t point, std::size_t other, const Vector& offset) const
   {
-    return dot(offset, this->Splats[point].normal) * dot(offset, this->Splats[other].normal) <= 0.0;
+    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other)))
+    {
+      return false;
+    }
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
   /// Whether a smooth fit held at a point but not at another very close to it.
