@@ -182,11 +182,11 @@ private:
   /// there: nothing is to be cut halfway to it.
   bool isBeyondCrease(std::size_t point, std::size_t other, const Vector& offset, double unit) const
   {
-    const double tolerance = creaseTolerance * lengthOf(offset);
-    if (this->Points.fits.empty())
+    if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
     {
       return false;
     }
+    const double tolerance = creaseTolerance * lengthOf(offset);
     const std::vector<CreasePlane>& creases = this->Points.fits[point].creases;
     return std::any_of(creases.begin(), creases.end(),
       [&](const CreasePlane& crease)
@@ -201,7 +201,7 @@ private:
   bool isCutAtCrease(std::size_t point, std::size_t other, const Vector& offset, double unit,
     TangentCell& cell) const
   {
-    if (this->Points.fits.empty())
+    if (this->Points.fits.empty() || this->Points.fits[other].creases.empty())
     {
       return false;
     }
