@@ -17,6 +17,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -294,6 +295,35 @@ bool haveFloatValues(const std::vector<vtkIsopointBlock>& blocks)
     [](const vtkIsopointBlock& block) { return isExactInFloat(block.Scalars); });
 }
 
+bool haveIntegers(const std::vector<vtkIsopointBlock>& blocks)
+{
+  return std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block)
+    {
+      const int type = block.Scalars->GetDataType();
+      return type != VTK_FLOAT && type != VTK_DOUBLE;
+    });
+}
+
+/// The standard error that values have at least: that of rounding, if all were rounded to integers.
+double errorOfValues(bool areIntegers)
+{
+  return areIntegers ? 1.0 / std::sqrt(12.0) : 0.0;
+}
+
+void loadBlocks(const isopoint::Execution& execution, const std::vector<vtkIsopointBlock>& blocks,
+  isopoint::IsosurfaceExtractor& extractor)
+{
+  const BlockReader read(blocks);
+  const bool floatPositions = vtkHaveFloatPositions(blocks);
+  const bool floatValues = haveFloatValues(blocks);
+  const auto load = [&](auto coordinate, auto value) {
+    loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
+  };
+  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
+                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+}
+
 /// Null unless positions are stored as x y z, x y z, ... of float.
 const float* packedPositions(const vtkIsopointBlock& block)
 {
@@ -306,19 +336,9 @@ const float* packedPositions(const vtkIsopointBlock& block)
 void vtkLoadIsopointInput(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor)
 {
-  if (blocks.size() == 1)
-  {
-    loadBlock(execution, blocks.front(), extractor);
-    return;
-  }
-  const BlockReader read(blocks);
-  const bool floatPositions = vtkHaveFloatPositions(blocks);
-  const bool floatValues = haveFloatValues(blocks);
-  const auto load = [&](auto coordinate, auto value) {
-    loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
-  };
-  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
-                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+  blocks.size() == 1 ? loadBlock(execution, blocks.front(), extractor)
+                     : loadBlocks(execution, blocks, extractor);
+  extractor.setValueError(errorOfValues(haveIntegers(blocks)));
 }
 
 void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
@@ -327,6 +347,7 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
 {
   const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   const bool floatValues = !team.isAny(!haveFloatValues(blocks));
+  const double valueError = errorOfValues(!team.isAny(!haveIntegers(blocks)));
   const auto loadWith = [&](std::size_t count, const auto& read)
   {
     const auto load = [&](auto coordinate, auto value)
@@ -336,6 +357,7 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
     };
     floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                    : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+    extractor.setValueError(valueError);
   };
   const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
   const float* const positions = single ? packedPositions(*single) : nullptr;

@@ -38,6 +38,11 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Held);
 }
 
+void IsosurfaceExtractor::setValueError(double error)
+{
+  std::visit([error](auto& cloud) { cloud.tree.valueError = error; }, this->Held);
+}
+
 double IsosurfaceExtractor::loadingWork(std::size_t count)
 {
   return work::loading * static_cast<double>(count);

@@ -102,6 +102,11 @@ public:
     this->Ranks = std::move(team);
   }
 
+  /// States the standard error that the values of the loaded samples have at least, as by rounding:
+  /// 0 unless this is called after a load(). Fits take no differences below it for details.
+  /// @param error finite, not negative
+  void setValueError(double error);
+
   /// What this rank has exchanged with others since loadOnRanks(); null without.
   const Traffic* traffic() const { return this->Ranks ? &this->Ranks->traffic() : nullptr; }
 

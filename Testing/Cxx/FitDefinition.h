@@ -218,6 +218,7 @@ struct Frame
   {
     this->Length = unitOf(lengthOf(edge.increasing));
     this->Value = unitOf(edge.increase);
+    this->ValueError = edge.valueError / this->Value;
     this->increasing = this->placeOf(edge.increasing, {});
     this->samples = nearestOf(this->placed(first, edge.position, isovalue), 256, true);
     const std::vector<FitSample> added = nearestOf(this->placed(more, edge.position, isovalue),
@@ -229,6 +230,9 @@ struct Frame
       this->h += lengthOf(sample.position) / static_cast<double>(this->samples.size());
     }
   }
+
+  /// sigma, which is no less than the error of values.
+  double residualOf(const Errors& errors) const { return std::max(errors.sigma, this->ValueError); }
 
   Weights steep() const { return this->weights(0.1, -3); }
   Weights mild() const { return this->weights(1.0, -1); }
@@ -284,6 +288,7 @@ private:
 
   double Length;
   double Value;
+  double ValueError;
 };
 
 inline bool contradicts(const Vector& gradient, const Vector& r)
@@ -347,7 +352,7 @@ inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& w
     if (errors)
     {
       const Vector gradient = polynomial->gradientAt(*zero);
-      const double relative = errors->sigma / lengthOf(polynomial->gradientAt({}));
+      const double relative = frame.residualOf(*errors) / lengthOf(polynomial->gradientAt({}));
       return Candidate{ *polynomial, degree, *zero, gradient, lengthOf(*zero),
         relative * errors->value, relative * errors->slope };
     }
@@ -488,7 +493,7 @@ inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
   {
     return std::nullopt;
   }
-  const double relative = errors->sigma / lengthOf(quadratic->gradientAt({}));
+  const double relative = frame.residualOf(*errors) / lengthOf(quadratic->gradientAt({}));
   if (relative <= 0.0002 * frame.h)
   {
     const auto zero = zeroOf(*quadratic, frame.increasing);

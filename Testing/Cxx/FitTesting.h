@@ -76,11 +76,13 @@ inline FitEdge upwards(double increase = 2.0)
 }
 
 inline isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
-  std::size_t threads = 2, std::optional<FitOrder> highest = FitOrder::Cubic)
+  std::size_t threads = 2, std::optional<FitOrder> highest = FitOrder::Cubic,
+  double valueError = 0.0)
 {
   const isopoint::Execution execution = clouds::executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
+  extractor.setValueError(valueError);
   return clouds::extractFrom(
     extractor, execution, isovalue, 54.7, 0.0, FitRequest{ highest, move });
 }

@@ -4,9 +4,11 @@
 
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkMath.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,6 +28,47 @@ TEST(FilterArrays, OutputsCanBeSwitchedOff)
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_FALSE(data->GetNormals() || data->GetArray("Radius") || data->GetArray("distance"));
   EXPECT_TRUE(data->GetArray("x"));
+}
+
+// Rounding is an error of values, not detail: normals on stairs of integers are those of what was
+// rounded.
+TEST(FilterArrays, IntegersAreRoundedValues)
+{
+  constexpr vtkIdType count = 20000;
+  const auto cloud = newCloud(count);
+  vtkDataArray* const distance = cloud->GetPointData()->GetArray("distance");
+  const auto integers = newArray<vtkIntArray>("integers", count);
+  const auto numbers = newArray<vtkDoubleArray>("numbers", count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    numbers->SetValue(i, std::round(20.0 * distance->GetComponent(i, 0)));
+    integers->SetValue(i, static_cast<int>(numbers->GetValue(i)));
+  }
+  cloud->GetPointData()->AddArray(integers);
+  cloud->GetPointData()->AddArray(numbers);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 14.3);
+  const auto meanSine = [&filter](const char* name)
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+    filter->Update();
+    vtkPolyData* const isopoints = filter->GetOutput();
+    double sum = 0.0;
+    for (vtkIdType i = 0; i < isopoints->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      double normal[3];
+      isopoints->GetPoint(i, p);
+      isopoints->GetPointData()->GetNormals()->GetTuple(i, normal);
+      const double along = vtkMath::Dot(p, normal) / vtkMath::Norm(p);
+      sum += std::sqrt(std::max(0.0, 1.0 - along * along));
+    }
+    return sum / static_cast<double>(isopoints->GetNumberOfPoints());
+  };
+  const double exact = meanSine("numbers");
+  EXPECT_LT(meanSine("integers"), 0.7 * exact);
+  EXPECT_EQ(meanSine("numbers"), exact); // nothing is left of the error of the integers
 }
 
 TEST(FilterArrays, ScalarsOfAnyType)

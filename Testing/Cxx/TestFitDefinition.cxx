@@ -35,11 +35,11 @@ void expectNear(const Vector& expected, const Vector& found, double tolerance)
 }
 
 /// @param tolerance of positions and gradients, beside edges and slopes
-Steps expectTheDefinition(
-  const clouds::Cloud& cloud, double isovalue, FitOrder highest, double tolerance = 1e-6)
+Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder highest,
+  double tolerance = 1e-6, double valueError = 0.0)
 {
   const Rings rings(cloud);
-  const isopoint::Isosurface surface = extractFitted(cloud, isovalue, true, 1, highest);
+  const isopoint::Isosurface surface = extractFitted(cloud, isovalue, true, 1, highest, valueError);
   EXPECT_GT(surface.size(), 50u);
   Steps steps;
   for (std::size_t i = 0; i < surface.size(); ++i)
@@ -51,7 +51,7 @@ Steps expectTheDefinition(
     const Vector r = difference(high.position, low.position);
     const double increase = high.value - low.value;
     const FitEdge edge{ isopoint::sum(low.position, (isovalue - low.value) / increase, r), r,
-      increase, rings.spacing(a, b) };
+      increase, rings.spacing(a, b), valueError };
     const ringdefinition::Cells first = rings.firstRing(a, b);
     const ringdefinition::Cells second = rings.secondRing(a, b, isovalue);
     const ringdefinition::Cells more(
@@ -114,6 +114,21 @@ TEST(FitDefinition, OnNoise)
   const Steps steps = stepsOf(1.0, FitOrder::Cubic);
   EXPECT_GT(steps.rough, 80u);
   EXPECT_GT(steps.stayed, 20u);
+}
+
+TEST(FitDefinition, OnRoundedValues)
+{
+  const auto stairs = [](double step)
+  {
+    return cloudOf(
+      [step](const Vector& p) { return step * std::round(lengthOf(p) / step); }, 500, 8.0);
+  };
+  const auto stepsOf = [&](double step) {
+    return expectTheDefinition(stairs(step), 3.01, FitOrder::Cubic, 1e-6, step / std::sqrt(12.0));
+  };
+  EXPECT_GT(stepsOf(0.02).cubic, 150u);
+  EXPECT_GT(stepsOf(0.4).rough, 80u);
+  EXPECT_GT(stepsOf(1e-5).cubic, 100u);
 }
 
 TEST(FitDefinition, OnStepsAndCreases)

@@ -243,6 +243,23 @@ class RanksTest(unittest.TestCase):
         run(isopoints)
         self.same(isopoints.GetOutput(), lambda: contour(whole, None).GetOutput())
 
+    def test_integers_are_rounded_values(self):
+        points = cloud("uniform", 3000, 6)
+        numbers = np.arange(len(points))
+        mine = ranks_of(points, "last") == RANK
+
+        def rounded(selection):
+            data = poly_data(points[selection], numbers[selection])
+            values = np.rint(20 * field(points[selection])).astype(np.int32)
+            array = numpy_to_vtk(values, deep=True)
+            array.SetName("value")
+            data.GetPointData().SetScalars(array)
+            return data
+
+        result = contour(rounded(mine), RANKS, (6.1,))
+        self.same(result.GetOutput(),
+                  lambda: contour(rounded(numbers >= 0), None, (6.1,)).GetOutput())
+
     def test_blocks_and_cells(self):
         """Cells of images, several on each rank, as one cloud."""
         def image(number):

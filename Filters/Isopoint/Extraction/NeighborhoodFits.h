@@ -27,6 +27,7 @@ class NeighborhoodFitter
 public:
   NeighborhoodFitter(ExtractionContext<TSample>& context, FitRequest request)
     : Isovalue(context.isovalue)
+    , ValueError(context.tree.valueError)
     , Request(request)
     , Gatherer(context)
     , Fitter(context.isovalue, request.highest.value_or(FitOrder::Linear))
@@ -67,10 +68,12 @@ private:
                                 : difference(first.position, second.position);
     edge.increase = increases ? second.value - first.value : first.value - second.value;
     edge.spacing = this->Gatherer.spacing();
+    edge.valueError = this->ValueError;
     return edge;
   }
 
   const double Isovalue;
+  const double ValueError;
   const FitRequest Request;
   SampleGatherer<TSample> Gatherer;
   LocalFitter Fitter;

@@ -45,6 +45,7 @@ void FitFrame::enter(const FitEdge& edge, double isovalue)
     this->Length = unitOf(length);
     this->Value = unitOf(edge.increase);
     this->IsUsable = isNormal(this->Length) && isNormal(this->Value);
+    this->Samples.valueError = edge.valueError / this->Value;
     this->Increasing = scaled(1.0 / this->Length, edge.increasing);
   }
 }

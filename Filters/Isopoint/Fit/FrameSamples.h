@@ -39,6 +39,8 @@ public:
   Numbers value;
   Numbers squaredDistance; // from the origin
 
+  double valueError = 0.0; // standard error that each value has at least
+
   std::size_t count() const { return this->Count; }
   std::size_t groupCount() const
   {

@@ -40,10 +40,11 @@ struct FitSample
 /// An isopoint on its edge, before anything is fitted.
 struct FitEdge
 {
-  Vector position;   // by linear interpolation
-  Vector increasing; // from the end that is below the isovalue to the one that is not
-  double increase;   // of the value along it, positive
-  double spacing;    // of the samples around its ends
+  Vector position;         // by linear interpolation
+  Vector increasing;       // from the end that is below the isovalue to the one that is not
+  double increase;         // of the value along it, positive
+  double spacing;          // of the samples around its ends
+  double valueError = 0.0; // standard error that each sample's value has at least
 };
 
 /// The tangent plane of another piece of a fit with a crease, as seen from an isopoint q on its own

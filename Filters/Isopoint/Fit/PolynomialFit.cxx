@@ -3,6 +3,7 @@
 
 #include "Isopoint/Fit/NormalEquations.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,8 +18,8 @@ namespace
 /// values of other ones, of far smaller weights, are neglected.
 struct ErrorEstimate
 {
-  /// Root mean square, of samples that are left out of the fit one at a time; not a number if one
-  /// of them alone determines a coefficient.
+  /// Root mean square, of samples that are left out of the fit one at a time, but not less than the
+  /// error of values; not a number if one of them alone determines a coefficient.
   double residual;
   double valueEffect; // of such residuals on the value at the origin: the root of a sum of squares
   double slopeEffect; // on the gradient there
@@ -59,7 +60,8 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   const double meanSquare = rest.minCoeff() > leastPivot
                               ? sumOfSquares(residual) / sumOfSquares(weight)
                               : std::numeric_limits<double>::quiet_NaN();
-  return { std::sqrt(meanSquare), std::sqrt(effects[0]),
+  // Not a number stays one.
+  return { std::max(std::sqrt(meanSquare), samples.valueError), std::sqrt(effects[0]),
     std::sqrt(effects[1] + effects[2] + effects[3]) };
 }
 

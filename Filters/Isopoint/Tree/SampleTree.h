@@ -71,6 +71,7 @@ struct SampleTree
   std::size_t usedPairs = 0; // pairs of nodes given out, pair 0 (which holds the root) included
   Region region{};           // the root's
   std::size_t skipped = 0;   // samples left out
+  double valueError = 0.0;   // standard error that each value has at least, as by rounding
 
   /// Where a tree is shared among ranks, each of them has the samples [ownBegin, ownEnd) for its
   /// own and copies of some others; `samples` has room for all, of which no page is touched that
