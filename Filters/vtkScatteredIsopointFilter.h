@@ -23,8 +23,8 @@
  * By default each isopoint is then moved to the zero of a polynomial, which is fitted by weighted
  * least squares to the samples around it, and by less than that where the samples leave doubt about
  * the zero (see SetProjection()). The gradient of the polynomial gives the normal, in noise that of
- * a simpler one. Values of an array of an integer type count as rounded: steps of 1 between them are
- * taken for no detail. What is fitted depends on samples next to the isopoint alone: in the
+ * a simpler one. Values of an array of an integer type count as rounded: steps of 1 between them
+ * are taken for no detail. What is fitted depends on samples next to the isopoint alone: in the
  * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning
  * (see SetMinimumSpacing()) and the gap criterion (see SetGapFactor()) have no counterpart in
  * [RL06]. docs/algorithm.md in the source distribution defines the result exactly.

@@ -5,7 +5,6 @@
 #include <CGAL/linear_least_squares_fitting_3.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace isopoint
@@ -83,8 +82,7 @@ std::vector<std::size_t> setFieldNormals(
     const bool isFitted =
       options.fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
     const double length = isFitted ? lengthOf(points.fits[i].gradient) : 0.0;
-    // Denormal gradients have lost their direction.
-    if (std::isfinite(length) && length >= std::numeric_limits<double>::min())
+    if (std::isnormal(length)) // denormal gradients have lost their direction
     {
       splats[i].normal = scaled(-1.0, directionOf(points.fits[i].gradient));
     }
