@@ -11,6 +11,8 @@
 #include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/Triangles/ExtractTriangles.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 namespace isopoint
 {
@@ -85,6 +87,33 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
         result.splats =
           computeSplats(part, { surface.positions, surface.decreasingEdges, surface.fits },
             neighbors, &extents, *request.splats);
+      }
+      result.surface.leaves = {};
+      return result;
+    },
+    this->Held);
+}
+
+ExtractedIsosurface IsosurfaceExtractor::extractTriangles(
+  const Execution& execution, const TriangleRequest& request)
+{
+  return std::visit(
+    [&](auto& cloud)
+    {
+      using TSample = typename std::decay_t<decltype(cloud)>::SampleType;
+      WorkProgress progress(execution);
+      TriangleExtraction<TSample> extraction(
+        execution, cloud.tree, cloud.neighborhoods, request.isosurface);
+      TriangleSurface surface = extraction.extract(progress, work::writing);
+      throwIfAborted(execution);
+      ExtractedIsosurface result;
+      result.surface = std::move(surface.vertices);
+      result.triangles = std::move(surface.triangles);
+      if (request.normals)
+      {
+        const Isosurface& vertices = result.surface;
+        result.splats = vertexNormals(
+          { vertices.positions, vertices.decreasingEdges, vertices.fits }, result.triangles);
       }
       result.surface.leaves = {};
       return result;

@@ -12,6 +12,7 @@
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
+#include "Isopoint/Triangles/SurfaceTriangle.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -41,11 +42,20 @@ struct ExtractionRequest
   std::optional<SplatOptions> splats = std::nullopt;
 };
 
+/// What is to be computed for one isovalue as triangles.
+struct TriangleRequest
+{
+  IsosurfaceRequest isosurface; // its angle has no effect
+  bool normals = false;
+};
+
 /// All that is computed for one isovalue.
 struct ExtractedIsosurface
 {
   Isosurface surface;
   std::vector<Splat> splats; // one for each isopoint, or empty if none were requested
+  /// Of the isopoints, which are then its vertices, if triangles were requested.
+  std::vector<SurfaceTriangle> triangles;
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
@@ -140,11 +150,20 @@ public:
   /// if this one had not been
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request);
 
+  /// The isosurface of the Delaunay tetrahedrisation of the samples (docs/triangles.md): its
+  /// vertices as isopoints, its triangles and, if requested, the normals of the vertices as splats
+  /// of which nothing else is set. The same for any execution and any order of calls. Not of a
+  /// cloud on ranks.
+  /// @throws what extract() throws
+  ExtractedIsosurface extractTriangles(const Execution& execution, const TriangleRequest& request);
+
 private:
   /// The samples, and what has been found out about them.
   template <class TSample>
   struct Cloud
   {
+    using SampleType = TSample;
+
     SampleTree<TSample> tree;
     NeighborhoodCache<typename TSample::Id> neighborhoods;
     std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks

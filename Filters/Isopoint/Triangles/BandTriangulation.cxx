@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Isopoint/Triangles/BandTriangulation.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <utility>
+
+namespace isopoint
+{
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+/// The leaf of a vertex, and the side of its value, in the bits of one number.
+class VertexInfo
+{
+public:
+  VertexInfo() = default;
+  explicit VertexInfo(const BandSite& site)
+    : Bits(2 * site.leaf + (site.isBelow ? 1 : 0))
+  {
+  }
+
+  std::uint64_t leaf() const { return this->Bits / 2; }
+  bool isBelow() const { return this->Bits % 2 != 0; }
+
+private:
+  std::uint64_t Bits = 0;
+};
+
+struct CellInfo
+{
+  bool isCertified = false;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel,
+  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel,
+  CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using Cell = Triangulation::Cell_handle;
+using Vertex = Triangulation::Vertex_handle;
+
+Point pointAt(const Vector& position)
+{
+  return { position[0], position[1], position[2] };
+}
+
+Vector positionOf(const Point& point)
+{
+  return { point.x(), point.y(), point.z() };
+}
+
+} // namespace
+
+class BandTriangulation::Internals
+{
+public:
+  Triangulation Cells;
+  std::vector<Cell> Open; // the listed ones
+
+  /// Whether a cell has corners on both sides.
+  bool isCrossing(Cell cell) const
+  {
+    bool hasBelow = false;
+    bool hasOther = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      const Vertex vertex = cell->vertex(i);
+      if (vertex != this->Cells.infinite_vertex())
+      {
+        (vertex->info().isBelow() ? hasBelow : hasOther) = true;
+      }
+    }
+    return hasBelow && hasOther;
+  }
+
+  /// The index of the infinite vertex, or -1.
+  int infiniteIndexOf(Cell cell) const
+  {
+    int index = 0;
+    return cell->has_vertex(this->Cells.infinite_vertex(), index) ? index : -1;
+  }
+};
+
+BandTriangulation::BandTriangulation()
+  : Inside(std::make_unique<Internals>())
+{
+}
+
+BandTriangulation::~BandTriangulation() = default;
+
+void BandTriangulation::insert(const std::vector<BandSite>& sites)
+{
+  this->Inside->Open.clear();
+  std::vector<std::pair<Point, VertexInfo>> points;
+  points.reserve(sites.size());
+  for (const BandSite& site : sites)
+  {
+    points.emplace_back(pointAt(site.position), VertexInfo(site));
+  }
+  this->Inside->Cells.insert(points.begin(), points.end());
+}
+
+std::size_t BandTriangulation::size() const
+{
+  return this->Inside->Cells.number_of_vertices();
+}
+
+std::size_t BandTriangulation::cellCount() const
+{
+  return this->Inside->Cells.tds().cells().size();
+}
+
+int BandTriangulation::dimension() const
+{
+  return this->Inside->Cells.dimension();
+}
+
+bool BandTriangulation::raisesDimension(const Vector& position) const
+{
+  const Triangulation& cells = this->Inside->Cells;
+  const Point point = pointAt(position);
+  switch (cells.dimension())
+  {
+    case -1:
+      return true;
+    case 0:
+      return cells.finite_vertices_begin()->point() != point;
+    case 1:
+    {
+      // In a triangulation of this dimension the corners of a cell are its first vertices.
+      const Cell edge = cells.finite_edges_begin()->first;
+      return !CGAL::collinear(edge->vertex(0)->point(), edge->vertex(1)->point(), point);
+    }
+    case 2:
+    {
+      const Cell facet = cells.finite_facets_begin()->first;
+      return !CGAL::coplanar(
+        facet->vertex(0)->point(), facet->vertex(1)->point(), facet->vertex(2)->point(), point);
+    }
+    default:
+      return false;
+  }
+}
+
+std::size_t BandTriangulation::listOpenCells()
+{
+  const Triangulation& cells = this->Inside->Cells;
+  std::vector<Cell>& open = this->Inside->Open;
+  open.clear();
+  if (cells.dimension() == 3)
+  {
+    for (const Cell cell : cells.all_cell_handles())
+    {
+      if (!cell->info().isCertified && this->Inside->isCrossing(cell))
+      {
+        open.push_back(cell);
+      }
+    }
+  }
+  return open.size();
+}
+
+bool BandTriangulation::isBeyondHull(std::size_t openCell) const
+{
+  return this->Inside->infiniteIndexOf(this->Inside->Open[openCell]) >= 0;
+}
+
+TetrahedronCorners BandTriangulation::tetrahedronAt(std::size_t openCell) const
+{
+  const Cell cell = this->Inside->Open[openCell];
+  return { positionOf(cell->vertex(0)->point()), positionOf(cell->vertex(1)->point()),
+    positionOf(cell->vertex(2)->point()), positionOf(cell->vertex(3)->point()) };
+}
+
+HullFacetCorners BandTriangulation::hullFacetAt(std::size_t openCell) const
+{
+  // A place beyond the hull would take the infinite vertex' place in the orientation.
+  constexpr int facets[4][3] = { { 2, 1, 3 }, { 0, 2, 3 }, { 1, 0, 3 }, { 0, 1, 2 } };
+  const Cell cell = this->Inside->Open[openCell];
+  const int* const facet = facets[this->Inside->infiniteIndexOf(cell)];
+  return { positionOf(cell->vertex(facet[0])->point()), positionOf(cell->vertex(facet[1])->point()),
+    positionOf(cell->vertex(facet[2])->point()) };
+}
+
+bool BandTriangulation::isInside(std::size_t openCell, const Vector& position) const
+{
+  constexpr bool decidesTies = true;
+  return this->Inside->Cells.side_of_sphere(
+           this->Inside->Open[openCell], pointAt(position), decidesTies) == CGAL::ON_BOUNDED_SIDE;
+}
+
+void BandTriangulation::certify(std::size_t openCell)
+{
+  this->Inside->Open[openCell]->info().isCertified = true;
+}
+
+std::vector<bool> BandTriangulation::areBelow(const std::vector<Vector>& positions) const
+{
+  const Triangulation& cells = this->Inside->Cells;
+  std::vector<bool> below;
+  below.reserve(positions.size());
+  Cell hint;
+  for (const Vector& position : positions)
+  {
+    hint = cells.locate(pointAt(position), hint);
+    const int corner = this->Inside->infiniteIndexOf(hint) == 0 ? 1 : 0;
+    below.push_back(hint->vertex(corner)->info().isBelow());
+  }
+  return below;
+}
+
+std::vector<Tetrahedron> BandTriangulation::crossingTetrahedra() const
+{
+  const Triangulation& cells = this->Inside->Cells;
+  std::vector<Tetrahedron> result;
+  if (cells.dimension() == 3)
+  {
+    for (const Cell cell : cells.finite_cell_handles())
+    {
+      if (this->Inside->isCrossing(cell))
+      {
+        result.push_back({ cell->vertex(0)->info().leaf(), cell->vertex(1)->info().leaf(),
+          cell->vertex(2)->info().leaf(), cell->vertex(3)->info().leaf() });
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace isopoint

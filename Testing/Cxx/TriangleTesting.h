@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef TriangleTesting_h
+#define TriangleTesting_h
+
+#include "Clouds.h"
+
+#include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Triangles/ExtractTriangles.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace triangles
+{
+
+using clouds::Cloud;
+
+/// The ids of the samples at the corners, ascending.
+using Corners = std::array<std::uint64_t, 4>;
+
+/// A cloud's distinct positions, with the lowest ids and the means of values.
+struct Site
+{
+  std::array<double, 3> position;
+  std::uint64_t id;
+  double value;
+};
+
+inline std::vector<Site> sitesOf(const Cloud& cloud)
+{
+  std::map<std::array<double, 3>, std::vector<std::uint64_t>> ids;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    ids[{ p[0] + 0.0, p[1] + 0.0, p[2] + 0.0 }].push_back(i); // 0 for -0
+  }
+  std::vector<Site> sites;
+  for (const auto& [position, same] : ids)
+  {
+    double sum = 0.0;
+    double lowest = cloud.values[same[0]];
+    double highest = lowest;
+    for (const std::uint64_t id : same)
+    {
+      sum += cloud.values[id];
+      lowest = std::min(lowest, cloud.values[id]);
+      highest = std::max(highest, cloud.values[id]);
+    }
+    const double mean = same.size() == 1 ? sum : sum / static_cast<double>(same.size());
+    sites.push_back({ position, same[0], std::min(std::max(mean, lowest), highest) });
+  }
+  return sites;
+}
+
+/// The crossing tetrahedra of CGAL's Delaunay tetrahedrisation of all samples, ordered.
+inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
+{
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>;
+  using CellBase = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
+  using Full = CGAL::Delaunay_triangulation_3<Kernel,
+    CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+  const std::vector<Site> sites = sitesOf(cloud);
+  std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+  {
+    const auto& p = sites[i].position;
+    points.push_back({ Kernel::Point_3(p[0], p[1], p[2]), i });
+  }
+  const Full full(points.begin(), points.end());
+  std::vector<Corners> result;
+  if (full.dimension() < 3)
+  {
+    return result;
+  }
+  for (const auto cell : full.finite_cell_handles())
+  {
+    Corners corners;
+    int below = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Site& site = sites[cell->vertex(static_cast<int>(i))->info()];
+      corners[i] = site.id;
+      below += site.value < isovalue ? 1 : 0;
+    }
+    if (below > 0 && below < 4)
+    {
+      std::sort(corners.begin(), corners.end());
+      result.push_back(corners);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+struct Found
+{
+  std::vector<Corners> corners; // ordered
+  isopoint::TetrahedraCounts counts;
+};
+
+/// The same as the core finds them.
+template <class TSample = isopoint::WideSample>
+Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads = 1)
+{
+  const isopoint::Execution execution = clouds::executionOn(threads);
+  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
+  const isopoint::NeighborhoodCache<typename TSample::Id> none;
+  isopoint::IsosurfaceRequest request;
+  request.isovalue = isovalue;
+  isopoint::TriangleExtraction<TSample> extraction(execution, tree, none, request);
+  isopoint::WorkProgress progress(execution);
+  Found found;
+  for (const isopoint::Tetrahedron& tetrahedron : extraction.tetrahedra(progress, 0.0))
+  {
+    Corners corners;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      corners[i] = tree.samples[tree.nodes[tetrahedron[i]].begin].id;
+    }
+    std::sort(corners.begin(), corners.end());
+    found.corners.push_back(corners);
+  }
+  std::sort(found.corners.begin(), found.corners.end());
+  found.counts = extraction.counts();
+  return found;
+}
+
+/// Expects the same crossing tetrahedra from both. @returns what was found
+template <class TSample = isopoint::WideSample>
+Found expectSameTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads = 1)
+{
+  Found found = foundTetrahedra<TSample>(cloud, isovalue, threads);
+  const std::vector<Corners> expected = fullTetrahedra(cloud, isovalue);
+  EXPECT_EQ(found.corners.size(), expected.size());
+  EXPECT_TRUE(found.corners == expected);
+  return found;
+}
+
+} // namespace triangles
+
+#endif
