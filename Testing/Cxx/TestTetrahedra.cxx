@@ -230,6 +230,26 @@ TEST(Tetrahedra, OfNoise)
   }
 }
 
+/// Wherever the band begins, all pieces of the surface are found: samples on the wrong side of what
+/// is found so far show that others are missing.
+TEST(Tetrahedra, DoNotDependOnTheFirstBand)
+{
+  const Cloud cloud = clouds::uniform(20000, 17);
+  const Cloud noise = withNoise(clouds::uniform(3000, 18), 0.01, 18);
+  const Cloud lattice = clouds::lattice(20, 20, 20);
+  for (const double share : { 0.01, 0.1, 0.5, 0.9 })
+  {
+    SCOPED_TRACE(share);
+    const Found found = triangles::foundFromPart(cloud, 0.5, share);
+    EXPECT_FALSE(found.counts.isWhole);
+    EXPECT_TRUE(found.corners == triangles::fullTetrahedra(cloud, 0.5));
+    EXPECT_TRUE(
+      triangles::foundFromPart(noise, 0.5, share).corners == triangles::fullTetrahedra(noise, 0.5));
+    EXPECT_TRUE(triangles::foundFromPart(lattice, 0.5, share).corners ==
+                triangles::fullTetrahedra(lattice, 0.5));
+  }
+}
+
 TEST(Tetrahedra, OfAnyScaleAndPlace)
 {
   const Cloud cloud = clouds::uniform(1500, 15);

@@ -111,6 +111,26 @@ struct Found
   isopoint::TetrahedraCounts counts;
 };
 
+/// The ids of the samples at the corners of tetrahedra, ordered.
+template <class TSample>
+std::vector<Corners> cornersOf(
+  const isopoint::SampleTree<TSample>& tree, const std::vector<isopoint::Tetrahedron>& tetrahedra)
+{
+  std::vector<Corners> result;
+  for (const isopoint::Tetrahedron& tetrahedron : tetrahedra)
+  {
+    Corners corners;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      corners[i] = tree.samples[tree.nodes[tetrahedron[i]].begin].id;
+    }
+    std::sort(corners.begin(), corners.end());
+    result.push_back(corners);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 /// The same as the core finds them.
 template <class TSample = isopoint::WideSample>
 Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads = 1)
@@ -123,18 +143,26 @@ Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads =
   isopoint::TriangleExtraction<TSample> extraction(execution, tree, none, request);
   isopoint::WorkProgress progress(execution);
   Found found;
-  for (const isopoint::Tetrahedron& tetrahedron : extraction.tetrahedra(progress, 0.0))
-  {
-    Corners corners;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      corners[i] = tree.samples[tree.nodes[tetrahedron[i]].begin].id;
-    }
-    std::sort(corners.begin(), corners.end());
-    found.corners.push_back(corners);
-  }
-  std::sort(found.corners.begin(), found.corners.end());
+  found.corners = cornersOf(tree, extraction.tetrahedra(progress, 0.0));
   found.counts = extraction.counts();
+  return found;
+}
+
+/// Finds them from a band of a share of the nodes that a narrow band yields, the first of them.
+inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
+{
+  using TSample = isopoint::WideSample;
+  const isopoint::Execution execution;
+  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
+  isopoint::WorkProgress progress(execution);
+  std::vector<isopoint::BinaryIndex> nodes =
+    isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine();
+  nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
+  isopoint::SharedLeafMeans<TSample> means(tree);
+  isopoint::CrossingTetrahedraFinder<TSample> finder(execution, tree, means, isovalue);
+  Found found;
+  found.corners = cornersOf(tree, finder.find(nodes));
+  found.counts = finder.counts();
   return found;
 }
 
