@@ -113,16 +113,16 @@ struct Found
 
 /// The ids of the samples at the corners of tetrahedra, ordered.
 template <class TSample>
-std::vector<Corners> cornersOf(
-  const isopoint::SampleTree<TSample>& tree, const std::vector<isopoint::Tetrahedron>& tetrahedra)
+std::vector<Corners> cornersOf(const isopoint::SampleTree<TSample>& tree,
+  const std::vector<isopoint::CrossingTetrahedron>& tetrahedra)
 {
   std::vector<Corners> result;
-  for (const isopoint::Tetrahedron& tetrahedron : tetrahedra)
+  for (const isopoint::CrossingTetrahedron& tetrahedron : tetrahedra)
   {
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i)
     {
-      corners[i] = tree.samples[tree.nodes[tetrahedron[i]].begin].id;
+      corners[i] = tree.samples[tree.nodes[tetrahedron.corners[i]].begin].id;
     }
     std::sort(corners.begin(), corners.end());
     result.push_back(corners);

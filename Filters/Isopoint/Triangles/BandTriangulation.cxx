@@ -7,6 +7,7 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace isopoint
@@ -50,6 +51,32 @@ using Vertex = Triangulation::Vertex_handle;
 Point pointAt(const Vector& position)
 {
   return { position[0], position[1], position[2] };
+}
+
+/// Permutes corners evenly, so that those below come first.
+CrossingTetrahedron bySides(std::array<VertexInfo, 4> corners)
+{
+  const auto isBelow = [](const VertexInfo& corner) { return corner.isBelow(); };
+  CrossingTetrahedron result{ {},
+    static_cast<std::size_t>(std::count_if(corners.begin(), corners.end(), isBelow)) };
+  bool isOdd = false;
+  for (std::size_t place = 0; place < result.belowCount; ++place)
+  {
+    const std::size_t from = static_cast<std::size_t>(
+      std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(place), corners.end(), isBelow) -
+      corners.begin());
+    std::swap(corners[place], corners[from]);
+    isOdd = isOdd != (place != from);
+  }
+  if (isOdd)
+  {
+    // Two corners of one side.
+    const std::size_t first = result.belowCount == 3 ? 0 : 2;
+    std::swap(corners[first], corners[first + 1]);
+  }
+  std::transform(corners.begin(), corners.end(), result.corners.begin(),
+    [](const VertexInfo& corner) { return corner.leaf(); });
+  return result;
 }
 
 Vector positionOf(const Point& point)
@@ -217,18 +244,18 @@ std::vector<bool> BandTriangulation::areBelow(const std::vector<Vector>& positio
   return below;
 }
 
-std::vector<Tetrahedron> BandTriangulation::crossingTetrahedra() const
+std::vector<CrossingTetrahedron> BandTriangulation::crossingTetrahedra() const
 {
   const Triangulation& cells = this->Inside->Cells;
-  std::vector<Tetrahedron> result;
+  std::vector<CrossingTetrahedron> result;
   if (cells.dimension() == 3)
   {
     for (const Cell cell : cells.finite_cell_handles())
     {
       if (this->Inside->isCrossing(cell))
       {
-        result.push_back({ cell->vertex(0)->info().leaf(), cell->vertex(1)->info().leaf(),
-          cell->vertex(2)->info().leaf(), cell->vertex(3)->info().leaf() });
+        result.push_back(bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(),
+          cell->vertex(2)->info(), cell->vertex(3)->info() }));
       }
     }
   }

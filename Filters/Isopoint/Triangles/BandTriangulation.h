@@ -22,8 +22,13 @@ struct BandSite
   bool isBelow;       // the isovalue
 };
 
-/// The node indices of the four corners, in the order that makes the orientation positive.
-using Tetrahedron = std::array<std::uint64_t, 4>;
+/// A tetrahedron with corners on both sides of the isovalue.
+struct CrossingTetrahedron
+{
+  /// The node indices of the leaves at its corners, those below first; the orientation is positive.
+  std::array<std::uint64_t, 4> corners;
+  std::size_t belowCount; // 1 to 3
+};
 
 /// The Delaunay tetrahedrisation of some of the samples, which grows. It is that of CGAL, whose
 /// predicates are exact and whose ties, where more than four samples lie on one empty sphere, are
@@ -77,7 +82,7 @@ public:
   std::vector<bool> areBelow(const std::vector<Vector>& positions) const;
 
   /// The crossing tetrahedra, in any order. O(cells)
-  std::vector<Tetrahedron> crossingTetrahedra() const;
+  std::vector<CrossingTetrahedron> crossingTetrahedra() const;
 
 private:
   class Internals;

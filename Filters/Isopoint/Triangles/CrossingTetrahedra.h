@@ -50,7 +50,7 @@ public:
 
   /// @param nodes below which all leaves are that touch a leaf on the other side of the isovalue
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
-  std::vector<Tetrahedron> find(const std::vector<BinaryIndex>& nodes)
+  std::vector<CrossingTetrahedron> find(const std::vector<BinaryIndex>& nodes)
   {
     this->Marks.grow(this->Tree.nodes.size());
     this->insert(this->leavesAtSurface(nodes));

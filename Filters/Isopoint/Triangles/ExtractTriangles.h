@@ -91,7 +91,7 @@ public:
   }
 
   /// The crossing tetrahedra of the Delaunay tetrahedrisation of all samples.
-  std::vector<Tetrahedron> tetrahedra(WorkProgress& progress, double laterWork)
+  std::vector<CrossingTetrahedron> tetrahedra(WorkProgress& progress, double laterWork)
   {
     if (this->Tree.isEmpty())
     {
@@ -103,7 +103,7 @@ public:
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrising, count * laterWork);
     CrossingTetrahedraFinder<TSample> finder(part, this->Tree, this->Means, this->Request.isovalue);
-    std::vector<Tetrahedron> found = finder.find(nodes);
+    std::vector<CrossingTetrahedron> found = finder.find(nodes);
     this->Counts = finder.counts();
     return found;
   }
@@ -114,7 +114,7 @@ private:
   /// The triangles of all tetrahedra but those across gaps.
   EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
   {
-    std::vector<Tetrahedron> found = this->tetrahedra(progress, laterWork);
+    std::vector<CrossingTetrahedron> found = this->tetrahedra(progress, laterWork);
     this->dropGaps(found);
     return MarchingTetrahedra<TSample>(
       this->Run, this->Tree, this->Means, this->Request.isovalue, found)
@@ -122,23 +122,23 @@ private:
   }
 
   /// Drops tetrahedra with an edge that the gap criterion drops.
-  void dropGaps(std::vector<Tetrahedron>& found)
+  void dropGaps(std::vector<CrossingTetrahedron>& found)
   {
     if (!(this->Request.gapFactor > 0.0))
     {
       return;
     }
     const GapCriterion criterion(this->Request.gapFactor);
-    const auto isAcrossGap = [&](const Tetrahedron& tetrahedron)
+    const auto isAcrossGap = [&](const CrossingTetrahedron& tetrahedron)
     {
       for (std::size_t i = 0; i < 4; ++i)
       {
-        const auto leaf = static_cast<std::size_t>(tetrahedron[i]);
+        const auto leaf = static_cast<std::size_t>(tetrahedron.corners[i]);
         const Path path = pathToLeaf(this->Tree, leaf);
         for (std::size_t j = i + 1; j < 4; ++j)
         {
           if (criterion.drops(this->Tree, path, this->sampleOf(leaf),
-                this->sampleOf(static_cast<std::size_t>(tetrahedron[j]))))
+                this->sampleOf(static_cast<std::size_t>(tetrahedron.corners[j]))))
           {
             return true;
           }

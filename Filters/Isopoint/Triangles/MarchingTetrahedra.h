@@ -40,9 +40,10 @@ template <class TSample>
 class MarchingTetrahedra
 {
 public:
-  /// @param tetrahedra crossing ones, of leaves of the tree, positively oriented
+  /// @param tetrahedra of leaves of the tree
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
-    SharedLeafMeans<TSample>& means, double isovalue, const std::vector<Tetrahedron>& tetrahedra)
+    SharedLeafMeans<TSample>& means, double isovalue,
+    const std::vector<CrossingTetrahedron>& tetrahedra)
     : Run(execution)
     , Tree(tree)
     , Means(means)
@@ -87,43 +88,6 @@ private:
     return { static_cast<Id>(std::min(a, b)), static_cast<Id>(std::max(a, b)) };
   }
 
-  /// A tetrahedron by sides, its corners permuted evenly.
-  struct Sides
-  {
-    std::array<std::uint64_t, 4> corners; // those below first
-    int belowCount;
-  };
-
-  Sides sidesOf(const Tetrahedron& tetrahedron, LeafValueCache<TSample>& values) const
-  {
-    std::array<bool, 4> below;
-    Sides sides{ tetrahedron, 0 };
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      below[i] = values.at(static_cast<std::size_t>(tetrahedron[i])) < this->Isovalue;
-      sides.belowCount += below[i] ? 1 : 0;
-    }
-    bool isOdd = false;
-    for (std::size_t place = 0; place < static_cast<std::size_t>(sides.belowCount); ++place)
-    {
-      std::size_t from = place;
-      while (!below[from])
-      {
-        ++from;
-      }
-      std::swap(below[place], below[from]);
-      std::swap(sides.corners[place], sides.corners[from]);
-      isOdd = isOdd != (place != from);
-    }
-    if (isOdd)
-    {
-      // Two corners of one side.
-      const std::size_t first = sides.belowCount == 1 ? 2 : sides.belowCount == 2 ? 2 : 0;
-      std::swap(sides.corners[first], sides.corners[first + 1]);
-    }
-    return sides;
-  }
-
   /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
   struct Polygon
   {
@@ -131,10 +95,10 @@ private:
     std::size_t count;
   };
 
-  static Polygon polygonOf(const Sides& sides)
+  static Polygon polygonOf(const CrossingTetrahedron& tetrahedron)
   {
-    const auto& [a, b, c, d] = sides.corners;
-    switch (sides.belowCount)
+    const auto& [a, b, c, d] = tetrahedron.corners;
+    switch (tetrahedron.belowCount)
     {
       case 1:
         return { { pairOf(a, b), pairOf(a, d), pairOf(a, c) }, 3 };
@@ -150,12 +114,12 @@ private:
     std::vector<LeafPair> pairs;
     std::mutex mutex;
     this->forAll(
-      [&](std::size_t begin, std::size_t end, LeafValueCache<TSample>& values)
+      [&](std::size_t begin, std::size_t end)
       {
         std::vector<LeafPair> found;
         for (std::size_t i = begin; i < end; ++i)
         {
-          const Polygon polygon = polygonOf(this->sidesOf(this->Tetrahedra[i], values));
+          const Polygon polygon = polygonOf(this->Tetrahedra[i]);
           found.insert(found.end(), polygon.pairs.begin(),
             polygon.pairs.begin() + static_cast<std::ptrdiff_t>(polygon.count));
         }
@@ -171,12 +135,7 @@ private:
   void forAll(const Work& work)
   {
     constexpr std::size_t grain = 4096;
-    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        LeafValueCache<TSample> values(this->Tree, this->Means);
-        work(begin, end, values);
-      });
+    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain, work);
   }
 
   const TSample& sampleOf(Id leaf) const
@@ -256,12 +215,12 @@ private:
     std::vector<SurfaceTriangle> triangles;
     std::mutex mutex;
     this->forAll(
-      [&](std::size_t begin, std::size_t end, LeafValueCache<TSample>& values)
+      [&](std::size_t begin, std::size_t end)
       {
         std::vector<SurfaceTriangle> found;
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->addTriangles(polygonOf(this->sidesOf(this->Tetrahedra[i], values)), found);
+          this->addTriangles(polygonOf(this->Tetrahedra[i]), found);
         }
         const std::lock_guard<std::mutex> lock(mutex);
         triangles.insert(triangles.end(), found.begin(), found.end());
@@ -354,7 +313,7 @@ private:
   const SampleTree<TSample>& Tree;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
-  const std::vector<Tetrahedron>& Tetrahedra;
+  const std::vector<CrossingTetrahedron>& Tetrahedra;
   std::vector<LeafPair> Pairs; // of crossing edges, ordered
   // One entry for each pair.
   std::vector<CrossingEdge<TSample>> Edges;

@@ -168,19 +168,27 @@ private:
     }
     const int axis = node.axis;
     const bool isUpperFirst = shape.isAbove(axis, node.plane);
-    const auto shares = shape.sharesOf(axis);
-    bool isDone = false;
-    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+    // The nearer child holds at least what the node does.
+    if (this->visitChild(node, isUpperFirst, shape, box))
     {
-      double& bound = isUpper ? box.lower[axis] : box.upper[axis];
-      const double former = bound;
-      bound = node.plane;
-      shape.narrow(axis, box.lower[axis], box.upper[axis]);
-      isDone =
-        isDone || (shape.mayHold() && this->visit(this->Tree.child(node, isUpper), shape, box));
-      bound = former;
-      shape.restore(axis, shares);
+      return true;
     }
+    const double bound = isUpperFirst ? box.lower[axis] : box.upper[axis];
+    const auto shares = shape.sharesOf(axis);
+    shape.narrow(axis, isUpperFirst ? bound : node.plane, isUpperFirst ? node.plane : bound);
+    const bool isDone = shape.mayHold() && this->visitChild(node, !isUpperFirst, shape, box);
+    shape.restore(axis, shares);
+    return isDone;
+  }
+
+  template <class TShape>
+  bool visitChild(const Node<TSample>& node, bool isUpper, TShape& shape, Region& box)
+  {
+    double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
+    const double former = bound;
+    bound = node.plane;
+    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, box);
+    bound = former;
     return isDone;
   }
 
