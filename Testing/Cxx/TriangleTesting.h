@@ -114,10 +114,10 @@ struct Found
 /// The ids of the samples at the corners of tetrahedra, ordered.
 template <class TSample>
 std::vector<Corners> cornersOf(const isopoint::SampleTree<TSample>& tree,
-  const std::vector<isopoint::CrossingTetrahedron>& tetrahedra)
+  const std::vector<isopoint::CrossingTetrahedron<typename TSample::Id>>& tetrahedra)
 {
   std::vector<Corners> result;
-  for (const isopoint::CrossingTetrahedron& tetrahedron : tetrahedra)
+  for (const auto& tetrahedron : tetrahedra)
   {
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i)

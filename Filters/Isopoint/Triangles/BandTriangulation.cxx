@@ -54,11 +54,12 @@ Point pointAt(const Vector& position)
 }
 
 /// Permutes corners evenly, so that those below come first.
-CrossingTetrahedron bySides(std::array<VertexInfo, 4> corners)
+CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
 {
   const auto isBelow = [](const VertexInfo& corner) { return corner.isBelow(); };
-  CrossingTetrahedron result{ {},
-    static_cast<std::size_t>(std::count_if(corners.begin(), corners.end(), isBelow)) };
+  CrossingTetrahedron<std::uint64_t> result{};
+  result.belowCount =
+    static_cast<std::uint8_t>(std::count_if(corners.begin(), corners.end(), isBelow));
   bool isOdd = false;
   for (std::size_t place = 0; place < result.belowCount; ++place)
   {
@@ -125,7 +126,7 @@ BandTriangulation::~BandTriangulation() = default;
 
 void BandTriangulation::insert(const std::vector<BandSite>& sites)
 {
-  this->Inside->Open.clear();
+  this->Inside->Open = {};
   std::vector<std::pair<Point, VertexInfo>> points;
   points.reserve(sites.size());
   for (const BandSite& site : sites)
@@ -244,22 +245,22 @@ std::vector<bool> BandTriangulation::areBelow(const std::vector<Vector>& positio
   return below;
 }
 
-std::vector<CrossingTetrahedron> BandTriangulation::crossingTetrahedra() const
+void BandTriangulation::visitCrossing(
+  const std::function<void(const CrossingTetrahedron<std::uint64_t>&)>& visit) const
 {
   const Triangulation& cells = this->Inside->Cells;
-  std::vector<CrossingTetrahedron> result;
-  if (cells.dimension() == 3)
+  if (cells.dimension() < 3)
   {
-    for (const Cell cell : cells.finite_cell_handles())
+    return;
+  }
+  for (const Cell cell : cells.finite_cell_handles())
+  {
+    if (this->Inside->isCrossing(cell))
     {
-      if (this->Inside->isCrossing(cell))
-      {
-        result.push_back(bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(),
-          cell->vertex(2)->info(), cell->vertex(3)->info() }));
-      }
+      visit(bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
+        cell->vertex(3)->info() }));
     }
   }
-  return result;
 }
 
 } // namespace isopoint

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,11 +24,12 @@ struct BandSite
 };
 
 /// A tetrahedron with corners on both sides of the isovalue.
+template <class TId>
 struct CrossingTetrahedron
 {
   /// The node indices of the leaves at its corners, those below first; the orientation is positive.
-  std::array<std::uint64_t, 4> corners;
-  std::size_t belowCount; // 1 to 3
+  std::array<TId, 4> corners;
+  std::uint8_t belowCount; // 1 to 3
 };
 
 /// The Delaunay tetrahedrisation of some of the samples, which grows. It is that of CGAL, whose
@@ -81,8 +83,9 @@ public:
   /// Quickest if consecutive positions lie close together.
   std::vector<bool> areBelow(const std::vector<Vector>& positions) const;
 
-  /// The crossing tetrahedra, in any order. O(cells)
-  std::vector<CrossingTetrahedron> crossingTetrahedra() const;
+  /// Visits the crossing tetrahedra, in any order. O(cells)
+  void visitCrossing(
+    const std::function<void(const CrossingTetrahedron<std::uint64_t>&)>& visit) const;
 
 private:
   class Internals;

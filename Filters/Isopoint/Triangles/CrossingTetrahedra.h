@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -37,6 +38,8 @@ template <class TSample>
 class CrossingTetrahedraFinder
 {
 public:
+  using Id = typename TSample::Id;
+
   /// @param tree refined around the isovalue (see NarrowBand); will be refined further
   /// @param values of the tree's leaves
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree,
@@ -50,7 +53,7 @@ public:
 
   /// @param nodes below which all leaves are that touch a leaf on the other side of the isovalue
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
-  std::vector<CrossingTetrahedron> find(const std::vector<BinaryIndex>& nodes)
+  std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
   {
     this->Marks.grow(this->Tree.nodes.size());
     this->insert(this->leavesAtSurface(nodes));
@@ -70,12 +73,26 @@ public:
       }
     }
     this->Counts.inserted = this->Band.size() - this->Counts.band;
-    return this->Band.crossingTetrahedra();
+    return this->crossing();
   }
 
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
+  std::vector<CrossingTetrahedron<Id>> crossing() const
+  {
+    std::vector<CrossingTetrahedron<Id>> result;
+    this->Band.visitCrossing(
+      [&result](const CrossingTetrahedron<std::uint64_t>& tetrahedron)
+      {
+        CrossingTetrahedron<Id> narrow{ {}, tetrahedron.belowCount };
+        std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(),
+          narrow.corners.begin(), [](std::uint64_t leaf) { return static_cast<Id>(leaf); });
+        result.push_back(narrow);
+      });
+    return result;
+  }
+
   /// The leaves that touch one on the other side.
   std::vector<std::size_t> leavesAtSurface(const std::vector<BinaryIndex>& nodes)
   {

@@ -38,10 +38,12 @@ template <class TSample>
 class TriangleExtraction
 {
 public:
+  using Id = typename TSample::Id;
+
   /// @param tree will be refined
   /// @param neighborhoods of the tree's leaves that are known
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree,
-    const NeighborhoodCache<typename TSample::Id>& neighborhoods, const IsosurfaceRequest& request)
+    const NeighborhoodCache<Id>& neighborhoods, const IsosurfaceRequest& request)
     : Run(execution)
     , Tree(tree)
     , Neighborhoods(neighborhoods)
@@ -91,7 +93,7 @@ public:
   }
 
   /// The crossing tetrahedra of the Delaunay tetrahedrisation of all samples.
-  std::vector<CrossingTetrahedron> tetrahedra(WorkProgress& progress, double laterWork)
+  std::vector<CrossingTetrahedron<Id>> tetrahedra(WorkProgress& progress, double laterWork)
   {
     if (this->Tree.isEmpty())
     {
@@ -103,7 +105,7 @@ public:
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrising, count * laterWork);
     CrossingTetrahedraFinder<TSample> finder(part, this->Tree, this->Means, this->Request.isovalue);
-    std::vector<CrossingTetrahedron> found = finder.find(nodes);
+    std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     this->Counts = finder.counts();
     return found;
   }
@@ -114,7 +116,7 @@ private:
   /// The triangles of all tetrahedra but those across gaps.
   EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
   {
-    std::vector<CrossingTetrahedron> found = this->tetrahedra(progress, laterWork);
+    std::vector<CrossingTetrahedron<Id>> found = this->tetrahedra(progress, laterWork);
     this->dropGaps(found);
     return MarchingTetrahedra<TSample>(
       this->Run, this->Tree, this->Means, this->Request.isovalue, found)
@@ -122,14 +124,14 @@ private:
   }
 
   /// Drops tetrahedra with an edge that the gap criterion drops.
-  void dropGaps(std::vector<CrossingTetrahedron>& found)
+  void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
   {
     if (!(this->Request.gapFactor > 0.0))
     {
       return;
     }
     const GapCriterion criterion(this->Request.gapFactor);
-    const auto isAcrossGap = [&](const CrossingTetrahedron& tetrahedron)
+    const auto isAcrossGap = [&](const CrossingTetrahedron<Id>& tetrahedron)
     {
       for (std::size_t i = 0; i < 4; ++i)
       {
@@ -235,7 +237,7 @@ private:
 
   const Execution& Run;
   SampleTree<TSample>& Tree;
-  const NeighborhoodCache<typename TSample::Id>& Neighborhoods;
+  const NeighborhoodCache<Id>& Neighborhoods;
   const IsosurfaceRequest& Request;
   SharedLeafMeans<TSample> Means;
   TetrahedraCounts Counts;

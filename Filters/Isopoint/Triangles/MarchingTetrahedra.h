@@ -40,10 +40,12 @@ template <class TSample>
 class MarchingTetrahedra
 {
 public:
+  using Id = typename TSample::Id;
+
   /// @param tetrahedra of leaves of the tree
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
     SharedLeafMeans<TSample>& means, double isovalue,
-    const std::vector<CrossingTetrahedron>& tetrahedra)
+    const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
     : Run(execution)
     , Tree(tree)
     , Means(means)
@@ -65,8 +67,6 @@ public:
   }
 
 private:
-  using Id = typename TSample::Id;
-
   /// An edge, by the node indices of its ends in ascending order.
   struct LeafPair
   {
@@ -83,10 +83,7 @@ private:
     }
   };
 
-  static LeafPair pairOf(std::uint64_t a, std::uint64_t b)
-  {
-    return { static_cast<Id>(std::min(a, b)), static_cast<Id>(std::max(a, b)) };
-  }
+  static LeafPair pairOf(Id a, Id b) { return { std::min(a, b), std::max(a, b) }; }
 
   /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
   struct Polygon
@@ -95,7 +92,7 @@ private:
     std::size_t count;
   };
 
-  static Polygon polygonOf(const CrossingTetrahedron& tetrahedron)
+  static Polygon polygonOf(const CrossingTetrahedron<Id>& tetrahedron)
   {
     const auto& [a, b, c, d] = tetrahedron.corners;
     switch (tetrahedron.belowCount)
@@ -313,7 +310,7 @@ private:
   const SampleTree<TSample>& Tree;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
-  const std::vector<CrossingTetrahedron>& Tetrahedra;
+  const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;
   std::vector<LeafPair> Pairs; // of crossing edges, ordered
   // One entry for each pair.
   std::vector<CrossingEdge<TSample>> Edges;
