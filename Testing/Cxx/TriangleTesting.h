@@ -64,22 +64,29 @@ inline std::vector<Site> sitesOf(const Cloud& cloud)
   return sites;
 }
 
-/// The crossing tetrahedra of CGAL's Delaunay tetrahedrisation of all samples, ordered.
-inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using FullTetrahedrisation = CGAL::Delaunay_triangulation_3<Kernel,
+  CGAL::Triangulation_data_structure_3<
+    CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>,
+    CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+
+/// CGAL's Delaunay tetrahedrisation of all sites; vertices know their number.
+inline FullTetrahedrisation fullTetrahedrisation(const std::vector<Site>& sites)
 {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>;
-  using CellBase = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
-  using Full = CGAL::Delaunay_triangulation_3<Kernel,
-    CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-  const std::vector<Site> sites = sitesOf(cloud);
   std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
   for (std::size_t i = 0; i < sites.size(); ++i)
   {
     const auto& p = sites[i].position;
     points.push_back({ Kernel::Point_3(p[0], p[1], p[2]), i });
   }
-  const Full full(points.begin(), points.end());
+  return { points.begin(), points.end() };
+}
+
+/// Its crossing tetrahedra, ordered.
+inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
+{
+  const std::vector<Site> sites = sitesOf(cloud);
+  const FullTetrahedrisation full = fullTetrahedrisation(sites);
   std::vector<Corners> result;
   if (full.dimension() < 3)
   {
@@ -103,6 +110,29 @@ inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
   }
   std::sort(result.begin(), result.end());
   return result;
+}
+
+/// The number of its hull's facets with corners on both sides.
+inline std::size_t crossingHullFacets(const Cloud& cloud, double isovalue)
+{
+  const std::vector<Site> sites = sitesOf(cloud);
+  const FullTetrahedrisation full = fullTetrahedrisation(sites);
+  std::size_t count = 0;
+  for (const auto cell : full.all_cell_handles())
+  {
+    int below = 0;
+    int finite = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      if (!full.is_infinite(cell->vertex(i)))
+      {
+        ++finite;
+        below += sites[cell->vertex(i)->info()].value < isovalue ? 1 : 0;
+      }
+    }
+    count += finite == 3 && below > 0 && below < 3 ? 1 : 0;
+  }
+  return count;
 }
 
 struct Found

@@ -45,6 +45,8 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
+  const auto fallingAt = [&fits](std::size_t vertex)
+  { return scaled(-1.0, directionOf(fits[vertex].gradient)); };
   const auto isTurned = [&](const SurfaceTriangle& triangle)
   {
     const auto& [a, b, c] = triangle;
@@ -55,8 +57,9 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const auto placeOf = [&](std::size_t vertex)
     { return isMoved(vertex) ? fits[vertex].position : unmoved[vertex]; };
     const Vector before = scaledNormal(unmoved[a], unmoved[b], unmoved[c]);
-    return hasDirection(before) &&
-           !(dot(before, scaledNormal(placeOf(a), placeOf(b), placeOf(c))) > 0.0);
+    const Vector after = scaledNormal(placeOf(a), placeOf(b), placeOf(c));
+    const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
+    return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   std::vector<std::size_t> turned;
   do

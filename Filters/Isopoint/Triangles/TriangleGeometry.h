@@ -13,10 +13,11 @@
 namespace isopoint
 {
 
-/// Takes back those moves of vertices by fits that would turn triangles over: if the normal of a
-/// triangle of moved vertices and that of the unmoved ones form an angle of 90 degrees or more, or
-/// it has no area any more, the three vertices stay, as if no fit held; until no triangle is turned
-/// over. Triangles without area before are none.
+/// Takes back those moves of vertices by fits that would turn triangles over. A triangle is turned
+/// over if the right-hand normal of its unmoved vertices has a positive product with the sum of the
+/// directions against the three gradients, and that of the moved ones has not: then the three
+/// vertices stay, as if no fit held; until no triangle is turned over. (Linear interpolation alone
+/// leaves some that look the wrong way in flat tetrahedra.)
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
