@@ -40,22 +40,18 @@ struct ExtractionRequest
   /// something is fitted.
   double minimumSpacing = 0.0;
   std::optional<SplatOptions> splats = std::nullopt;
-};
-
-/// What is to be computed for one isovalue as triangles.
-struct TriangleRequest
-{
-  IsosurfaceRequest isosurface; // its angle has no effect
-  bool normals = false;
+  /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
+  /// Delaunay tetrahedrisation of the samples (docs/triangles.md). The angle and the minimum
+  /// spacing then have no effect, and splats have normals alone. Not of a cloud on ranks.
+  bool triangles = false;
 };
 
 /// All that is computed for one isovalue.
 struct ExtractedIsosurface
 {
   Isosurface surface;
-  std::vector<Splat> splats; // one for each isopoint, or empty if none were requested
-  /// Of the isopoints, which are then its vertices, if triangles were requested.
-  std::vector<SurfaceTriangle> triangles;
+  std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
+  std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
@@ -150,20 +146,11 @@ public:
   /// if this one had not been
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request);
 
-  /// The isosurface of the Delaunay tetrahedrisation of the samples (docs/triangles.md): its
-  /// vertices as isopoints, its triangles and, if requested, the normals of the vertices as splats
-  /// of which nothing else is set. The same for any execution and any order of calls. Not of a
-  /// cloud on ranks.
-  /// @throws what extract() throws
-  ExtractedIsosurface extractTriangles(const Execution& execution, const TriangleRequest& request);
-
 private:
   /// The samples, and what has been found out about them.
   template <class TSample>
   struct Cloud
   {
-    using SampleType = TSample;
-
     SampleTree<TSample> tree;
     NeighborhoodCache<typename TSample::Id> neighborhoods;
     std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks
@@ -185,6 +172,10 @@ private:
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
     this->Held = Cloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
   }
+
+  template <class TSample>
+  static ExtractedIsosurface extractTriangles(
+    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
 
   template <class TSample>
   ExtractedIsosurface extractOnRanks(

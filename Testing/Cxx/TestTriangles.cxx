@@ -19,17 +19,18 @@ using isopoint::Vector;
 
 using DirectedEdge = std::pair<std::size_t, std::size_t>;
 
-isopoint::TriangleRequest requestOf(
+isopoint::ExtractionRequest requestOf(
   double isovalue, std::optional<isopoint::FitOrder> order = std::nullopt, double gapFactor = 0.0)
 {
-  isopoint::TriangleRequest request;
+  isopoint::ExtractionRequest request;
   request.isosurface.isovalue = isovalue;
   request.isosurface.gapFactor = gapFactor;
   if (order)
   {
     request.isosurface.fit = isopoint::FitRequest{ *order, true };
   }
-  request.normals = true;
+  request.splats = isopoint::SplatOptions{};
+  request.triangles = true;
   return request;
 }
 
@@ -41,9 +42,9 @@ isopoint::IsosurfaceExtractor extractorOf(const Cloud& cloud)
 }
 
 ExtractedIsosurface trianglesOf(
-  const Cloud& cloud, const isopoint::TriangleRequest& request, std::size_t threads = 1)
+  const Cloud& cloud, const isopoint::ExtractionRequest& request, std::size_t threads = 1)
 {
-  return extractorOf(cloud).extractTriangles(clouds::executionOn(threads), request);
+  return extractorOf(cloud).extract(clouds::executionOn(threads), request);
 }
 
 /// How often each directed edge occurs, less its opposite; those that cancel out are left out.
@@ -384,7 +385,7 @@ TEST(Triangles, AreTheSameForAnyThreadsAndFormerUpdates)
          withField(clouds::clustered(5000, 7), distanceFromTorus), clouds::lattice(20, 20, 20),
          clouds::coarse(5000, 10, 8), clouds::lines(3000, 20, 0, 9) })
   {
-    const isopoint::TriangleRequest request = requestOf(0.1, isopoint::FitOrder::Cubic);
+    const isopoint::ExtractionRequest request = requestOf(0.1, isopoint::FitOrder::Cubic);
     const ExtractedIsosurface expected = trianglesOf(cloud, request);
     expectSame(expected, trianglesOf(cloud, request, 2));
     expectSame(expected, trianglesOf(cloud, request, 5));
@@ -392,8 +393,8 @@ TEST(Triangles, AreTheSameForAnyThreadsAndFormerUpdates)
     isopoint::ExtractionRequest points;
     points.isosurface.isovalue = 0.2;
     extractor.extract({}, points);
-    extractor.extractTriangles({}, requestOf(0.05));
-    expectSame(expected, extractor.extractTriangles({}, request));
+    extractor.extract({}, requestOf(0.05));
+    expectSame(expected, extractor.extract({}, request));
     // And triangles leave no trace in points.
     points.isosurface.isovalue = 0.1;
     points.isosurface.fit = isopoint::FitRequest{ isopoint::FitOrder::Cubic, true };
@@ -421,11 +422,11 @@ TEST(Triangles, StopWhenAborted)
 {
   const Cloud cloud = withField(clouds::uniform(30000, 11), distanceFromSphere);
   isopoint::IsosurfaceExtractor extractor = extractorOf(cloud);
-  const isopoint::TriangleRequest request = requestOf(0.0, isopoint::FitOrder::Cubic);
+  const isopoint::ExtractionRequest request = requestOf(0.0, isopoint::FitOrder::Cubic);
   int asked = 0;
   isopoint::Execution counting;
   counting.aborted = [&asked]() { return ++asked < 0; };
-  const ExtractedIsosurface expected = extractor.extractTriangles(counting, request);
+  const ExtractedIsosurface expected = extractor.extract(counting, request);
   ASSERT_GT(asked, 20);
   for (int last = 0; last < asked; last += 7)
   {
@@ -433,7 +434,7 @@ TEST(Triangles, StopWhenAborted)
     int left = last;
     isopoint::Execution aborting;
     aborting.aborted = [&left]() { return left-- <= 0; };
-    EXPECT_THROW(fresh.extractTriangles(aborting, request), isopoint::Aborted);
-    expectSame(expected, fresh.extractTriangles({}, request));
+    EXPECT_THROW(fresh.extract(aborting, request), isopoint::Aborted);
+    expectSame(expected, fresh.extract({}, request));
   }
 }

@@ -4,11 +4,15 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
-#include <utility>
+#include <iterator>
+#include <numeric>
 
 namespace isopoint
 {
@@ -124,16 +128,32 @@ BandTriangulation::BandTriangulation()
 
 BandTriangulation::~BandTriangulation() = default;
 
-void BandTriangulation::insert(const std::vector<BandSite>& sites)
+void BandTriangulation::insert(
+  const std::vector<BandSite>& sites, const std::function<void(double share)>& step)
 {
   this->Inside->Open = {};
-  std::vector<std::pair<Point, VertexInfo>> points;
+  std::vector<Point> points;
   points.reserve(sites.size());
-  for (const BandSite& site : sites)
+  std::transform(sites.begin(), sites.end(), std::back_inserter(points),
+    [](const BandSite& site) { return pointAt(site.position); });
+  std::vector<std::size_t> order(sites.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  // As CGAL does for a range of points: each is close to the one before.
+  const auto pointOf = CGAL::make_property_map(points);
+  CGAL::spatial_sort(order.begin(), order.end(),
+    CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(pointOf)>(pointOf));
+  constexpr std::size_t stepSize = 512;
+  Cell hint;
+  for (std::size_t i = 0; i < order.size(); ++i)
   {
-    points.emplace_back(pointAt(site.position), VertexInfo(site));
+    const Vertex vertex = this->Inside->Cells.insert(points[order[i]], hint);
+    vertex->info() = VertexInfo(sites[order[i]]);
+    hint = vertex->cell();
+    if (i % stepSize == 0)
+    {
+      step(static_cast<double>(i) / static_cast<double>(order.size()));
+    }
   }
-  this->Inside->Cells.insert(points.begin(), points.end());
 }
 
 std::size_t BandTriangulation::size() const

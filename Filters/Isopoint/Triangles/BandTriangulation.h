@@ -47,8 +47,10 @@ public:
   BandTriangulation& operator=(const BandTriangulation&) = delete;
   ~BandTriangulation();
 
-  /// Adds samples, none of which coincide with another one. @throws std::bad_alloc
-  void insert(const std::vector<BandSite>& sites);
+  /// Adds samples, none of which coincide with another one.
+  /// @param step(share) called with the share that is done, every few milliseconds
+  /// @throws std::bad_alloc, and what step throws; then some of them are added
+  void insert(const std::vector<BandSite>& sites, const std::function<void(double share)>& step);
 
   std::size_t size() const;
 

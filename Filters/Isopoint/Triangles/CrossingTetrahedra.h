@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -143,7 +144,12 @@ private:
           values.at(leaf) < this->Isovalue });
       }
     }
-    this->Band.insert(sites);
+    this->Band.insert(sites,
+      [this](double share)
+      {
+        throwIfAborted(this->Run);
+        this->report(share);
+      });
   }
 
   void split(const std::vector<std::size_t>& nodes)
@@ -219,7 +225,8 @@ private:
     std::vector<std::size_t> unsplit;
     std::mutex mutex;
     constexpr std::size_t grain = 512;
-    forBatches(this->Run, count, 8 * grain, grain,
+    forBatches(
+      this->Run, count, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         SphereSearch<TSample> search(this->Tree, this->Band, this->Marks);
@@ -241,7 +248,8 @@ private:
         const std::lock_guard<std::mutex> lock(mutex);
         found.insert(found.end(), foundHere.begin(), foundHere.end());
         unsplit.insert(unsplit.end(), search.unsplit().begin(), search.unsplit().end());
-      });
+      },
+      [this](double share) { this->report(share); });
     if (!this->isSpent())
     {
       this->split(unsplit);
@@ -265,6 +273,14 @@ private:
     this->split(unsplit);
     this->insert(std::move(leaves));
     return !nodes.empty();
+  }
+
+  /// Reports progress: half of the work is the first tetrahedrisation, most of the rest the first
+  /// round.
+  void report(double share)
+  {
+    const double begin = 1.0 - std::pow(0.4, static_cast<double>(this->Counts.rounds));
+    this->Run.progress(begin + 0.5 * share * (1.0 - begin));
   }
 
   /// Whether searches took so long that it is better to insert all samples.

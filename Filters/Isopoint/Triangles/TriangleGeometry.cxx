@@ -93,11 +93,11 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
 }
 
 std::vector<Splat> vertexNormals(
-  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles)
+  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField)
 {
   std::vector<Splat> splats(points.positions.size(), Splat{});
   SplatOptions options;
-  options.shapes = false;
+  options.fieldNormals = areOfField;
   const std::vector<std::size_t> others = setFieldNormals(points, options, splats);
   if (others.empty())
   {

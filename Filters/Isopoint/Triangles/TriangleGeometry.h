@@ -24,11 +24,12 @@ namespace isopoint
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 
-/// The normals of vertices, as splats of which nothing else is set: against the fits' gradients or,
-/// without, the mean of the normals of their triangles, weighted by area.
+/// The normals of vertices, as splats of which nothing else is set: against the fits' gradients, if
+/// wanted and where there are such; else the mean of the normals of their triangles, weighted by
+/// area.
 /// @throws std::bad_alloc
 std::vector<Splat> vertexNormals(
-  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles);
+  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField);
 
 } // namespace isopoint
 
