@@ -57,8 +57,13 @@ public:
   std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
   {
     this->Marks.grow(this->Tree.nodes.size());
-    this->insert(this->leavesAtSurface(nodes));
-    this->Counts.band = this->Band.size();
+    std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
+    this->Counts.band = leaves.size();
+    if (this->areMany(leaves.size()))
+    {
+      this->insertAll();
+    }
+    this->insert(std::move(leaves));
     this->spanSpace();
     while (!this->Counts.isWhole && this->Band.dimension() == 3)
     {
@@ -219,8 +224,7 @@ private:
   bool certify()
   {
     const std::size_t count = this->Band.listOpenCells();
-    constexpr std::size_t visitsForCell = 1;
-    this->Visits += visitsForCell * this->Band.cellCount();
+    this->Visits += this->Band.cellCount();
     std::vector<std::size_t> found;
     std::vector<std::size_t> unsplit;
     std::mutex mutex;
@@ -243,6 +247,7 @@ private:
             this->Band.certify(i);
           }
           this->Visits += search.visits() - visits;
+          ++this->Searches;
           visits = search.visits();
         }
         const std::lock_guard<std::mutex> lock(mutex);
@@ -283,13 +288,26 @@ private:
     this->Run.progress(begin + 0.5 * share * (1.0 - begin));
   }
 
-  /// Whether searches took so long that it is better to insert all samples.
+  /// Whether so many samples are near the surface that it is better to insert all.
+  bool areMany(std::size_t leafCount) const
+  {
+    constexpr double manyShare = 0.4;
+    constexpr std::size_t smallCloud = 1000; // whose samples are mostly near the surface
+    const std::size_t count = this->Tree.samples.size();
+    return count > smallCloud &&
+           static_cast<double>(leafCount) > manyShare * static_cast<double>(count);
+  }
+
+  /// Whether searches took so long that it is better to insert all samples. Long searches, as in
+  /// huge spheres through voids, promise more of their kind: they get less.
   bool isSpent() const
   {
-    constexpr std::size_t visitsForSample = 100;
+    constexpr std::size_t longSearch = 500;
     constexpr std::size_t smallCloud = 10000;
-    return this->Visits.load(std::memory_order_relaxed) >
-           visitsForSample * (this->Tree.samples.size() + smallCloud);
+    const std::size_t visits = this->Visits.load(std::memory_order_relaxed);
+    const bool areLong = visits > longSearch * this->Searches.load(std::memory_order_relaxed);
+    const std::size_t visitsForSample = areLong ? 25 : 100;
+    return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
   }
 
   const Execution& Run;
@@ -298,7 +316,8 @@ private:
   const double Isovalue;
   BandTriangulation Band;
   NodeMarks Marks;
-  std::atomic<std::size_t> Visits{ 0 };
+  std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists
+  std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;
 };
 
