@@ -212,8 +212,8 @@ TEST(Tetrahedra, OfCosphericalSamples)
 
 TEST(Tetrahedra, OfLeavesOfAnAdaptiveGrid)
 {
-  const Found found = expectSameTetrahedra(octreeLeaves(6), 0.3);
-  EXPECT_FALSE(found.counts.isWhole);
+  expectSameTetrahedra(octreeLeaves(6), 0.3);
+  expectSameTetrahedra(octreeLeaves(5), 0.42);
 }
 
 /// Samples of the other side that nobody of the other side's cells touches: surfaces that the band
@@ -228,6 +228,24 @@ TEST(Tetrahedra, OfNoise)
       withNoise(scaled(clouds::uniform(3000, seed), 1.0, 0.1, 0.001), 0.02, seed), 0.5);
     expectSameTetrahedra(withNoise(clouds::lines(1500, 12, 0, seed), 0.02, seed), 0.5);
   }
+}
+
+/// Where most samples are near the surface, or searches are long, all are tetrahedrised.
+TEST(Tetrahedra, OfAllSamplesWhereThatIsQuicker)
+{
+  EXPECT_TRUE(
+    expectSameTetrahedra(withNoise(clouds::uniform(5000, 19), 0.5, 19), 0.5).counts.isWhole);
+  Random random(20);
+  Cloud shell;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const double x = random() - 0.5;
+    const double y = random() - 0.5;
+    const double z = random() - 0.5;
+    const double scale = (1.0 + 1e-6 * random()) / distanceFrom(x, y, z);
+    shell.add(scale * x, scale * y, scale * z, x * scale);
+  }
+  EXPECT_TRUE(expectSameTetrahedra(shell, 0.1).counts.isWhole);
 }
 
 /// Wherever the band begins, all pieces of the surface are found: samples on the wrong side of what
