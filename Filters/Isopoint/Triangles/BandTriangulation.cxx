@@ -113,6 +113,20 @@ public:
     return hasBelow && hasOther;
   }
 
+  /// Makes room for the cells of an insertion. An allocation that fails in the middle of one would
+  /// leave a static variable of CGAL as no later insertion expects it.
+  void reserveCells()
+  {
+    constexpr std::size_t mostAtOnce = 256; // larger holes are filled in another way
+    auto& cells = this->Cells.tds().cells();
+    if (cells.capacity() - cells.size() < mostAtOnce)
+    {
+      constexpr std::size_t leastBlock = 1024;
+      constexpr std::size_t shareOfBlock = 64;
+      cells.reserve(cells.capacity() + leastBlock + cells.size() / shareOfBlock);
+    }
+  }
+
   /// The index of the infinite vertex, or -1.
   int infiniteIndexOf(Cell cell) const
   {
@@ -146,6 +160,7 @@ void BandTriangulation::insert(
   Cell hint;
   for (std::size_t i = 0; i < order.size(); ++i)
   {
+    this->Inside->reserveCells();
     const Vertex vertex = this->Inside->Cells.insert(points[order[i]], hint);
     vertex->info() = VertexInfo(sites[order[i]]);
     hint = vertex->cell();
