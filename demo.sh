@@ -6,17 +6,23 @@ set -euo pipefail
 usage()
 {
   cat << END
-usage: $0 [FILE ARRAY ISOVALUE]
+usage: $0 [--triangles] [FILE ARRAY ISOVALUE]
 Builds the plugin if necessary, computes the isopoints of a file's point or cell array with ParaView, and
-writes isopoints.vtp and isosurface.png to the current folder. Without arguments the samples are a
+writes isopoints.vtp and isosurface.png to the current folder. Without a file the samples are a
 million random ones of the distance to a point; their true isosurface is a sphere, errors are printed,
 and comparison.png is written as well.
+  --triangles   computes the isosurface as triangles instead, and writes triangles.vtp and isosurface.png
 END
 }
 
 if [[ ${1-} == --help ]]; then
   usage
   exit
+fi
+filter=points
+if [[ ${1-} == --triangles ]]; then
+  filter=triangles
+  shift
 fi
 if (($# != 0 && $# != 3)) || [[ ${1-samples} == '' || ${1-} == -* ]]; then
   usage >&2
@@ -25,6 +31,6 @@ fi
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$source_dir/Utilities/prepare.sh" release
 # In the environment, since pvbatch interprets arguments that begin with a minus itself.
-export ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
+export ISOPOINTS_FILTER=$filter ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
 exec "$source_dir/Utilities/offscreen.sh" pvbatch "$source_dir/Utilities/demo.py" \
   "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"

@@ -4,6 +4,7 @@
 #include "Isopoint/Base/Team.h"
 #include "vtkIsopointUsageError.h"
 #include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredIsosurfaceFilter.h"
 
 #include "vtkType.h"
 
@@ -125,13 +126,19 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
     });
 }
 
+bool vtkExtractsIsopointTriangles(vtkScatteredIsopointFilter* filter)
+{
+  return vtkScatteredIsosurfaceFilter::SafeDownCast(filter) != nullptr;
+}
+
 vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter)
 {
+  const bool hasSplats = !vtkExtractsIsopointTriangles(filter);
   vtkIsopointComputedArrays::Choice choice;
   choice.Normals = filter->GetComputeNormals() != 0;
-  choice.Radius = filter->GetComputeRadii() != 0;
-  choice.SplatAxes = filter->GetComputeSplatAxes() != 0;
-  choice.SplatClip = filter->GetComputeSplatClips() != 0;
+  choice.Radius = hasSplats && filter->GetComputeRadii() != 0;
+  choice.SplatAxes = hasSplats && filter->GetComputeSplatAxes() != 0;
+  choice.SplatClip = hasSplats && filter->GetComputeSplatClips() != 0;
   choice.Gradients = filter->GetComputeGradients() != 0;
   choice.ProjectionOrder = filter->GetComputeProjectionOrders() != 0;
   choice.IsProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
@@ -146,6 +153,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   request.isosurface.gapFactor = filter->GetGapFactor();
   request.isosurface.fit = fitRequestOf(filter, arrays);
   request.minimumSpacing = filter->GetMinimumSpacing();
+  request.triangles = vtkExtractsIsopointTriangles(filter);
   if (arrays.NeedsSplats())
   {
     request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),

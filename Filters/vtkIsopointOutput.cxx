@@ -62,6 +62,40 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
   return vertices;
 }
 
+vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  vtkIdType count = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    count += static_cast<vtkIdType>(extracted.triangles.size());
+  }
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkNew<vtkIdTypeArray> connectivity;
+  vtkAllocateTuples(offsets, count + 1);
+  vtkAllocateTuples(connectivity, 3 * count);
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    offsets->SetValue(i, 3 * i);
+  }
+  vtkIdType next = 0;
+  vtkIdType firstPoint = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (const isopoint::SurfaceTriangle& triangle : extracted.triangles)
+    {
+      for (const std::size_t vertex : triangle)
+      {
+        connectivity->SetValue(next++, firstPoint + static_cast<vtkIdType>(vertex));
+      }
+    }
+    firstPoint += static_cast<vtkIdType>(extracted.surface.size());
+  }
+  auto triangles = vtkSmartPointer<vtkCellArray>::New();
+  triangles->SetData(offsets, connectivity);
+  return triangles;
+}
+
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)
 {
   return vtkUniformGridAMR::SafeDownCast(input)

@@ -35,6 +35,13 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
 
 /**
+ * The triangles of all surfaces, whose points are those of vtkNewIsopointPositions().
+ * @throws std::bad_alloc
+ */
+vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces);
+
+/**
  * A new, empty output for a composite input whose blocks are contoured by themselves: an object of
  * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
  */

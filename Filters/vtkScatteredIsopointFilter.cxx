@@ -316,6 +316,11 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     [&]()
     {
       vtkCheckIsopointOptions(this);
+      if (vtkExtractsIsopointTriangles(this))
+      {
+        throw vtkIsopointUsageError("Triangles cannot be extracted on several ranks. Extract points"
+                                    " with vtkScatteredIsopointFilter, or run on one rank.");
+      }
       if (!vtkPolyData::SafeDownCast(output))
       {
         throw vtkIsopointUsageError("Blocks cannot be contoured by themselves on several ranks."
@@ -497,7 +502,14 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
     vtkNewIsopointPositions(surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
   output->SetPoints(points);
-  output->SetVerts(vtkNewIsopointVertices(count));
+  if (vtkExtractsIsopointTriangles(this))
+  {
+    output->SetPolys(vtkNewIsopointTriangles(surfaces));
+  }
+  else
+  {
+    output->SetVerts(vtkNewIsopointVertices(count));
+  }
 
   vtkPointData* const pointData = output->GetPointData();
   vtkInterpolateIsopointArrays(

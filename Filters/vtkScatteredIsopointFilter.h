@@ -89,7 +89,7 @@
  * other are represented by one.
  *
  * @sa
- * vtkContourFilter vtkPointGaussianMapper
+ * vtkScatteredIsosurfaceFilter vtkContourFilter vtkPointGaussianMapper
  */
 
 #ifndef vtkScatteredIsopointFilter_h

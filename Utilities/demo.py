@@ -5,7 +5,8 @@ isosurface.png.
 The samples are those of the file ISOPOINTS_FILE, the array ISOPOINTS_ARRAY and the isovalue
 ISOPOINTS_ISOVALUE in the environment, in any format that ParaView reads. Without these they are random
 positions in a cube of side 200, with the distance to its centre as values, so that errors are known;
-comparison.png is then written as well.
+comparison.png is then written as well. If ISOPOINTS_FILTER is "triangles", triangles are computed instead of
+isopoints, and triangles.vtp and isosurface.png written.
 """
 
 import os
@@ -168,7 +169,8 @@ def main(plugin):
         array, isovalue = "distance", RADIUS
         source = sphere_samples()
 
-    isopoints = simple.ScatteredIsopoints(Input=source)
+    is_mesh = os.environ.get("ISOPOINTS_FILTER") == "triangles"
+    isopoints = (simple.ScatteredIsosurface if is_mesh else simple.ScatteredIsopoints)(Input=source)
     isopoints.ContourBy = ["POINTS", array]
     isopoints.Isosurfaces = [float(isovalue)]
     start = time.perf_counter()
@@ -178,7 +180,9 @@ def main(plugin):
     output = isopoints.GetClientSideObject().GetOutput()
     count = output.GetNumberOfPoints()
     print("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
-    print("isopoints         %d" % count)
+    if is_mesh:
+        print("triangles         %d" % output.GetNumberOfPolys())
+    print("%s         %d" % ("vertices " if is_mesh else "isopoints", count))
     print("seconds           %.3f" % seconds)
     if count == 0:
         limits = source.PointData[array].GetRange()
@@ -189,10 +193,11 @@ def main(plugin):
         print("largest deviation %.5f" % deviation.max())
         print("mean deviation    %.5f" % deviation.mean())
 
-    simple.SaveData("isopoints.vtp", proxy=isopoints, DataMode="Binary")
-    picture(isopoints, "Isopoint Splats", "isosurface.png", [1000, 800])
-    print("wrote isopoints.vtp and isosurface.png")
-    if not path:
+    name = "triangles.vtp" if is_mesh else "isopoints.vtp"
+    simple.SaveData(name, proxy=isopoints, DataMode="Binary")
+    picture(isopoints, "Surface" if is_mesh else "Isopoint Splats", "isosurface.png", [1000, 800])
+    print("wrote %s and isosurface.png" % name)
+    if not path and not is_mesh:
         compare(
             (
                 (isopoints, "Isopoint Splats"),

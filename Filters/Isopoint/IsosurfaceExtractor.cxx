@@ -11,6 +11,8 @@
 #include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/Triangles/ExtractTriangles.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 namespace isopoint
 {
@@ -57,9 +59,9 @@ double IsosurfaceExtractor::extractionWork(
   }
   BandForecast forecast(count);
   forecast.observe(0, 1, isTreeKept ? 0.0 : 1.0);
-  const double forIsopoint = work::finding + work::placing + work::writing +
-                             (request.isosurface.fit ? work::fitting : 0.0) +
-                             (request.splats ? work::splatting : 0.0);
+  const double forIsopoint =
+    (request.triangles ? work::tetrahedrising : work::finding) + work::placing + work::writing +
+    (request.isosurface.fit ? work::fitting : 0.0) + (request.splats ? work::splatting : 0.0);
   return forecast.bandWork(0) + forIsopoint * forecast.isopointCount();
 }
 
@@ -72,6 +74,10 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       if (this->Ranks)
       {
         return this->extractOnRanks(execution, cloud, request);
+      }
+      if (request.triangles)
+      {
+        return extractTriangles(execution, cloud, request);
       }
       WorkProgress progress(execution);
       const double splatting = request.splats ? work::splatting : 0.0;
@@ -95,6 +101,28 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       return result;
     },
     this->Held);
+}
+
+template <class TSample>
+ExtractedIsosurface IsosurfaceExtractor::extractTriangles(
+  const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
+{
+  WorkProgress progress(execution);
+  TriangleExtraction<TSample> extraction(
+    execution, cloud.tree, cloud.neighborhoods, request.isosurface);
+  TriangleSurface found = extraction.extract(progress, work::writing);
+  throwIfAborted(execution);
+  ExtractedIsosurface result;
+  result.surface = std::move(found.vertices);
+  result.triangles = std::move(found.triangles);
+  if (request.splats)
+  {
+    const Isosurface& surface = result.surface;
+    result.splats = vertexNormals({ surface.positions, surface.decreasingEdges, surface.fits },
+      result.triangles, request.splats->fieldNormals);
+  }
+  result.surface.leaves = {};
+  return result;
 }
 
 template <class TSample>

@@ -12,6 +12,7 @@
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
+#include "Isopoint/Triangles/SurfaceTriangle.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -39,13 +40,18 @@ struct ExtractionRequest
   /// something is fitted.
   double minimumSpacing = 0.0;
   std::optional<SplatOptions> splats = std::nullopt;
+  /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
+  /// Delaunay tetrahedrisation of the samples (docs/triangles.md). The angle and the minimum
+  /// spacing then have no effect, and splats have normals alone. Not of a cloud on ranks.
+  bool triangles = false;
 };
 
 /// All that is computed for one isovalue.
 struct ExtractedIsosurface
 {
   Isosurface surface;
-  std::vector<Splat> splats; // one for each isopoint, or empty if none were requested
+  std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
+  std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
@@ -171,6 +177,10 @@ private:
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
     this->Held = Cloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
   }
+
+  template <class TSample>
+  static ExtractedIsosurface extractTriangles(
+    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
 
   template <class TSample>
   ExtractedIsosurface extractOnRanks(

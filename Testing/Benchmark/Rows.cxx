@@ -14,6 +14,7 @@
 #include "vtkPointInterpolator.h"
 #include "vtkSMPTools.h"
 #include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredIsosurfaceFilter.h"
 #include "vtkShepardKernel.h"
 #include "vtkStaticPointLocator.h"
 
@@ -60,9 +61,10 @@ enum class Extras
   All         // and normals and radii: the defaults
 };
 
-vtkNew<vtkScatteredIsopointFilter> newFilter(const Task& task, Extras extras)
+template <class TFilter = vtkScatteredIsopointFilter>
+vtkNew<TFilter> newFilter(const Task& task, Extras extras)
 {
-  vtkNew<vtkScatteredIsopointFilter> filter;
+  vtkNew<TFilter> filter;
   filter->SetInputData(task.samples);
   filter->SetComputeNormals(extras == Extras::All);
   filter->SetComputeRadii(extras == Extras::All);
@@ -84,12 +86,13 @@ Row fasterOfTwo(const Measurement& measurement)
   return second.seconds < first.seconds ? second : first;
 }
 
+template <class TFilter = vtkScatteredIsopointFilter>
 Row measureNewFilter(const Task& task, const std::string& what, double copy, Extras extras)
 {
   return fasterOfTwo(
     [&]()
     {
-      const auto filter = newFilter(task, extras);
+      const auto filter = newFilter<TFilter>(task, extras);
       return measureUpdate(task, what, copy, filter, task.isovalue);
     });
 }
@@ -201,6 +204,10 @@ std::vector<Row> measureOurs(const Task& task, double copy)
   rows.push_back(
     measureNewFilter(task, "isopoints, projected, gradients", copy, Extras::Projection));
   rows.push_back(measureNewFilter(task, "isopoints, projected, normals, radii", copy, Extras::All));
+  rows.push_back(
+    measureNewFilter<vtkScatteredIsosurfaceFilter>(task, "triangles", copy, Extras::None));
+  rows.push_back(measureNewFilter<vtkScatteredIsosurfaceFilter>(
+    task, "triangles, projected, normals", copy, Extras::All));
 
   const auto filter = newFilter(task, Extras::None);
   measureUpdate(task, "(first, to be kept)", copy, filter, task.isovalue);

@@ -24,8 +24,9 @@ struct Task
 /// is already mapped.
 double copySeconds(vtkPolyData* samples);
 
-/// This project's filter: isopoints on their edges, projected, projected with normals and radii;
-/// with a kept tree at other isovalues and with new values; on one thread.
+/// This project's filters: isopoints on their edges, projected, projected with normals and radii;
+/// triangles on their edges, projected with normals; isopoints with a kept tree at other isovalues
+/// and with new values; on one thread.
 std::vector<Row> measureOurs(const Task& task, double copy);
 
 /// The alternatives: VTK's resampling to a grid, CGAL's Delaunay triangulation, and vtkDelaunay3D

@@ -4,6 +4,8 @@
 #include "FailingAllocator.h"
 #include "FilterTesting.h"
 
+#include "vtkScatteredIsosurfaceFilter.h"
+
 #include "vtkCellData.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
@@ -52,9 +54,10 @@ std::vector<double> everythingOf(vtkScatteredIsopointFilter* filter)
 
 /// Makes the n-th large allocation of the update after `prepare` fail, for each n.
 /// @param prepare sets a filter up, ready to be updated
+template <class TFilter = vtkScatteredIsopointFilter>
 void failEach(const Prepare& prepare)
 {
-  vtkNew<vtkScatteredIsopointFilter> undisturbed;
+  vtkNew<TFilter> undisturbed;
   prepare(undisturbed);
   undisturbed->Update();
   const std::vector<double> expected = everythingOf(undisturbed);
@@ -67,7 +70,7 @@ void failEach(const Prepare& prepare)
     {
       ASSERT_LT(n, 2000);
       SCOPED_TRACE(testing::Message() << "allocation " << n << (andAllLater ? " and later" : ""));
-      vtkNew<vtkScatteredIsopointFilter> filter;
+      vtkNew<TFilter> filter;
       prepare(filter);
       const auto errors = watchErrors(filter);
       failingallocator::failAt(n, andAllLater);
@@ -181,4 +184,29 @@ TEST(OutOfMemory, BlocksAndCells)
         filter->SetContourBlocks(byBlock);
       });
   }
+}
+
+TEST(OutOfMemory, Triangles)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = newCloud(4000);
+  failEach<vtkScatteredIsosurfaceFilter>(
+    [&](vtkScatteredIsopointFilter* filter)
+    {
+      filter->SetInputData(cloud);
+      filter->SetValue(0, 0.6);
+    });
+}
+
+/// All samples are tetrahedrised.
+TEST(OutOfMemory, TrianglesOfNoise)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = newCloud(1500);
+  failEach<vtkScatteredIsosurfaceFilter>(
+    [&](vtkScatteredIsopointFilter* filter)
+    {
+      filter->SetInputData(cloud);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "x");
+      filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+      filter->SetValue(0, 0.01);
+    });
 }

@@ -1,69 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random clouds, options and ranks. The environment variables RANKS_FIRST_SEED and RANKS_SEEDS
 // choose others than the first hundred. The points of all ranks are those of one process.
+#include "RandomClouds.h"
 #include "RankTesting.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 
 namespace
 {
 
 using clouds::Cloud;
-
-/// Whole numbers below a limit.
-class Dice
-{
-public:
-  explicit Dice(std::uint64_t seed)
-    : Uniform(seed)
-  {
-  }
-
-  std::size_t operator()(std::size_t limit)
-  {
-    return std::min(
-      limit - 1, static_cast<std::size_t>(this->Uniform() * static_cast<double>(limit)));
-  }
-  double real() { return this->Uniform(); }
-
-private:
-  clouds::Random Uniform;
-};
-
-Cloud randomCloud(Dice& dice, std::uint64_t seed)
-{
-  const std::size_t count = std::size_t{ 1 } << dice(12);
-  const std::size_t some = count + dice(count + 1);
-  switch (dice(12))
-  {
-    case 0:
-      return clouds::clustered(some, seed);
-    case 1:
-      return clouds::lattice(2 + static_cast<int>(dice(11)), 1 + static_cast<int>(dice(11)),
-        1 + static_cast<int>(dice(11)));
-    case 2:
-      return clouds::coarse(some, 2 + static_cast<int>(dice(9)), seed);
-    case 3:
-      return clouds::coincident(clouds::uniform(some, seed), dice.real());
-    case 4:
-      return clouds::lines(some / 2 + 1, 1 + dice(8), static_cast<int>(dice(50)), seed);
-    case 5:
-      return clouds::combs(some / 2 + 1, 1 + static_cast<int>(dice(12)), seed);
-    case 6:
-      return clouds::curves(some / 2 + 1, seed);
-    case 7:
-      return clouds::flattened(clouds::uniform(some, seed), static_cast<int>(dice(3)));
-    case 8:
-      return clouds::nestedCoincident(some / 4 + 10);
-    case 9:
-      return clouds::layerBeforeOne(some / 4 + 10, seed);
-    default:
-      return clouds::uniform(some, seed);
-  }
-}
+using clouds::Dice;
+using clouds::numberFrom;
+using clouds::randomCloud;
 
 isopoint::ExtractionRequest randomRequest(Dice& dice)
 {
@@ -115,13 +66,6 @@ void checkOne(std::uint64_t seed)
   {
     ranks::expectSameAsOneProcess<double, double>(cloud, size, deal, requests, threads);
   }
-}
-
-/// A number from the environment, which makes the test run longer than usual.
-std::uint64_t numberFrom(const char* name, std::uint64_t usual)
-{
-  const char* const text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : usual;
 }
 
 } // namespace

@@ -19,7 +19,8 @@ CORE_FOLDERS = {
     "Extraction": ["Base", "Tree", "Neighbors", "Fit"],
     "Splat": ["Base", "Tree", "Neighbors", "Fit"],
     "Ranks": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
-    "": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Ranks"],
+    "Triangles": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
+    "": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Ranks", "Triangles"],
 }
 
 # The other folders with sources, and the headers of the project that they may include.
@@ -29,8 +30,8 @@ FOLDERS = {
     "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
 }
 
-# The folder of the core that alone may include a library.
-LIBRARIES = {"Eigen": CORE + "/Fit", "CGAL": CORE + "/Splat"}
+# The folders of the core that alone may include a library.
+LIBRARIES = {"Eigen": [CORE + "/Fit"], "CGAL": [CORE + "/Splat", CORE + "/Triangles"]}
 
 TOP_FOLDERS = ("Filters", "Rendering", "Plugin")
 MOST_FILES = 14
@@ -94,9 +95,9 @@ class Project:
     def check_everywhere(self, name, folder, include):
         if include.endswith((".cxx", ".cpp", ".cc", ".c")):
             self.report(name, f"includes {include}: not a header")
-        for library, home in LIBRARIES.items():
-            if library in include.split("/")[:-1] and folder != home:
-                self.report(name, f"includes {include}: {library} belongs into {home}")
+        for library, homes in LIBRARIES.items():
+            if library in include.split("/")[:-1] and folder not in homes:
+                self.report(name, f"includes {include}: {library} belongs into {' or '.join(homes)}")
         path = "/" + re.sub(r"^(\.\.?/)+", "", include)
         if any(("/" + header).endswith(path) for header in self.test_headers) and (
             "Testing/" in include or not self.own(include)
@@ -228,10 +229,11 @@ class LayersTest(unittest.TestCase):
             for path in ("Random.h", "Cxx/Random.h", "../Testing/Cxx/Random.h"):
                 self.check_defect({name: f'#include "{path}"\n', "Testing/Cxx/Random.h": "\n"},
                                   "a header of the tests")
-            for library, home in (("Eigen", "Fit"), ("CGAL", "Splat")):
+            for library, homes in (("Eigen", ["Fit"]), ("CGAL", ["Splat", "Triangles"])):
                 include = f"#include <{library}/Core>\n"
-                self.assertEqual(self.problems({f"{CORE}/{home}/a.cxx": include}), "")
-                if not name.startswith(f"{CORE}/{home}/"):
+                for home in homes:
+                    self.assertEqual(self.problems({f"{CORE}/{home}/a.cxx": include}), "")
+                if not name.startswith(tuple(f"{CORE}/{home}/" for home in homes)):
                     self.check_defect({name: include}, f"{library} belongs into")
         for header in ("vtkPVView.h", "vtkSMProxy.h", "vtkSMPropertyHelper.h", "pqView.h"):
             include = f'#include "{header}"\n'

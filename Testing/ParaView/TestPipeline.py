@@ -45,6 +45,30 @@ def pixels(path):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[..., :3]
 
 
+def check_triangles(reader):
+    """The other filter, with filters of meshes behind it, as a user's script would have them."""
+    surface = simple.ScatteredIsosurface(Input=reader)
+    surface.ContourBy = ["POINTS", "r"]
+    surface.Isosurfaces = [0.5, 0.75]
+    surface.UpdatePipeline()
+    information = surface.GetDataInformation().DataInformation
+    check(information.GetNumberOfCells() > information.GetNumberOfPoints(), "triangles")
+    check(list(surface.PointData["r"].GetRange()) == [0.5, 0.75], "the isovalues of triangles")
+    check("Radius" not in surface.PointData.keys(), "no radii")
+    edges = simple.FeatureEdges(Input=surface)
+    edges.FeatureEdges = 0
+    edges.UpdatePipeline()
+    check(edges.GetDataInformation().GetNumberOfCells() == 0, "two closed surfaces")
+    surface.Isosurfaces = [0.75]
+    sizes = simple.IntegrateVariables(Input=surface)
+    sizes.UpdatePipeline()
+    area = sizes.CellData["Area"].GetRange()[0]
+    check(abs(area / (4.0 * np.pi * 0.75**2) - 1.0) < 0.005, f"the area {area}")
+    view = simple.CreateView("RenderView")
+    check(simple.Show(surface, view).Representation == "Surface", "the default representation")
+    simple.Delete(view)
+
+
 def main(plugin):
     simple.LoadPlugin(plugin)
     folder = tempfile.mkdtemp()
@@ -64,6 +88,8 @@ def main(plugin):
     isopoints.SMProxy.UpdatePropertyInformation()
     skipped = isopoints.SMProxy.GetProperty("NumberOfSkippedSamples")
     check(skipped.GetElement(0) == 0, "skipped samples")
+
+    check_triangles(reader)
 
     view = simple.CreateView("RenderView")
     view.ViewSize = [300, 300]

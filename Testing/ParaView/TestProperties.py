@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The XML of the plugin against its classes: TestProperties.py PLUGIN FILTER_XML REPRESENTATION_XML
+"""The XML of the plugin against its classes: TestProperties.py PLUGIN REPRESENTATION_XML FILTER_XML...
 
 Properties offer the ranges that the classes accept and have their defaults, and help mentions only
 representations that exist."""
@@ -9,8 +9,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
+import scatteredisopoints
 from paraview import servermanager, simple
-from scatteredisopoints import vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -71,9 +71,8 @@ def samples():
     return data
 
 
-def filter_accepts(name):
+def filter_accepts(contour, name):
     """A value outside of the range is set to the nearest one, or is an error at the update."""
-    contour = vtkScatteredIsopointFilter()
     contour.SetInputData(samples())
     contour.SetValue(0, 0.5)
     errors = []
@@ -89,14 +88,15 @@ def filter_accepts(name):
 
 
 def check_filter(root):
-    contour = vtkScatteredIsopointFilter()
+    filter_class = getattr(scatteredisopoints, root.find(".//SourceProxy").get("class"))
+    contour = filter_class()
     names = []
     for name, element, name_in_class, default in vector_properties(root):
         value = getattr(contour, "Get" + name_in_class)()
         check(value == default, f"{name}: the default {default}, in the class {value}")
-        check_range(name, element, filter_accepts(name_in_class))
+        check_range(name, element, filter_accepts(filter_class(), name_in_class))
         names.append(name)
-    check(len(names) > 12, f"properties of the filter: {names}")
+    check(len(names) >= 10, f"properties of the filter: {names}")
 
 
 def printed(representation):
@@ -163,8 +163,10 @@ def check_mentioned_representations(roots):
 
 def main(plugin, *files):
     simple.LoadPlugin(plugin)
-    of_filter, of_representation = roots = [ElementTree.parse(file).getroot() for file in files]
-    check_filter(of_filter)
+    of_representation, *of_filters = roots = [ElementTree.parse(file).getroot() for file in files]
+    check(len(of_filters) == 2, "both filters")
+    for of_filter in of_filters:
+        check_filter(of_filter)
     check_representation(of_representation)
     check_mentioned_representations(roots)
 

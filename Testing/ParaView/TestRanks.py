@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from scatteredisopoints import vtkScatteredIsopointFilter
+from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
@@ -363,6 +363,18 @@ class RanksTest(unittest.TestCase):
         self.check_one_error(vtkPolyData())
         self.check_one_error(poly_data(points[:0], points[:0]))
         self.check(points, "even")
+
+    @unittest.skipIf(SIZE == 1, "one rank extracts triangles")
+    def test_triangles_of_several_ranks_are_one_error(self):
+        points = cloud("uniform", 500, 7)
+        watch = []
+        surface = vtkScatteredIsosurfaceFilter()
+        surface.SetController(RANKS)
+        surface.SetInputData(poly_data(points, np.arange(500)))
+        self.assertEqual(run(surface, watch=watch).GetOutput().GetNumberOfPoints(), 0)
+        counts = gather(len(watch))
+        if RANK == 0:
+            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
     @unittest.skipIf(SIZE == 1, "one rank contours blocks by themselves")
     def test_blocks_by_themselves_are_refused(self):

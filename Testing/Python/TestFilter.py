@@ -4,7 +4,7 @@
 import unittest
 
 import numpy as np
-from scatteredisopoints import vtkScatteredIsopointFilter
+from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -50,6 +50,23 @@ class FilterTest(unittest.TestCase):
         for chunk in np.array_split(surface, 30):
             distances = np.linalg.norm(chunk[:, None, :] - positions[None], axis=2)
             self.assertTrue((distances < reach).any(axis=1).all())
+
+    def test_triangles_of_a_sphere(self):
+        surface = vtkScatteredIsosurfaceFilter()
+        surface.SetInputData(cloud(30000))
+        surface.SetValue(0, 0.7)
+        surface.Update()
+        output = surface.GetOutput()
+        positions = vtk_to_numpy(output.GetPoints().GetData())
+        self.assertLess(np.abs(np.linalg.norm(positions, axis=1) - 0.7).max(), 0.005)
+        triangles = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        corners = positions[triangles].astype(float)
+        volumes = np.linalg.det(corners) / 6.0  # normals point inwards
+        self.assertAlmostEqual(-volumes.sum(), 4.0 / 3.0 * np.pi * 0.7**3, delta=0.01)
+        edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        _, counts = np.unique(edges, axis=0, return_counts=True)
+        self.assertTrue((counts == 2).all())
+        self.assertEqual(len(positions) - len(counts) + len(triangles), 2)
 
     def test_defaults_and_properties(self):
         isopoints = vtkScatteredIsopointFilter()

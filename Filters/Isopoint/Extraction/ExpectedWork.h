@@ -18,15 +18,16 @@ namespace isopoint
 namespace work
 {
 
-constexpr double loading = 30.0;     // for each sample
-constexpr double halving = 4.0;      // for each sample of a node and level
-constexpr double parting = 50.0;     // for each sample, in the last treelet, besides
-constexpr double searching = 3300.0; // for each node of a front: which nodes below are needed
-constexpr double finding = 2500.0;   // for each isopoint: its edge
-constexpr double placing = 200.0;    // for each isopoint: sorted, and put there
-constexpr double fitting = 15000.0;  // for each isopoint
-constexpr double splatting = 4000.0; // for each isopoint
-constexpr double writing = 150.0;    // for each isopoint: output arrays
+constexpr double loading = 30.0;          // for each sample
+constexpr double halving = 4.0;           // for each sample of a node and level
+constexpr double parting = 50.0;          // for each sample, in the last treelet, besides
+constexpr double searching = 3300.0;      // for each node of a front: which nodes below are needed
+constexpr double finding = 2500.0;        // for each isopoint: its edge
+constexpr double placing = 200.0;         // for each isopoint: sorted, and put there
+constexpr double tetrahedrising = 6000.0; // for each isopoint: its tetrahedra
+constexpr double fitting = 15000.0;       // for each isopoint
+constexpr double splatting = 4000.0;      // for each isopoint
+constexpr double writing = 150.0;         // for each isopoint: output arrays
 
 constexpr double isopointsForNode = 1.75; // that is crossing, in the last front
 

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_MarchingTetrahedra_h
+#define isopoint_MarchingTetrahedra_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Base/SortUnique.h"
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Triangles/BandTriangulation.h"
+#include "Isopoint/Triangles/SurfaceTriangle.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Triangles on crossing edges.
+template <class TSample>
+struct EdgeTriangles
+{
+  /// One for each vertex, ordered, each once. Of edges whose crossings are one sample, since that
+  /// has the isovalue, the first.
+  std::vector<CrossingEdge<TSample>> edges;
+  std::vector<SurfaceTriangle> triangles; // ordered
+};
+
+/// Marching tetrahedra: the isosurface of the linear interpolation in each crossing tetrahedron.
+template <class TSample>
+class MarchingTetrahedra
+{
+public:
+  using Id = typename TSample::Id;
+
+  /// @param tetrahedra of leaves of the tree
+  MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
+    SharedLeafMeans<TSample>& means, double isovalue,
+    const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
+    : Run(execution)
+    , Tree(tree)
+    , Means(means)
+    , Isovalue(isovalue)
+    , Tetrahedra(tetrahedra)
+  {
+  }
+
+  /// @throws std::bad_alloc, Aborted
+  /// Complexity: O(n log n)
+  EdgeTriangles<TSample> march()
+  {
+    this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
+      [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.lower); });
+    this->placeVertices();
+    this->mergeAtSamples();
+    const std::vector<SurfaceTriangle> triangles = this->allTriangles();
+    return this->ordered(triangles);
+  }
+
+private:
+  /// An edge, by the node indices of its ends in ascending order.
+  struct LeafPair
+  {
+    Id lower;
+    Id upper;
+
+    bool operator<(const LeafPair& other) const
+    {
+      return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
+    }
+    bool operator==(const LeafPair& other) const
+    {
+      return this->lower == other.lower && this->upper == other.upper;
+    }
+  };
+
+  static LeafPair pairOf(Id a, Id b) { return { std::min(a, b), std::max(a, b) }; }
+
+  /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
+  struct Polygon
+  {
+    std::array<LeafPair, 4> pairs;
+    std::size_t count;
+  };
+
+  static Polygon polygonOf(const CrossingTetrahedron<Id>& tetrahedron)
+  {
+    const auto& [a, b, c, d] = tetrahedron.corners;
+    switch (tetrahedron.belowCount)
+    {
+      case 1:
+        return { { pairOf(a, b), pairOf(a, d), pairOf(a, c) }, 3 };
+      case 2:
+        return { { pairOf(a, c), pairOf(b, c), pairOf(b, d), pairOf(a, d) }, 4 };
+      default: // d is above
+        return { { pairOf(d, a), pairOf(d, c), pairOf(d, b) }, 3 };
+    }
+  }
+
+  std::vector<LeafPair> allPairs()
+  {
+    std::vector<LeafPair> pairs;
+    std::mutex mutex;
+    this->forAll(
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::vector<LeafPair> found;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Polygon polygon = polygonOf(this->Tetrahedra[i]);
+          found.insert(found.end(), polygon.pairs.begin(),
+            polygon.pairs.begin() + static_cast<std::ptrdiff_t>(polygon.count));
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        const std::lock_guard<std::mutex> lock(mutex);
+        pairs.insert(pairs.end(), found.begin(), found.end());
+      });
+    return pairs;
+  }
+
+  template <class Work>
+  void forAll(const Work& work)
+  {
+    constexpr std::size_t grain = 4096;
+    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain, work);
+  }
+
+  const TSample& sampleOf(Id leaf) const
+  {
+    return this->Tree.samples[this->Tree.nodes[static_cast<std::size_t>(leaf)].begin];
+  }
+
+  void placeVertices()
+  {
+    this->Edges.resize(this->Pairs.size());
+    this->Positions.resize(this->Pairs.size());
+    constexpr std::size_t grain = 4096;
+    forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        LeafValueCache<TSample> values(this->Tree, this->Means);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto [lower, upper] = this->Pairs[i];
+          const bool isLowerFirst = this->sampleOf(lower).id < this->sampleOf(upper).id;
+          const Id first = isLowerFirst ? lower : upper;
+          const Id second = isLowerFirst ? upper : lower;
+          const double parameter = edgeParameter(values.at(static_cast<std::size_t>(first)),
+            values.at(static_cast<std::size_t>(second)), this->Isovalue);
+          this->Edges[i] = { this->sampleOf(first).id, this->sampleOf(second).id, parameter, first,
+            second };
+          this->Positions[i] = interpolate(
+            positionOf(this->sampleOf(first)), positionOf(this->sampleOf(second)), parameter);
+        }
+      });
+  }
+
+  /// Edges that cross at one of their ends are crossed at one vertex there.
+  void mergeAtSamples()
+  {
+    this->VertexOf.resize(this->Edges.size());
+    std::iota(this->VertexOf.begin(), this->VertexOf.end(), std::size_t{ 0 });
+    std::unordered_map<Id, std::size_t> vertexAt; // by leaf
+    const auto add = [&](Id leaf, std::size_t edge)
+    {
+      std::size_t& vertex = vertexAt.emplace(leaf, edge).first->second;
+      if (this->Edges[edge] < this->Edges[vertex])
+      {
+        vertex = edge;
+      }
+    };
+    std::vector<std::pair<std::size_t, Id>> merged;
+    for (std::size_t i = 0; i < this->Edges.size(); ++i)
+    {
+      const CrossingEdge<TSample>& edge = this->Edges[i];
+      for (const Id end : { edge.firstLeaf, edge.secondLeaf })
+      {
+        if (edge.crossing == (end == edge.firstLeaf ? 0.0 : 1.0) ||
+            this->Positions[i] == positionOf(this->sampleOf(end)))
+        {
+          add(end, i);
+          merged.emplace_back(i, end);
+          break;
+        }
+      }
+    }
+    for (const auto& [edge, leaf] : merged)
+    {
+      this->VertexOf[edge] = vertexAt.at(leaf);
+    }
+  }
+
+  std::size_t vertexOn(const LeafPair& pair) const
+  {
+    return this->VertexOf[static_cast<std::size_t>(
+      std::lower_bound(this->Pairs.begin(), this->Pairs.end(), pair) - this->Pairs.begin())];
+  }
+
+  /// The triangles, their vertices numbered as pairs are.
+  std::vector<SurfaceTriangle> allTriangles()
+  {
+    std::vector<SurfaceTriangle> triangles;
+    std::mutex mutex;
+    this->forAll(
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::vector<SurfaceTriangle> found;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->addTriangles(polygonOf(this->Tetrahedra[i]), found);
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        triangles.insert(triangles.end(), found.begin(), found.end());
+      });
+    return triangles;
+  }
+
+  void addTriangles(const Polygon& polygon, std::vector<SurfaceTriangle>& triangles) const
+  {
+    std::array<std::size_t, 4> corners;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < polygon.count; ++i)
+    {
+      const std::size_t corner = this->vertexOn(polygon.pairs[i]);
+      if (count == 0 || (corner != corners[count - 1] && corner != corners[0]))
+      {
+        corners[count++] = corner;
+      }
+    }
+    if (count == 3)
+    {
+      triangles.push_back({ corners[0], corners[1], corners[2] });
+    }
+    else if (count == 4)
+    {
+      const std::size_t from = this->cutsFirst(corners) ? 0 : 1;
+      const auto corner = [&](std::size_t i) { return corners[(from + i) % 4]; };
+      triangles.push_back({ corner(0), corner(1), corner(2) });
+      triangles.push_back({ corner(2), corner(3), corner(0) });
+    }
+  }
+
+  /// Whether a quadrilateral is cut from its first corner: along the shorter diagonal or, of equal
+  /// ones, that from the vertex of the first edge.
+  bool cutsFirst(const std::array<std::size_t, 4>& corners) const
+  {
+    const auto lengthBetween = [&](std::size_t a, std::size_t b)
+    { return lengthOf(difference(this->Positions[corners[b]], this->Positions[corners[a]])); };
+    const double first = lengthBetween(0, 2);
+    const double second = lengthBetween(1, 3);
+    if (first != second)
+    {
+      return first < second;
+    }
+    const auto lower = [&](std::size_t a, std::size_t b)
+    { return std::min(this->Edges[corners[a]], this->Edges[corners[b]]); };
+    return lower(0, 2) < lower(1, 3);
+  }
+
+  /// Orders vertices and triangles, and leaves out vertices without triangles.
+  EdgeTriangles<TSample> ordered(const std::vector<SurfaceTriangle>& triangles) const
+  {
+    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> number(this->Edges.size(), unused);
+    std::vector<std::size_t> order;
+    for (const SurfaceTriangle& triangle : triangles)
+    {
+      for (const std::size_t vertex : triangle)
+      {
+        if (number[vertex] == unused)
+        {
+          number[vertex] = 0;
+          order.push_back(vertex);
+        }
+      }
+    }
+    std::sort(order.begin(), order.end(),
+      [this](std::size_t a, std::size_t b) { return this->Edges[a] < this->Edges[b]; });
+    EdgeTriangles<TSample> result;
+    result.edges.reserve(order.size());
+    for (const std::size_t vertex : order)
+    {
+      number[vertex] = result.edges.size();
+      result.edges.push_back(this->Edges[vertex]);
+    }
+    std::vector<SurfaceTriangle> numbered;
+    numbered.reserve(triangles.size());
+    for (const SurfaceTriangle& triangle : triangles)
+    {
+      SurfaceTriangle corners{ number[triangle[0]], number[triangle[1]], number[triangle[2]] };
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      numbered.push_back(corners);
+    }
+    result.triangles = sortedUnique(this->Run, numbered, result.edges.size(),
+      [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+    return result;
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  SharedLeafMeans<TSample>& Means;
+  const double Isovalue;
+  const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;
+  std::vector<LeafPair> Pairs; // of crossing edges, ordered
+  // One entry for each pair.
+  std::vector<CrossingEdge<TSample>> Edges;
+  std::vector<Vector> Positions;
+  std::vector<std::size_t> VertexOf; // the pair whose vertex is that of this one
+};
+
+} // namespace isopoint
+
+#endif

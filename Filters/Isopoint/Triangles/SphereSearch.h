@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SphereSearch_h
+#define isopoint_SphereSearch_h
+
+#include "Isopoint/Base/Region.h"
+#include "Isopoint/Tree/SampleTree.h"
+#include "Isopoint/Triangles/BandTriangulation.h"
+#include "Isopoint/Triangles/NodeMarks.h"
+#include "Isopoint/Triangles/SphereFunction.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The inside of a tetrahedron's sphere, as a search sees it: what a box holds at least of its
+/// function.
+class BallShape
+{
+public:
+  BallShape(const TetrahedronCorners& corners, const Region& region)
+    : Ball(ballAround(corners))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->narrow(axis, region.lower[axis], region.upper[axis]);
+    }
+  }
+
+  using Shares = double;
+  Shares sharesOf(int axis) const { return this->Least[axis]; }
+  void restore(int axis, Shares shares) { this->Least[axis] = shares; }
+
+  /// Takes note of the present box' extent along an axis.
+  void narrow(int axis, double lower, double upper)
+  {
+    this->Least[axis] = this->Ball.least(axis, lower, upper);
+  }
+
+  /// Whether the present box may have places inside.
+  bool mayHold() const { return !SphereFunction::isPositive(this->Least); }
+
+  bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
+  Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
+
+private:
+  SphereFunction Ball;
+  Vector Least{}; // bounds of the present box, by axis
+};
+
+/// The same of a facet of the hull: what lies beyond its plane or, in the plane, in its circle. The
+/// many samples in the plane of a flat hull are off the circle.
+class HullFacetShape
+{
+public:
+  HullFacetShape(const HullFacetCorners& corners, const Region& region)
+    : Beyond(halfSpaceBeyond(corners))
+    , Ball(ballThrough(corners))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->narrow(axis, region.lower[axis], region.upper[axis]);
+    }
+  }
+
+  struct Shares
+  {
+    double beyond;
+    double ball;
+  };
+  Shares sharesOf(int axis) const { return { this->LeastBeyond[axis], this->LeastBall[axis] }; }
+  void restore(int axis, Shares shares)
+  {
+    this->LeastBeyond[axis] = shares.beyond;
+    this->LeastBall[axis] = shares.ball;
+  }
+
+  void narrow(int axis, double lower, double upper)
+  {
+    this->LeastBeyond[axis] = this->Beyond.least(axis, lower, upper);
+    this->LeastBall[axis] = this->Ball.least(axis, lower, upper);
+  }
+
+  bool mayHold() const
+  {
+    return !SphereFunction::isPositive(this->LeastBeyond) &&
+           !(SphereFunction::isNotNegative(this->LeastBeyond) &&
+             SphereFunction::isPositive(this->LeastBall));
+  }
+
+  bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
+  Side sideOf(const Vector& position) const { return this->Beyond.sideOf(position); }
+
+private:
+  SphereFunction Beyond;
+  SphereFunction Ball;
+  Vector LeastBeyond{};
+  Vector LeastBall{};
+};
+
+/// Nodes of so few samples are seen through without being split.
+constexpr std::size_t fewSamples = 16;
+
+/// Searches the tree for a sample inside the sphere of a cell, the nearest to the centre first as
+/// far as the tree indicates it. Memory is kept. For one thread.
+template <class TSample>
+class SphereSearch
+{
+public:
+  SphereSearch(const SampleTree<TSample>& tree, const BandTriangulation& band, NodeMarks& marks)
+    : Tree(tree)
+    , Band(band)
+    , Marks(marks)
+  {
+  }
+
+  /// Looks for a sample inside the sphere of a listed cell that is not in the band. Marks each node
+  /// without children whose region the sphere may reach, up to where the search ends.
+  /// @returns the leaf that was found. With none, and if isComplete(), there is none
+  std::optional<std::size_t> find(std::size_t openCell)
+  {
+    this->Cell = openCell;
+    this->UnsplitReached = 0;
+    if (this->Band.isBeyondHull(openCell))
+    {
+      HullFacetShape shape(this->Band.hullFacetAt(openCell), this->Tree.region);
+      return this->findIn(shape);
+    }
+    BallShape shape(this->Band.tetrahedronAt(openCell), this->Tree.region);
+    return this->findIn(shape);
+  }
+
+  /// Whether the last search, if it found nothing, saw all samples.
+  bool isComplete() const { return this->UnsplitReached == 0; }
+
+  /// Nodes that have to be split for searches to see all samples, with repetitions.
+  const std::vector<std::size_t>& unsplit() const { return this->Unsplit; }
+
+  /// The number of nodes visited so far.
+  std::size_t visits() const { return this->Visits; }
+
+private:
+  template <class TShape>
+  std::optional<std::size_t> findIn(TShape& shape)
+  {
+    this->Found.reset();
+    Region box = this->Tree.region;
+    if (shape.mayHold())
+    {
+      this->visit(SampleTree<TSample>::rootNode, shape, box);
+    }
+    return this->Found;
+  }
+
+  /// @param box the node's region; restored in the end
+  /// @returns whether the search ends
+  template <class TShape>
+  bool visit(std::size_t nodeIndex, TShape& shape, Region& box)
+  {
+    ++this->Visits;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!node.isSplit())
+    {
+      return this->visitEnd(nodeIndex, shape);
+    }
+    const int axis = node.axis;
+    const bool isUpperFirst = shape.isAbove(axis, node.plane);
+    // The nearer child holds at least what the node does.
+    if (this->visitChild(node, isUpperFirst, shape, box))
+    {
+      return true;
+    }
+    const double bound = isUpperFirst ? box.lower[axis] : box.upper[axis];
+    const auto shares = shape.sharesOf(axis);
+    shape.narrow(axis, isUpperFirst ? bound : node.plane, isUpperFirst ? node.plane : bound);
+    const bool isDone = shape.mayHold() && this->visitChild(node, !isUpperFirst, shape, box);
+    shape.restore(axis, shares);
+    return isDone;
+  }
+
+  template <class TShape>
+  bool visitChild(const Node<TSample>& node, bool isUpper, TShape& shape, Region& box)
+  {
+    double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
+    const double former = bound;
+    bound = node.plane;
+    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, box);
+    bound = former;
+    return isDone;
+  }
+
+  /// A node without children.
+  template <class TShape>
+  bool visitEnd(std::size_t nodeIndex, const TShape& shape)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    this->Marks.markReached(nodeIndex);
+    if (node.isLeaf)
+    {
+      if (!this->Marks.isInBand(nodeIndex) && this->isInside(shape, node.begin))
+      {
+        this->Found = nodeIndex;
+      }
+      return this->Found.has_value();
+    }
+    constexpr std::size_t manyUnsplit = 64;
+    bool hasToBeSplit = node.count() > fewSamples;
+    for (std::size_t i = node.begin; i < node.end && !hasToBeSplit; ++i)
+    {
+      ++this->Visits;
+      hasToBeSplit = shape.sideOf(positionOf(this->Tree.samples[i])) != Side::Outside;
+    }
+    if (hasToBeSplit)
+    {
+      this->Unsplit.push_back(nodeIndex);
+      ++this->UnsplitReached;
+    }
+    return this->UnsplitReached >= manyUnsplit;
+  }
+
+  template <class TShape>
+  bool isInside(const TShape& shape, std::size_t sample) const
+  {
+    const Vector position = positionOf(this->Tree.samples[sample]);
+    const Side side = shape.sideOf(position);
+    return side == Side::Inside ||
+           (side == Side::Unknown && this->Band.isInside(this->Cell, position));
+  }
+
+  const SampleTree<TSample>& Tree;
+  const BandTriangulation& Band;
+  NodeMarks& Marks;
+  std::size_t Cell = 0;
+  std::optional<std::size_t> Found;
+  std::size_t Visits = 0;
+  std::size_t UnsplitReached = 0; // by the last search
+  std::vector<std::size_t> Unsplit;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_TreeRefinement_h
+#define isopoint_TreeRefinement_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/TreeletSplitting.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The path to any node, found by the position of its samples in the tree's order. O(depth)
+template <class TSample>
+Path pathToNode(const SampleTree<TSample>& tree, std::size_t nodeIndex)
+{
+  const Node<TSample>& wanted = tree.nodes[nodeIndex];
+  Path path = pathToRoot(tree);
+  while (path.nodeIndex() != nodeIndex)
+  {
+    const Node<TSample>& upper = tree.nodes[tree.nodes[path.nodeIndex()].upperNode()];
+    descend(tree, path, wanted.begin >= upper.begin);
+  }
+  return path;
+}
+
+/// Splits nodes of a tree further: small ones down to leaves, others by one treelet. The result is
+/// a larger part of the complete tree, whatever part was there.
+/// @param nodes node indices in any order, with repetitions; those that are split or leaves stay
+/// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
+template <class TSample>
+void splitFurther(
+  const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
+{
+  struct Task
+  {
+    std::size_t node;
+    std::size_t firstPair;
+    int levels;
+    Path path;
+  };
+  constexpr std::size_t small = 512;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  constexpr std::size_t batch = 4096; // paths are large
+  for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
+  {
+    std::vector<Task> tasks;
+    std::size_t pairs = 0;
+    for (std::size_t i = begin; i < std::min(begin + batch, nodes.size()); ++i)
+    {
+      const Node<TSample>& node = tree.nodes[nodes[i]];
+      if (node.isSplit() || node.isLeaf)
+      {
+        continue;
+      }
+      const Path path = pathToNode(tree, nodes[i]);
+      const int levels = std::min(maximumDepth - path.depth,
+        node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
+      if (levels == 0)
+      {
+        throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+      }
+      tasks.push_back({ nodes[i], pairs, levels, path });
+      pairs += maximumTreeletPairs(node.count(), levels);
+    }
+    const std::size_t firstPair = appendPairs(tree, pairs);
+    forRanges(execution, tasks.size(), 4,
+      [&](std::size_t first, std::size_t last)
+      {
+        TreeletSplitter<TSample> splitter(tree, 0);
+        for (std::size_t i = first; i < last; ++i)
+        {
+          splitter.moveTo(firstPair + tasks[i].firstPair);
+          splitter.split(tree.nodes[tasks[i].node], tasks[i].path.region, tasks[i].levels);
+        }
+      });
+    throwIfAborted(execution);
+  }
+}
+
+/// Splits all of a tree down to leaves.
+/// @throws what splitFurther() does
+template <class TSample>
+void splitCompletely(const Execution& execution, SampleTree<TSample>& tree)
+{
+  std::vector<std::size_t> unsplit;
+  do
+  {
+    splitFurther(execution, tree, std::exchange(unsplit, {}));
+    Path path = pathToRoot(tree);
+    forEachBelow(tree, path, maximumDepth,
+      [&](const Path& below)
+      {
+        if (!tree.nodes[below.nodeIndex()].isLeaf)
+        {
+          unsplit.push_back(below.nodeIndex());
+        }
+      });
+  } while (!unsplit.empty());
+}
+
+} // namespace isopoint
+
+#endif

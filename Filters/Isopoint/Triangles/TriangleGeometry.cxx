@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Isopoint/Triangles/TriangleGeometry.h"
+
+#include "Isopoint/Splat/SplatNormals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <mutex>
+
+namespace isopoint
+{
+namespace
+{
+
+/// The normal of a triangle, as long as twice its area in units that neither over- nor underflow:
+/// its direction alone is of use.
+Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
+{
+  const Vector u = difference(b, a);
+  const Vector v = difference(c, a);
+  double largest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    largest = std::max({ largest, std::abs(u[axis]), std::abs(v[axis]) });
+  }
+  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  const auto toUnit = [exponent](const Vector& w) -> Vector
+  {
+    return { std::ldexp(w[0], -exponent), std::ldexp(w[1], -exponent),
+      std::ldexp(w[2], -exponent) };
+  };
+  return cross(toUnit(u), toUnit(v));
+}
+
+bool hasDirection(const Vector& vector)
+{
+  const double length = lengthOf(vector);
+  return std::isfinite(length) && length > 0.0;
+}
+
+} // namespace
+
+void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
+  const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
+{
+  const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
+  const auto fallingAt = [&fits](std::size_t vertex)
+  { return scaled(-1.0, directionOf(fits[vertex].gradient)); };
+  const auto isTurned = [&](const SurfaceTriangle& triangle)
+  {
+    const auto& [a, b, c] = triangle;
+    if (!isMoved(a) && !isMoved(b) && !isMoved(c))
+    {
+      return false;
+    }
+    const auto placeOf = [&](std::size_t vertex)
+    { return isMoved(vertex) ? fits[vertex].position : unmoved[vertex]; };
+    const Vector before = scaledNormal(unmoved[a], unmoved[b], unmoved[c]);
+    const Vector after = scaledNormal(placeOf(a), placeOf(b), placeOf(c));
+    const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
+    return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
+  };
+  std::vector<std::size_t> turned;
+  do
+  {
+    turned.clear();
+    std::mutex mutex;
+    constexpr std::size_t grain = 8192;
+    forBatches(execution, triangles.size(), 8 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::vector<std::size_t> found;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (isTurned(triangles[i]))
+          {
+            found.push_back(i);
+          }
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        turned.insert(turned.end(), found.begin(), found.end());
+      });
+    for (const std::size_t triangle : turned)
+    {
+      for (const std::size_t vertex : triangles[triangle])
+      {
+        fits[vertex].order.reset();
+        fits[vertex].position = unmoved[vertex];
+      }
+    }
+  } while (!turned.empty());
+}
+
+std::vector<Splat> vertexNormals(
+  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField)
+{
+  std::vector<Splat> splats(points.positions.size(), Splat{});
+  SplatOptions options;
+  options.fieldNormals = areOfField;
+  const std::vector<std::size_t> others = setFieldNormals(points, options, splats);
+  if (others.empty())
+  {
+    return splats;
+  }
+  std::vector<bool> isOther(splats.size(), false);
+  for (const std::size_t vertex : others)
+  {
+    isOther[vertex] = true;
+  }
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    const auto& [a, b, c] = triangle;
+    if (!isOther[a] && !isOther[b] && !isOther[c])
+    {
+      continue;
+    }
+    const Vector normal = cross(difference(points.positions[b], points.positions[a]),
+      difference(points.positions[c], points.positions[a]));
+    for (const std::size_t vertex : triangle)
+    {
+      if (isOther[vertex])
+      {
+        splats[vertex].normal = sum(splats[vertex].normal, 1.0, normal);
+      }
+    }
+  }
+  for (const std::size_t vertex : others)
+  {
+    Vector& normal = splats[vertex].normal;
+    normal = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
+  }
+  return splats;
+}
+
+} // namespace isopoint

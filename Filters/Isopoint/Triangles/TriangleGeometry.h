@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_TriangleGeometry_h
+#define isopoint_TriangleGeometry_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Triangles/SurfaceTriangle.h"
+
+#include <vector>
+
+namespace isopoint
+{
+
+/// Takes back those moves of vertices by fits that would turn triangles over. A triangle is turned
+/// over if the right-hand normal of its unmoved vertices has a positive product with the sum of the
+/// directions against the three gradients, and that of the moved ones has not: then the three
+/// vertices stay, as if no fit held; until no triangle is turned over. (Linear interpolation alone
+/// leaves some that look the wrong way in flat tetrahedra.)
+/// @param unmoved positions of the vertices
+/// @param fits of the vertices; those whose vertices stay have no order and that position
+/// @throws std::bad_alloc, Aborted
+void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
+  const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
+
+/// The normals of vertices, as splats of which nothing else is set: against the fits' gradients, if
+/// wanted and where there are such; else the mean of the normals of their triangles, weighted by
+/// area.
+/// @throws std::bad_alloc
+std::vector<Splat> vertexNormals(
+  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField);
+
+} // namespace isopoint
+
+#endif

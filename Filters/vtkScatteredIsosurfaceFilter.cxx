@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkScatteredIsosurfaceFilter.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkScatteredIsosurfaceFilter);
+
+void vtkScatteredIsosurfaceFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkScatteredIsosurfaceFilter
+ * @brief   extract isosurfaces as triangles, directly from scattered samples
+ *
+ * vtkScatteredIsosurfaceFilter generates triangles on one or more isosurfaces of a scalar field
+ * that is given at scattered samples. They are those of the Delaunay tetrahedralization of all
+ * samples (marching tetrahedra), which it does not build: only samples near the surface are
+ * tetrahedralized, and each tetrahedron that crosses the isovalue is certified against all samples.
+ * docs/triangles.md in the source distribution defines the result and proves that it is the same.
+ *
+ * Inputs, samples, isovalues, blocks, errors and what is kept between updates are those of
+ * vtkScatteredIsopointFilter, and so are the guarantees of its class documentation, except for the
+ * following. In the output, a vtkPolyData (or a composite; see SetContourBlocks()),
+ *
+ * 1. each edge of the tetrahedralization that crosses the isovalue has one point. Points are
+ *    ordered by isovalue, then by the lower and the higher sample id of their edge. Where samples
+ *    have the isovalue, the edges that end at one of them share one point there, in the place of
+ * the first of them, and triangles without area are left out.
+ * 2. triangles are ordered by isovalue, then by their points, the lowest first. Their right-hand
+ *    normals point to decreasing values, as those of vtkContourFilter do. All coordinates and
+ *    triangles depend on the input and the options alone, to the last bit.
+ * 3. the surface has no border but where it meets the convex hull of the samples (or a gap; see
+ *    SetGapFactor()). Each other edge has two triangles, or four where the surface touches itself
+ * in samples that have the isovalue.
+ *
+ * Projection moves points as it does isopoints, except where that would turn a triangle over: then
+ * its points stay and are counted (see GetNumberOfUnprojectedPoints()). Normals are those of the
+ * field (NORMALS_FROM_FIELD), or the means of the normals of the triangles around (with
+ * NORMALS_FROM_PLANES, and where the samples yield no gradient). GapFactor drops the triangles of
+ * tetrahedra with an edge that the gap criterion drops.
+ *
+ * Angle, MinimumSpacing, NumberOfNeighbors, ComputeRadii, ComputeSplatAxes and ComputeSplatClips
+ * have no effect.
+ *
+ * Samples that are all coplanar have no tetrahedra: the output is then empty.
+ *
+ * @warning
+ * Several ranks are not supported: that is an error. See SetController().
+ *
+ * @warning
+ * Where samples are in noise or stand on a few curves, most tetrahedra cross the isovalue, and it
+ * takes as long as the tetrahedralization of all samples.
+ *
+ * @sa
+ * vtkScatteredIsopointFilter vtkContourFilter vtkDelaunay3D
+ */
+
+#ifndef vtkScatteredIsosurfaceFilter_h
+#define vtkScatteredIsosurfaceFilter_h
+
+#include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsosurfaceFilter
+  : public vtkScatteredIsopointFilter
+{
+public:
+  static vtkScatteredIsosurfaceFilter* New();
+  vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredIsopointFilter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkScatteredIsosurfaceFilter() = default;
+  ~vtkScatteredIsosurfaceFilter() override = default;
+
+private:
+  vtkScatteredIsosurfaceFilter(const vtkScatteredIsosurfaceFilter&) = delete;
+  void operator=(const vtkScatteredIsosurfaceFilter&) = delete;
+};
+
+#endif
