@@ -5,15 +5,12 @@
 #include "vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
 
 #include <cstddef>
@@ -67,38 +64,4 @@ vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)
   return vtkUniformGridAMR::SafeDownCast(input)
            ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
            : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-}
-
-void vtkSetIsopointLeaves(vtkDataObject* input,
-  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output)
-{
-  std::size_t leaf = 0;
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(input))
-  {
-    for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
-    {
-      vtkNew<vtkMultiBlockDataSet> boxes;
-      boxes->SetNumberOfBlocks(levels->GetNumberOfDataSets(level));
-      vtkMultiBlockDataSet::SafeDownCast(output)->SetBlock(level, boxes);
-      for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
-      {
-        if (levels->GetDataSet(level, box))
-        {
-          boxes->SetBlock(box, surfaces[leaf++]);
-        }
-      }
-    }
-    return;
-  }
-  auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
-  output->CopyStructure(composite);
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    if (surfaces[leaf])
-    {
-      output->SetDataSet(iterator, surfaces[leaf]);
-    }
-    ++leaf;
-  }
 }

@@ -10,10 +10,8 @@
 #include <vector>
 
 class vtkCellArray;
-class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkPoints;
-class vtkPolyData;
 
 /**
  * The number of isopoints of all surfaces.
@@ -39,13 +37,5 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
  * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
  */
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);
-
-/**
- * Gives an output of vtkNewIsopointComposite() the structure of the input, with surfaces in place
- * of the leaves.
- * @param surfaces one for each leaf, in the order of traversal; null for none
- */
-void vtkSetIsopointLeaves(vtkDataObject* input,
-  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output);
 
 #endif

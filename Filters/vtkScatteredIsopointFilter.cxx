@@ -15,6 +15,7 @@
 #include "vtkIsopointOptions.h"
 #include "vtkIsopointOutput.h"
 #include "vtkIsopointRanks.h"
+#include "vtkIsopointStructure.h"
 #include "vtkIsopointUsageError.h"
 
 #include "vtkCellArray.h"
@@ -293,18 +294,19 @@ void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObjec
   }
   this->Kept->Trees.erase(
     this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  const vtkIsopointStructure structure(input);
+  const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces(structure.GetNumberOfLeaves());
   for (std::size_t i = 0; i < count; ++i)
   {
     const double share = 1.0 / static_cast<double>(count);
     this->SetProgressShiftScale(share * static_cast<double>(i), share);
     const std::size_t leaf = blocks.GetBlocks()[i].Leaf;
-    surfaces.resize(leaf);
-    surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
-    this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
+    vtkSmartPointer<vtkPolyData>& surface = surfaces[numbers[leaf]];
+    surface = vtkSmartPointer<vtkPolyData>::New();
+    this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surface);
   }
-  surfaces.resize(blocks.GetNumberOfLeaves());
-  vtkSetIsopointLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+  structure.Fill(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
 }
 
 void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObject* output)
@@ -312,28 +314,87 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   isopoint::Team team(*this->Kept->Link);
   const Execution execution =
     vtkMakeIsopointExecution(this, this->UseAllCores != 0, vtkCountIsopointRanksOnHost(team));
+  team.together([this]() { vtkCheckIsopointOptions(this); });
+  vtkCheckIsopointOptionsOnRanks(team, this);
+  this->CollectOnRanks(team, execution, input);
+  const vtkIsopointBlocks& blocks = this->Kept->Input;
+  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+  const vtkIsopointStructure structure =
+    this->ContourBlocks ? vtkMergeIsopointStructures(team, input) : vtkIsopointStructure();
+  if (structure.IsComposite())
+  {
+    this->ExtractLeavesOnRanks(team, execution, structure, input, output);
+  }
+  else
+  {
+    this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
+    this->ExtractBlocksOnRanks(
+      team, execution, 0, blocks.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
+  }
+  this->NumberOfSkippedSamples =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfSkippedSamples)));
+  this->NumberOfUnprojectedPoints =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
+}
+
+void vtkScatteredIsopointFilter::ExtractLeavesOnRanks(isopoint::Team& team,
+  const Execution& execution, const vtkIsopointStructure& structure, vtkDataObject* input,
+  vtkDataObject* output)
+{
+  const std::vector<vtkIsopointBlock>& blocks = this->Kept->Input.GetBlocks();
+  std::vector<std::size_t> blockOf; // of each leaf, or behind the last one
+  std::vector<std::uint64_t> isHeld;
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
   team.together(
     [&]()
     {
-      vtkCheckIsopointOptions(this);
-      if (!vtkPolyData::SafeDownCast(output))
+      const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
+      surfaces.resize(structure.GetNumberOfLeaves());
+      blockOf.resize(surfaces.size(), blocks.size());
+      isHeld.resize(surfaces.size(), 0);
+      for (std::size_t i = 0; i < blocks.size(); ++i)
       {
-        throw vtkIsopointUsageError("Blocks cannot be contoured by themselves on several ranks."
-                                    " Switch ContourBlocks off, or run on one rank.");
+        blockOf[numbers[blocks[i].Leaf]] = i;
+        isHeld[numbers[blocks[i].Leaf]] = 1;
       }
     });
-  vtkCheckIsopointOptionsOnRanks(team, this);
-  this->CollectOnRanks(team, execution, input);
+  team.maximum(isHeld); // by any rank
+  this->Kept->Trees.erase(this->Kept->Trees.lower_bound(surfaces.size()), this->Kept->Trees.end());
+  const double share =
+    1.0 / static_cast<double>(std::accumulate(isHeld.begin(), isHeld.end(), std::uint64_t{ 0 }));
+  double done = 0.0;
+  for (std::size_t leaf = 0; leaf < surfaces.size(); ++leaf)
+  {
+    if (isHeld[leaf] != 0)
+    {
+      this->SetProgressShiftScale(share * done++, share);
+      const std::size_t block = blockOf[leaf];
+      team.together([&]() { surfaces[leaf] = vtkSmartPointer<vtkPolyData>::New(); });
+      this->ExtractBlocksOnRanks(
+        team, execution, block, std::min(block + 1, blocks.size()), leaf, surfaces[leaf]);
+    }
+  }
+  team.together(
+    [&]() { structure.Fill(input, surfaces, vtkCompositeDataSet::SafeDownCast(output)); });
+}
+
+void vtkScatteredIsopointFilter::ExtractBlocksOnRanks(isopoint::Team& team,
+  const Execution& execution, std::size_t begin, std::size_t end, std::size_t tree,
+  vtkPolyData* output)
+{
   const vtkIsopointBlocks& collected = this->Kept->Input;
-  const std::vector<vtkIsopointBlock>& blocks = collected.GetBlocks();
+  std::vector<vtkIsopointBlock> blocks;
   vtkIsopointInputState state;
   bool isNew = true;
   KeptTree* kept = nullptr;
   team.together(
     [&]()
     {
-      kept = &this->Kept->Trees[0];
-      state = collected.GetState(0, blocks.size());
+      const auto all = collected.GetBlocks().begin();
+      blocks.assign(
+        all + static_cast<std::ptrdiff_t>(begin), all + static_cast<std::ptrdiff_t>(end));
+      kept = &this->Kept->Trees[tree];
+      state = collected.GetState(begin, end);
       state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
       isNew = state != kept->LoadedFrom;
     });
@@ -355,13 +416,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     vtkLoadIsopointInputOnRanks(isopoint::partOf(execution, 0.0, progress.front()), blocks, team,
       *this->Kept->Link, kept->Extractor);
   }
-  std::uint64_t skipped = kept->Extractor.skippedCount() +
-                          static_cast<std::uint64_t>(collected.GetNumberOfPointsWithoutArray());
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    skipped -= static_cast<std::uint64_t>(block.NumberOfUnusedIds);
-  }
-  this->NumberOfSkippedSamples = static_cast<vtkIdType>(team.sum(skipped));
+  this->CountSkippedSamples(blocks, kept->Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
     this->ExtractIsovalues(execution, *kept, progress);
   const vtkIsopointEndSamples samples(team, blocks, surfaces);
@@ -369,12 +424,9 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   team.together(
     [&]()
     {
-      this->FillOutput(
-        execution, samples, surfaces, haveFloatPositions, vtkPolyData::SafeDownCast(output));
+      this->FillOutput(execution, samples, surfaces, haveFloatPositions, output);
       kept->LoadedFrom = state;
     });
-  this->NumberOfUnprojectedPoints =
-    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
   this->UpdateProgress(1.0);
 }
 
@@ -433,16 +485,22 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
       isopoint::partOf(execution, 0.0, progress.front()), blocks, kept.Extractor);
     kept.LoadedFrom = state;
   }
-  this->NumberOfSkippedSamples += static_cast<vtkIdType>(kept.Extractor.skippedCount());
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
-  }
+  this->CountSkippedSamples(blocks, kept.Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
     this->ExtractIsovalues(execution, kept, progress);
   const vtkIsopointEndSamples samples(blocks, surfaces);
   this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
   this->UpdateProgress(1.0);
+}
+
+void vtkScatteredIsopointFilter::CountSkippedSamples(
+  const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped)
+{
+  this->NumberOfSkippedSamples += static_cast<vtkIdType>(skipped);
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
+  }
 }
 
 std::vector<double> vtkScatteredIsopointFilter::ExpectProgress(std::size_t count, bool isTreeKept)

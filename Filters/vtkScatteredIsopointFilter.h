@@ -113,6 +113,7 @@ class Team;
 class vtkContourValues;
 class vtkDataObject;
 class vtkIsopointEndSamples;
+class vtkIsopointStructure;
 class vtkMultiProcessController;
 struct vtkIsopointBlock;
 
@@ -384,7 +385,9 @@ public:
    * Whether to contour each block of a composite input by itself. If on, the output is a composite
    * of the same structure, with a vtkPolyData for each block that has the contoured array (for an
    * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
-   * cloud, and the output is one vtkPolyData. Without effect on other inputs. Default: off.
+   * cloud, and the output is one vtkPolyData. Without effect on other inputs. On several ranks a
+   * block is what all of them have at its place in the tree of blocks, which has to be the same on
+   * all; blocks may be null on some of them, as may a whole composite be empty. Default: off.
    */
   vtkSetMacro(ContourBlocks, vtkTypeBool);
   vtkGetMacro(ContourBlocks, vtkTypeBool);
@@ -480,6 +483,13 @@ private:
   void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
   void CollectOnRanks(
     isopoint::Team& team, const isopoint::Execution& execution, vtkDataObject* input);
+  /// Each leaf of all ranks' inputs together by itself.
+  void ExtractLeavesOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
+    const vtkIsopointStructure& structure, vtkDataObject* input, vtkDataObject* output);
+  /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
+  void ExtractBlocksOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
+    std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  void CountSkippedSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
   void ReportProblem(const std::string& problem);
   void ConnectRanks();
   std::set<double> GetIsovalues();

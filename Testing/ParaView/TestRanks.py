@@ -162,7 +162,7 @@ ALL_ARRAYS = dict(ComputeGradients=1, ComputeSplatAxes=1, ComputeSplatClips=1,
 POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeRadii=0)
 
 
-class RanksTest(unittest.TestCase):
+class RanksTestCase(unittest.TestCase):
     def same(self, output, expected):
         """Compares, on rank 0, all ranks' outputs with one, which is called for there."""
         parts = gather(described(output))
@@ -178,6 +178,20 @@ class RanksTest(unittest.TestCase):
                 failure = f"{len(found)} points instead of {len(rows)}, or others"
         self.assertEqual(failure, "")
 
+    def errors(self, data, **options):
+        """The number of errors of each rank, on rank 0."""
+        watch = []
+        result = contour(data, RANKS, watch=watch, **options)
+        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT), 0)
+        return gather(len(watch))
+
+    def check_one_error(self, data, **options):
+        counts = self.errors(data, **options)
+        if RANK == 0:
+            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
+
+
+class RanksTest(RanksTestCase):
     def check(self, points, deal, dtype=np.float32, **options):
         owner = ranks_of(points, deal)
         order = np.argsort(owner, kind="stable")  # one rank's samples after the other's
@@ -318,18 +332,6 @@ class RanksTest(unittest.TestCase):
             wanted = vtk_to_numpy(expected().GetPoints().GetData()).tolist()
             self.assertEqual(sorted(point for part in parts for point in part), sorted(wanted))
 
-    def errors(self, data, **options):
-        """The number of errors of each rank, on rank 0."""
-        watch = []
-        result = contour(data, RANKS, watch=watch, **options)
-        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-        return gather(len(watch))
-
-    def check_one_error(self, data, **options):
-        counts = self.errors(data, **options)
-        if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
-
     def test_errors_of_one_rank_end_the_update_of_all(self):
         points = cloud("uniform", 500, 7)
         good = poly_data(points, np.arange(500))
@@ -346,16 +348,6 @@ class RanksTest(unittest.TestCase):
         self.check_one_error(vtkPolyData())
         self.check_one_error(poly_data(points[:0], points[:0]))
         self.check(points, "even")
-
-    @unittest.skipIf(SIZE == 1, "one rank contours blocks by themselves")
-    def test_blocks_by_themselves_are_refused(self):
-        blocks = vtkMultiBlockDataSet()
-        blocks.SetBlock(0, poly_data(cloud("uniform", 500, 7), np.arange(500)))
-        watch = []
-        contour(blocks, RANKS, watch=watch, ContourBlocks=1)
-        counts = gather(len(watch))
-        if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
         data = poly_data(cloud("uniform", 20000, 8), np.arange(20000))
@@ -378,9 +370,13 @@ class RanksTest(unittest.TestCase):
 
 SHARED = sys.argv.pop(1) if len(sys.argv) > 1 and "/" in sys.argv[1] else tempfile.gettempdir()
 
-if __name__ == "__main__":
+def main():
     program = unittest.main(
         argv=sys.argv[:1], exit=False, failfast=True, verbosity=2 if RANK == 0 else 0)
     if not program.result.wasSuccessful():
         print(f"ERROR: rank {RANK}", flush=True)
         os._exit(1)  # the other ranks may wait for this one, which ends them
+
+
+if __name__ == "__main__":
+    main()
