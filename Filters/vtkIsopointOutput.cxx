@@ -5,13 +5,18 @@
 #include "vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
 
@@ -57,6 +62,24 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
   auto vertices = vtkSmartPointer<vtkCellArray>::New();
   vertices->SetData(offsets, connectivity);
   return vertices;
+}
+
+void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first)
+{
+  const auto add = [&](vtkDataSetAttributes* attributes, unsigned char duplicate)
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    const vtkIdType count = output->GetNumberOfPoints();
+    vtkAllocateTuples(ghosts, count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      ghosts->SetValue(i, i < first ? static_cast<unsigned char>(0) : duplicate);
+    }
+    attributes->AddArray(ghosts);
+  };
+  add(output->GetPointData(), vtkDataSetAttributes::DUPLICATEPOINT);
+  add(output->GetCellData(), vtkDataSetAttributes::DUPLICATECELL);
 }
 
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)

@@ -12,6 +12,7 @@
 class vtkCellArray;
 class vtkDataObject;
 class vtkPoints;
+class vtkPolyData;
 
 /**
  * The number of isopoints of all surfaces.
@@ -31,6 +32,13 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
  * @throws std::bad_alloc
  */
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
+
+/**
+ * Adds ghost arrays to an output of vertices that mark the points and vertices from one on as
+ * duplicates.
+ * @throws std::bad_alloc
+ */
+void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first);
 
 /**
  * A new, empty output for a composite input whose blocks are contoured by themselves: an object of

@@ -38,6 +38,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <new>
@@ -64,6 +65,7 @@ class vtkScatteredIsopointFilter::Internals
 public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
+  bool HasGhosts = false;                        // whether the output is to have any
   vtkIsopointBlocks Input;
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 
@@ -182,11 +184,28 @@ vtkTypeBool vtkScatteredIsopointFilter::ProcessRequest(
   return 1;
 }
 
+int vtkScatteredIsopointFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  this->ConnectRanks();
+  if (this->Kept->Link)
+  {
+    // Ghosts of the output are no reason to read the input with ghosts, which take no part.
+    inputVector[0]->GetInformationObject(0)->Set(
+      vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return result;
+}
+
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
+  vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
+  auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  this->Kept->HasGhosts = outputInfo->Has(levels) && outputInfo->Get(levels) > 0;
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   this->ExtractSafely(vtkDataObject::GetData(inputVector[0]), output);
   this->SetProgressShiftScale(0.0, 1.0);
@@ -317,6 +336,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   team.together([this]() { vtkCheckIsopointOptions(this); });
   vtkCheckIsopointOptionsOnRanks(team, this);
   this->CollectOnRanks(team, execution, input);
+  this->Kept->HasGhosts = team.isAny(this->Kept->HasGhosts);
   const vtkIsopointBlocks& blocks = this->Kept->Input;
   this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
   const vtkIsopointStructure structure =
@@ -418,7 +438,7 @@ void vtkScatteredIsopointFilter::ExtractBlocksOnRanks(isopoint::Team& team,
   }
   this->CountSkippedSamples(blocks, kept->Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, *kept, progress);
+    this->ExtractIsovalues(execution, *kept, progress, this->Kept->HasGhosts);
   const vtkIsopointEndSamples samples(team, blocks, surfaces);
   const bool haveFloatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   team.together(
@@ -487,7 +507,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   }
   this->CountSkippedSamples(blocks, kept.Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, kept, progress);
+    this->ExtractIsovalues(execution, kept, progress, false);
   const vtkIsopointEndSamples samples(blocks, surfaces);
   this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
   this->UpdateProgress(1.0);
@@ -524,23 +544,26 @@ std::set<double> vtkScatteredIsopointFilter::GetIsovalues()
 }
 
 std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
-  const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
+  const Execution& execution, KeptTree& kept, const std::vector<double>& progress, bool hasGhosts)
 {
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
   const std::set<double> isovalues = this->GetIsovalues();
   std::vector<isopoint::ExtractedIsosurface> surfaces;
-  surfaces.reserve(isovalues.size());
+  std::vector<isopoint::ExtractedIsosurface> ghosts(hasGhosts ? isovalues.size() : 0);
+  surfaces.reserve(isovalues.size() + ghosts.size());
   for (const double isovalue : isovalues)
   {
     const std::size_t i = surfaces.size();
     request.isosurface.isovalue = isovalue;
     surfaces.push_back(
-      kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request));
+      kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
+        hasGhosts ? &ghosts[i] : nullptr));
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);
     }
   }
+  std::move(ghosts.begin(), ghosts.end(), std::back_inserter(surfaces));
   return surfaces;
 }
 
@@ -566,13 +589,23 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
   }
 
   vtkIsopointComputedArrays computed(vtkChooseIsopointArrays(this), count);
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  const std::size_t ownCount = this->GetIsovalues().size(); // surfaces, then those of ghosts
+  vtkIdType firstGhost = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    computed.Append(extracted);
+    computed.Append(surfaces[i]);
     isopoint::throwIfAborted(execution);
+    if (i + 1 == ownCount)
+    {
+      firstGhost = computed.GetNumberOfPoints();
+      this->NumberOfUnprojectedPoints +=
+        this->Projection == NO_PROJECTION ? firstGhost : computed.GetNumberWithoutFit();
+    }
   }
-  this->NumberOfUnprojectedPoints +=
-    this->Projection == NO_PROJECTION ? count : computed.GetNumberWithoutFit();
+  if (surfaces.size() > ownCount)
+  {
+    vtkAddIsopointGhosts(output, firstGhost);
+  }
   for (const std::string& name : computed.AddTo(pointData))
   {
     if (this->Kept->Link && this->Kept->Link->rank() > 0)

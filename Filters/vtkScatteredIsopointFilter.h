@@ -400,8 +400,11 @@ public:
    * The outputs of all ranks are then, as a set of points with all their arrays, what one process
    * yields for that cloud, bit for bit, however the cloud is dealt out; each point is in the output
    * of one rank. All ranks have to update the filter, with the same options. A rank may have no
-   * samples. Null, or a controller of one process: the filter runs by itself. Default: the global
-   * controller when the filter is created (that of MPI in ParaView's servers and in pvbatch).
+   * samples. If ghost levels are requested of the output, however many, the points within two rings
+   * of neighbors around those of a rank follow behind these, with all their arrays, marked in
+   * "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. Null, or a controller of
+   * one process: the filter runs by itself. Default: the global controller when the filter is
+   * created (that of MPI in ParaView's servers and in pvbatch).
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController() const;
@@ -446,6 +449,8 @@ protected:
     vtkInformationVector* outputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -496,8 +501,9 @@ private:
   /// The progress after loading so many samples, and after each isovalue.
   std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
-  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
-    const isopoint::Execution& execution, KeptTree& kept, const std::vector<double>& progress);
+  /// One surface for each isovalue, then, if there are any, its ghosts for each.
+  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(const isopoint::Execution& execution,
+    KeptTree& kept, const std::vector<double>& progress, bool hasGhosts);
   void FillOutput(const isopoint::Execution& execution, const vtkIsopointEndSamples& samples,
     const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
     vtkPolyData* output);

@@ -10,6 +10,7 @@
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
+#include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Splat/SplatGeometry.h"
 
 namespace isopoint
@@ -59,14 +60,19 @@ double IsosurfaceExtractor::extractionWork(
 }
 
 ExtractedIsosurface IsosurfaceExtractor::extract(
-  const Execution& execution, const ExtractionRequest& request)
+  const Execution& execution, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
   return std::visit(
     [&](auto& cloud)
     {
       if (this->Ranks)
       {
-        return this->extractOnRanks(execution, cloud, request);
+        return this->extractOnRanks(execution, cloud, request, ghosts);
+      }
+      if (ghosts)
+      {
+        *ghosts = ExtractedIsosurface();
+        ghosts->surface.isovalue = request.isosurface.isovalue;
       }
       WorkProgress progress(execution);
       const double splatting = request.splats ? work::splatting : 0.0;
@@ -92,9 +98,38 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
     this->Held);
 }
 
+namespace
+{
+
+/// The isopoints of a rank that are on it, or its ghosts, with their splats, if there are any.
 template <class TSample>
-ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
-  const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
+ExtractedIsosurface chosen(const SampleTree<TSample>& tree, const Isosurface& all,
+  const std::vector<Splat>& splats, const std::vector<bool>& isHome, bool areHome)
+{
+  ExtractedIsosurface result;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (isHome[i] == areHome)
+    {
+      indices.push_back(i);
+      if (!splats.empty())
+      {
+        result.splats.push_back(splats[i]);
+      }
+    }
+  }
+  result.surface = chosenIsopoints(all, indices);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  return result;
+}
+
+} // namespace
+
+template <class TSample>
+ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(const Execution& execution,
+  Cloud<TSample>& cloud, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
   WorkProgress progress(execution);
   NodeExchange<TSample> exchange(*this->Ranks, cloud.tree, cloud.begins);
@@ -107,47 +142,44 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
   {
     keepOnRanks(execution, *this->Ranks, request.minimumSpacing, surface);
   }
-  ExtractedIsosurface result;
-  std::vector<std::size_t> home;
-  std::vector<bool> isHome;
+  const auto count = static_cast<double>(surface.size());
+  const Execution part = progress.part(count * splatting, count * work::writing);
+  SurfaceHalo<TSample> halo(part, exchange, cloud.neighborhoods, surface, hasFits);
+  const bool hasHalo = (ghosts || request.splats) && !cloud.tree.isEmpty();
+  if (hasHalo)
+  {
+    halo.gather();
+  }
+  const Isosurface& all = hasHalo ? halo.surface() : surface;
+  std::vector<bool> isShaped;
+  std::vector<bool> isHome; // of all of them
   exchange.together(
     [&]()
     {
-      isHome.resize(surface.size(), false);
+      isHome.resize(all.size(), false);
       for (std::size_t i = 0; i < surface.size(); ++i)
       {
-        if (ofRank.isHome(surface.leaves[i]))
-        {
-          home.push_back(i);
-        }
-      }
-      for (const std::size_t i : home)
-      {
-        isHome[i] = true;
+        const bool isCountedHere = ofRank.isHome(surface.leaves[i]);
+        isHome[hasHalo ? halo.ownIndices()[i] : i] = isCountedHere;
+        // Either rank of an edge between two sends such a ghost.
+        isShaped.push_back(isCountedHere || ghosts);
       }
     });
-  if (request.splats && !cloud.tree.isEmpty())
+  std::vector<Splat> splats;
+  if (hasHalo && request.splats)
   {
-    const auto count = static_cast<double>(surface.size());
-    const Execution part = progress.part(count * splatting, count * work::writing);
-    std::vector<Splat> splats =
-      RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
-        .compute(surface, isHome, hasFits);
-    exchange.together(
-      [&]()
-      {
-        for (const std::size_t i : home)
-        {
-          result.splats.push_back(splats[i]);
-        }
-      });
+    splats = RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
+               .compute(halo, isShaped, ghosts != nullptr);
   }
+  ExtractedIsosurface result;
   exchange.together(
     [&]()
     {
-      result.surface = chosenIsopoints(surface, home);
-      result.surface.coincident = coincidentEnds(cloud.tree, result.surface.leaves);
-      result.surface.leaves = {};
+      result = chosen(cloud.tree, all, splats, isHome, true);
+      if (ghosts)
+      {
+        *ghosts = chosen(cloud.tree, all, splats, isHome, false);
+      }
     });
   return result;
 }

@@ -136,9 +136,13 @@ public:
 
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.
+  /// @param ghosts null, or receives, with all that is known of them, the isopoints that are on
+  /// other ranks, but within two rings around those of this one (see IsopointNeighbors); all ranks
+  /// ask for them, or none
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
-  ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request);
+  ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
+    ExtractedIsosurface* ghosts = nullptr);
 
 private:
   /// The samples, and what has been found out about them.
@@ -168,8 +172,8 @@ private:
   }
 
   template <class TSample>
-  ExtractedIsosurface extractOnRanks(
-    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
+  ExtractedIsosurface extractOnRanks(const Execution& execution, Cloud<TSample>& cloud,
+    const ExtractionRequest& request, ExtractedIsosurface* ghosts);
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 

@@ -189,6 +189,31 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
   return all;
 }
 
+/// What one rank has, and its ghosts.
+struct RankPoints
+{
+  isopoint::ExtractedIsosurface own;
+  isopoint::ExtractedIsosurface ghosts;
+};
+
+/// Extracts with ghosts, on ranks that are threads. @returns what each rank has
+inline std::vector<RankPoints> extractWithGhosts(
+  const std::vector<clouds::Cloud>& pieces, const isopoint::ExtractionRequest& request)
+{
+  std::vector<RankPoints> all(pieces.size());
+  ThreadRanks team(static_cast<int>(pieces.size()));
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const auto rank = static_cast<std::size_t>(communicator.rank());
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<double, double>(
+        isopoint::Execution(), communicator, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+      all[rank].own = extractor.extract(isopoint::Execution(), request, &all[rank].ghosts);
+    });
+  return all;
+}
+
 template <class TCoordinate = double, class TValue = double>
 void expectSameAsOneProcess(const clouds::Cloud& cloud, int size, Deal deal,
   const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1)

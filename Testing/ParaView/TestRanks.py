@@ -309,6 +309,64 @@ class RanksTest(RanksTestCase):
             self.assertEqual(sorted(tuple(np.round(p, 4) + 0.0) for part in parts for p in part),
                              sorted(tuple(np.round(p, 4) + 0.0) for p in expected))
 
+    def with_ghosts(self, data, controller, piece, pieces, levels, values=(0.1, 0.5)):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetController(controller)
+        isopoints.SetInputData(data)
+        for i, value in enumerate(values):
+            isopoints.SetValue(i, value)
+        for name, value in ALL_ARRAYS.items():
+            getattr(isopoints, "Set" + name)(value)
+        isopoints.UpdatePiece(piece, pieces, levels)
+        return isopoints
+
+    def test_ghosts_for_what_follows(self):
+        """They stand behind the rank's own points, which are those without ghosts."""
+        points = cloud("uniform", 3000, 9)
+        owner = np.sort(ranks_of(points, "round robin"))
+        numbers = np.arange(len(points))
+        mine = poly_data(points[owner == RANK], numbers[owner == RANK])
+        without = self.with_ghosts(mine, RANKS, RANK, SIZE, 0)
+        name = vtkDataSetAttributes.GhostArrayName()
+        self.assertFalse(without.GetOutput().GetPointData().HasArray(name))
+        self.assertFalse(without.GetOutput().GetCellData().HasArray(name))
+        isopoints = self.with_ghosts(mine, RANKS, RANK, SIZE, 1)
+        self.assertEqual(isopoints.GetNumberOfUnprojectedPoints(),
+                         without.GetNumberOfUnprojectedPoints())
+        # Nothing is computed again for fewer levels.
+        time = isopoints.GetOutput().GetMTime()
+        isopoints.UpdatePiece(RANK, SIZE, 0)
+        self.assertEqual(isopoints.GetOutput().GetMTime(), time)
+        output = isopoints.GetOutput()
+        if SIZE == 1:
+            self.assertEqual(described(output), described(without.GetOutput()))
+            return
+        count = without.GetOutput().GetNumberOfPoints()
+        ghosts = vtk_to_numpy(output.GetPointData().GetArray(name))
+        self.assertEqual(len(ghosts), output.GetNumberOfPoints())
+        self.assertFalse(ghosts[:count].any())
+        self.assertTrue((ghosts[count:] == vtkDataSetAttributes.DUPLICATEPOINT).all())
+        cells = vtk_to_numpy(output.GetCellData().GetArray(name))
+        self.assertFalse(cells[:count].any())
+        self.assertTrue((cells[count:] == vtkDataSetAttributes.DUPLICATECELL).all())
+        output.GetPointData().RemoveArray(name)
+        kinds, rows = described(output)
+        self.assertEqual((kinds, rows[:count]), described(without.GetOutput()))
+        parts = gather((rows[:count], rows[count:]))
+        if RANK == 0:
+            everything = {row: rank for rank, part in enumerate(parts) for row in part[0]}
+            for rank, (_, found) in enumerate(parts):
+                self.assertGreater(len(found), 20)
+                self.assertEqual(len(set(found)), len(found))
+                self.assertTrue(all(everything.get(row, rank) != rank for row in found))
+
+    @unittest.skipIf(SIZE == 1, "one rank has no ghosts")
+    def test_one_rank_that_asks_for_ghosts_gives_them_to_all(self):
+        data = poly_data(cloud("uniform", 2000, 10 + RANK), np.arange(2000))
+        isopoints = self.with_ghosts(data, RANKS, RANK, SIZE, 1 if RANK == SIZE - 1 else 0)
+        self.assertTrue(isopoints.GetOutput().GetPointData().HasArray(
+            vtkDataSetAttributes.GhostArrayName()))
+
     def test_ghosts_are_left_out(self):
         points = cloud("uniform", 2000, 6)
         owner = ranks_of(points, "spatial")

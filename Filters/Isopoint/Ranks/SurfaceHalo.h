@@ -87,10 +87,12 @@ public:
   const std::vector<bool>& isInner() const { return this->IsInner; }
 
   /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
-  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
-  void share(std::vector<Vector>& ofAll)
+  /// @param ofAll one trivially copyable entry for each isopoint of surface(); those of the halo
+  /// are set
+  template <class T>
+  void share(std::vector<T>& ofAll)
   {
-    std::vector<std::vector<Vector>> outgoing;
+    std::vector<std::vector<T>> outgoing;
     this->Exchange.together(
       [&]()
       {
@@ -103,7 +105,7 @@ public:
           }
         }
       });
-    const std::vector<std::vector<Vector>> arrived = this->Exchange.team().exchange(outgoing);
+    const std::vector<std::vector<T>> arrived = this->Exchange.team().exchange(outgoing);
     for (std::size_t rank = 0; rank < arrived.size(); ++rank)
     {
       for (std::size_t i = 0; i < arrived[rank].size(); ++i)
