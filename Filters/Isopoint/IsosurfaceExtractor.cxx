@@ -16,6 +16,15 @@
 namespace isopoint
 {
 
+namespace
+{
+
+/// Of neighbours around a rank's isopoints that are its ghosts: where splats of the second ring are
+/// seen, so are those that they overlap (docs/ranks.md).
+constexpr int ghostRings = 5;
+
+} // namespace
+
 void IsosurfaceExtractor::clear()
 {
   this->Held = Cloud<FloatSample>();
@@ -148,7 +157,7 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(const Execution& executi
   const bool hasHalo = (ghosts || request.splats) && !cloud.tree.isEmpty();
   if (hasHalo)
   {
-    halo.gather();
+    halo.gather(ghosts ? ghostRings : 2);
   }
   const Isosurface& all = hasHalo ? halo.surface() : surface;
   std::vector<bool> isShaped;

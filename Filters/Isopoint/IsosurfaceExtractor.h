@@ -137,7 +137,7 @@ public:
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.
   /// @param ghosts null, or receives, with all that is known of them, the isopoints that are on
-  /// other ranks, but within two rings around those of this one (see IsopointNeighbors); all ranks
+  /// other ranks, but within five rings around those of this one (see IsopointNeighbors); all ranks
   /// ask for them, or none
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
