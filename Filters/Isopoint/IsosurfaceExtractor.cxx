@@ -30,6 +30,7 @@ void IsosurfaceExtractor::clear()
   this->Held = Cloud<FloatSample>();
   this->Ranks.reset();
   this->ItemCount = 0;
+  this->ItemCounts.clear();
 }
 
 std::size_t IsosurfaceExtractor::sampleCount() const

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -230,4 +231,69 @@ TEST(Ranks, SplatsThatOverlapThoseOfARankAreItsGhosts)
   }
   EXPECT_GT(overlaps, 500u);
   EXPECT_EQ(missing, 0u);
+}
+
+TEST(Ranks, NewValuesAtTheSamePositionsKeepTheTree)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.splats = isopoint::SplatOptions();
+  isopoint::ExtractionRequest another = request;
+  another.isosurface.isovalue = 0.7;
+  for (const Cloud& cloud : variousClouds())
+  {
+    for (const int size : { 2, 5 })
+    {
+      ranks::expectSameAsOneProcess(
+        cloud, size, ranks::Deal::Skewed, { request, another }, 1, ranks::Values::Replaced);
+    }
+  }
+}
+
+TEST(Ranks, NewValuesAreFewerBytesThanSamples)
+{
+  const std::vector<Cloud> pieces =
+    ranks::dealOut(clouds::uniform(20000, 31), 3, ranks::Deal::RoundRobin);
+  ThreadRanks team(3);
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const auto rank = static_cast<std::size_t>(communicator.rank());
+      const Cloud& piece = pieces[rank];
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<float, float>(
+        isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
+      const std::uint64_t loading = extractor.traffic()->sent;
+      const auto replace = [&](const Cloud& cloud)
+      {
+        return extractor.replaceValuesOnRanks<float, float>(
+          isopoint::Execution(), cloud.size(), clouds::readerOf(cloud));
+      };
+      EXPECT_TRUE(replace(ranks::withOtherValues(piece)));
+      EXPECT_LT(extractor.traffic()->sent - loading, loading / 2);
+      // One sample that moves, leaves or changes its type on one rank is enough.
+      Cloud moved = piece;
+      Cloud fewer = piece;
+      if (rank == 1)
+      {
+        moved.positions[7] += 1e-3;
+        fewer.values[100] = std::nan("");
+      }
+      EXPECT_FALSE(replace(moved));
+      EXPECT_FALSE(replace(fewer));
+      Cloud mirrored = piece;
+      std::swap(mirrored.positions[0], mirrored.positions[3]);
+      EXPECT_FALSE(replace(mirrored));
+      EXPECT_FALSE((extractor.replaceValuesOnRanks<double, float>(
+        isopoint::Execution(), piece.size(), clouds::readerOf(piece))));
+      EXPECT_TRUE(replace(piece));
+    });
+}
+
+TEST(Ranks, ManySamplesAreSentInSlices)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  ranks::expectSameAsOneProcess<float, float>(
+    clouds::uniform(1 << 20, 41), 2, ranks::Deal::RoundRobin, { request });
 }
