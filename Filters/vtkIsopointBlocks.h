@@ -72,7 +72,7 @@ public:
   /// The state of the input that the blocks [begin, end) present.
   vtkIsopointInputState GetState(std::size_t begin, std::size_t end) const;
 
-  /// The number of leaves of the input, including those without samples.
+  /// The number of leaves of the input that are not null, including those without samples.
   std::size_t GetNumberOfLeaves() const { return this->LeafCount; }
 
   /// The number of points (or cells, where there are more) of leaves without the array.

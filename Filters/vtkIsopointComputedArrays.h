@@ -48,8 +48,9 @@ public:
   void Append(const isopoint::ExtractedIsosurface& extracted);
 
   /**
-   * The number of isopoints written so far around which no fit holds.
+   * The number of isopoints written so far, and of those around which no fit holds.
    */
+  vtkIdType GetNumberOfPoints() const { return this->Next; }
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
   /**

@@ -352,8 +352,12 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
   {
     const auto load = [&](auto coordinate, auto value)
     {
-      extractor.loadOnRanks<decltype(coordinate), decltype(value)>(
-        execution, communicator, count, read);
+      if (!extractor.replaceValuesOnRanks<decltype(coordinate), decltype(value)>(
+            execution, count, read))
+      {
+        extractor.loadOnRanks<decltype(coordinate), decltype(value)>(
+          execution, communicator, count, read);
+      }
     };
     floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                    : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));

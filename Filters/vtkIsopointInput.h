@@ -23,7 +23,8 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
 
 /**
  * Loads the samples of the blocks of all ranks as one cloud, the blocks of one rank after those of
- * the other. Collective. Throws what IsosurfaceExtractor::loadOnRanks() throws.
+ * the other, or replaces the values alone. Collective. Throws what
+ * IsosurfaceExtractor::loadOnRanks() throws.
  * @param blocks of this rank, perhaps none
  * @param team of the same ranks as the communicator
  */

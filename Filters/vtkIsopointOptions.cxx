@@ -105,11 +105,11 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
   {
     add(number);
   }
-  for (const int number :
-    { filter->GetProjection(), filter->GetNormalMethod(), filter->GetNumberOfNeighbors(),
-      filter->GetComputeNormals(), filter->GetComputeRadii(), filter->GetComputeScalars(),
-      filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(), filter->GetComputeGradients(),
-      filter->GetComputeProjectionOrders(), filter->GetOutputPointsPrecision() })
+  for (const int number : { filter->GetProjection(), filter->GetNormalMethod(),
+         filter->GetNumberOfNeighbors(), filter->GetComputeNormals(), filter->GetComputeRadii(),
+         filter->GetComputeScalars(), filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(),
+         filter->GetComputeGradients(), filter->GetComputeProjectionOrders(),
+         filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
   {
     add(number);
   }

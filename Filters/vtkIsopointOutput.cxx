@@ -5,16 +5,18 @@
 #include "vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
 
@@ -96,43 +98,27 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   return triangles;
 }
 
+void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first)
+{
+  const auto add = [&](vtkDataSetAttributes* attributes, unsigned char duplicate)
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    const vtkIdType count = output->GetNumberOfPoints();
+    vtkAllocateTuples(ghosts, count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      ghosts->SetValue(i, i < first ? static_cast<unsigned char>(0) : duplicate);
+    }
+    attributes->AddArray(ghosts);
+  };
+  add(output->GetPointData(), vtkDataSetAttributes::DUPLICATEPOINT);
+  add(output->GetCellData(), vtkDataSetAttributes::DUPLICATECELL);
+}
+
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)
 {
   return vtkUniformGridAMR::SafeDownCast(input)
            ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
            : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-}
-
-void vtkSetIsopointLeaves(vtkDataObject* input,
-  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output)
-{
-  std::size_t leaf = 0;
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(input))
-  {
-    for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
-    {
-      vtkNew<vtkMultiBlockDataSet> boxes;
-      boxes->SetNumberOfBlocks(levels->GetNumberOfDataSets(level));
-      vtkMultiBlockDataSet::SafeDownCast(output)->SetBlock(level, boxes);
-      for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
-      {
-        if (levels->GetDataSet(level, box))
-        {
-          boxes->SetBlock(box, surfaces[leaf++]);
-        }
-      }
-    }
-    return;
-  }
-  auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
-  output->CopyStructure(composite);
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    if (surfaces[leaf])
-    {
-      output->SetDataSet(iterator, surfaces[leaf]);
-    }
-    ++leaf;
-  }
 }

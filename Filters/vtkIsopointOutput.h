@@ -10,7 +10,6 @@
 #include <vector>
 
 class vtkCellArray;
-class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkPoints;
 class vtkPolyData;
@@ -42,17 +41,16 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces);
 
 /**
+ * Adds ghost arrays to an output of vertices that mark the points and vertices from one on as
+ * duplicates.
+ * @throws std::bad_alloc
+ */
+void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first);
+
+/**
  * A new, empty output for a composite input whose blocks are contoured by themselves: an object of
  * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
  */
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);
-
-/**
- * Gives an output of vtkNewIsopointComposite() the structure of the input, with surfaces in place
- * of the leaves.
- * @param surfaces one for each leaf, in the order of traversal; null for none
- */
-void vtkSetIsopointLeaves(vtkDataObject* input,
-  const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, vtkCompositeDataSet* output);
 
 #endif

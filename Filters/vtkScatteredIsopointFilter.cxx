@@ -15,6 +15,7 @@
 #include "vtkIsopointOptions.h"
 #include "vtkIsopointOutput.h"
 #include "vtkIsopointRanks.h"
+#include "vtkIsopointStructure.h"
 #include "vtkIsopointUsageError.h"
 
 #include "vtkCellArray.h"
@@ -37,6 +38,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <new>
@@ -63,6 +65,7 @@ class vtkScatteredIsopointFilter::Internals
 public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
+  bool HasGhosts = false;                        // whether the output is to have any
   vtkIsopointBlocks Input;
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 
@@ -181,11 +184,28 @@ vtkTypeBool vtkScatteredIsopointFilter::ProcessRequest(
   return 1;
 }
 
+int vtkScatteredIsopointFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  this->ConnectRanks();
+  if (this->Kept->Link)
+  {
+    // Ghosts of the output are no reason to read the input with ghosts, which take no part.
+    inputVector[0]->GetInformationObject(0)->Set(
+      vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return result;
+}
+
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
+  vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
+  auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  this->Kept->HasGhosts = outputInfo->Has(levels) && outputInfo->Get(levels) > 0;
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   this->ExtractSafely(vtkDataObject::GetData(inputVector[0]), output);
   this->SetProgressShiftScale(0.0, 1.0);
@@ -293,18 +313,19 @@ void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObjec
   }
   this->Kept->Trees.erase(
     this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  const vtkIsopointStructure structure(input);
+  const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces(structure.GetNumberOfLeaves());
   for (std::size_t i = 0; i < count; ++i)
   {
     const double share = 1.0 / static_cast<double>(count);
     this->SetProgressShiftScale(share * static_cast<double>(i), share);
     const std::size_t leaf = blocks.GetBlocks()[i].Leaf;
-    surfaces.resize(leaf);
-    surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
-    this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surfaces.back());
+    vtkSmartPointer<vtkPolyData>& surface = surfaces[numbers[leaf]];
+    surface = vtkSmartPointer<vtkPolyData>::New();
+    this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surface);
   }
-  surfaces.resize(blocks.GetNumberOfLeaves());
-  vtkSetIsopointLeaves(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+  structure.Fill(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
 }
 
 void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObject* output)
@@ -313,7 +334,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   const Execution execution =
     vtkMakeIsopointExecution(this, this->UseAllCores != 0, vtkCountIsopointRanksOnHost(team));
   team.together(
-    [&]()
+    [this]()
     {
       vtkCheckIsopointOptions(this);
       if (vtkExtractsIsopointTriangles(this))
@@ -321,24 +342,88 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
         throw vtkIsopointUsageError("Triangles cannot be extracted on several ranks. Extract points"
                                     " with vtkScatteredIsopointFilter, or run on one rank.");
       }
-      if (!vtkPolyData::SafeDownCast(output))
-      {
-        throw vtkIsopointUsageError("Blocks cannot be contoured by themselves on several ranks."
-                                    " Switch ContourBlocks off, or run on one rank.");
-      }
     });
   vtkCheckIsopointOptionsOnRanks(team, this);
   this->CollectOnRanks(team, execution, input);
+  this->Kept->HasGhosts = team.isAny(this->Kept->HasGhosts);
+  const vtkIsopointBlocks& blocks = this->Kept->Input;
+  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+  const vtkIsopointStructure structure =
+    this->ContourBlocks ? vtkMergeIsopointStructures(team, input) : vtkIsopointStructure();
+  if (structure.IsComposite())
+  {
+    this->ExtractLeavesOnRanks(team, execution, structure, input, output);
+  }
+  else
+  {
+    this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
+    this->ExtractBlocksOnRanks(
+      team, execution, 0, blocks.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
+  }
+  this->NumberOfSkippedSamples =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfSkippedSamples)));
+  this->NumberOfUnprojectedPoints =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
+}
+
+void vtkScatteredIsopointFilter::ExtractLeavesOnRanks(isopoint::Team& team,
+  const Execution& execution, const vtkIsopointStructure& structure, vtkDataObject* input,
+  vtkDataObject* output)
+{
+  const std::vector<vtkIsopointBlock>& blocks = this->Kept->Input.GetBlocks();
+  std::vector<std::size_t> blockOf; // of each leaf, or behind the last one
+  std::vector<std::uint64_t> isHeld;
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  team.together(
+    [&]()
+    {
+      const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
+      surfaces.resize(structure.GetNumberOfLeaves());
+      blockOf.resize(surfaces.size(), blocks.size());
+      isHeld.resize(surfaces.size(), 0);
+      for (std::size_t i = 0; i < blocks.size(); ++i)
+      {
+        blockOf[numbers[blocks[i].Leaf]] = i;
+        isHeld[numbers[blocks[i].Leaf]] = 1;
+      }
+    });
+  team.maximum(isHeld); // by any rank
+  this->Kept->Trees.erase(this->Kept->Trees.lower_bound(surfaces.size()), this->Kept->Trees.end());
+  const double share =
+    1.0 / static_cast<double>(std::accumulate(isHeld.begin(), isHeld.end(), std::uint64_t{ 0 }));
+  double done = 0.0;
+  for (std::size_t leaf = 0; leaf < surfaces.size(); ++leaf)
+  {
+    if (isHeld[leaf] != 0)
+    {
+      this->SetProgressShiftScale(share * done++, share);
+      const std::size_t block = blockOf[leaf];
+      team.together([&]() { surfaces[leaf] = vtkSmartPointer<vtkPolyData>::New(); });
+      this->ExtractBlocksOnRanks(
+        team, execution, block, std::min(block + 1, blocks.size()), leaf, surfaces[leaf]);
+    }
+  }
+  team.together(
+    [&]() { structure.Fill(input, surfaces, vtkCompositeDataSet::SafeDownCast(output)); });
+}
+
+void vtkScatteredIsopointFilter::ExtractBlocksOnRanks(isopoint::Team& team,
+  const Execution& execution, std::size_t begin, std::size_t end, std::size_t tree,
+  vtkPolyData* output)
+{
   const vtkIsopointBlocks& collected = this->Kept->Input;
-  const std::vector<vtkIsopointBlock>& blocks = collected.GetBlocks();
+  std::vector<vtkIsopointBlock> blocks;
   vtkIsopointInputState state;
   bool isNew = true;
   KeptTree* kept = nullptr;
   team.together(
     [&]()
     {
-      kept = &this->Kept->Trees[0];
-      state = collected.GetState(0, blocks.size());
+      const auto all = collected.GetBlocks().begin();
+      blocks.assign(
+        all + static_cast<std::ptrdiff_t>(begin), all + static_cast<std::ptrdiff_t>(end));
+      kept = &this->Kept->Trees[tree];
+      state = collected.GetState(begin, end);
       state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
       isNew = state != kept->LoadedFrom;
     });
@@ -360,26 +445,17 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     vtkLoadIsopointInputOnRanks(isopoint::partOf(execution, 0.0, progress.front()), blocks, team,
       *this->Kept->Link, kept->Extractor);
   }
-  std::uint64_t skipped = kept->Extractor.skippedCount() +
-                          static_cast<std::uint64_t>(collected.GetNumberOfPointsWithoutArray());
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    skipped -= static_cast<std::uint64_t>(block.NumberOfUnusedIds);
-  }
-  this->NumberOfSkippedSamples = static_cast<vtkIdType>(team.sum(skipped));
+  this->CountSkippedSamples(blocks, kept->Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, *kept, progress);
+    this->ExtractIsovalues(execution, *kept, progress, this->Kept->HasGhosts);
   const vtkIsopointEndSamples samples(team, blocks, surfaces);
   const bool haveFloatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   team.together(
     [&]()
     {
-      this->FillOutput(
-        execution, samples, surfaces, haveFloatPositions, vtkPolyData::SafeDownCast(output));
+      this->FillOutput(execution, samples, surfaces, haveFloatPositions, output);
       kept->LoadedFrom = state;
     });
-  this->NumberOfUnprojectedPoints =
-    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
   this->UpdateProgress(1.0);
 }
 
@@ -438,16 +514,22 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
       isopoint::partOf(execution, 0.0, progress.front()), blocks, kept.Extractor);
     kept.LoadedFrom = state;
   }
-  this->NumberOfSkippedSamples += static_cast<vtkIdType>(kept.Extractor.skippedCount());
+  this->CountSkippedSamples(blocks, kept.Extractor.skippedCount());
+  std::vector<isopoint::ExtractedIsosurface> surfaces =
+    this->ExtractIsovalues(execution, kept, progress, false);
+  const vtkIsopointEndSamples samples(blocks, surfaces);
+  this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
+  this->UpdateProgress(1.0);
+}
+
+void vtkScatteredIsopointFilter::CountSkippedSamples(
+  const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped)
+{
+  this->NumberOfSkippedSamples += static_cast<vtkIdType>(skipped);
   for (const vtkIsopointBlock& block : blocks)
   {
     this->NumberOfSkippedSamples -= block.NumberOfUnusedIds;
   }
-  std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, kept, progress);
-  const vtkIsopointEndSamples samples(blocks, surfaces);
-  this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
-  this->UpdateProgress(1.0);
 }
 
 std::vector<double> vtkScatteredIsopointFilter::ExpectProgress(std::size_t count, bool isTreeKept)
@@ -471,23 +553,26 @@ std::set<double> vtkScatteredIsopointFilter::GetIsovalues()
 }
 
 std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
-  const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
+  const Execution& execution, KeptTree& kept, const std::vector<double>& progress, bool hasGhosts)
 {
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
   const std::set<double> isovalues = this->GetIsovalues();
   std::vector<isopoint::ExtractedIsosurface> surfaces;
-  surfaces.reserve(isovalues.size());
+  std::vector<isopoint::ExtractedIsosurface> ghosts(hasGhosts ? isovalues.size() : 0);
+  surfaces.reserve(isovalues.size() + ghosts.size());
   for (const double isovalue : isovalues)
   {
     const std::size_t i = surfaces.size();
     request.isosurface.isovalue = isovalue;
     surfaces.push_back(
-      kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request));
+      kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
+        hasGhosts ? &ghosts[i] : nullptr));
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);
     }
   }
+  std::move(ghosts.begin(), ghosts.end(), std::back_inserter(surfaces));
   return surfaces;
 }
 
@@ -520,13 +605,23 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
   }
 
   vtkIsopointComputedArrays computed(vtkChooseIsopointArrays(this), count);
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  const std::size_t ownCount = this->GetIsovalues().size(); // surfaces, then those of ghosts
+  vtkIdType firstGhost = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    computed.Append(extracted);
+    computed.Append(surfaces[i]);
     isopoint::throwIfAborted(execution);
+    if (i + 1 == ownCount)
+    {
+      firstGhost = computed.GetNumberOfPoints();
+      this->NumberOfUnprojectedPoints +=
+        this->Projection == NO_PROJECTION ? firstGhost : computed.GetNumberWithoutFit();
+    }
   }
-  this->NumberOfUnprojectedPoints +=
-    this->Projection == NO_PROJECTION ? count : computed.GetNumberWithoutFit();
+  if (surfaces.size() > ownCount)
+  {
+    vtkAddIsopointGhosts(output, firstGhost);
+  }
   for (const std::string& name : computed.AddTo(pointData))
   {
     if (this->Kept->Link && this->Kept->Link->rank() > 0)

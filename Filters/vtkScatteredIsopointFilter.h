@@ -114,6 +114,7 @@ class Team;
 class vtkContourValues;
 class vtkDataObject;
 class vtkIsopointEndSamples;
+class vtkIsopointStructure;
 class vtkMultiProcessController;
 struct vtkIsopointBlock;
 
@@ -385,7 +386,9 @@ public:
    * Whether to contour each block of a composite input by itself. If on, the output is a composite
    * of the same structure, with a vtkPolyData for each block that has the contoured array (for an
    * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
-   * cloud, and the output is one vtkPolyData. Without effect on other inputs. Default: off.
+   * cloud, and the output is one vtkPolyData. Without effect on other inputs. On several ranks a
+   * block is what all of them have at its place in the tree of blocks, which has to be the same on
+   * all; blocks may be null on some of them, as may a whole composite be empty. Default: off.
    */
   vtkSetMacro(ContourBlocks, vtkTypeBool);
   vtkGetMacro(ContourBlocks, vtkTypeBool);
@@ -398,8 +401,11 @@ public:
    * The outputs of all ranks are then, as a set of points with all their arrays, what one process
    * yields for that cloud, bit for bit, however the cloud is dealt out; each point is in the output
    * of one rank. All ranks have to update the filter, with the same options. A rank may have no
-   * samples. Null, or a controller of one process: the filter runs by itself. Default: the global
-   * controller when the filter is created (that of MPI in ParaView's servers and in pvbatch).
+   * samples. If ghost levels are requested of the output, however many, the points within five
+   * rings of neighbors around those of a rank follow behind these, with all their arrays, marked in
+   * "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. Null, or a controller of
+   * one process: the filter runs by itself. Default: the global controller when the filter is
+   * created (that of MPI in ParaView's servers and in pvbatch).
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController() const;
@@ -444,6 +450,8 @@ protected:
     vtkInformationVector* outputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -481,14 +489,22 @@ private:
   void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
   void CollectOnRanks(
     isopoint::Team& team, const isopoint::Execution& execution, vtkDataObject* input);
+  /// Each leaf of all ranks' inputs together by itself.
+  void ExtractLeavesOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
+    const vtkIsopointStructure& structure, vtkDataObject* input, vtkDataObject* output);
+  /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
+  void ExtractBlocksOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
+    std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  void CountSkippedSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
   void ReportProblem(const std::string& problem);
   void ConnectRanks();
   std::set<double> GetIsovalues();
   /// The progress after loading so many samples, and after each isovalue.
   std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
-  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
-    const isopoint::Execution& execution, KeptTree& kept, const std::vector<double>& progress);
+  /// One surface for each isovalue, then, if there are any, its ghosts for each.
+  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(const isopoint::Execution& execution,
+    KeptTree& kept, const std::vector<double>& progress, bool hasGhosts);
   void FillOutput(const isopoint::Execution& execution, const vtkIsopointEndSamples& samples,
     const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
     vtkPolyData* output);

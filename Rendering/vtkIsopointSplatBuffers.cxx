@@ -140,7 +140,6 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
   {
     ghosts = nullptr;
   }
-  constexpr int skipped = vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
   this->NumberOfSplats = points->GetNumberOfPoints();
   this->Center = centerOf(points);
   this->Normals = shape.Normals != nullptr;
@@ -161,15 +160,17 @@ void vtkIsopointSplatBuffers::SetSplats(vtkPolyData* polyData, const Shape& shap
         {
           shape.Radii->GetTuple(i, &radius);
         }
+        const int ghost = ghosts ? ghosts->GetValue(i) : 0;
         const bool isDrawn = isFinite(position) && radius > 0.0 && std::isfinite(radius) &&
-                             !(ghosts && (ghosts->GetValue(i) & skipped));
+                             (ghost & vtkDataSetAttributes::HIDDENPOINT) == 0;
+        const double side = (ghost & vtkDataSetAttributes::DUPLICATEPOINT) == 0 ? 1.0 : -1.0;
         for (int axis = 0; axis < 3; ++axis)
         {
           disk.Position[axis] =
             isDrawn ? static_cast<float>(position[axis] - this->Center[axis]) : 0.0f;
           disk.Normal[axis] = 0.0f;
         }
-        disk.Radius = isDrawn ? static_cast<float>(radius) : 0.0f;
+        disk.Radius = isDrawn ? static_cast<float>(side * radius) : 0.0f;
         if (shape.Normals)
         {
           copyUnitVector(shape.Normals, i, disk.Normal);

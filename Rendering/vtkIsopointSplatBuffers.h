@@ -45,7 +45,8 @@ public:
   };
 
   /// Sets the splats from a polydata of at most 2^31 - 1 points. Points whose radius is not
-  /// positive or whose position is not finite, and hidden or duplicated ghost points are not drawn.
+  /// positive or whose position is not finite, and hidden points are not drawn. Duplicated points
+  /// have splats of negative radius.
   void SetSplats(vtkPolyData* polyData, const Shape& shape);
 
   /// Sets colors of 4 components, one per point; null for none.

@@ -3,8 +3,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fragments of the off-screen passes: visibility (depth only), blending (weighted sums of the
 // surface's attributes) and ids (of the splat whose centre is nearest).
-// Blending writes weight x (normal, z), weight x (color, 1) and weight x opacity. Ids are written
-// as the lower and upper 16 bits of the point's id, and the block's id.
+// Blending writes weight x (normal, z), weight x (color, 1), weight x opacity and, among ghosts, the
+// weight of others. Ids are written as the lower and upper 16 bits of the point's id, the block's
+// id, and 0 for a ghost or 1.
 //VTK::Define::Dec
 
 in vec2 placeGS;
@@ -21,6 +22,9 @@ flat in vec4 colorGS;
 flat in uint pointIdGS;
 uniform float blockIndex;
 uniform sampler2D visibleDepth;
+#endif
+#ifdef SPLAT_GHOSTS
+flat in float ownGS;
 #endif
 #ifdef SPLAT_DEEPER_LAYER
 noperspective in float nearerDepthGS;
@@ -76,6 +80,11 @@ void main()
   gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
 #ifdef SPLAT_TRANSLUCENT_COLORS
   gl_FragData[2] = vec4(weight * colorGS.a);
+#ifdef SPLAT_GHOSTS
+  gl_FragData[3] = vec4(weight * ownGS);
+#endif
+#elif defined(SPLAT_GHOSTS)
+  gl_FragData[2] = vec4(weight * ownGS);
 #endif
 #endif
 #ifdef SPLAT_IDS
@@ -84,6 +93,9 @@ void main()
     discard;
   }
   gl_FragData[0] = vec4(float(pointIdGS & 0xffffu), float(pointIdGS >> 16u), blockIndex, 1.0);
+#ifdef SPLAT_GHOSTS
+  gl_FragData[0].a = ownGS;
+#endif
   float distance = 0.5 * sqrt(squaredRadius);
 #ifdef SPLAT_CLIPS
   distance += isBeyond || isBehind ? 0.5 : 0.0;

@@ -20,6 +20,9 @@ in vec3 clipVS[];
 flat in int isBehindCreaseVS[];
 #endif
 flat in uint pointIdVS[];
+#ifdef SPLAT_GHOSTS
+flat in float ownVS[];
+#endif
 
 uniform mat4 VCDCMatrix;
 uniform int cameraParallel;
@@ -39,6 +42,9 @@ flat out vec4 colorGS;
 #endif
 #ifdef SPLAT_IDS
 flat out uint pointIdGS;
+#endif
+#ifdef SPLAT_GHOSTS
+flat out float ownGS;
 #endif
 #if defined(SPLAT_VISIBILITY)
 out float gl_ClipDistance[7]; // the last one for the near plane, before the splat is moved back
@@ -74,6 +80,9 @@ void emitCorner(vec2 place)
 #endif
 #ifdef SPLAT_IDS
   pointIdGS = pointIdVS[0];
+#endif
+#ifdef SPLAT_GHOSTS
+  ownGS = ownVS[0];
 #endif
 #ifdef SPLAT_DEEPER_LAYER
   nearerDepthGS = 0.5 + 0.5 * movedDepth(corner, -blendDepth * radiusVS[0]);

@@ -190,6 +190,7 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     setTexture("splatSurfaceSums", layer.Surface);
     setTexture("splatColorSums", layer.Color);
     setTexture("splatOpacitySums", layer.HasOpacity ? layer.Opacity : layer.Color);
+    setTexture("splatOwnSums", layer.HasOwn ? layer.Own : layer.Color);
     setTexture("splatIds", settings.Ids ? passes.GetIds() : layer.Color);
     if (program->IsUniformUsed("splatColorMap"))
     {
@@ -198,6 +199,7 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
         hasMap ? this->InternalColorTexture->GetTextureUnit() : layer.Color->GetTextureUnit());
     }
     program->SetUniformi("splatColoring", static_cast<int>(this->Internal->ColoredBy));
+    program->SetUniformi("splatGhosts", layer.HasOwn ? (settings.Ids ? 2 : 1) : 0);
     program->SetUniformi("splatOpacities", layer.HasOpacity ? 1 : 0);
     program->SetUniform2i("splatOrigin", this->Internal->ViewportOrigin);
     const float size[2] = { static_cast<float>(settings.Size[0]),
@@ -299,6 +301,7 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetBlendDepth(other->GetBlendDepth());
     this->SetShape(other->GetShape());
     this->SetStride(other->GetStride());
+    this->SetBlendGhosts(other->GetBlendGhosts());
     this->SetMaximumNumberOfLayers(other->GetMaximumNumberOfLayers());
     this->SetCompositeDataDisplayAttributes(other->Internal->BlockAttributes);
   }
@@ -320,6 +323,7 @@ void vtkIsopointSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BlendDepth: " << this->BlendDepth << "\n";
   os << indent << "Shape: " << (this->Shape == CIRCLE ? "circle" : "ellipse") << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
+  os << indent << "BlendGhosts: " << (this->BlendGhosts ? "On" : "Off") << "\n";
   os << indent << "MaximumNumberOfLayers: " << this->MaximumNumberOfLayers << "\n";
   os << indent << "CompositeDataDisplayAttributes: " << this->Internal->BlockAttributes << "\n";
 }

@@ -10,11 +10,11 @@
  *
  * Input is vtkPolyData, or a composite data set of them (SetInputDataObject or
  * SetInputConnection). All points are rendered, with or without cells, except for hidden and
- * duplicated ghost points and points whose position or radius is not finite. Normals are the active
- * point normals; without them splats face the camera, and one warning is given. Radii are in the
- * array RadiusArrayName, half-axes of ellipses in SplatAxis1ArrayName and SplatAxis2ArrayName, and
- * clipping planes of single splats in SplatClipArrayName, as vtkScatteredIsopointFilter writes
- * them.
+ * duplicated ghost points (but see SetBlendGhosts()) and points whose position or radius is not
+ * finite. Normals are the active point normals; without them splats face the camera, and one
+ * warning is given. Radii are in the array RadiusArrayName, half-axes of ellipses in
+ * SplatAxis1ArrayName and SplatAxis2ArrayName, and clipping planes of single splats in
+ * SplatClipArrayName, as vtkScatteredIsopointFilter writes them.
  *
  * Lights, materials, physically based rendering, scalar coloring, opacity, clipping planes,
  * transforms of the actor, face culling, a back face property, SSAO, FXAA, depth peeling,
@@ -148,6 +148,18 @@ public:
 
   ///@{
   /**
+   * Whether ghost points marked as DUPLICATEPOINT are blended with the splats of other points, and
+   * seen and selected nowhere else: where several ranks render parts of one surface, each pixel has
+   * the same color on all ranks that draw it. If off, they are not drawn, and neither are they with
+   * a Stride above 1. Default: off.
+   */
+  vtkSetMacro(BlendGhosts, vtkTypeBool);
+  vtkGetMacro(BlendGhosts, vtkTypeBool);
+  vtkBooleanMacro(BlendGhosts, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Number of layers of a translucent surface that are rendered, the nearest first. Each takes the
    * time of an opaque surface and 36 bytes per pixel of graphics memory; empty layers take little
    * time. Range: 1 to 32. Default: 8.
@@ -228,6 +240,7 @@ protected:
   int Shape = ELLIPSE;
   int Stride = 1;
   int MaximumNumberOfLayers = 8;
+  vtkTypeBool BlendGhosts = 0;
 
 private:
   vtkIsopointSplatMapper(const vtkIsopointSplatMapper&) = delete;

@@ -474,6 +474,8 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   settings.RadiusScale = mapper->RadiusScale;
   settings.BlendDepth = mapper->BlendDepth;
   settings.Stride = mapper->Stride;
+  // At a lower level of detail another choice of splats is drawn where they are no ghosts.
+  settings.BlendsGhosts = mapper->BlendGhosts && mapper->Stride == 1;
   settings.Ids = renderer->GetSelector() != nullptr;
   settings.NumberOfLayers = actor->IsRenderingTranslucentPolygonalGeometry() && !settings.Ids
                               ? mapper->MaximumNumberOfLayers

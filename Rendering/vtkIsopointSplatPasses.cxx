@@ -171,7 +171,7 @@ bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vec
     static_cast<double>(settings.Size[1]), settings.ParallelProjection ? 1.0 : 0.0,
     settings.RadiusScale, settings.BlendDepth, static_cast<double>(settings.Stride),
     static_cast<double>(settings.CulledFacing), static_cast<double>(settings.NumberOfLayers),
-    settings.TranslucentColors ? 1.0 : 0.0 };
+    settings.TranslucentColors ? 1.0 : 0.0, settings.BlendsGhosts ? 1.0 : 0.0 };
   state.insert(state.end(), settings.ModelToView->GetData(), settings.ModelToView->GetData() + 16);
   state.insert(state.end(), settings.ViewToClip->GetData(), settings.ViewToClip->GetData() + 16);
   for (const std::array<double, 4>& plane : settings.ClippingPlanes)
@@ -239,8 +239,8 @@ void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings
   if (!layer.Framebuffer->GetContext())
   {
     layer.Framebuffer->SetContext(this->Window);
-    for (vtkTextureObject* texture :
-      { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(), layer.Opacity.Get() })
+    for (vtkTextureObject* texture : { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(),
+           layer.Opacity.Get(), layer.Own.Get() })
     {
       texture->SetContext(this->Window);
     }
@@ -249,27 +249,37 @@ void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings
   prepareDepthTexture(layer.Depth, settings.Size);
   prepareColorTexture(layer.Surface, settings.Size, 4);
   prepareColorTexture(layer.Color, settings.Size, 4);
-  if (settings.TranslucentColors)
+  std::vector<vtkTextureObject*> wanted = { layer.Surface, layer.Color };
+  layer.HasOpacity = settings.TranslucentColors;
+  layer.HasOwn = settings.BlendsGhosts;
+  for (vtkTextureObject* sums :
+    { layer.HasOpacity ? layer.Opacity.Get() : nullptr, layer.HasOwn ? layer.Own.Get() : nullptr })
   {
-    prepareColorTexture(layer.Opacity, settings.Size, 1);
+    if (sums)
+    {
+      prepareColorTexture(sums, settings.Size, 1);
+      wanted.push_back(sums);
+    }
   }
   layer.Framebuffer->Bind();
   if (isNew)
   {
     layer.Framebuffer->AddDepthAttachment(layer.Depth);
-    layer.Framebuffer->AddColorAttachment(0, layer.Surface);
-    layer.Framebuffer->AddColorAttachment(1, layer.Color);
+    layer.Attached.clear();
   }
-  if (settings.TranslucentColors && !layer.HasOpacity)
+  for (std::size_t i = wanted.size(); i < layer.Attached.size(); ++i)
   {
-    layer.Framebuffer->AddColorAttachment(2, layer.Opacity);
-    layer.HasOpacity = true;
+    layer.Framebuffer->RemoveColorAttachment(static_cast<unsigned int>(i));
   }
-  else if (!settings.TranslucentColors && layer.HasOpacity)
+  layer.Attached.resize(wanted.size(), nullptr);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
   {
-    layer.Framebuffer->RemoveColorAttachment(2);
-    layer.HasOpacity = false;
+    if (layer.Attached[i] != wanted[i])
+    {
+      layer.Framebuffer->AddColorAttachment(static_cast<unsigned int>(i), wanted[i]);
+    }
   }
+  layer.Attached = wanted;
 }
 
 //------------------------------------------------------------------------------
@@ -282,7 +292,7 @@ bool vtkIsopointSplatPasses::RenderLayer(
   }
   Layer& layer = *this->Layers[index];
   this->PrepareLayer(layer, settings);
-  bind(layer.Framebuffer, settings.TranslucentColors ? 3 : 2);
+  bind(layer.Framebuffer, static_cast<unsigned int>(layer.Attached.size()));
 
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
@@ -411,6 +421,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
   define(buffers.HasClips(), "SPLAT_CLIPS");
   define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
+  define(settings.BlendsGhosts, "SPLAT_GHOSTS");
   define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
   define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
 
@@ -496,8 +507,8 @@ void vtkIsopointSplatPasses::ReleaseGraphicsResources()
 void vtkIsopointSplatPasses::ReleaseLayer(Layer& layer)
 {
   layer.Framebuffer->ReleaseGraphicsResources(this->Window);
-  for (vtkTextureObject* texture :
-    { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(), layer.Opacity.Get() })
+  for (vtkTextureObject* texture : { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(),
+         layer.Opacity.Get(), layer.Own.Get() })
   {
     texture->ReleaseGraphicsResources(this->Window);
   }

@@ -57,6 +57,7 @@ public:
     int CulledFacing = 0; // 1: front faces, -1: back faces, 0: none
     int NumberOfLayers = 1;
     bool TranslucentColors = false;
+    bool BlendsGhosts = false;
     bool Ids = false;
   };
 
@@ -67,8 +68,11 @@ public:
     vtkNew<vtkTextureObject> Surface;
     vtkNew<vtkTextureObject> Color;
     vtkNew<vtkTextureObject> Opacity;
+    vtkNew<vtkTextureObject> Own; // the weight, without that of ghosts
     vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
     bool HasOpacity = false;
+    bool HasOwn = false;
+    std::vector<vtkTextureObject*> Attached; // to the framebuffer, but for the depth
   };
 
   /// The window to render for. Resources of a former window must have been released before. The

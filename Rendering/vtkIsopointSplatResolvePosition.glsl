@@ -2,6 +2,15 @@
   vec4 splatColorSum = texelFetch(splatColorSums, splatPixel, 0);
   float splatWeight = splatColorSum.a;
   bool splatCovers = texelFetch(splatVisibleDepth, splatPixel, 0).r < 1.0 && splatWeight > 0.0;
+  // Of a pixel where ghosts alone are seen, the rank that has these draws the same, or selects them.
+  if (splatGhosts == 1)
+  {
+    splatCovers = splatCovers && texelFetch(splatOwnSums, splatPixel, 0).r > 0.0;
+  }
+  else if (splatGhosts == 2)
+  {
+    splatCovers = splatCovers && texelFetch(splatIds, splatPixel, 0).a > 0.0;
+  }
   vec4 splatSurfaceSum = texelFetch(splatSurfaceSums, splatPixel, 0);
   float splatDepthVC = splatCovers ? splatSurfaceSum.w / splatWeight : -1.0;
   vec4 splatPlaceDC = splatVCDCMatrix * vec4(0.0, 0.0, splatDepthVC, 1.0);

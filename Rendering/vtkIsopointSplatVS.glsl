@@ -7,7 +7,7 @@
 //VTK::Define::Dec
 
 in vec3 centerMC;
-in float radius; // not positive: not drawn
+in float radius; // 0: not drawn; negative: of a ghost
 #ifdef SPLAT_NORMALS
 in vec3 normalMC;
 #endif
@@ -46,6 +46,9 @@ out vec3 clipVS; // distance from the plane, in radii: of the centre, and its ch
 flat out int isBehindCreaseVS; // 1 where the face across the crease hides this one
 #endif
 flat out uint pointIdVS;
+#ifdef SPLAT_GHOSTS
+flat out float ownVS; // 0: of a ghost, else 1
+#endif
 
 // Two unit vectors orthogonal to a unit vector and to each other, continuous except at z = 0
 // [DBC+17].
@@ -77,7 +80,12 @@ void main()
   vec4 centerVC = MCVCMatrix * vec4(centerMC, 1.0);
   vec3 center = centerVC.xyz;
   vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
-  float r = radius * radiusScale;
+#ifdef SPLAT_GHOSTS
+  float r = abs(radius) * radiusScale;
+  ownVS = radius < 0.0 ? 0.0 : 1.0;
+#else
+  float r = max(radius, 0.0) * radiusScale;
+#endif
   float radiusVC = r * viewScale;
   vec3 normal = vec3(0.0);
   vec3 axis1;

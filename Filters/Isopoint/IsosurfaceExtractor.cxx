@@ -10,6 +10,7 @@
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
+#include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Splat/SplatGeometry.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
@@ -17,11 +18,21 @@
 namespace isopoint
 {
 
+namespace
+{
+
+/// Of neighbours around a rank's isopoints that are its ghosts: where splats of the second ring are
+/// seen, so are those that they overlap (docs/ranks.md).
+constexpr int ghostRings = 5;
+
+} // namespace
+
 void IsosurfaceExtractor::clear()
 {
   this->Held = Cloud<FloatSample>();
   this->Ranks.reset();
   this->ItemCount = 0;
+  this->ItemCounts.clear();
 }
 
 std::size_t IsosurfaceExtractor::sampleCount() const
@@ -66,14 +77,19 @@ double IsosurfaceExtractor::extractionWork(
 }
 
 ExtractedIsosurface IsosurfaceExtractor::extract(
-  const Execution& execution, const ExtractionRequest& request)
+  const Execution& execution, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
   return std::visit(
     [&](auto& cloud)
     {
       if (this->Ranks)
       {
-        return this->extractOnRanks(execution, cloud, request);
+        return this->extractOnRanks(execution, cloud, request, ghosts);
+      }
+      if (ghosts)
+      {
+        *ghosts = ExtractedIsosurface();
+        ghosts->surface.isovalue = request.isosurface.isovalue;
       }
       if (request.triangles)
       {
@@ -103,6 +119,35 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
     this->Held);
 }
 
+namespace
+{
+
+/// The isopoints of a rank that are on it, or its ghosts, with their splats, if there are any.
+template <class TSample>
+ExtractedIsosurface chosen(const SampleTree<TSample>& tree, const Isosurface& all,
+  const std::vector<Splat>& splats, const std::vector<bool>& isHome, bool areHome)
+{
+  ExtractedIsosurface result;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (isHome[i] == areHome)
+    {
+      indices.push_back(i);
+      if (!splats.empty())
+      {
+        result.splats.push_back(splats[i]);
+      }
+    }
+  }
+  result.surface = chosenIsopoints(all, indices);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  return result;
+}
+
+} // namespace
+
 template <class TSample>
 ExtractedIsosurface IsosurfaceExtractor::extractTriangles(
   const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
@@ -126,8 +171,8 @@ ExtractedIsosurface IsosurfaceExtractor::extractTriangles(
 }
 
 template <class TSample>
-ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
-  const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
+ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(const Execution& execution,
+  Cloud<TSample>& cloud, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
   WorkProgress progress(execution);
   NodeExchange<TSample> exchange(*this->Ranks, cloud.tree, cloud.begins);
@@ -140,47 +185,44 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(
   {
     keepOnRanks(execution, *this->Ranks, request.minimumSpacing, surface);
   }
-  ExtractedIsosurface result;
-  std::vector<std::size_t> home;
-  std::vector<bool> isHome;
+  const auto count = static_cast<double>(surface.size());
+  const Execution part = progress.part(count * splatting, count * work::writing);
+  SurfaceHalo<TSample> halo(part, exchange, cloud.neighborhoods, surface, hasFits);
+  const bool hasHalo = (ghosts || request.splats) && !cloud.tree.isEmpty();
+  if (hasHalo)
+  {
+    halo.gather(ghosts ? ghostRings : 2);
+  }
+  const Isosurface& all = hasHalo ? halo.surface() : surface;
+  std::vector<bool> isShaped;
+  std::vector<bool> isHome; // of all of them
   exchange.together(
     [&]()
     {
-      isHome.resize(surface.size(), false);
+      isHome.resize(all.size(), false);
       for (std::size_t i = 0; i < surface.size(); ++i)
       {
-        if (ofRank.isHome(surface.leaves[i]))
-        {
-          home.push_back(i);
-        }
-      }
-      for (const std::size_t i : home)
-      {
-        isHome[i] = true;
+        const bool isCountedHere = ofRank.isHome(surface.leaves[i]);
+        isHome[hasHalo ? halo.ownIndices()[i] : i] = isCountedHere;
+        // Either rank of an edge between two sends such a ghost.
+        isShaped.push_back(isCountedHere || ghosts);
       }
     });
-  if (request.splats && !cloud.tree.isEmpty())
+  std::vector<Splat> splats;
+  if (hasHalo && request.splats)
   {
-    const auto count = static_cast<double>(surface.size());
-    const Execution part = progress.part(count * splatting, count * work::writing);
-    std::vector<Splat> splats =
-      RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
-        .compute(surface, isHome, hasFits);
-    exchange.together(
-      [&]()
-      {
-        for (const std::size_t i : home)
-        {
-          result.splats.push_back(splats[i]);
-        }
-      });
+    splats = RankSplats<TSample>(part, exchange, cloud.neighborhoods, *request.splats)
+               .compute(halo, isShaped, ghosts != nullptr);
   }
+  ExtractedIsosurface result;
   exchange.together(
     [&]()
     {
-      result.surface = chosenIsopoints(surface, home);
-      result.surface.coincident = coincidentEnds(cloud.tree, result.surface.leaves);
-      result.surface.leaves = {};
+      result = chosen(cloud.tree, all, splats, isHome, true);
+      if (ghosts)
+      {
+        *ghosts = chosen(cloud.tree, all, splats, isHome, false);
+      }
     });
   return result;
 }

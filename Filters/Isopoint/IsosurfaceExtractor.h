@@ -9,6 +9,7 @@
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Ranks/SharedTree.h"
+#include "Isopoint/Ranks/ValueExchange.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
@@ -105,6 +106,7 @@ public:
       this->loadShared<WideSample>(execution, *team, counts, all, read);
     }
     this->ItemCount = all;
+    this->ItemCounts = counts;
     this->Ranks = std::move(team);
   }
 
@@ -112,6 +114,19 @@ public:
   /// 0 unless this is called after a load(). Fits take no differences below it for details.
   /// @param error finite, not negative
   void setValueError(double error);
+
+  /// Replaces the values as replaceValues() does, provided that positions, types and the items that
+  /// take part are those of the last loadOnRanks() on all ranks; otherwise nothing changes.
+  /// Collective. A digest stands for positions: others pass for the same once in 2^64 cases.
+  /// @returns whether it did
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere, and then no rank holds samples
+  template <class TCoordinate, class TValue, class Reader>
+  bool replaceValuesOnRanks(const Execution& execution, std::size_t count, const Reader& read)
+  {
+    return isNarrow(this->ItemCount)
+             ? this->replaceSharedValues<SampleFor<TCoordinate, TValue>>(execution, count, read)
+             : this->replaceSharedValues<WideSample>(execution, count, read);
+  }
 
   /// What this rank has exchanged with others since loadOnRanks(); null without.
   const Traffic* traffic() const { return this->Ranks ? &this->Ranks->traffic() : nullptr; }
@@ -147,9 +162,13 @@ public:
 
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.
+  /// @param ghosts null, or receives, with all that is known of them, the isopoints that are on
+  /// other ranks, but within five rings around those of this one (see IsopointNeighbors); all ranks
+  /// ask for them, or none
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
-  ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request);
+  ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
+    ExtractedIsosurface* ghosts = nullptr);
 
 private:
   /// The samples, and what has been found out about them.
@@ -172,10 +191,43 @@ private:
         const auto own = counts.begin() + team.rank();
         const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
         loaded = loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
+        this->Positions = digestOf(execution, loaded.samples, first);
       });
     SharedTree<TSample> shared =
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
     this->Held = Cloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
+  }
+
+  template <class TSample, class Reader>
+  bool replaceSharedValues(const Execution& execution, std::size_t count, const Reader& read)
+  {
+    auto* const cloud = std::get_if<Cloud<TSample>>(&this->Held);
+    if (!this->Ranks || !cloud || cloud->tree.isEmpty()) // on all ranks
+    {
+      return false;
+    }
+    bool isSame = false;
+    this->Ranks->together(
+      [&]()
+      {
+        isSame = count == this->ItemCounts[static_cast<std::size_t>(this->Ranks->rank())] &&
+                 digestOf<TSample>(execution, count, read) == this->Positions;
+      });
+    if (this->Ranks->isAny(!isSame))
+    {
+      return false;
+    }
+    try
+    {
+      ValueExchange<TSample>(*this->Ranks, cloud->tree, cloud->begins, this->ItemCounts)
+        .replace(execution, read);
+    }
+    catch (...)
+    {
+      this->clear(); // values and ranges may disagree
+      throw;
+    }
+    return true;
   }
 
   template <class TSample>
@@ -183,8 +235,8 @@ private:
     const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
 
   template <class TSample>
-  ExtractedIsosurface extractOnRanks(
-    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
+  ExtractedIsosurface extractOnRanks(const Execution& execution, Cloud<TSample>& cloud,
+    const ExtractionRequest& request, ExtractedIsosurface* ghosts);
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 
@@ -213,7 +265,10 @@ private:
     Cloud<WideSample>>
     Held;
   std::size_t ItemCount = 0;   // of all ranks
-  std::unique_ptr<Team> Ranks; // of a cloud on ranks
+  // Of a cloud on ranks:
+  std::unique_ptr<Team> Ranks;
+  std::vector<std::uint64_t> ItemCounts; // of each rank
+  PositionDigest Positions;              // of this rank's items
 };
 
 } // namespace isopoint

@@ -16,6 +16,7 @@
 #include "vtkIsopointSplatMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
@@ -25,7 +26,9 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -133,6 +136,23 @@ int vtkIsopointSplatRepresentation::FillInputPortInformation(int, vtkInformation
 }
 
 //------------------------------------------------------------------------------
+int vtkIsopointSplatRepresentation::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  vtkMultiProcessController* const ranks = vtkMultiProcessController::GetGlobalController();
+  auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  for (int i = 0; ranks && ranks->GetNumberOfProcesses() > 1 &&
+                  i < inputVector[0]->GetNumberOfInformationObjects();
+       ++i)
+  {
+    vtkInformation* const info = inputVector[0]->GetInformationObject(i);
+    info->Set(levels, std::max(info->Has(levels) ? info->Get(levels) : 0, 1));
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
 int vtkIsopointSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -198,6 +218,12 @@ int vtkIsopointSplatRepresentation::ProcessViewRequest(
   {
     const bool isLowerDetail = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
     this->Mapper->SetStride(isLowerDetail ? this->LODStride : 1);
+    // Where one process renders the points of all ranks, it has those of which the ghosts are
+    // duplicates.
+    auto* const view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+    this->Mapper->SetBlendGhosts(
+      view && (isLowerDetail ? view->GetUseDistributedRenderingForLODRender()
+                             : view->GetUseDistributedRenderingForRender()));
     vtkDataObject* const splats = vtkPVView::GetDeliveredPiece(inInfo, this);
     this->UpdateBlockAttributes(splats);
     this->Mapper->SetInputDataObject(splats);

@@ -6,7 +6,8 @@
  * ParaView's representation "Isopoint Splats": a vtkIsopointSplatMapper on the input's points. Of
  * data sets other than vtkPolyData the points and point arrays are used, of composite data sets
  * those of each block. While the user interacts with a large data set, one splat in LODStride is
- * rendered. Points that a data set computes, as images do, take 24 bytes each; where there is no
+ * rendered. Several ranks request a level of ghosts of the input, with which each of them blends
+ * its splats. Points that a data set computes, as images do, take 24 bytes each; where there is no
  * memory for them, one error is reported and nothing is rendered.
  *
  * @sa vtkIsopointSplatMapper
@@ -135,6 +136,8 @@ protected:
   ~vtkIsopointSplatRepresentation() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   bool AddToView(vtkView* view) override;

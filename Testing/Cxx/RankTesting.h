@@ -157,11 +157,29 @@ inline Description described(const isopoint::ExtractedIsosurface& extracted)
   return all;
 }
 
+/// Whether the values are there from the beginning, or replace others after an extraction.
+enum class Values
+{
+  Loaded,
+  Replaced
+};
+
+/// The same positions with other values.
+inline clouds::Cloud withOtherValues(clouds::Cloud cloud)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    cloud.values[i] = 0.4 - 0.7 * cloud.values[i] + 0.3 * std::sin(5.0 * cloud.positions[3 * i]);
+  }
+  return cloud;
+}
+
 /// Extracts, one after the other, on ranks that are threads. @returns the points of all ranks, by
 /// request
 template <class TCoordinate = double, class TValue = double>
 std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces,
-  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1)
+  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1,
+  Values values = Values::Loaded)
 {
   std::vector<Description> all(requests.size());
   std::mutex mutex;
@@ -172,8 +190,16 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
       const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
       const isopoint::Execution execution = clouds::executionOn(threads);
       isopoint::IsosurfaceExtractor extractor;
+      const clouds::Cloud first = values == Values::Loaded ? piece : withOtherValues(piece);
       extractor.loadOnRanks<TCoordinate, TValue>(
-        execution, communicator, piece.size(), clouds::readerOf(piece));
+        execution, communicator, first.size(), clouds::readerOf(first));
+      if (values == Values::Replaced)
+      {
+        extractor.extract(execution, requests.front());
+        const bool isReplaced = extractor.replaceValuesOnRanks<TCoordinate, TValue>(
+          execution, piece.size(), clouds::readerOf(piece));
+        EXPECT_TRUE(isReplaced || concatenated(pieces).size() == 0);
+      }
       for (std::size_t i = 0; i < requests.size(); ++i)
       {
         const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
@@ -189,15 +215,41 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
   return all;
 }
 
+/// What one rank has, and its ghosts.
+struct RankPoints
+{
+  isopoint::ExtractedIsosurface own;
+  isopoint::ExtractedIsosurface ghosts;
+};
+
+/// Extracts with ghosts, on ranks that are threads. @returns what each rank has
+inline std::vector<RankPoints> extractWithGhosts(
+  const std::vector<clouds::Cloud>& pieces, const isopoint::ExtractionRequest& request)
+{
+  std::vector<RankPoints> all(pieces.size());
+  ThreadRanks team(static_cast<int>(pieces.size()));
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const auto rank = static_cast<std::size_t>(communicator.rank());
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<double, double>(
+        isopoint::Execution(), communicator, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+      all[rank].own = extractor.extract(isopoint::Execution(), request, &all[rank].ghosts);
+    });
+  return all;
+}
+
 template <class TCoordinate = double, class TValue = double>
 void expectSameAsOneProcess(const clouds::Cloud& cloud, int size, Deal deal,
-  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1)
+  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1,
+  Values values = Values::Loaded)
 {
   const std::vector<clouds::Cloud> pieces = dealOut(cloud, static_cast<std::size_t>(size), deal);
   const clouds::Cloud all = concatenated(pieces);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(isopoint::Execution(), all.size(), clouds::readerOf(all));
-  std::vector<Description> found = extractOnRanks<TCoordinate, TValue>(pieces, requests, threads);
+  std::vector<Description> found = extractOnRanks<TCoordinate, TValue>(pieces, requests, threads, values);
   for (std::size_t i = 0; i < requests.size(); ++i)
   {
     Description expected = described(extractor.extract(isopoint::Execution(), requests[i]));

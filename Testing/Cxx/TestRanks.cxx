@@ -2,7 +2,17 @@
 // Whatever ranks a cloud is dealt out to, they yield together what one process does.
 #include "RankTesting.h"
 
+#include "Isopoint/Base/Offset.h"
+#include "Isopoint/Base/Vector.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace
 {
@@ -104,4 +114,186 @@ TEST(Ranks, YieldTheSplatsOfOneProcess)
       ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::RoundRobin, requests);
     }
   }
+}
+
+namespace
+{
+
+using Ends = std::pair<std::uint64_t, std::uint64_t>;
+
+Ends endsOf(const isopoint::IsopointEdge& edge)
+{
+  return { edge.first, edge.second };
+}
+
+/// Ghosts are points of other ranks, known as well as there, each once and in order.
+/// @returns how many there are
+std::size_t expectGhostsOfOthers(
+  const Cloud& cloud, int size, const isopoint::ExtractionRequest& request)
+{
+  const std::vector<Cloud> pieces =
+    ranks::dealOut(cloud, static_cast<std::size_t>(size), ranks::Deal::RoundRobin);
+  const Cloud all = ranks::concatenated(pieces);
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<double, double>(isopoint::Execution(), all.size(), clouds::readerOf(all));
+  const isopoint::ExtractedIsosurface whole = extractor.extract(isopoint::Execution(), request);
+  std::map<Ends, std::string> known;
+  for (std::size_t i = 0; i < whole.surface.size(); ++i)
+  {
+    known[endsOf(whole.surface.edges[i])] = ranks::described(whole, i);
+  }
+  std::size_t count = 0;
+  for (const ranks::RankPoints& rank : ranks::extractWithGhosts(pieces, request))
+  {
+    std::set<Ends> own;
+    for (std::size_t i = 0; i < rank.own.surface.size(); ++i)
+    {
+      const Ends ends = endsOf(rank.own.surface.edges[i]);
+      own.insert(ends);
+      EXPECT_EQ(known[ends], ranks::described(rank.own, i));
+    }
+    Ends former{ 0, 0 };
+    for (std::size_t i = 0; i < rank.ghosts.surface.size(); ++i)
+    {
+      const Ends ends = endsOf(rank.ghosts.surface.edges[i]);
+      EXPECT_LT(former, ends);
+      EXPECT_EQ(own.count(ends), 0u);
+      EXPECT_EQ(known[ends], ranks::described(rank.ghosts, i));
+      former = ends;
+      ++count;
+    }
+  }
+  return count;
+}
+
+} // namespace
+
+TEST(Ranks, GhostsAreKnownAsWellAsOnTheRanksThatHaveThem)
+{
+  std::vector<isopoint::ExtractionRequest> requests(5);
+  requests[0].isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  requests[1].isosurface = { 0.3, 54.7, 0.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  requests[2] = requests[1];
+  requests[2].splats = isopoint::SplatOptions();
+  requests[3].isosurface = { -0.2, 54.7, 3.0,
+    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
+  requests[3].minimumSpacing = 0.5;
+  requests[3].splats = isopoint::SplatOptions();
+  requests[4] = requests[2];
+  requests[4].splats->fieldNormals = false;
+  for (const isopoint::ExtractionRequest& request : requests)
+  {
+    std::size_t count = 0;
+    for (const Cloud& cloud : variousClouds())
+    {
+      count += expectGhostsOfOthers(cloud, 4, request);
+    }
+    EXPECT_GT(count, 1000u);
+  }
+  EXPECT_EQ(expectGhostsOfOthers(clouds::uniform(0, 1), 3, requests[2]), 0u);
+}
+
+TEST(Ranks, SplatsThatOverlapThoseOfARankAreItsGhosts)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.splats = isopoint::SplatOptions();
+  const std::vector<Cloud> pieces = ranks::dealOut(clouds::uniform(6000, 21), 5, ranks::Deal::Even);
+  const std::vector<ranks::RankPoints> all = ranks::extractWithGhosts(pieces, request);
+  std::size_t overlaps = 0;
+  std::size_t missing = 0;
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    std::set<Ends> ghosts;
+    for (const isopoint::IsopointEdge& edge : all[rank].ghosts.surface.edges)
+    {
+      ghosts.insert(endsOf(edge));
+    }
+    const isopoint::ExtractedIsosurface& own = all[rank].own;
+    for (std::size_t other = 0; other < all.size(); ++other)
+    {
+      const isopoint::ExtractedIsosurface& others = all[other].own;
+      for (std::size_t j = 0; other != rank && j < others.surface.size(); ++j)
+      {
+        bool isOverlapping = false;
+        for (std::size_t i = 0; i < own.surface.size(); ++i)
+        {
+          const double distance = isopoint::lengthOf(
+            isopoint::difference(own.surface.positions[i], others.surface.positions[j]));
+          isOverlapping =
+            isOverlapping || distance < own.splats[i].radius + others.splats[j].radius;
+        }
+        overlaps += isOverlapping ? 1 : 0;
+        missing += isOverlapping && ghosts.count(endsOf(others.surface.edges[j])) == 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(overlaps, 500u);
+  EXPECT_EQ(missing, 0u);
+}
+
+TEST(Ranks, NewValuesAtTheSamePositionsKeepTheTree)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.splats = isopoint::SplatOptions();
+  isopoint::ExtractionRequest another = request;
+  another.isosurface.isovalue = 0.7;
+  for (const Cloud& cloud : variousClouds())
+  {
+    for (const int size : { 2, 5 })
+    {
+      ranks::expectSameAsOneProcess(
+        cloud, size, ranks::Deal::Skewed, { request, another }, 1, ranks::Values::Replaced);
+    }
+  }
+}
+
+TEST(Ranks, NewValuesAreFewerBytesThanSamples)
+{
+  const std::vector<Cloud> pieces =
+    ranks::dealOut(clouds::uniform(20000, 31), 3, ranks::Deal::RoundRobin);
+  ThreadRanks team(3);
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const auto rank = static_cast<std::size_t>(communicator.rank());
+      const Cloud& piece = pieces[rank];
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<float, float>(
+        isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
+      const std::uint64_t loading = extractor.traffic()->sent;
+      const auto replace = [&](const Cloud& cloud)
+      {
+        return extractor.replaceValuesOnRanks<float, float>(
+          isopoint::Execution(), cloud.size(), clouds::readerOf(cloud));
+      };
+      EXPECT_TRUE(replace(ranks::withOtherValues(piece)));
+      EXPECT_LT(extractor.traffic()->sent - loading, loading / 2);
+      // One sample that moves, leaves or changes its type on one rank is enough.
+      Cloud moved = piece;
+      Cloud fewer = piece;
+      if (rank == 1)
+      {
+        moved.positions[7] += 1e-3;
+        fewer.values[100] = std::nan("");
+      }
+      EXPECT_FALSE(replace(moved));
+      EXPECT_FALSE(replace(fewer));
+      Cloud mirrored = piece;
+      std::swap(mirrored.positions[0], mirrored.positions[3]);
+      EXPECT_FALSE(replace(mirrored));
+      EXPECT_FALSE((extractor.replaceValuesOnRanks<double, float>(
+        isopoint::Execution(), piece.size(), clouds::readerOf(piece))));
+      EXPECT_TRUE(replace(piece));
+    });
+}
+
+TEST(Ranks, ManySamplesAreSentInSlices)
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  ranks::expectSameAsOneProcess<float, float>(
+    clouds::uniform(1 << 20, 41), 2, ranks::Deal::RoundRobin, { request });
 }

@@ -58,13 +58,14 @@ void checkOne(std::uint64_t seed)
     request = randomRequest(dice);
   }
   const std::size_t threads = 1 + dice(2);
+  const auto values = dice(3) == 0 ? ranks::Values::Replaced : ranks::Values::Loaded;
   if (dice(2) == 0)
   {
-    ranks::expectSameAsOneProcess<float, float>(cloud, size, deal, requests, threads);
+    ranks::expectSameAsOneProcess<float, float>(cloud, size, deal, requests, threads, values);
   }
   else
   {
-    ranks::expectSameAsOneProcess<double, double>(cloud, size, deal, requests, threads);
+    ranks::expectSameAsOneProcess<double, double>(cloud, size, deal, requests, threads, values);
   }
 }
 

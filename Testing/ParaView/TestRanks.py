@@ -162,7 +162,7 @@ ALL_ARRAYS = dict(ComputeGradients=1, ComputeSplatAxes=1, ComputeSplatClips=1,
 POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeRadii=0)
 
 
-class RanksTest(unittest.TestCase):
+class RanksTestCase(unittest.TestCase):
     def same(self, output, expected):
         """Compares, on rank 0, all ranks' outputs with one, which is called for there."""
         parts = gather(described(output))
@@ -178,6 +178,20 @@ class RanksTest(unittest.TestCase):
                 failure = f"{len(found)} points instead of {len(rows)}, or others"
         self.assertEqual(failure, "")
 
+    def errors(self, data, **options):
+        """The number of errors of each rank, on rank 0."""
+        watch = []
+        result = contour(data, RANKS, watch=watch, **options)
+        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT), 0)
+        return gather(len(watch))
+
+    def check_one_error(self, data, **options):
+        counts = self.errors(data, **options)
+        if RANK == 0:
+            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
+
+
+class RanksTest(RanksTestCase):
     def check(self, points, deal, dtype=np.float32, **options):
         owner = ranks_of(points, deal)
         order = np.argsort(owner, kind="stable")  # one rank's samples after the other's
@@ -312,6 +326,64 @@ class RanksTest(unittest.TestCase):
             self.assertEqual(sorted(tuple(np.round(p, 4) + 0.0) for part in parts for p in part),
                              sorted(tuple(np.round(p, 4) + 0.0) for p in expected))
 
+    def with_ghosts(self, data, controller, piece, pieces, levels, values=(0.1, 0.5)):
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetController(controller)
+        isopoints.SetInputData(data)
+        for i, value in enumerate(values):
+            isopoints.SetValue(i, value)
+        for name, value in ALL_ARRAYS.items():
+            getattr(isopoints, "Set" + name)(value)
+        isopoints.UpdatePiece(piece, pieces, levels)
+        return isopoints
+
+    def test_ghosts_for_what_follows(self):
+        """They stand behind the rank's own points, which are those without ghosts."""
+        points = cloud("uniform", 3000, 9)
+        owner = np.sort(ranks_of(points, "round robin"))
+        numbers = np.arange(len(points))
+        mine = poly_data(points[owner == RANK], numbers[owner == RANK])
+        without = self.with_ghosts(mine, RANKS, RANK, SIZE, 0)
+        name = vtkDataSetAttributes.GhostArrayName()
+        self.assertFalse(without.GetOutput().GetPointData().HasArray(name))
+        self.assertFalse(without.GetOutput().GetCellData().HasArray(name))
+        isopoints = self.with_ghosts(mine, RANKS, RANK, SIZE, 1)
+        self.assertEqual(isopoints.GetNumberOfUnprojectedPoints(),
+                         without.GetNumberOfUnprojectedPoints())
+        # Nothing is computed again for fewer levels.
+        time = isopoints.GetOutput().GetMTime()
+        isopoints.UpdatePiece(RANK, SIZE, 0)
+        self.assertEqual(isopoints.GetOutput().GetMTime(), time)
+        output = isopoints.GetOutput()
+        if SIZE == 1:
+            self.assertEqual(described(output), described(without.GetOutput()))
+            return
+        count = without.GetOutput().GetNumberOfPoints()
+        ghosts = vtk_to_numpy(output.GetPointData().GetArray(name))
+        self.assertEqual(len(ghosts), output.GetNumberOfPoints())
+        self.assertFalse(ghosts[:count].any())
+        self.assertTrue((ghosts[count:] == vtkDataSetAttributes.DUPLICATEPOINT).all())
+        cells = vtk_to_numpy(output.GetCellData().GetArray(name))
+        self.assertFalse(cells[:count].any())
+        self.assertTrue((cells[count:] == vtkDataSetAttributes.DUPLICATECELL).all())
+        output.GetPointData().RemoveArray(name)
+        kinds, rows = described(output)
+        self.assertEqual((kinds, rows[:count]), described(without.GetOutput()))
+        parts = gather((rows[:count], rows[count:]))
+        if RANK == 0:
+            everything = {row: rank for rank, part in enumerate(parts) for row in part[0]}
+            for rank, (_, found) in enumerate(parts):
+                self.assertGreater(len(found), 20)
+                self.assertEqual(len(set(found)), len(found))
+                self.assertTrue(all(everything.get(row, rank) != rank for row in found))
+
+    @unittest.skipIf(SIZE == 1, "one rank has no ghosts")
+    def test_one_rank_that_asks_for_ghosts_gives_them_to_all(self):
+        data = poly_data(cloud("uniform", 2000, 10 + RANK), np.arange(2000))
+        isopoints = self.with_ghosts(data, RANKS, RANK, SIZE, 1 if RANK == SIZE - 1 else 0)
+        self.assertTrue(isopoints.GetOutput().GetPointData().HasArray(
+            vtkDataSetAttributes.GhostArrayName()))
+
     def test_ghosts_are_left_out(self):
         points = cloud("uniform", 2000, 6)
         owner = ranks_of(points, "spatial")
@@ -334,18 +406,6 @@ class RanksTest(unittest.TestCase):
         if RANK == 0:
             wanted = vtk_to_numpy(expected().GetPoints().GetData()).tolist()
             self.assertEqual(sorted(point for part in parts for point in part), sorted(wanted))
-
-    def errors(self, data, **options):
-        """The number of errors of each rank, on rank 0."""
-        watch = []
-        result = contour(data, RANKS, watch=watch, **options)
-        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-        return gather(len(watch))
-
-    def check_one_error(self, data, **options):
-        counts = self.errors(data, **options)
-        if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
     def test_errors_of_one_rank_end_the_update_of_all(self):
         points = cloud("uniform", 500, 7)
@@ -376,16 +436,6 @@ class RanksTest(unittest.TestCase):
         if RANK == 0:
             self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
-    @unittest.skipIf(SIZE == 1, "one rank contours blocks by themselves")
-    def test_blocks_by_themselves_are_refused(self):
-        blocks = vtkMultiBlockDataSet()
-        blocks.SetBlock(0, poly_data(cloud("uniform", 500, 7), np.arange(500)))
-        watch = []
-        contour(blocks, RANKS, watch=watch, ContourBlocks=1)
-        counts = gather(len(watch))
-        if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
-
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
         data = poly_data(cloud("uniform", 20000, 8), np.arange(20000))
         isopoints = vtkScatteredIsopointFilter()
@@ -407,9 +457,13 @@ class RanksTest(unittest.TestCase):
 
 SHARED = sys.argv.pop(1) if len(sys.argv) > 1 and "/" in sys.argv[1] else tempfile.gettempdir()
 
-if __name__ == "__main__":
+def main():
     program = unittest.main(
         argv=sys.argv[:1], exit=False, failfast=True, verbosity=2 if RANK == 0 else 0)
     if not program.result.wasSuccessful():
         print(f"ERROR: rank {RANK}", flush=True)
         os._exit(1)  # the other ranks may wait for this one, which ends them
+
+
+if __name__ == "__main__":
+    main()

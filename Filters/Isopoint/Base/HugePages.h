@@ -69,6 +69,25 @@ inline void releaseSpread(void* memory, std::size_t bytes)
 #endif
 }
 
+/// Gives back the memory of the whole pages in a range, whose content is lost; its addresses stay.
+inline void discardPages(void* begin, std::size_t bytes)
+{
+#ifdef MADV_DONTNEED
+  constexpr std::uintptr_t pageSize = 4096;
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = (address + pageSize - 1) / pageSize * pageSize;
+  const std::uintptr_t last = (address + bytes) / pageSize * pageSize;
+  if (first < last)
+  {
+    static_cast<void>(
+      madvise(static_cast<char*>(begin) + (first - address), last - first, MADV_DONTNEED));
+  }
+#else
+  static_cast<void>(begin);
+  static_cast<void>(bytes);
+#endif
+}
+
 /// Asks for huge pages behind a part of what reserveSpread() reserved that will be written whole.
 inline void preferHugePagesInside(
   void* memory, std::size_t bytes, std::size_t begin, std::size_t count)

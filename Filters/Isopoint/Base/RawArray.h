@@ -78,6 +78,12 @@ public:
     preferHugePagesInside(this->Elements, this->SpreadBytes, first * sizeof(T), count * sizeof(T));
   }
 
+  /// Gives back the memory of some elements, as far as the system can, whose values are lost.
+  void discard(std::size_t begin, std::size_t end)
+  {
+    discardPages(static_cast<void*>(this->Elements + begin), (end - begin) * sizeof(T));
+  }
+
   std::size_t size() const { return this->Size; }
   T* data() { return this->Elements; }
   const T* data() const { return this->Elements; }

@@ -42,14 +42,15 @@ public:
   {
   }
 
-  /// @param own the isopoints on edges with an end in this rank's leaves
-  /// @param isShaped which of them are to have shapes; all get normals
-  /// @returns one splat for each
+  /// @param halo gathered
+  /// @param isShaped which of this rank's isopoints are to have shapes; all get normals
+  /// @param isShared whether what this rank computes for its isopoints is sent to the ranks in
+  /// whose halo they are; otherwise those have normals alone there
+  /// @returns one splat for each isopoint of the halo's surface
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
-  std::vector<Splat> compute(const Isosurface& own, const std::vector<bool>& isShaped, bool hasFits)
+  std::vector<Splat> compute(
+    SurfaceHalo<TSample>& halo, const std::vector<bool>& isShaped, bool isShared)
   {
-    SurfaceHalo<TSample> halo(this->Run, this->Exchange, this->Known, own, hasFits);
-    halo.gather();
     const Isosurface& all = halo.surface();
     const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
     std::vector<Splat> splats;
@@ -64,16 +65,11 @@ public:
     this->setNormals(halo, points, *neighbors, splats);
     this->shareNormals(halo, splats);
     this->shape(halo, points, *neighbors, isShaped, splats);
-    std::vector<Splat> result;
-    this->Exchange.together(
-      [&]()
-      {
-        for (const std::size_t index : halo.ownIndices())
-        {
-          result.push_back(splats[index]);
-        }
-      });
-    return result;
+    if (isShared)
+    {
+      halo.share(splats);
+    }
+    return splats;
   }
 
 private:

@@ -367,9 +367,16 @@ private:
     {
       rounds = std::max(rounds, parts.size());
     }
+    // In slices, so that few samples are held twice.
+    constexpr std::uint64_t fewSamples = std::uint64_t{ 1 } << 18;
+    const auto slices =
+      static_cast<std::size_t>(std::clamp<std::uint64_t>(all / ranks / fewSamples, 1, 16));
     for (std::size_t round = 0; round < rounds; ++round)
     {
-      this->sendParts(partsOf, arriving, round);
+      for (std::size_t slice = 0; slice < slices; ++slice)
+      {
+        this->sendParts(partsOf, arriving, round, { slice, slices });
+      }
     }
     this->Ranks.together(
       [&]()
@@ -379,9 +386,23 @@ private:
       });
   }
 
-  /// Sends one subtree's samples to each rank that has so many.
+  /// One of several slices of a list.
+  struct Slice
+  {
+    std::size_t index;
+    std::size_t count;
+
+    std::size_t begin(std::size_t size) const { return size / this->count * this->index; }
+    std::size_t end(std::size_t size) const
+    {
+      return this->index + 1 < this->count ? size / this->count * (this->index + 1) : size;
+    }
+    std::size_t length(std::size_t size) const { return this->end(size) - this->begin(size); }
+  };
+
+  /// Sends a slice of one subtree's samples to each rank that has so many, and gives up its memory.
   void sendParts(const std::vector<std::vector<std::size_t>>& partsOf,
-    const std::vector<std::vector<std::uint64_t>>& arriving, std::size_t round)
+    const std::vector<std::vector<std::uint64_t>>& arriving, std::size_t round, const Slice& slice)
   {
     const auto own = static_cast<std::size_t>(this->Ranks.rank());
     SampleTree<TSample>& tree = this->Result.tree;
@@ -397,8 +418,9 @@ private:
           if (round < partsOf[rank].size())
           {
             const DealtNode& node = this->Level[partsOf[rank][round]];
-            from[rank] = { this->Loaded.samples.data() + node.begin,
-              (node.end - node.begin) * sizeof(TSample) };
+            const std::size_t count = node.end - node.begin;
+            from[rank] = { this->Loaded.samples.data() + node.begin + slice.begin(count),
+              slice.length(count) * sizeof(TSample) };
           }
         }
         if (round < partsOf[own].size())
@@ -407,12 +429,22 @@ private:
           for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
           {
             const auto count = static_cast<std::size_t>(arriving[rank][round]);
-            to[rank] = { tree.samples.data() + next, count * sizeof(TSample) };
+            to[rank] = { tree.samples.data() + next + slice.begin(count),
+              slice.length(count) * sizeof(TSample) };
             next += count;
           }
         }
       });
     this->Ranks.exchange(from, to);
+    for (std::size_t rank = 0; rank < partsOf.size() && slice.count > 1; ++rank)
+    {
+      if (round < partsOf[rank].size())
+      {
+        const DealtNode& node = this->Level[partsOf[rank][round]];
+        const std::size_t count = node.end - node.begin;
+        this->Loaded.samples.discard(node.begin + slice.begin(count), node.begin + slice.end(count));
+      }
+    }
   }
 
   /// Coincident samples stand in the order of their ids.

@@ -24,7 +24,7 @@
 namespace isopoint
 {
 
-/// This rank's isopoints and those of others within two rings around them (see
+/// This rank's isopoints and those of others within some rings around them (see
 /// IsopointNeighbors), in the order of the whole surface. All functions are collective.
 template <class TSample>
 class SurfaceHalo
@@ -45,9 +45,9 @@ public:
   {
   }
 
-  /// Gathers two rings.
+  /// Gathers so many rings, two or more.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
-  void gather()
+  void gather(int rings)
   {
     std::vector<std::size_t> ends;
     this->Exchange.together(
@@ -58,21 +58,26 @@ public:
         this->Given.resize(this->Received.size());
         ends = endsOf(this->Own.leaves);
       });
-    this->requestIn(this->withTouching(ends));
-    this->Exchange.together(
-      [&]()
-      {
-        for (const std::vector<SentIsopoint>& list : this->Received)
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      this->requestIn(this->withTouching(ends));
+      this->Exchange.together(
+        [&]()
         {
-          for (const SentIsopoint& isopoint : list)
+          for (const std::vector<SentIsopoint>& list : this->Received)
           {
-            ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-            this->Surrounded.push_back(isopoint.edge);
+            for (const SentIsopoint& isopoint : list)
+            {
+              ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
+              if (ring == 0)
+              {
+                this->Surrounded.push_back(isopoint.edge);
+              }
+            }
           }
-        }
-        keepUnique(ends);
-      });
-    this->requestIn(this->withTouching(ends));
+          keepUnique(ends);
+        });
+    }
     this->Exchange.together([&]() { this->unite(); });
   }
 
@@ -87,10 +92,12 @@ public:
   const std::vector<bool>& isInner() const { return this->IsInner; }
 
   /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
-  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
-  void share(std::vector<Vector>& ofAll)
+  /// @param ofAll one trivially copyable entry for each isopoint of surface(); those of the halo
+  /// are set
+  template <class T>
+  void share(std::vector<T>& ofAll)
   {
-    std::vector<std::vector<Vector>> outgoing;
+    std::vector<std::vector<T>> outgoing;
     this->Exchange.together(
       [&]()
       {
@@ -103,7 +110,7 @@ public:
           }
         }
       });
-    const std::vector<std::vector<Vector>> arrived = this->Exchange.team().exchange(outgoing);
+    const std::vector<std::vector<T>> arrived = this->Exchange.team().exchange(outgoing);
     for (std::size_t rank = 0; rank < arrived.size(); ++rank)
     {
       for (std::size_t i = 0; i < arrived[rank].size(); ++i)

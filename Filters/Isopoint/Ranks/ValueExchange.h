@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ValueExchange_h
+#define isopoint_ValueExchange_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
+#include "Isopoint/Tree/BinaryIndex.h"
+#include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Which items take part, and where: equal for the same items, and for others by chance alone, once
+/// in 2^64 or less.
+struct PositionDigest
+{
+  std::uint64_t sum = 0;
+  std::uint64_t sumOfMixed = 0;
+
+  bool operator==(const PositionDigest& other) const
+  {
+    return this->sum == other.sum && this->sumOfMixed == other.sumOfMixed;
+  }
+};
+
+/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
+inline std::uint64_t mixBits(std::uint64_t number)
+{
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  return number ^ (number >> 31);
+}
+
+/// Adds up items in any order.
+class DigestSum
+{
+public:
+  template <class TCoordinate>
+  void add(std::uint64_t id, const TCoordinate* position)
+  {
+    std::uint64_t hash = id;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto coordinate = static_cast<double>(position[axis]);
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &coordinate, sizeof(bits));
+      hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
+    }
+    this->Digest.sum += hash;
+    this->Digest.sumOfMixed += mixBits(hash);
+  }
+
+  const PositionDigest& get() const { return this->Digest; }
+
+private:
+  PositionDigest Digest;
+};
+
+/// Calls add(sum, i) for 0 .. count - 1, in parallel. @throws Aborted
+template <class Add>
+PositionDigest digestOf(const Execution& execution, std::size_t count, const Add& add)
+{
+  constexpr std::size_t grain = 1 << 14;
+  std::atomic<std::uint64_t> sum{ 0 };
+  std::atomic<std::uint64_t> sumOfMixed{ 0 };
+  forBatches(execution, count, 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      DigestSum part;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        add(part, i);
+      }
+      sum += part.get().sum;
+      sumOfMixed += part.get().sumOfMixed;
+    });
+  return { sum, sumOfMixed };
+}
+
+/// That of samples that were loaded.
+/// @param firstId of the rank's items
+template <class TSample>
+PositionDigest digestOf(
+  const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
+{
+  return digestOf(execution, samples.size(),
+    [&](DigestSum& sum, std::size_t i) { sum.add(samples[i].id - firstId, samples[i].position); });
+}
+
+/// That of items as they are read; see loadSamples().
+template <class TSample, class Reader>
+PositionDigest digestOf(const Execution& execution, std::size_t count, const Reader& read)
+{
+  return digestOf(execution, count,
+    [&](DigestSum& sum, std::size_t id)
+    {
+      TSample sample;
+      if (read(id, sample.position, sample.value) && isFinite(sample))
+      {
+        sum.add(id, sample.position);
+      }
+    });
+}
+
+/// Gives all samples that a rank holds, its own and copies of others, new values: it asks the ranks
+/// that have read them, by id. Trees keep their shape. Collective.
+template <class TSample>
+class ValueExchange
+{
+public:
+  using Value = typename TSample::Value;
+
+  /// @param begins see SharedTree
+  /// @param counts of the items of each rank
+  ValueExchange(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins,
+    const std::vector<std::uint64_t>& counts)
+    : Ranks(team)
+    , Tree(tree)
+    , Begins(begins)
+    , FirstIds(counts.size() + 1, 0)
+  {
+    std::partial_sum(counts.begin(), counts.end(), this->FirstIds.begin() + 1);
+  }
+
+  /// @param read(id, position, value) of this rank's items, by local ids
+  /// @throws Aborted, std::bad_alloc, FailedElsewhere, and then some values are new
+  template <class Reader>
+  void replace(const Execution& execution, const Reader& read)
+  {
+    std::vector<std::vector<Id>> questions;
+    this->Ranks.together(
+      [&]()
+      {
+        throwIfAborted(execution);
+        Path path = pathToRoot(this->Tree);
+        this->visit(path);
+        questions = this->questions();
+      });
+    const std::vector<std::vector<Id>> asked = this->Ranks.exchange(questions);
+    std::vector<std::vector<Value>> answers;
+    this->Ranks.together(
+      [&]()
+      {
+        questions.clear();
+        for (const std::vector<Id>& ids : asked)
+        {
+          answers.push_back(valuesOf(execution, ids, read));
+        }
+      });
+    const std::vector<std::vector<Value>> values = this->Ranks.exchange(answers);
+    this->Ranks.together(
+      [&]()
+      {
+        answers.clear();
+        this->setValues(values);
+        for (const std::size_t node : this->Whole)
+        {
+          throwIfAborted(execution);
+          recomputeRanges(this->Tree, this->Tree.nodes[node], maximumDepth + 1);
+        }
+      });
+    this->fetchRanges();
+    this->uniteFrom(SampleTree<TSample>::rootNode);
+  }
+
+private:
+  using Id = typename TSample::Id;
+
+  struct Range
+  {
+    Value minimum;
+    Value maximum;
+  };
+
+  /// Lists what is below a node: whole subtrees with samples, and absent nodes.
+  void visit(Path& path)
+  {
+    const Node<TSample>& node = this->Tree.nodes[path.nodeIndex()];
+    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
+    if (node.isAbsent)
+    {
+      this->Absent.push_back(path.index);
+      this->AbsentNodes.push_back(path.nodeIndex());
+    }
+    else if (isOwn || !node.isSplit())
+    {
+      this->Whole.push_back(path.nodeIndex());
+    }
+    else
+    {
+      for (const bool upper : { false, true })
+      {
+        descend(this->Tree, path, upper);
+        this->visit(path);
+        ascend(path);
+      }
+    }
+  }
+
+  /// Calls action(sample, rank that has read it) for each sample that this rank holds.
+  template <class Action>
+  void forSamples(const Action& action)
+  {
+    for (const std::size_t index : this->Whole)
+    {
+      const Node<TSample>& node = this->Tree.nodes[index];
+      for (std::size_t i = node.begin; i < node.end; ++i)
+      {
+        TSample& sample = this->Tree.samples[i];
+        const auto next =
+          std::upper_bound(this->FirstIds.begin(), this->FirstIds.end() - 1, sample.id);
+        action(sample, static_cast<std::size_t>(next - this->FirstIds.begin()) - 1);
+      }
+    }
+  }
+
+  std::vector<std::vector<Id>> questions()
+  {
+    std::vector<std::size_t> counts(this->FirstIds.size() - 1, 0);
+    this->forSamples([&](const TSample&, std::size_t rank) { ++counts[rank]; });
+    std::vector<std::vector<Id>> ids(counts.size());
+    for (std::size_t rank = 0; rank < ids.size(); ++rank)
+    {
+      ids[rank].reserve(counts[rank]);
+    }
+    this->forSamples([&](const TSample& sample, std::size_t rank)
+      { ids[rank].push_back(static_cast<Id>(sample.id - this->FirstIds[rank])); });
+    return ids;
+  }
+
+  template <class Reader>
+  static std::vector<Value> valuesOf(
+    const Execution& execution, const std::vector<Id>& ids, const Reader& read)
+  {
+    constexpr std::size_t grain = 1 << 14;
+    std::vector<Value> values(ids.size());
+    forBatches(execution, ids.size(), 16 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          typename TSample::Coordinate position[3];
+          read(static_cast<std::size_t>(ids[i]), position, values[i]);
+        }
+      });
+    return values;
+  }
+
+  void setValues(const std::vector<std::vector<Value>>& values)
+  {
+    std::vector<std::size_t> next(values.size(), 0);
+    this->forSamples(
+      [&](TSample& sample, std::size_t rank) { sample.value = values[rank][next[rank]++]; });
+  }
+
+  std::size_t ownerOf(std::uint64_t place) const
+  {
+    return static_cast<std::size_t>(
+      std::upper_bound(this->Begins.begin(), this->Begins.end(), place) - this->Begins.begin() - 1);
+  }
+
+  /// Asks for the ranges of absent nodes.
+  void fetchRanges()
+  {
+    std::vector<std::vector<BinaryIndex>> questions;
+    std::vector<std::vector<std::size_t>> nodes;
+    this->Ranks.together(
+      [&]()
+      {
+        questions.resize(this->FirstIds.size() - 1);
+        nodes.resize(questions.size());
+        for (std::size_t i = 0; i < this->Absent.size(); ++i)
+        {
+          const std::size_t node = this->AbsentNodes[i];
+          const std::size_t owner = this->ownerOf(this->Tree.nodes[node].begin);
+          questions[owner].push_back(this->Absent[i]);
+          nodes[owner].push_back(node);
+        }
+      });
+    const std::vector<std::vector<BinaryIndex>> asked = this->Ranks.exchange(questions);
+    std::vector<std::vector<Range>> answers;
+    this->Ranks.together(
+      [&]()
+      {
+        answers.resize(asked.size());
+        for (std::size_t rank = 0; rank < asked.size(); ++rank)
+        {
+          for (const BinaryIndex& index : asked[rank])
+          {
+            const Node<TSample>& node = this->Tree.nodes[pathTo(this->Tree, index).nodeIndex()];
+            answers[rank].push_back({ node.minimum, node.maximum });
+          }
+        }
+      });
+    const std::vector<std::vector<Range>> ranges = this->Ranks.exchange(answers);
+    for (std::size_t rank = 0; rank < ranges.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < ranges[rank].size(); ++i)
+      {
+        Node<TSample>& node = this->Tree.nodes[nodes[rank][i]];
+        node.minimum = ranges[rank][i].minimum;
+        node.maximum = ranges[rank][i].maximum;
+      }
+    }
+  }
+
+  /// Recomputes the ranges of nodes above those that visit() has listed.
+  void uniteFrom(std::size_t nodeIndex)
+  {
+    Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
+    if (!isOwn && node.isSplit())
+    {
+      this->uniteFrom(node.lowerNode());
+      this->uniteFrom(node.upperNode());
+      uniteRanges(node, this->Tree.nodes[node.lowerNode()], this->Tree.nodes[node.upperNode()]);
+    }
+  }
+
+  Team& Ranks;
+  SampleTree<TSample>& Tree;
+  const std::vector<std::uint64_t>& Begins;
+  std::vector<std::uint64_t> FirstIds;  // of each rank's items, and the end
+  std::vector<std::size_t> Whole;       // nodes all of whose samples this rank holds
+  std::vector<BinaryIndex> Absent;      // and where they are in this rank's tree:
+  std::vector<std::size_t> AbsentNodes; //
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blocks contoured by themselves on several ranks:
+mpirun -n N pvbatch --symmetric TestRanksBlocks.py FOLDER"""
+
+import unittest
+
+import numpy as np
+from vtkmodules.numpy_interface import dataset_adapter as dsa
+from vtkmodules.vtkCommonDataModel import (
+    vtkAMRBox, vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkMultiPieceDataSet,
+    vtkOverlappingAMR, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData,
+    vtkUniformGrid)
+from scatteredisopoints import vtkScatteredIsopointFilter
+
+from TestRanks import (
+    RANK, RANKS, SIZE, RanksTestCase, cloud, contour, described, field, gather, main, poly_data,
+    ranks_of)
+
+COUNT = 5  # of blocks
+
+
+def leaf_of(points, numbers):
+    return poly_data(points, numbers) if len(points) else None
+
+
+def tree(leaves):
+    """Two levels, with names; leaf 0 stands beside the inner tree."""
+    inner = vtkMultiBlockDataSet()
+    for i, leaf in enumerate(leaves[1:]):
+        inner.SetBlock(2 * i, leaf)  # with gaps
+        inner.GetMetaData(2 * i).Set(vtkCompositeDataSet.NAME(), f"leaf {i + 1}")
+    outer = vtkMultiBlockDataSet()
+    outer.SetBlock(0, leaves[0])
+    outer.SetBlock(1, inner)
+    outer.GetMetaData(1).Set(vtkCompositeDataSet.NAME(), "inner")
+    return outer
+
+
+def partitions(leaves, kind=vtkPartitionedDataSet):
+    result = kind()
+    while leaves and leaves[-1] is None:
+        leaves = leaves[:-1]  # the ranks have different numbers of pieces
+    for i, leaf in enumerate(leaves):
+        result.SetPartition(i, leaf)
+    return result
+
+
+def collection(leaves):
+    result = vtkPartitionedDataSetCollection()
+    for i, leaf in enumerate(leaves):
+        result.SetPartitionedDataSet(i, partitions([leaf]))
+        result.GetMetaData(i).Set(vtkCompositeDataSet.NAME(), f"set {i}")
+    return result
+
+
+def pieces_in_blocks(leaves):
+    result = vtkMultiBlockDataSet()
+    result.SetBlock(0, partitions(leaves, vtkMultiPieceDataSet))
+    return result
+
+
+def leaves_of(output, name=""):
+    """(names on the way, leaf) of each leaf that is not null, in order."""
+    found = []
+    children = []
+    if isinstance(output, vtkPartitionedDataSetCollection):
+        children = [output.GetPartitionedDataSet(i)
+                    for i in range(output.GetNumberOfPartitionedDataSets())]
+    elif isinstance(output, vtkPartitionedDataSet):
+        children = [output.GetPartitionAsDataObject(i)
+                    for i in range(output.GetNumberOfPartitions())]
+    elif isinstance(output, vtkMultiBlockDataSet):
+        children = [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
+    elif output is not None:
+        return [(name, output)]
+    for i, child in enumerate(children):
+        data = output.GetMetaData(i) if output.HasMetaData(i) else None
+        own = data.Get(vtkCompositeDataSet.NAME()) if data else None
+        found += leaves_of(child, f"{name}/{i} {own}")
+    return found
+
+
+def by_themselves(data, controller, **options):
+    return contour(data, controller, ContourBlocks=1, **options)
+
+
+class RanksBlocksTest(RanksTestCase):
+    def same_leaves(self, output, expected):
+        """Compares, on rank 0, the leaves of all ranks' outputs with those of one."""
+        parts = gather([(name,) + described(leaf) for name, leaf in leaves_of(output)])
+        failure = ""
+        if RANK == 0:
+            whole = [(name,) + described(leaf) for name, leaf in leaves_of(expected())]
+            names = [leaf[0] for leaf in whole]
+            if any([leaf[0] for leaf in part] != names for part in parts):
+                failure = f"leaves {[[leaf[0] for leaf in part] for part in parts]} not {names}"
+            for i, (name, kinds, rows) in enumerate(whole):
+                found = [part[i] for part in parts] if not failure else []
+                if any(leaf[1] != kinds for leaf in found):
+                    failure = f"arrays of {name}: {[leaf[1] for leaf in found]}, not {kinds}"
+                elif not failure and sorted(sum((leaf[2] for leaf in found), [])) != sorted(rows):
+                    failure = f"points of {name}"
+            if not any(leaf[2] for leaf in whole):
+                failure = "no points to compare"
+        self.assertEqual(failure, "")
+
+    def deal(self, deal, seed):
+        """The leaves of all ranks together and this rank's, null where it has no samples."""
+        whole, mine = [], []
+        for number in range(COUNT):
+            points = cloud("uniform", 400 + 300 * number, seed + number)
+            owner = ranks_of(points, deal)
+            if number == 1:
+                owner[:] = SIZE - 1  # on one rank alone
+            order = np.argsort(owner, kind="stable")
+            points, owner = points[order], owner[order]
+            numbers = np.arange(len(points))
+            whole.append(leaf_of(points, numbers))
+            mine.append(leaf_of(points[owner == RANK], numbers[owner == RANK]))
+        return whole, mine
+
+    def test_every_composite(self):
+        for make in (tree, partitions, collection, pieces_in_blocks):
+            for deal in ("even", "last", "round robin"):
+                with self.subTest(make=make.__name__, deal=deal):
+                    whole, mine = self.deal(deal, 11)
+                    data = make(mine)
+                    result = by_themselves(data, RANKS)
+                    output = result.GetOutputDataObject(0)
+                    self.assertEqual(output.GetClassName(), data.GetClassName())
+                    self.same_leaves(
+                        output, lambda: by_themselves(make(whole), None).GetOutputDataObject(0))
+
+    def test_a_rank_may_have_no_blocks_at_all(self):
+        whole, mine = self.deal("first", 12)
+        whole[1] = mine[1] = None
+        data = tree(mine) if RANK == 0 else vtkMultiBlockDataSet()
+        self.same_leaves(by_themselves(data, RANKS).GetOutputDataObject(0),
+                         lambda: by_themselves(tree(whole), None).GetOutputDataObject(0))
+
+    def test_trees_are_kept(self):
+        whole, mine = self.deal("skewed", 13)
+        isopoints = by_themselves(tree(mine), RANKS)
+        alone = by_themselves(tree(whole), None)
+        for value in (0.1, 0.6):
+            for each in (isopoints, alone):
+                each.SetValue(0, value)
+                each.Update()
+            self.same_leaves(
+                isopoints.GetOutputDataObject(0), lambda: alone.GetOutputDataObject(0))
+        for each in (isopoints, alone):
+            each.SetContourBlocks(0)
+            each.Update()
+        # The samples have another order, on which the last bits depend.
+        total = sum(gather(isopoints.GetOutput().GetNumberOfPoints()) or [0])
+        if RANK == 0:
+            self.assertEqual(total, alone.GetOutput().GetNumberOfPoints())
+
+    def test_blocks_without_the_array_are_counted(self):
+        whole, mine = self.deal("even", 14)
+        for leaves in (whole, mine):
+            if leaves[2]:
+                leaves[2].GetPointData().RemoveArray("value")
+        result = by_themselves(tree(mine), RANKS)
+        alone = by_themselves(tree(whole), None)
+        self.same_leaves(result.GetOutputDataObject(0), lambda: alone.GetOutputDataObject(0))
+        self.assertEqual(result.GetNumberOfSkippedSamples(), alone.GetNumberOfSkippedSamples())
+        self.assertEqual(result.GetNumberOfUnprojectedPoints(), alone.GetNumberOfUnprojectedPoints())
+
+    def test_boxes_of_an_amr(self):
+        """Boxes are on one rank each, as readers deal them out."""
+        def amr(mine):
+            result = vtkOverlappingAMR()
+            result.Initialize(2, [1, 3])
+            result.SetOrigin([0.0, 0.0, 0.0])
+            result.SetGridDescription(8)  # VTK_XYZ_GRID
+            for level, index, origin, side in (
+                    (0, 0, 0.0, 9), (1, 0, 0.0, 8), (1, 1, 0.4, 8), (1, 2, 0.2, 8)):
+                spacing = 0.1 / 2**level
+                result.SetSpacing(level, 3 * [spacing])
+                low = int(round(origin / spacing))
+                result.SetAMRBox(level, index, vtkAMRBox(
+                    [low] * 3, [low + side - 1] * 3))
+                if mine is not None and (level + index) % SIZE != mine:
+                    continue
+                grid = vtkUniformGrid()
+                grid.SetOrigin(origin, origin, origin)
+                grid.SetSpacing(spacing, spacing, spacing)
+                grid.SetDimensions(side + 1, side + 1, side + 1)
+                centers = np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1)
+                                    for i in range(grid.GetNumberOfCells())])
+                dsa.WrapDataObject(grid).CellData.append(field(centers), "value")
+                result.SetDataSet(level, index, grid)
+            return result
+
+        def prepared(data, controller):
+            isopoints = vtkScatteredIsopointFilter()
+            isopoints.SetController(controller)
+            isopoints.SetInputData(data)
+            isopoints.SetContourBlocks(1)
+            isopoints.SetValue(0, 0.3)
+            isopoints.SetInputArrayToProcess(
+                0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "value")
+            isopoints.Update()
+            return isopoints.GetOutputDataObject(0)
+
+        self.same_leaves(prepared(amr(RANK), RANKS), lambda: prepared(amr(None), None))
+
+    @unittest.skipIf(SIZE == 1, "one rank has one structure")
+    def test_different_trees_are_one_error(self):
+        _, mine = self.deal("even", 15)
+        for other in (tree(mine[:3]), collection(mine), poly_data(cloud("uniform", 9, 1), np.arange(9)),
+                      tree([tree(mine)] + mine[1:])):
+            data = tree(mine) if RANK == 0 else other
+            self.check_one_error(data, ContourBlocks=1)
+        self.check_one_error(tree(mine), ContourBlocks=RANK % 2)
+        self.check_one_error(tree(COUNT * [vtkPolyData()]), ContourBlocks=1)
+
+
+if __name__ == "__main__":
+    main()
