@@ -128,8 +128,7 @@ int main(int argc, char** argv)
     Step step(extractor);
     extractor.load<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.0 });
     extract(extractor, request, step, 0,
-      [&]()
-      {
+      [&]() {
         extractor.replaceValues<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.01 });
       });
     return 0;
