@@ -264,7 +264,7 @@ private:
   std::variant<Cloud<FloatSample>, Cloud<FloatSampleOfDouble>, Cloud<DoubleSampleOfFloat>,
     Cloud<WideSample>>
     Held;
-  std::size_t ItemCount = 0;   // of all ranks
+  std::size_t ItemCount = 0; // of all ranks
   // Of a cloud on ranks:
   std::unique_ptr<Team> Ranks;
   std::vector<std::uint64_t> ItemCounts; // of each rank

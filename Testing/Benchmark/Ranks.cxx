@@ -3,7 +3,7 @@
  * RanksBenchmark RANKS SAMPLES [all]: extracts a sphere from random samples on ranks that are
  * threads of this process, points alone or with "all" fits, normals and radii. Prints for each rank
  * the processor seconds, what it sent to others and the number of exchanges: of loading, of the
- * first isovalue, and of another one.
+ * first isovalue, of another one, and of new values at the same positions with the first one.
  */
 #include "ThreadRanks.h"
 
@@ -40,6 +40,7 @@ std::uint64_t mixed(std::uint64_t number)
 struct Reader
 {
   std::uint64_t first; // of the ids
+  double shift;        // of the values
 
   template <class TCoordinate, class TValue>
   bool operator()(std::size_t id, TCoordinate* position, TValue& value) const
@@ -52,7 +53,7 @@ struct Reader
       position[axis] = static_cast<TCoordinate>(place);
       squared += (place - 0.5) * (place - 0.5);
     }
-    value = static_cast<TValue>(std::sqrt(squared));
+    value = static_cast<TValue>(std::sqrt(squared) + this->shift);
     return true;
   }
 };
@@ -85,8 +86,9 @@ private:
   double Begin = seconds();
 };
 
+template <class Replace>
 void extract(isopoint::IsosurfaceExtractor& extractor, const isopoint::ExtractionRequest& first,
-  Step& step, int rank)
+  Step& step, int rank, const Replace& replace)
 {
   step.print("loading", rank);
   const std::size_t count = extractor.extract(isopoint::Execution(), first).surface.size();
@@ -95,6 +97,10 @@ void extract(isopoint::IsosurfaceExtractor& extractor, const isopoint::Extractio
   another.isosurface.isovalue = 0.35;
   extractor.extract(isopoint::Execution(), another);
   step.print("another", rank);
+  replace();
+  step.print("replacing", rank);
+  extractor.extract(isopoint::Execution(), first);
+  step.print("replaced", rank);
   std::printf("rank %d: %zu samples, %zu points\n", rank, extractor.sampleCount(), count);
 }
 
@@ -120,8 +126,11 @@ int main(int argc, char** argv)
   {
     isopoint::IsosurfaceExtractor extractor;
     Step step(extractor);
-    extractor.load<float, float>(isopoint::Execution(), samples, Reader{ 0 });
-    extract(extractor, request, step, 0);
+    extractor.load<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.0 });
+    extract(extractor, request, step, 0,
+      [&]() {
+        extractor.replaceValues<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.01 });
+      });
     return 0;
   }
   ThreadRanks team(ranks);
@@ -133,8 +142,13 @@ int main(int argc, char** argv)
       isopoint::IsosurfaceExtractor extractor;
       Step step(extractor);
       extractor.loadOnRanks<float, float>(
-        isopoint::Execution(), communicator, own, Reader{ rank * own });
-      extract(extractor, request, step, communicator.rank());
+        isopoint::Execution(), communicator, own, Reader{ rank * own, 0.0 });
+      extract(extractor, request, step, communicator.rank(),
+        [&]()
+        {
+          extractor.replaceValuesOnRanks<float, float>(
+            isopoint::Execution(), own, Reader{ rank * own, 0.01 });
+        });
     });
   return 0;
 }

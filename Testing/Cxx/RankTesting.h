@@ -249,7 +249,8 @@ void expectSameAsOneProcess(const clouds::Cloud& cloud, int size, Deal deal,
   const clouds::Cloud all = concatenated(pieces);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(isopoint::Execution(), all.size(), clouds::readerOf(all));
-  std::vector<Description> found = extractOnRanks<TCoordinate, TValue>(pieces, requests, threads, values);
+  std::vector<Description> found =
+    extractOnRanks<TCoordinate, TValue>(pieces, requests, threads, values);
   for (std::size_t i = 0; i < requests.size(); ++i)
   {
     Description expected = described(extractor.extract(isopoint::Execution(), requests[i]));

@@ -27,7 +27,8 @@ void wait(isopoint::Communicator& communicator)
   communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
 }
 
-/// Loads and extracts on two ranks while the n-th large allocation of both fails, then again.
+/// Loads, extracts with ghosts and replaces the values on several ranks while the n-th large
+/// allocation of both fails, then again.
 /// @returns whether there were that many
 bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Description& expected)
 {
@@ -57,7 +58,12 @@ bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Desc
       {
         load();
         isLoaded = true;
-        extractor.extract(isopoint::Execution(), everything());
+        isopoint::ExtractedIsosurface ghosts;
+        extractor.extract(isopoint::Execution(), everything(), &ghosts);
+        isLoaded = false;
+        extractor.replaceValuesOnRanks<double, double>(
+          isopoint::Execution(), piece.size(), clouds::readerOf(piece));
+        isLoaded = true;
       }
       catch (const std::bad_alloc&)
       {

@@ -442,7 +442,8 @@ private:
       {
         const DealtNode& node = this->Level[partsOf[rank][round]];
         const std::size_t count = node.end - node.begin;
-        this->Loaded.samples.discard(node.begin + slice.begin(count), node.begin + slice.end(count));
+        this->Loaded.samples.discard(
+          node.begin + slice.begin(count), node.begin + slice.end(count));
       }
     }
   }
