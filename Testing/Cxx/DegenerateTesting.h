@@ -56,12 +56,14 @@ struct Surface
 };
 
 /// Updates a filter, and expects no error, all default arrays, and finite numbers.
-inline Surface contour(vtkDataSet* input, double isovalue)
+inline Surface contour(
+  vtkDataSet* input, double isovalue, int projection = vtkScatteredIsopointFilter::CUBIC_FIT)
 {
   vtkNew<vtkScatteredIsopointFilter> filter;
   const auto errors = watchErrors(filter);
   filter->SetInputData(input);
   filter->SetValue(0, isovalue);
+  filter->SetProjection(projection);
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->Update();
   EXPECT_EQ(errors->Count, 0) << errors->Last;
