@@ -4,7 +4,6 @@
 #include "Isopoint/Base/Team.h"
 #include "vtkIsopointUsageError.h"
 #include "vtkScatteredIsopointFilter.h"
-#include "vtkScatteredIsosurfaceFilter.h"
 
 #include "vtkType.h"
 
@@ -126,14 +125,9 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
     });
 }
 
-bool vtkExtractsIsopointTriangles(vtkScatteredIsopointFilter* filter)
-{
-  return vtkScatteredIsosurfaceFilter::SafeDownCast(filter) != nullptr;
-}
-
 vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter)
 {
-  const bool hasSplats = !vtkExtractsIsopointTriangles(filter);
+  const bool hasSplats = !filter->ExtractsTriangles();
   vtkIsopointComputedArrays::Choice choice;
   choice.Normals = filter->GetComputeNormals() != 0;
   choice.Radius = hasSplats && filter->GetComputeRadii() != 0;
@@ -153,7 +147,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   request.isosurface.gapFactor = filter->GetGapFactor();
   request.isosurface.fit = fitRequestOf(filter, arrays);
   request.minimumSpacing = filter->GetMinimumSpacing();
-  request.triangles = vtkExtractsIsopointTriangles(filter);
+  request.triangles = filter->ExtractsTriangles();
   if (arrays.NeedsSplats())
   {
     request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),

@@ -24,11 +24,6 @@ void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter);
 void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFilter* filter);
 
 /**
- * Whether a filter connects its points by triangles.
- */
-bool vtkExtractsIsopointTriangles(vtkScatteredIsopointFilter* filter);
-
-/**
  * The arrays that a filter is to compute.
  */
 vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter);

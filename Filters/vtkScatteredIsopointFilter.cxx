@@ -337,7 +337,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     [this]()
     {
       vtkCheckIsopointOptions(this);
-      if (vtkExtractsIsopointTriangles(this))
+      if (this->ExtractsTriangles())
       {
         throw vtkIsopointUsageError("Triangles cannot be extracted on several ranks. Extract points"
                                     " with vtkScatteredIsopointFilter, or run on one rank.");
@@ -587,7 +587,7 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
     vtkNewIsopointPositions(surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
   output->SetPoints(points);
-  if (vtkExtractsIsopointTriangles(this))
+  if (this->ExtractsTriangles())
   {
     output->SetPolys(vtkNewIsopointTriangles(surfaces));
   }

@@ -442,6 +442,11 @@ public:
    */
   vtkMTimeType GetMTime() override;
 
+  /**
+   * Whether the points are connected by triangles, as a subclass does; false here.
+   */
+  virtual bool ExtractsTriangles() const { return false; }
+
 protected:
   vtkScatteredIsopointFilter();
   ~vtkScatteredIsopointFilter() override;

@@ -60,6 +60,11 @@ public:
   vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredIsopointFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * True.
+   */
+  bool ExtractsTriangles() const override { return true; }
+
 protected:
   vtkScatteredIsosurfaceFilter() = default;
   ~vtkScatteredIsosurfaceFilter() override = default;
