@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkScatteredIsopointFilterInternals_h
+#define vtkScatteredIsopointFilterInternals_h
+
+#include "Isopoint/IsosurfaceExtractor.h"
+#include "vtkIsopointBlocks.h"
+#include "vtkIsopointInputState.h"
+#include "vtkIsopointRanks.h"
+#include "vtkScatteredIsopointFilter.h"
+
+#include "vtkMultiProcessController.h"
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+
+/// The tree of one cloud, and the state of the input it was loaded from.
+class vtkScatteredIsopointFilter::KeptTree
+{
+public:
+  isopoint::IsosurfaceExtractor Extractor;
+  vtkIsopointInputState LoadedFrom;
+};
+
+/// What is kept from one update to the next.
+class vtkScatteredIsopointFilter::Internals
+{
+public:
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
+  bool HasGhosts = false;                        // whether the output is to have any
+  vtkIsopointBlocks Input;
+  std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
+
+  void Clear()
+  {
+    this->Trees.clear();
+    this->Input = vtkIsopointBlocks();
+  }
+};
+
+#endif
