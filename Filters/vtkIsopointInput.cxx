@@ -348,12 +348,14 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
   const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   const bool floatValues = !team.isAny(!haveFloatValues(blocks));
   const double valueError = errorOfValues(!team.isAny(!haveIntegers(blocks)));
+  // A rank alone may have dropped its samples, as for lack of memory.
+  const bool areHeld = !team.isAny(!extractor.isOnRanks());
   const auto loadWith = [&](std::size_t count, const auto& read)
   {
     const auto load = [&](auto coordinate, auto value)
     {
-      if (!extractor.replaceValuesOnRanks<decltype(coordinate), decltype(value)>(
-            execution, count, read))
+      if (!areHeld || !extractor.replaceValuesOnRanks<decltype(coordinate), decltype(value)>(
+                        execution, count, read))
       {
         extractor.loadOnRanks<decltype(coordinate), decltype(value)>(
           execution, communicator, count, read);

@@ -5,6 +5,8 @@
 #include "vtkIsopointUsageError.h"
 #include "vtkScatteredIsopointFilter.h"
 
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
 #include "vtkType.h"
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <cstring>
 #include <optional>
 #include <sstream>
+#include <string>
 
 namespace
 {
@@ -97,7 +100,7 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
   };
   for (int i = 0; i < filter->GetNumberOfContours(); ++i)
   {
-    add(filter->GetValue(i));
+    add(filter->GetValue(i) + 0.0); // 0 and -0 are the same
   }
   for (const double number :
     { filter->GetAngle(), filter->GetGapFactor(), filter->GetMinimumSpacing() })
@@ -111,6 +114,14 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
          filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
   {
     add(number);
+  }
+  vtkInformation* const array = filter->GetInputArrayInformation(0);
+  if (array->Has(vtkDataObject::FIELD_NAME()))
+  {
+    for (const char letter : std::string(array->Get(vtkDataObject::FIELD_NAME())))
+    {
+      add(letter);
+    }
   }
   const bool differ = team.maximum(hash) != ~team.maximum(~hash);
   team.together(

@@ -116,7 +116,8 @@ public:
   void setValueError(double error);
 
   /// Replaces the values as replaceValues() does, provided that positions, types and the items that
-  /// take part are those of the last loadOnRanks() on all ranks; otherwise nothing changes.
+  /// take part are those of the last loadOnRanks() on all ranks; otherwise nothing changes. All
+  /// ranks have to hold what that loaded; see isOnRanks().
   /// Collective. A digest stands for positions: others pass for the same once in 2^64 cases.
   /// @returns whether it did
   /// @throws std::bad_alloc, Aborted, FailedElsewhere, and then no rank holds samples
@@ -127,6 +128,9 @@ public:
              ? this->replaceSharedValues<SampleFor<TCoordinate, TValue>>(execution, count, read)
              : this->replaceSharedValues<WideSample>(execution, count, read);
   }
+
+  /// Whether samples that loadOnRanks() loaded are held.
+  bool isOnRanks() const { return this->Ranks != nullptr; }
 
   /// What this rank has exchanged with others since loadOnRanks(); null without.
   const Traffic* traffic() const { return this->Ranks ? &this->Ranks->traffic() : nullptr; }
@@ -202,7 +206,7 @@ private:
   bool replaceSharedValues(const Execution& execution, std::size_t count, const Reader& read)
   {
     auto* const cloud = std::get_if<Cloud<TSample>>(&this->Held);
-    if (!this->Ranks || !cloud || cloud->tree.isEmpty()) // on all ranks
+    if (!cloud || cloud->tree.isEmpty()) // on all ranks
     {
       return false;
     }

@@ -257,6 +257,19 @@ class RanksTest(RanksTestCase):
         run(isopoints)
         self.same(isopoints.GetOutput(), lambda: contour(whole, None).GetOutput())
 
+    def test_a_rank_may_have_dropped_its_tree(self):
+        points = cloud("uniform", 3000, 9)
+        numbers = np.arange(len(points))
+        mine = np.sort(ranks_of(points, "even")) == RANK
+        data = poly_data(points[mine], numbers[mine])
+        whole = poly_data(points, numbers)
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetInputData(data)
+        isopoints.SetKeepTree(RANK > 0)
+        for values in ((0.2,), (-0.4, 0.9)):
+            run(isopoints, values)
+            self.same(isopoints.GetOutput(), lambda: contour(whole, None, values).GetOutput())
+
     def test_integers_are_rounded_values(self):
         points = cloud("uniform", 3000, 6)
         numbers = np.arange(len(points))
@@ -420,9 +433,20 @@ class RanksTest(RanksTestCase):
         self.check_one_error(good, Angle=200.0)
         if SIZE > 1:
             self.check_one_error(good, Angle=10.0 + RANK)
+            self.assertEqual(self.errors_with_array(good, "value" if RANK else "missing"), 1)
         self.check_one_error(vtkPolyData())
         self.check_one_error(poly_data(points[:0], points[:0]))
         self.check(points, "even")
+
+    def errors_with_array(self, data, name):
+        """How many errors all ranks report together; on the others than rank 0, the expected one."""
+        watch = []
+        isopoints = vtkScatteredIsopointFilter()
+        isopoints.SetInputData(data)
+        isopoints.SetInputArrayToProcess(0, 0, 0, 0, name)
+        run(isopoints, watch=watch)
+        counts = gather(len(watch))
+        return sum(counts) if RANK == 0 else 1
 
     @unittest.skipIf(SIZE == 1, "one rank extracts triangles")
     def test_triangles_of_several_ranks_are_one_error(self):

@@ -8,6 +8,7 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace isopoint
@@ -26,7 +27,7 @@ inline void preferHugePages(void* memory, std::size_t bytes)
   {
     // Whole pages, with the one that holds the allocator's own data: advice for a part of a mapping
     // divides it, and then it could not grow by remapping.
-    constexpr std::uintptr_t pageSize = 4096;
+    const auto pageSize = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % pageSize;
     // Advice that is not taken changes nothing.
     static_cast<void>(madvise(static_cast<char*>(memory) - before, before + bytes, MADV_HUGEPAGE));
