@@ -14,6 +14,14 @@
 namespace isopoint
 {
 
+#ifdef __linux__
+/// The size of the system's pages, in bytes.
+inline std::uintptr_t pageSize()
+{
+  return static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+}
+#endif
+
 /// Asks for huge pages behind freshly allocated memory, where the system offers them and there is
 /// so much of it that it was mapped for this allocation alone: the first writes then take far fewer
 /// page faults, and reads in any order fewer page walks. Memory that is never written still takes
@@ -27,8 +35,7 @@ inline void preferHugePages(void* memory, std::size_t bytes)
   {
     // Whole pages, with the one that holds the allocator's own data: advice for a part of a mapping
     // divides it, and then it could not grow by remapping.
-    const auto pageSize = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-    const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % pageSize;
+    const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % pageSize();
     // Advice that is not taken changes nothing.
     static_cast<void>(madvise(static_cast<char*>(memory) - before, before + bytes, MADV_HUGEPAGE));
   }
@@ -74,10 +81,10 @@ inline void releaseSpread(void* memory, std::size_t bytes)
 inline void discardPages(void* begin, std::size_t bytes)
 {
 #ifdef MADV_DONTNEED
-  constexpr std::uintptr_t pageSize = 4096;
+  const std::uintptr_t page = pageSize();
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (address + pageSize - 1) / pageSize * pageSize;
-  const std::uintptr_t last = (address + bytes) / pageSize * pageSize;
+  const std::uintptr_t first = (address + page - 1) / page * page;
+  const std::uintptr_t last = (address + bytes) / page * page;
   if (first < last)
   {
     static_cast<void>(
