@@ -48,18 +48,11 @@ Cloud scaled(Cloud cloud, double x, double y, double z)
   return cloud;
 }
 
-/// Turned about two axes: positions that were on planes and spheres are so but for rounding.
 Cloud turned(Cloud cloud)
 {
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
-    double* const p = cloud.positions.data() + 3 * i;
-    const double x = 0.8 * p[0] - 0.6 * p[1];
-    const double y = 0.6 * p[0] + 0.8 * p[1];
-    const double z = p[2];
-    p[0] = x;
-    p[1] = 0.28 * y - 0.96 * z;
-    p[2] = 0.96 * y + 0.28 * z;
+    triangles::turn(cloud.positions.data() + 3 * i);
   }
   return cloud;
 }

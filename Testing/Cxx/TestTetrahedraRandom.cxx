@@ -36,12 +36,7 @@ void deform(Cloud& cloud, Dice& dice)
     }
     if (isTurned)
     {
-      const double x = 0.8 * p[0] - 0.6 * p[1];
-      const double y = 0.6 * p[0] + 0.8 * p[1];
-      const double z = p[2];
-      p[0] = x;
-      p[1] = 0.28 * y - 0.96 * z;
-      p[2] = 0.96 * y + 0.28 * z;
+      triangles::turn(p);
     }
     for (int axis = 0; axis < 3; ++axis)
     {

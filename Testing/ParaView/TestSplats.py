@@ -28,8 +28,10 @@ def pixels(view):
     """The picture as an array; on the first rank only, else None."""
     path = os.path.join(tempfile.mkdtemp(), "view.png")
     simple.SaveScreenshot(path, view)
-    if not os.path.exists(path):
-        return None
+    return pixels_of_file(path) if os.path.exists(path) else None
+
+
+def pixels_of_file(path):
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()

@@ -10,9 +10,8 @@ import sys
 import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 
-from TestSplats import connect_to
+from TestSplats import connect_to, pixels_of_file
 
 LEAST_PSNR = 45.0
 
@@ -82,13 +81,7 @@ def picture(path, view=None):
     """The picture of a file, or of a view, which is written to it, as an array."""
     if view:
         simple.SaveScreenshot(path, view)
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(int)
+    return pixels_of_file(path)
 
 
 def shows_what_one_rank_does(view, folder, size, count):

@@ -34,6 +34,14 @@ struct Traffic
   std::uint64_t rounds = 0;   // exchanges in which any rank sent anything
 };
 
+/// The rank in whose part a number is. @param begins of the ranks' parts, ascending, the first 0;
+/// an end may follow. The number is below that
+inline std::size_t rankAt(const std::vector<std::uint64_t>& begins, std::uint64_t number)
+{
+  return static_cast<std::size_t>(
+    std::upper_bound(begins.begin(), begins.end(), number) - begins.begin() - 1);
+}
+
 /// Ranks that work together: none of them goes on where another one fails, so that all of them
 /// reach the same exchanges. All functions are collective.
 class Team

@@ -15,7 +15,6 @@
 #include <functional>
 #include <mutex>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 namespace isopoint
@@ -243,7 +242,7 @@ private:
     }
     if (bottom > maximumDepth)
     {
-      throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+      throwTooDeep();
     }
     // All threads split each node together while there are too few nodes to keep every thread busy.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;

@@ -9,7 +9,6 @@
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -89,11 +88,7 @@ public:
   }
 
   /// The rank that holds a place in the order of the tree.
-  std::size_t ownerOf(std::uint64_t place) const
-  {
-    return static_cast<std::size_t>(
-      std::upper_bound(this->Begins.begin(), this->Begins.end(), place) - this->Begins.begin() - 1);
-  }
+  std::size_t ownerOf(std::uint64_t place) const { return rankAt(this->Begins, place); }
 
 private:
   void runTogether(const std::function<void()>& work) override { this->Ranks.together(work); }

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
 namespace isopoint
@@ -177,7 +176,7 @@ private:
     const int levels = std::min(treeletLevels, maximumDepth - path.depth);
     if (levels <= 0)
     {
-      throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+      throwTooDeep();
     }
     this->Splitter.moveTo(this->Pool.take(maximumTreeletPairs(node.count(), levels)));
     this->Splitter.split(this->Tree.nodes[nodeIndex], path.region, levels);

@@ -9,7 +9,6 @@
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -217,9 +216,7 @@ private:
       for (std::size_t i = node.begin; i < node.end; ++i)
       {
         TSample& sample = this->Tree.samples[i];
-        const auto next =
-          std::upper_bound(this->FirstIds.begin(), this->FirstIds.end() - 1, sample.id);
-        action(sample, static_cast<std::size_t>(next - this->FirstIds.begin()) - 1);
+        action(sample, rankAt(this->FirstIds, sample.id));
       }
     }
   }
@@ -263,12 +260,6 @@ private:
       [&](TSample& sample, std::size_t rank) { sample.value = values[rank][next[rank]++]; });
   }
 
-  std::size_t ownerOf(std::uint64_t place) const
-  {
-    return static_cast<std::size_t>(
-      std::upper_bound(this->Begins.begin(), this->Begins.end(), place) - this->Begins.begin() - 1);
-  }
-
   /// Asks for the ranges of absent nodes.
   void fetchRanges()
   {
@@ -282,7 +273,7 @@ private:
         for (std::size_t i = 0; i < this->Absent.size(); ++i)
         {
           const std::size_t node = this->AbsentNodes[i];
-          const std::size_t owner = this->ownerOf(this->Tree.nodes[node].begin);
+          const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
           questions[owner].push_back(this->Absent[i]);
           nodes[owner].push_back(node);
         }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace isopoint
 {
@@ -20,6 +21,12 @@ constexpr BinaryIndex rootIndex = 1;
 /// that a split may part off as little as one sample on each axis before they are alone: nested
 /// groups of coincident samples take up to four levels for each halving, 4 log2 n in all.
 constexpr int maximumDepth = 127;
+
+/// Where a tree would have to be deeper. @throws std::length_error
+[[noreturn]] inline void throwTooDeep()
+{
+  throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+}
 
 constexpr BinaryIndex lowerChild(BinaryIndex node)
 {

@@ -8,26 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The path to any node, found by the position of its samples in the tree's order. O(depth)
-template <class TSample>
-Path pathToNode(const SampleTree<TSample>& tree, std::size_t nodeIndex)
-{
-  const Node<TSample>& wanted = tree.nodes[nodeIndex];
-  Path path = pathToRoot(tree);
-  while (path.nodeIndex() != nodeIndex)
-  {
-    const Node<TSample>& upper = tree.nodes[tree.nodes[path.nodeIndex()].upperNode()];
-    descend(tree, path, wanted.begin >= upper.begin);
-  }
-  return path;
-}
 
 /// Splits nodes of a tree further: small ones down to leaves, others by one treelet. The result is
 /// a larger part of the complete tree, whatever part was there.
@@ -59,12 +44,12 @@ void splitFurther(
       {
         continue;
       }
-      const Path path = pathToNode(tree, nodes[i]);
+      const Path path = pathToLeaf(tree, nodes[i]);
       const int levels = std::min(maximumDepth - path.depth,
         node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
       if (levels == 0)
       {
-        throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+        throwTooDeep();
       }
       tasks.push_back({ nodes[i], pairs, levels, path });
       pairs += maximumTreeletPairs(node.count(), levels);
