@@ -68,13 +68,15 @@ void vtkIsopointComputedArrays::Append(const isopoint::ExtractedIsosurface& extr
 {
   for (std::size_t i = 0; i < extracted.surface.size(); ++i, ++this->Next)
   {
+    const bool isCounted = extracted.areElsewhere.empty() || !extracted.areElsewhere[i];
+    this->Counted += isCounted ? 1 : 0;
     if (!extracted.splats.empty())
     {
       this->SetSplat(extracted.splats[i]);
     }
     if (!extracted.surface.fits.empty())
     {
-      this->SetFit(extracted.surface.fits[i]);
+      this->SetFit(extracted.surface.fits[i], isCounted);
     }
   }
 }
@@ -95,11 +97,11 @@ void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
   set(this->SplatClip, this->Next, clip.data());
 }
 
-void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit)
+void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCounted)
 {
   const double order =
     this->Chosen.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
-  this->WithoutFit += fit.order ? 0 : 1;
+  this->WithoutFit += fit.order || !isCounted ? 0 : 1;
   set(this->Gradients, this->Next, fit.gradient.data());
   set(this->ProjectionOrder, this->Next, &order);
 }

@@ -48,9 +48,10 @@ public:
   void Append(const isopoint::ExtractedIsosurface& extracted);
 
   /**
-   * The number of isopoints written so far, and of those around which no fit holds.
+   * The number of isopoints written so far, and of those around which no fit holds, without those
+   * that are counted on other ranks.
    */
-  vtkIdType GetNumberOfPoints() const { return this->Next; }
+  vtkIdType GetNumberCounted() const { return this->Counted; }
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
   /**
@@ -61,10 +62,11 @@ public:
 
 private:
   void SetSplat(const isopoint::Splat& splat);
-  void SetFit(const isopoint::LocalFit& fit);
+  void SetFit(const isopoint::LocalFit& fit, bool isCounted);
 
   Choice Chosen;
   vtkIdType Next = 0;
+  vtkIdType Counted = 0;
   vtkIdType WithoutFit = 0;
   vtkSmartPointer<vtkDataArray> Normals;
   vtkSmartPointer<vtkDataArray> Radius;

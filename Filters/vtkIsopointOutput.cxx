@@ -18,6 +18,7 @@
 #include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cstddef>
 
 vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces)
@@ -98,22 +99,35 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   return triangles;
 }
 
-void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first)
+void vtkAddIsopointGhosts(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output)
 {
-  const auto add = [&](vtkDataSetAttributes* attributes, unsigned char duplicate)
+  std::vector<unsigned char> points;
+  std::vector<unsigned char> triangles;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    {
+      const bool isElsewhere = !extracted.areElsewhere.empty() && extracted.areElsewhere[i];
+      points.push_back(isElsewhere ? 1 : 0);
+    }
+    const std::size_t count = extracted.triangles.size();
+    triangles.insert(triangles.end(), count - extracted.ghostTriangles, 0);
+    triangles.insert(triangles.end(), extracted.ghostTriangles, 1);
+  }
+  const auto add = [](const std::vector<unsigned char>& isGhost, unsigned char duplicate,
+                     vtkDataSetAttributes* attributes)
   {
     vtkNew<vtkUnsignedCharArray> ghosts;
     ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-    const vtkIdType count = output->GetNumberOfPoints();
-    vtkAllocateTuples(ghosts, count);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      ghosts->SetValue(i, i < first ? static_cast<unsigned char>(0) : duplicate);
-    }
+    vtkAllocateTuples(ghosts, static_cast<vtkIdType>(isGhost.size()));
+    std::transform(isGhost.begin(), isGhost.end(), ghosts->GetPointer(0),
+      [duplicate](unsigned char is) { return static_cast<unsigned char>(is * duplicate); });
     attributes->AddArray(ghosts);
   };
-  add(output->GetPointData(), vtkDataSetAttributes::DUPLICATEPOINT);
-  add(output->GetCellData(), vtkDataSetAttributes::DUPLICATECELL);
+  const bool areVertices = output->GetNumberOfVerts() > 0;
+  add(points, vtkDataSetAttributes::DUPLICATEPOINT, output->GetPointData());
+  add(areVertices ? points : triangles, vtkDataSetAttributes::DUPLICATECELL, output->GetCellData());
 }
 
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)

@@ -41,11 +41,12 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces);
 
 /**
- * Adds ghost arrays to an output of vertices that mark the points and vertices from one on as
- * duplicates.
+ * Adds ghost arrays to the output of some surfaces, which mark as duplicates the points that are
+ * counted on other ranks, their vertices, and the triangles of other ranks.
  * @throws std::bad_alloc
  */
-void vtkAddIsopointGhosts(vtkPolyData* output, vtkIdType first);
+void vtkAddIsopointGhosts(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
 
 /**
  * A new, empty output for a composite input whose blocks are contoured by themselves: an object of

@@ -180,7 +180,7 @@ int vtkScatteredIsopointFilter::RequestData(
   this->NumberOfUnprojectedPoints = 0;
   vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
-  this->Kept->HasGhosts = outputInfo->Has(levels) && outputInfo->Get(levels) > 0;
+  this->Kept->GhostLevels = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   this->ExtractSafely(vtkDataObject::GetData(inputVector[0]), output);
   this->SetProgressShiftScale(0.0, 1.0);
@@ -313,7 +313,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
   }
   this->CountSkippedSamples(blocks, kept.Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, kept, progress, false);
+    this->ExtractIsovalues(execution, kept, progress);
   const vtkIsopointEndSamples samples(blocks, surfaces);
   this->FillOutput(execution, samples, surfaces, vtkHaveFloatPositions(blocks), output);
   this->UpdateProgress(1.0);
@@ -350,9 +350,12 @@ std::set<double> vtkScatteredIsopointFilter::GetIsovalues()
 }
 
 std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIsovalues(
-  const Execution& execution, KeptTree& kept, const std::vector<double>& progress, bool hasGhosts)
+  const Execution& execution, KeptTree& kept, const std::vector<double>& progress)
 {
   isopoint::ExtractionRequest request = vtkMakeIsopointRequest(this);
+  request.ghostRings = this->Kept->GhostLevels;
+  const bool hasGhosts =
+    this->Kept->Link && this->Kept->GhostLevels > 0 && !this->ExtractsTriangles();
   const std::set<double> isovalues = this->GetIsovalues();
   std::vector<isopoint::ExtractedIsosurface> surfaces;
   std::vector<isopoint::ExtractedIsosurface> ghosts(hasGhosts ? isovalues.size() : 0);
@@ -402,22 +405,17 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
   }
 
   vtkIsopointComputedArrays computed(vtkChooseIsopointArrays(this), count);
-  const std::size_t ownCount = this->GetIsovalues().size(); // surfaces, then those of ghosts
-  vtkIdType firstGhost = 0;
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  for (const isopoint::ExtractedIsosurface& surface : surfaces)
   {
-    computed.Append(surfaces[i]);
+    computed.Append(surface);
     isopoint::throwIfAborted(execution);
-    if (i + 1 == ownCount)
-    {
-      firstGhost = computed.GetNumberOfPoints();
-      this->NumberOfUnprojectedPoints +=
-        this->Projection == NO_PROJECTION ? firstGhost : computed.GetNumberWithoutFit();
-    }
   }
-  if (surfaces.size() > ownCount)
+  this->NumberOfUnprojectedPoints += this->Projection == NO_PROJECTION
+                                       ? computed.GetNumberCounted()
+                                       : computed.GetNumberWithoutFit();
+  if (this->Kept->Link && this->Kept->GhostLevels > 0)
   {
-    vtkAddIsopointGhosts(output, firstGhost);
+    vtkAddIsopointGhosts(surfaces, output);
   }
   for (const std::string& name : computed.AddTo(pointData))
   {

@@ -508,8 +508,8 @@ private:
   std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   /// One surface for each isovalue, then, if there are any, its ghosts for each.
-  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(const isopoint::Execution& execution,
-    KeptTree& kept, const std::vector<double>& progress, bool hasGhosts);
+  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
+    const isopoint::Execution& execution, KeptTree& kept, const std::vector<double>& progress);
   void FillOutput(const isopoint::Execution& execution, const vtkIsopointEndSamples& samples,
     const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
     vtkPolyData* output);

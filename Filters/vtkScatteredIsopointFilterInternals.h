@@ -29,7 +29,7 @@ class vtkScatteredIsopointFilter::Internals
 public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
-  bool HasGhosts = false;                        // whether the output is to have any
+  int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 

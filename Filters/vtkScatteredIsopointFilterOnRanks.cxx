@@ -52,19 +52,11 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   isopoint::Team team(*this->Kept->Link);
   const Execution execution =
     vtkMakeIsopointExecution(this, this->UseAllCores != 0, vtkCountIsopointRanksOnHost(team));
-  team.together(
-    [this]()
-    {
-      vtkCheckIsopointOptions(this);
-      if (this->ExtractsTriangles())
-      {
-        throw vtkIsopointUsageError("Triangles cannot be extracted on several ranks. Extract points"
-                                    " with vtkScatteredIsopointFilter, or run on one rank.");
-      }
-    });
+  team.together([this]() { vtkCheckIsopointOptions(this); });
   vtkCheckIsopointOptionsOnRanks(team, this);
   this->CollectOnRanks(team, execution, input);
-  this->Kept->HasGhosts = team.isAny(this->Kept->HasGhosts);
+  this->Kept->GhostLevels =
+    static_cast<int>(team.maximum(static_cast<std::uint64_t>(this->Kept->GhostLevels)));
   const vtkIsopointBlocks& blocks = this->Kept->Input;
   this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
   const vtkIsopointStructure structure =
@@ -166,7 +158,7 @@ void vtkScatteredIsopointFilter::ExtractBlocksOnRanks(isopoint::Team& team,
   }
   this->CountSkippedSamples(blocks, kept->Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(execution, *kept, progress, this->Kept->HasGhosts);
+    this->ExtractIsovalues(execution, *kept, progress);
   const vtkIsopointEndSamples samples(team, blocks, surfaces);
   const bool haveFloatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   team.together(

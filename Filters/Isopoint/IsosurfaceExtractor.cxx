@@ -11,8 +11,11 @@
 #include "Isopoint/Ranks/RankSplats.h"
 #include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
+#include "Isopoint/Ranks/TriangleRanks.h"
 #include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/Tetrahedra/SingleRank.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
+#include "Isopoint/Triangles/SurfacePart.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
 namespace isopoint
@@ -24,6 +27,59 @@ namespace
 /// Of neighbours around a rank's isopoints that are its ghosts: where splats of the second ring are
 /// seen, so are those that they overlap (docs/ranks.md).
 constexpr int ghostRings = 5;
+
+/// The isopoints of a rank that are on it, or its ghosts, with their splats, if there are any.
+template <class TSample>
+ExtractedIsosurface chosen(const SampleTree<TSample>& tree, const Isosurface& all,
+  const std::vector<Splat>& splats, const std::vector<bool>& isHome, bool areHome)
+{
+  ExtractedIsosurface result;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (isHome[i] == areHome)
+    {
+      indices.push_back(i);
+      if (!splats.empty())
+      {
+        result.splats.push_back(splats[i]);
+      }
+    }
+  }
+  result.surface = chosenIsopoints(all, indices);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  result.areElsewhere.resize(areHome ? 0 : result.surface.size(), true);
+  return result;
+}
+
+/// The part of a surface of triangles that is on this rank.
+/// @param all what is found on each of them
+template <class TSample>
+ExtractedIsosurface partOnRank(
+  NodeExchange<TSample>& exchange, const ExtractedIsosurface& all, int rings)
+{
+  const SampleTree<TSample>& tree = exchange.tree();
+  std::vector<std::size_t> vertexRanks;
+  for (const EdgeLeaves& leaves : all.surface.leaves)
+  {
+    vertexRanks.push_back(exchange.ownerOf(firstPlaceOf(tree, leaves)));
+  }
+  const auto rank = static_cast<std::size_t>(exchange.team().rank());
+  SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
+  ExtractedIsosurface result;
+  result.surface = chosenIsopoints(all.surface, part.vertices);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  for (std::size_t i = 0; i < part.vertices.size() && !all.splats.empty(); ++i)
+  {
+    result.splats.push_back(all.splats[part.vertices[i]]);
+  }
+  result.areElsewhere = std::move(part.areElsewhere);
+  result.triangles = std::move(part.triangles);
+  result.ghostTriangles = part.ghostCount;
+  return result;
+}
 
 } // namespace
 
@@ -82,7 +138,7 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
   return std::visit(
     [&](auto& cloud)
     {
-      if (this->Ranks)
+      if (this->Ranks && !request.triangles)
       {
         return this->extractOnRanks(execution, cloud, request, ghosts);
       }
@@ -90,6 +146,10 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       {
         *ghosts = ExtractedIsosurface();
         ghosts->surface.isovalue = request.isosurface.isovalue;
+      }
+      if (this->Ranks)
+      {
+        return this->extractTrianglesOnRanks(execution, cloud, request);
       }
       if (request.triangles)
       {
@@ -119,54 +179,50 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
     this->Held);
 }
 
-namespace
+template <class TSample, class TRanks>
+ExtractedIsosurface IsosurfaceExtractor::findTriangles(const Execution& execution,
+  Cloud<TSample>& cloud, TRanks& ranks, const ExtractionRequest& request)
 {
-
-/// The isopoints of a rank that are on it, or its ghosts, with their splats, if there are any.
-template <class TSample>
-ExtractedIsosurface chosen(const SampleTree<TSample>& tree, const Isosurface& all,
-  const std::vector<Splat>& splats, const std::vector<bool>& isHome, bool areHome)
-{
+  WorkProgress progress(execution);
+  TriangleExtraction<TSample, TRanks> extraction(
+    execution, cloud.tree, ranks, cloud.neighborhoods, request.isosurface);
+  TriangleSurface found = extraction.extract(progress, work::writing);
   ExtractedIsosurface result;
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    if (isHome[i] == areHome)
+  ranks.together(
+    [&]()
     {
-      indices.push_back(i);
-      if (!splats.empty())
+      throwIfAborted(execution);
+      result.surface = std::move(found.vertices);
+      result.triangles = std::move(found.triangles);
+      if (request.splats)
       {
-        result.splats.push_back(splats[i]);
+        const Isosurface& surface = result.surface;
+        result.splats = vertexNormals({ surface.positions, surface.decreasingEdges, surface.fits },
+          result.triangles, request.splats->fieldNormals);
       }
-    }
-  }
-  result.surface = chosenIsopoints(all, indices);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
-  result.surface.leaves = {};
+    });
   return result;
 }
-
-} // namespace
 
 template <class TSample>
 ExtractedIsosurface IsosurfaceExtractor::extractTriangles(
   const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
 {
-  WorkProgress progress(execution);
-  TriangleExtraction<TSample> extraction(
-    execution, cloud.tree, cloud.neighborhoods, request.isosurface);
-  TriangleSurface found = extraction.extract(progress, work::writing);
-  throwIfAborted(execution);
-  ExtractedIsosurface result;
-  result.surface = std::move(found.vertices);
-  result.triangles = std::move(found.triangles);
-  if (request.splats)
-  {
-    const Isosurface& surface = result.surface;
-    result.splats = vertexNormals({ surface.positions, surface.decreasingEdges, surface.fits },
-      result.triangles, request.splats->fieldNormals);
-  }
+  SingleRank<TSample> rank(cloud.tree);
+  ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
   result.surface.leaves = {};
+  return result;
+}
+
+template <class TSample>
+ExtractedIsosurface IsosurfaceExtractor::extractTrianglesOnRanks(
+  const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request)
+{
+  NodeExchange<TSample> exchange(*this->Ranks, cloud.tree, cloud.begins);
+  TriangleRanks<TSample> ranks(cloud.tree, exchange);
+  const ExtractedIsosurface all = findTriangles(execution, cloud, ranks, request);
+  ExtractedIsosurface result;
+  exchange.together([&]() { result = partOnRank(exchange, all, request.ghostRings); });
   return result;
 }
 
@@ -202,10 +258,11 @@ ExtractedIsosurface IsosurfaceExtractor::extractOnRanks(const Execution& executi
       isHome.resize(all.size(), false);
       for (std::size_t i = 0; i < surface.size(); ++i)
       {
-        const bool isCountedHere = ofRank.isHome(surface.leaves[i]);
-        isHome[hasHalo ? halo.ownIndices()[i] : i] = isCountedHere;
+        const auto place = firstPlaceOf(cloud.tree, surface.leaves[i]);
+        const bool isOnThisRank = place >= cloud.tree.ownBegin && place < cloud.tree.ownEnd;
+        isHome[hasHalo ? halo.ownIndices()[i] : i] = isOnThisRank;
         // Either rank of an edge between two sends such a ghost.
-        isShaped.push_back(isCountedHere || ghosts);
+        isShaped.push_back(isOnThisRank || ghosts);
       }
     });
   std::vector<Splat> splats;

@@ -43,8 +43,11 @@ struct ExtractionRequest
   std::optional<SplatOptions> splats = std::nullopt;
   /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
   /// Delaunay tetrahedrisation of the samples (docs/triangles.md). The angle and the minimum
-  /// spacing then have no effect, and splats have normals alone. Not of a cloud on ranks.
+  /// spacing then have no effect, and splats have normals alone.
   bool triangles = false;
+  /// Of a cloud on ranks: how many rings of triangles of other ranks, all with a vertex in the part
+  /// within, are added around those of this one. The same on all ranks.
+  int ghostRings = 0;
 };
 
 /// All that is computed for one isovalue.
@@ -53,6 +56,9 @@ struct ExtractedIsosurface
   Isosurface surface;
   std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
   std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
+  std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
+  /// Whether each isopoint is counted on another rank; empty if none is.
+  std::vector<bool> areElsewhere;
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
@@ -166,9 +172,12 @@ public:
 
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.
+  ///
+  /// Of a cloud on ranks, each isopoint is returned on one of them, and so is each triangle, with
+  /// its vertices.
   /// @param ghosts null, or receives, with all that is known of them, the isopoints that are on
   /// other ranks, but within five rings around those of this one (see IsopointNeighbors); all ranks
-  /// ask for them, or none
+  /// ask for them, or none. Nothing with triangles, see ExtractionRequest
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
@@ -234,8 +243,16 @@ private:
     return true;
   }
 
+  template <class TSample, class TRanks>
+  static ExtractedIsosurface findTriangles(const Execution& execution, Cloud<TSample>& cloud,
+    TRanks& ranks, const ExtractionRequest& request);
+
   template <class TSample>
   static ExtractedIsosurface extractTriangles(
+    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
+
+  template <class TSample>
+  ExtractedIsosurface extractTrianglesOnRanks(
     const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
 
   template <class TSample>

@@ -12,12 +12,20 @@
 namespace
 {
 
-isopoint::ExtractionRequest everything()
+isopoint::ExtractionRequest everythingOfPoints()
 {
   isopoint::ExtractionRequest request;
   request.isosurface = { 0.3, 54.7, 2.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   request.minimumSpacing = 0.3;
   request.splats = isopoint::SplatOptions();
+  return request;
+}
+
+isopoint::ExtractionRequest triangles()
+{
+  isopoint::ExtractionRequest request = everythingOfPoints();
+  request.triangles = true;
+  request.ghostRings = 1;
   return request;
 }
 
@@ -30,7 +38,8 @@ void wait(isopoint::Communicator& communicator)
 /// Loads, extracts with ghosts and replaces the values on several ranks while the n-th large
 /// allocation of both fails, then again.
 /// @returns whether there were that many
-bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Description& expected)
+bool failsAt(long n, const std::vector<clouds::Cloud>& pieces,
+  const isopoint::ExtractionRequest& request, const ranks::Description& expected)
 {
   std::atomic<int> failures{ 0 };
   std::atomic<int> others{ 0 };
@@ -59,7 +68,7 @@ bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Desc
         load();
         isLoaded = true;
         isopoint::ExtractedIsosurface ghosts;
-        extractor.extract(isopoint::Execution(), everything(), &ghosts);
+        extractor.extract(isopoint::Execution(), request, &ghosts);
         isLoaded = false;
         extractor.replaceValuesOnRanks<double, double>(
           isopoint::Execution(), piece.size(), clouds::readerOf(piece));
@@ -83,7 +92,7 @@ bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Desc
       {
         load();
       }
-      const auto extracted = extractor.extract(isopoint::Execution(), everything());
+      const auto extracted = extractor.extract(isopoint::Execution(), request);
       const ranks::Description own = ranks::described(extracted);
       const std::lock_guard<std::mutex> lock(mutex);
       found.insert(found.end(), own.begin(), own.end());
@@ -97,15 +106,19 @@ bool failsAt(long n, const std::vector<clouds::Cloud>& pieces, const ranks::Desc
 
 } // namespace
 
-TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
+namespace
+{
+
+/// Lets each large allocation fail in turn.
+void expectFailuresEndTheWorkOfAll(const isopoint::ExtractionRequest& request)
 {
   const std::vector<clouds::Cloud> pieces =
     ranks::dealOut(clouds::coincident(clouds::uniform(1500, 1), 0.05), 3, ranks::Deal::RoundRobin);
-  ranks::Description expected = ranks::extractOnRanks(pieces, { everything() }).front();
+  ranks::Description expected = ranks::extractOnRanks(pieces, { request }).front();
   std::sort(expected.begin(), expected.end());
   ASSERT_FALSE(expected.empty());
   long n = 1;
-  while (failsAt(n, pieces, expected) && !HasFailure())
+  while (failsAt(n, pieces, request, expected) && !testing::Test::HasFailure())
   {
     SCOPED_TRACE(n);
     n += n < 200 ? 1 : 7;
@@ -113,11 +126,11 @@ TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
   EXPECT_GT(n, 100);
 }
 
-TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
+void expectAbortsEndTheWorkOfAll(const isopoint::ExtractionRequest& request)
 {
   const std::vector<clouds::Cloud> pieces =
     ranks::dealOut(clouds::uniform(3000, 2), 3, ranks::Deal::Even);
-  const std::vector<ranks::Description> expected = ranks::extractOnRanks(pieces, { everything() });
+  const std::vector<ranks::Description> expected = ranks::extractOnRanks(pieces, { request });
   for (int last = 0; last < 40; ++last)
   {
     std::atomic<int> aborts{ 0 };
@@ -135,7 +148,7 @@ TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
         {
           extractor.loadOnRanks<double, double>(
             execution, communicator, piece.size(), clouds::readerOf(piece));
-          extractor.extract(execution, everything());
+          extractor.extract(execution, request);
           ++finished;
         }
         catch (const isopoint::Aborted&)
@@ -146,4 +159,26 @@ TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
     EXPECT_EQ(aborts + finished, 3);
     EXPECT_TRUE(aborts == 0 || finished == 0);
   }
+}
+
+} // namespace
+
+TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
+{
+  expectFailuresEndTheWorkOfAll(everythingOfPoints());
+}
+
+TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheTrianglesOfAll)
+{
+  expectFailuresEndTheWorkOfAll(triangles());
+}
+
+TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
+{
+  expectAbortsEndTheWorkOfAll(everythingOfPoints());
+}
+
+TEST(RanksFaults, AnAbortOnOneRankEndsTheTrianglesOfAll)
+{
+  expectAbortsEndTheWorkOfAll(triangles());
 }

@@ -4,6 +4,7 @@
 
 #include "Clouds.h"
 
+#include "Isopoint/Tetrahedra/SingleRank.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 
@@ -181,7 +182,9 @@ Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads =
   const isopoint::NeighborhoodCache<typename TSample::Id> none;
   isopoint::IsosurfaceRequest request;
   request.isovalue = isovalue;
-  isopoint::TriangleExtraction<TSample> extraction(execution, tree, none, request);
+  isopoint::SingleRank<TSample> rank(tree);
+  isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
+    execution, tree, rank, none, request);
   isopoint::WorkProgress progress(execution);
   Found found;
   found.corners = cornersOf(tree, extraction.tetrahedra(progress, 0.0));
@@ -200,7 +203,9 @@ inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
     isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine();
   nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
   isopoint::SharedLeafMeans<TSample> means(tree);
-  isopoint::CrossingTetrahedraFinder<TSample> finder(execution, tree, means, isovalue);
+  isopoint::SingleRank<TSample> rank(tree);
+  isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
+    execution, tree, rank, means, isovalue);
   Found found;
   found.corners = cornersOf(tree, finder.find(nodes));
   found.counts = finder.counts();

@@ -18,9 +18,13 @@ CORE_FOLDERS = {
     "Fit": ["Base"],
     "Extraction": ["Base", "Tree", "Neighbors", "Fit"],
     "Splat": ["Base", "Tree", "Neighbors", "Fit"],
-    "Ranks": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
-    "Triangles": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat"],
-    "": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Ranks", "Triangles"],
+    "Tetrahedra": ["Base", "Tree", "Neighbors", "Fit", "Extraction"],
+    "Triangles": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Tetrahedra"],
+    "Ranks": [
+        "Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Tetrahedra", "Triangles"],
+    "": [
+        "Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Tetrahedra", "Triangles",
+        "Ranks"],
 }
 
 # The other folders with sources, and the headers of the project that they may include.
@@ -31,7 +35,7 @@ FOLDERS = {
 }
 
 # The folders of the core that alone may include a library.
-LIBRARIES = {"Eigen": [CORE + "/Fit"], "CGAL": [CORE + "/Splat", CORE + "/Triangles"]}
+LIBRARIES = {"Eigen": [CORE + "/Fit"], "CGAL": [CORE + "/Splat", CORE + "/Tetrahedra"]}
 
 TOP_FOLDERS = ("Filters", "Rendering", "Plugin")
 MOST_FILES = 14
@@ -229,7 +233,7 @@ class LayersTest(unittest.TestCase):
             for path in ("Random.h", "Cxx/Random.h", "../Testing/Cxx/Random.h"):
                 self.check_defect({name: f'#include "{path}"\n', "Testing/Cxx/Random.h": "\n"},
                                   "a header of the tests")
-            for library, homes in (("Eigen", ["Fit"]), ("CGAL", ["Splat", "Triangles"])):
+            for library, homes in (("Eigen", ["Fit"]), ("CGAL", ["Splat", "Tetrahedra"])):
                 include = f"#include <{library}/Core>\n"
                 for home in homes:
                     self.assertEqual(self.problems({f"{CORE}/{home}/a.cxx": include}), "")

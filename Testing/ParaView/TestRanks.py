@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from scatteredisopoints import vtkScatteredIsopointFilter
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
@@ -98,7 +98,7 @@ def poly_data(points, numbers, dtype=np.float32):
 
 
 def described(output):
-    """One byte string for each point: position and all arrays, and what the arrays are."""
+    """What the arrays are, and one byte string for each point: position and all arrays."""
     count = output.GetNumberOfPoints()
     kinds = []
     columns = []
@@ -447,18 +447,6 @@ class RanksTest(RanksTestCase):
         run(isopoints, watch=watch)
         counts = gather(len(watch))
         return sum(counts) if RANK == 0 else 1
-
-    @unittest.skipIf(SIZE == 1, "one rank extracts triangles")
-    def test_triangles_of_several_ranks_are_one_error(self):
-        points = cloud("uniform", 500, 7)
-        watch = []
-        surface = vtkScatteredIsosurfaceFilter()
-        surface.SetController(RANKS)
-        surface.SetInputData(poly_data(points, np.arange(500)))
-        self.assertEqual(run(surface, watch=watch).GetOutput().GetNumberOfPoints(), 0)
-        counts = gather(len(watch))
-        if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
         data = poly_data(cloud("uniform", 20000, 8), np.arange(20000))

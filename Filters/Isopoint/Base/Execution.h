@@ -9,6 +9,7 @@
 #include <functional>
 #include <mutex>
 #include <stdexcept>
+#include <vector>
 
 namespace isopoint
 {
@@ -120,6 +121,26 @@ inline void forBatches(
     throwIfAborted(execution);
     batchDone(std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(count)));
   }
+}
+
+/// What the ranges of [0, count) yield together, in any order.
+/// @param collect(begin, end, found) appends what a range yields; from any thread
+/// @throws Aborted, std::bad_alloc, and what collecting throws
+template <class T, class Collect>
+std::vector<T> collected(
+  const Execution& execution, std::size_t count, std::size_t grain, const Collect& collect)
+{
+  std::vector<T> all;
+  std::mutex mutex;
+  forBatches(execution, count, 8 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<T> found;
+      collect(begin, end, found);
+      const std::lock_guard<std::mutex> lock(mutex);
+      all.insert(all.end(), found.begin(), found.end());
+    });
+  return all;
 }
 
 } // namespace isopoint

@@ -162,7 +162,41 @@ public:
     return received;
   }
 
-  /// The same between memory of known sizes.
+  /// Sends a list to all ranks. @returns the lists of all ranks, in their order
+  /// @param own of trivially copyable elements
+  /// @throws std::bad_alloc or FailedElsewhere, before anything is sent
+  template <class T>
+  std::vector<std::vector<T>> gather(const std::vector<T>& own)
+  {
+    std::vector<std::vector<T>> all;
+    std::vector<std::uint64_t> sizes;
+    std::vector<OutgoingBytes> from;
+    std::vector<IncomingBytes> to;
+    this->together(
+      [&]()
+      {
+        const auto count = static_cast<std::size_t>(this->size());
+        all.resize(count);
+        sizes.resize(count, 0);
+        from.resize(count, { own.data(), own.size() * sizeof(T) });
+        to.resize(count);
+      });
+    sizes[static_cast<std::size_t>(this->rank())] = own.size();
+    this->sum(sizes);
+    this->together(
+      [&]()
+      {
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+          all[i].resize(static_cast<std::size_t>(sizes[i]));
+          to[i] = { all[i].data(), all[i].size() * sizeof(T) };
+        }
+      });
+    this->exchange(from, to);
+    return all;
+  }
+
+  /// Sends and receives memory of known sizes.
   void exchange(
     const std::vector<OutgoingBytes>& outgoing, const std::vector<IncomingBytes>& incoming)
   {

@@ -2,7 +2,10 @@
 #ifndef isopoint_CrossingEdge_h
 #define isopoint_CrossingEdge_h
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace isopoint
 {
@@ -26,6 +29,22 @@ struct CrossingEdge
     return this->first == other.first && this->second == other.second;
   }
 };
+
+/// The leaves at the ends of edges, ordered, each once.
+template <class TSample>
+std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edges)
+{
+  std::vector<std::size_t> leaves;
+  leaves.reserve(2 * edges.size());
+  for (const CrossingEdge<TSample>& edge : edges)
+  {
+    leaves.push_back(static_cast<std::size_t>(edge.firstLeaf));
+    leaves.push_back(static_cast<std::size_t>(edge.secondLeaf));
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
 
 } // namespace isopoint
 

@@ -57,6 +57,14 @@ std::size_t leafAt(const SampleTree<TSample>& tree, std::uint64_t place, const V
   return nodeIndex;
 }
 
+/// The place in the order of the tree of the leaf that comes first there: the rank that has it is
+/// the one to which the isopoint of the edge belongs.
+template <class TSample>
+std::uint64_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leaves)
+{
+  return std::min(tree.nodes[leaves.first].begin, tree.nodes[leaves.second].begin);
+}
+
 /// The crossing edges of one isovalue that end in at least one of this rank's leaves, ordered, each
 /// once, and what is needed to go on from them. All functions are collective.
 template <class TSample>
@@ -111,15 +119,6 @@ public:
           std::move(this->Fits), request.fit && request.fit->move);
       });
     return surface;
-  }
-
-  /// Whether this rank is the one of the ends' two that the isopoint is counted on: that of the
-  /// leaf that comes first in the order of the tree.
-  bool isHome(const EdgeLeaves& leaves) const
-  {
-    const auto place =
-      std::min(this->Tree.nodes[leaves.first].begin, this->Tree.nodes[leaves.second].begin);
-    return place >= this->Tree.ownBegin && place < this->Tree.ownEnd;
   }
 
 private:

@@ -4,22 +4,20 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
-#include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
-#include "Isopoint/Triangles/CrossingTetrahedra.h"
+#include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
 #include "Isopoint/Triangles/MarchingTetrahedra.h"
-#include "Isopoint/Triangles/TreeRefinement.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -33,19 +31,22 @@ struct TriangleSurface
   std::vector<SurfaceTriangle> triangles;
 };
 
-/// Extracts triangles; see docs/triangles.md. For one isovalue.
-template <class TSample>
+/// Extracts triangles; see docs/triangles.md. For one isovalue. Where several ranks share the tree,
+/// all functions are collective, and each rank finds the whole surface.
+template <class TSample, class TRanks>
 class TriangleExtraction
 {
 public:
   using Id = typename TSample::Id;
 
   /// @param tree will be refined
+  /// @param ranks SingleRank, or TriangleRanks
   /// @param neighborhoods of the tree's leaves that are known
-  TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree,
+  TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     const NeighborhoodCache<Id>& neighborhoods, const IsosurfaceRequest& request)
     : Run(execution)
     , Tree(tree)
+    , Ranks(ranks)
     , Neighborhoods(neighborhoods)
     , Request(request)
     , Means(tree)
@@ -64,31 +65,21 @@ public:
     }
     const double fitting = this->Request.fit ? work::fitting : 0.0;
     EdgeTriangles<TSample> mesh = this->march(progress, fitting + laterWork);
-    TriangleSurface surface;
     const auto count = static_cast<double>(mesh.edges.size());
-    std::vector<std::size_t> ends = this->leavesOf(mesh.edges);
-    if (this->Request.fit)
-    {
-      this->splitAround(ends);
-    }
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     std::vector<LocalFit> fits;
-    const bool isMoved = this->Request.fit && this->Request.fit->move;
     if (this->Request.fit)
     {
-      fits = fitNeighborhoods(
+      fits = this->Ranks.fit(
         progress.part(count * fitting, count * laterWork), context, *this->Request.fit, mesh.edges);
     }
-    if (isMoved)
-    {
-      keepTrianglesUpright(this->Run, this->positionsOnEdges(mesh.edges), mesh.triangles, fits);
-    }
-    surface.vertices = placeIsopoints(progress.part(count * work::placing, count * laterWork),
-      context, mesh.edges, std::move(fits), isMoved);
-    surface.triangles = std::move(mesh.triangles);
-    const auto isSingle = [this](std::size_t leaf) { return this->Tree.nodes[leaf].count() == 1; };
-    ends.erase(std::remove_if(ends.begin(), ends.end(), isSingle), ends.end());
-    surface.vertices.coincident = coincidentSamplesOf(this->Tree, std::move(ends));
+    TriangleSurface surface;
+    this->Ranks.together(
+      [&]()
+      {
+        surface = this->place(
+          progress.part(count * work::placing, count * laterWork), context, mesh, std::move(fits));
+      });
     return surface;
   }
 
@@ -99,12 +90,13 @@ public:
     {
       return {};
     }
-    const std::vector<BinaryIndex> nodes = NarrowBand<TSample>(
-      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrising + laterWork)
-                                             .refine();
+    NarrowBand<TSample> band(
+      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrising + laterWork);
+    const std::vector<BinaryIndex> nodes = this->Ranks.refine(band);
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrising, count * laterWork);
-    CrossingTetrahedraFinder<TSample> finder(part, this->Tree, this->Means, this->Request.isovalue);
+    CrossingTetrahedraFinder<TSample, TRanks> finder(
+      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     this->Counts = finder.counts();
     return found;
@@ -117,47 +109,41 @@ private:
   EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
   {
     std::vector<CrossingTetrahedron<Id>> found = this->tetrahedra(progress, laterWork);
-    this->dropGaps(found);
-    return MarchingTetrahedra<TSample>(
-      this->Run, this->Tree, this->Means, this->Request.isovalue, found)
-      .march();
+    if (this->Request.gapFactor > 0.0)
+    {
+      this->dropGaps(found);
+    }
+    EdgeTriangles<TSample> mesh;
+    this->Ranks.together(
+      [&]()
+      {
+        mesh = MarchingTetrahedra<TSample>(
+          this->Run, this->Tree, this->Means, this->Request.isovalue, found)
+                 .march();
+      });
+    return mesh;
   }
 
   /// Drops tetrahedra with an edge that the gap criterion drops.
   void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
   {
-    if (!(this->Request.gapFactor > 0.0))
-    {
-      return;
-    }
-    const GapCriterion criterion(this->Request.gapFactor);
-    const auto isAcrossGap = [&](const CrossingTetrahedron<Id>& tetrahedron)
-    {
-      for (std::size_t i = 0; i < 4; ++i)
+    std::vector<char> isDropped;
+    this->Ranks.together(
+      [&]()
       {
-        const auto leaf = static_cast<std::size_t>(tetrahedron.corners[i]);
-        const Path path = pathToLeaf(this->Tree, leaf);
-        for (std::size_t j = i + 1; j < 4; ++j)
-        {
-          if (criterion.drops(this->Tree, path, this->sampleOf(leaf),
-                this->sampleOf(static_cast<std::size_t>(tetrahedron.corners[j]))))
-          {
-            return true;
-          }
-        }
-      }
-      return false;
-    };
-    std::vector<char> isDropped(found.size(), 0);
-    constexpr std::size_t grain = 256;
-    forBatches(this->Run, found.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+        this->Ranks.order(found);
+        isDropped.resize(found.size(), 0);
+      });
+    this->Ranks.forEach(
+      this->Run, found.size(), []() { return 0; },
+      [&](int, std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        if (this->Ranks.isHome(this->firstLeafOf(found[i])))
         {
-          isDropped[i] = isAcrossGap(found[i]) ? 1 : 0;
+          isDropped[i] = this->isAcrossGap(found[i]) ? 1 : 0;
         }
       });
+    this->Ranks.unite(isDropped);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
     {
@@ -169,57 +155,55 @@ private:
     found.resize(kept);
   }
 
+  /// The corner that comes first in the order of the tree.
+  std::size_t firstLeafOf(const CrossingTetrahedron<Id>& tetrahedron) const
+  {
+    return static_cast<std::size_t>(
+      *std::min_element(tetrahedron.corners.begin(), tetrahedron.corners.end(),
+        [this](Id a, Id b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; }));
+  }
+
+  bool isAcrossGap(const CrossingTetrahedron<Id>& tetrahedron) const
+  {
+    const GapCriterion criterion(this->Request.gapFactor);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto leaf = static_cast<std::size_t>(tetrahedron.corners[i]);
+      const Path path = pathToLeaf(this->Tree, leaf);
+      for (std::size_t j = i + 1; j < 4; ++j)
+      {
+        if (criterion.drops(this->Tree, path, this->sampleOf(leaf),
+              this->sampleOf(static_cast<std::size_t>(tetrahedron.corners[j]))))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// The surface of triangles whose vertices the fits move where no triangle turns over.
+  TriangleSurface place(const Execution& part, ExtractionContext<TSample>& context,
+    EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
+  {
+    const bool isMoved = this->Request.fit && this->Request.fit->move;
+    if (isMoved)
+    {
+      keepTrianglesUpright(this->Run, this->positionsOnEdges(mesh.edges), mesh.triangles, fits);
+    }
+    TriangleSurface surface;
+    surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
+    surface.triangles = std::move(mesh.triangles);
+    std::vector<std::size_t> ends = leavesOf(mesh.edges);
+    const auto isSingle = [this](std::size_t leaf) { return this->Tree.nodes[leaf].count() == 1; };
+    ends.erase(std::remove_if(ends.begin(), ends.end(), isSingle), ends.end());
+    surface.vertices.coincident = coincidentSamplesOf(this->Tree, std::move(ends));
+    return surface;
+  }
+
   const TSample& sampleOf(std::size_t leaf) const
   {
     return this->Tree.samples[this->Tree.nodes[leaf].begin];
-  }
-
-  /// The leaves at the ends of edges, each once.
-  static std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edges)
-  {
-    std::vector<std::size_t> leaves;
-    leaves.reserve(2 * edges.size());
-    for (const CrossingEdge<TSample>& edge : edges)
-    {
-      leaves.push_back(static_cast<std::size_t>(edge.firstLeaf));
-      leaves.push_back(static_cast<std::size_t>(edge.secondLeaf));
-    }
-    std::sort(leaves.begin(), leaves.end());
-    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-    return leaves;
-  }
-
-  /// Splits what touches leaves down to leaves, for fits: the band has done so around leaves that
-  /// touch the other side, and ends of Delaunay edges may not be of these.
-  void splitAround(const std::vector<std::size_t>& leaves)
-  {
-    std::vector<std::size_t> missing;
-    do
-    {
-      missing.clear();
-      std::mutex mutex;
-      constexpr std::size_t grain = 1024;
-      forBatches(this->Run, leaves.size(), 8 * grain, grain,
-        [&](std::size_t begin, std::size_t end)
-        {
-          std::vector<std::size_t> found;
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            visitTouching(this->Tree, pathToLeaf(this->Tree, leaves[i]), maximumDepth,
-              [&](std::size_t node)
-              {
-                if (!this->Tree.nodes[node].isLeaf)
-                {
-                  found.push_back(node);
-                }
-                return false;
-              });
-          }
-          const std::lock_guard<std::mutex> lock(mutex);
-          missing.insert(missing.end(), found.begin(), found.end());
-        });
-      splitFurther(this->Run, this->Tree, missing);
-    } while (!missing.empty());
   }
 
   std::vector<Vector> positionsOnEdges(const std::vector<CrossingEdge<TSample>>& edges) const
@@ -237,6 +221,7 @@ private:
 
   const Execution& Run;
   SampleTree<TSample>& Tree;
+  TRanks& Ranks;
   const NeighborhoodCache<Id>& Neighborhoods;
   const IsosurfaceRequest& Request;
   SharedLeafMeans<TSample> Means;

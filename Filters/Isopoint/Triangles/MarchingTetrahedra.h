@@ -7,8 +7,8 @@
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Triangles/BandTriangulation.h"
 #include "Isopoint/Triangles/SurfaceTriangle.h"
 
 #include <algorithm>
@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <mutex>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -108,12 +107,9 @@ private:
 
   std::vector<LeafPair> allPairs()
   {
-    std::vector<LeafPair> pairs;
-    std::mutex mutex;
-    this->forAll(
-      [&](std::size_t begin, std::size_t end)
+    return this->collectedOfAll<LeafPair>(
+      [&](std::size_t begin, std::size_t end, std::vector<LeafPair>& found)
       {
-        std::vector<LeafPair> found;
         for (std::size_t i = begin; i < end; ++i)
         {
           const Polygon polygon = polygonOf(this->Tetrahedra[i]);
@@ -122,17 +118,14 @@ private:
         }
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
-        const std::lock_guard<std::mutex> lock(mutex);
-        pairs.insert(pairs.end(), found.begin(), found.end());
       });
-    return pairs;
   }
 
-  template <class Work>
-  void forAll(const Work& work)
+  template <class T, class Collect>
+  std::vector<T> collectedOfAll(const Collect& collect) const
   {
     constexpr std::size_t grain = 4096;
-    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain, work);
+    return collected<T>(this->Run, this->Tetrahedra.size(), grain, collect);
   }
 
   const TSample& sampleOf(Id leaf) const
@@ -209,20 +202,14 @@ private:
   /// The triangles, their vertices numbered as pairs are.
   std::vector<SurfaceTriangle> allTriangles()
   {
-    std::vector<SurfaceTriangle> triangles;
-    std::mutex mutex;
-    this->forAll(
-      [&](std::size_t begin, std::size_t end)
+    return this->collectedOfAll<SurfaceTriangle>(
+      [&](std::size_t begin, std::size_t end, std::vector<SurfaceTriangle>& found)
       {
-        std::vector<SurfaceTriangle> found;
         for (std::size_t i = begin; i < end; ++i)
         {
           this->addTriangles(polygonOf(this->Tetrahedra[i]), found);
         }
-        const std::lock_guard<std::mutex> lock(mutex);
-        triangles.insert(triangles.end(), found.begin(), found.end());
       });
-    return triangles;
   }
 
   void addTriangles(const Polygon& polygon, std::vector<SurfaceTriangle>& triangles) const

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <mutex>
 
 namespace isopoint
 {
@@ -64,13 +63,10 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   std::vector<std::size_t> turned;
   do
   {
-    turned.clear();
-    std::mutex mutex;
     constexpr std::size_t grain = 8192;
-    forBatches(execution, triangles.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+    turned = collected<std::size_t>(execution, triangles.size(), grain,
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
-        std::vector<std::size_t> found;
         for (std::size_t i = begin; i < end; ++i)
         {
           if (isTurned(triangles[i]))
@@ -78,8 +74,6 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
             found.push_back(i);
           }
         }
-        const std::lock_guard<std::mutex> lock(mutex);
-        turned.insert(turned.end(), found.begin(), found.end());
       });
     for (const std::size_t triangle : turned)
     {

@@ -3,14 +3,13 @@
 #define isopoint_SideCheck_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Tetrahedra/BandTriangulation.h"
+#include "Isopoint/Tetrahedra/NodeMarks.h"
+#include "Isopoint/Tetrahedra/SphereSearch.h"
 #include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Triangles/BandTriangulation.h"
-#include "Isopoint/Triangles/NodeMarks.h"
-#include "Isopoint/Triangles/SphereSearch.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
 #include <vector>
 
 namespace isopoint
@@ -21,7 +20,7 @@ namespace isopoint
 /// the surface lies where the band has no samples.
 ///
 /// Regions of the tree that no sphere of a crossing tetrahedron reached do not meet the surface:
-/// one sample stands for all in them.
+/// one sample stands for all in them. Where ranks share the tree, each checks its own samples.
 template <class TSample>
 class SideCheck
 {
@@ -46,11 +45,9 @@ public:
     this->Isovalue = isovalue;
     const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
-    std::mutex mutex;
-    std::vector<std::size_t> wrong = this->Unsplit;
     constexpr std::size_t grain = 2048;
-    forBatches(this->Run, this->Places.size(), 4 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+    std::vector<std::size_t> wrong = collected<std::size_t>(this->Run, this->Places.size(), grain,
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         std::vector<Vector> positions;
         for (std::size_t i = begin; i < end; ++i)
@@ -58,15 +55,15 @@ public:
           positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
         }
         const std::vector<bool> below = this->Band.areBelow(positions);
-        const std::lock_guard<std::mutex> lock(mutex);
         for (std::size_t i = begin; i < end; ++i)
         {
           if (below[i - begin] != this->Places[i].isBelow)
           {
-            wrong.push_back(this->Places[i].node);
+            found.push_back(this->Places[i].node);
           }
         }
       });
+    wrong.insert(wrong.end(), this->Unsplit.begin(), this->Unsplit.end());
     return wrong;
   }
 
@@ -91,6 +88,10 @@ private:
   Summary collect(std::size_t nodeIndex, bool isReached)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!this->Tree.hasOwn(node))
+    {
+      return { false, false, false };
+    }
     isReached = isReached || this->Marks.isReached(nodeIndex);
     if (!node.isSplit())
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Isopoint/Triangles/SphereFunction.h"
+#include "Isopoint/Tetrahedra/SphereFunction.h"
 
 #include <CGAL/MP_Float.h>
 

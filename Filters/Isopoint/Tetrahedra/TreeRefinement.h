@@ -69,7 +69,7 @@ void splitFurther(
   }
 }
 
-/// Splits all of a tree down to leaves.
+/// Splits all of a tree down to leaves, as far as samples are this rank's.
 /// @throws what splitFurther() does
 template <class TSample>
 void splitCompletely(const Execution& execution, SampleTree<TSample>& tree)
@@ -82,7 +82,8 @@ void splitCompletely(const Execution& execution, SampleTree<TSample>& tree)
     forEachBelow(tree, path, maximumDepth,
       [&](const Path& below)
       {
-        if (!tree.nodes[below.nodeIndex()].isLeaf)
+        const Node<TSample>& node = tree.nodes[below.nodeIndex()];
+        if (!node.isLeaf && tree.hasOwn(node))
         {
           unsplit.push_back(below.nodeIndex());
         }

@@ -4,12 +4,12 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tetrahedra/BandTriangulation.h"
+#include "Isopoint/Tetrahedra/NodeMarks.h"
+#include "Isopoint/Tetrahedra/SideCheck.h"
+#include "Isopoint/Tetrahedra/SphereSearch.h"
+#include "Isopoint/Tetrahedra/TreeRefinement.h"
 #include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Triangles/BandTriangulation.h"
-#include "Isopoint/Triangles/NodeMarks.h"
-#include "Isopoint/Triangles/SideCheck.h"
-#include "Isopoint/Triangles/SphereSearch.h"
-#include "Isopoint/Triangles/TreeRefinement.h"
 
 #include <algorithm>
 #include <atomic>
@@ -35,7 +35,11 @@ struct TetrahedraCounts
 
 /// Finds the crossing tetrahedra of the Delaunay tetrahedrisation of all samples of a tree, without
 /// that tetrahedrisation: docs/triangles.md, which proves that they are these.
-template <class TSample>
+///
+/// Where several ranks share the tree, all functions are collective. Every rank tetrahedrises the
+/// band of all, searches spheres for samples of its own, and finds all crossing tetrahedra.
+/// @tparam TRanks SingleRank, or TriangleRanks
+template <class TSample, class TRanks>
 class CrossingTetrahedraFinder
 {
 public:
@@ -43,23 +47,25 @@ public:
 
   /// @param tree refined around the isovalue (see NarrowBand); will be refined further
   /// @param values of the tree's leaves
-  CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree,
+  CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     SharedLeafMeans<TSample>& values, double isovalue)
     : Run(execution)
     , Tree(tree)
+    , Ranks(ranks)
     , Means(values)
     , Isovalue(isovalue)
   {
   }
 
-  /// @param nodes below which all leaves are that touch a leaf on the other side of the isovalue
-  /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
+  /// @param nodes below which all of this rank's leaves are that touch a leaf on the other side of
+  /// the isovalue
+  /// @returns tetrahedra of leaves of this rank's tree
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere, or std::length_error (see NarrowBand)
   std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
   {
-    this->Marks.grow(this->Tree.nodes.size());
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
-    this->Counts.band = leaves.size();
-    if (this->areMany(leaves.size()))
+    this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
+    if (this->areMany(this->Counts.band))
     {
       this->insertAll();
     }
@@ -67,19 +73,20 @@ public:
     this->spanSpace();
     while (!this->Counts.isWhole && this->Band.dimension() == 3)
     {
-      throwIfAborted(this->Run);
       ++this->Counts.rounds;
       if (!this->certify() && !this->checkSides())
       {
         break;
       }
-      if (this->isSpent())
+      if (this->Ranks.isAny(this->isSpent()))
       {
         this->insertAll();
       }
     }
     this->Counts.inserted = this->Band.size() - this->Counts.band;
-    return this->crossing();
+    std::vector<CrossingTetrahedron<Id>> found;
+    this->Ranks.together([&]() { found = this->crossing(); });
+    return found;
   }
 
   const TetrahedraCounts& counts() const { return this->Counts; }
@@ -99,43 +106,76 @@ private:
     return result;
   }
 
-  /// The leaves that touch one on the other side.
+  /// What one thread needs to look for leaves at the surface.
+  struct LeafSearch
+  {
+    LeafValueCache<TSample> values;
+    Path path;
+    std::vector<std::size_t> found;
+  };
+
+  /// This rank's leaves that touch one on the other side.
   std::vector<std::size_t> leavesAtSurface(const std::vector<BinaryIndex>& nodes)
   {
     std::vector<std::size_t> leaves;
     std::mutex mutex;
-    constexpr std::size_t grain = 256;
-    forBatches(this->Run, nodes.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+    const auto makeSearch = [this]() {
+      return LeafSearch{ { this->Tree, this->Means }, pathToRoot(this->Tree), {} };
+    };
+    this->Ranks.forEach(this->Run, nodes.size(), makeSearch,
+      [&](LeafSearch& search, std::size_t i)
       {
-        LeafValueCache<TSample> values(this->Tree, this->Means);
-        std::vector<std::size_t> found;
-        Path path = pathToRoot(this->Tree);
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          moveTo(this->Tree, path, nodes[i]);
-          forEachBelow(this->Tree, path, maximumDepth,
-            [&](const Path& leaf)
+        search.found.clear();
+        moveTo(this->Tree, search.path, nodes[i]);
+        forEachBelow(this->Tree, search.path, maximumDepth,
+          [&](const Path& leaf)
+          {
+            if (this->isAtSurface(leaf, search.values))
             {
-              const bool isBelow = values.at(leaf.nodeIndex()) < this->Isovalue;
-              if (touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow))
-              {
-                found.push_back(leaf.nodeIndex());
-              }
-            });
-        }
+              search.found.push_back(leaf.nodeIndex());
+            }
+          });
         const std::lock_guard<std::mutex> lock(mutex);
-        leaves.insert(leaves.end(), found.begin(), found.end());
+        leaves.insert(leaves.end(), search.found.begin(), search.found.end());
       });
     return leaves;
   }
 
-  /// Adds leaves to the band.
+  bool isAtSurface(const Path& leaf, LeafValueCache<TSample>& values) const
+  {
+    if (!this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
+    {
+      return false;
+    }
+    const bool isBelow = values.at(leaf.nodeIndex()) < this->Isovalue;
+    return touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow);
+  }
+
+  /// Adds leaves to the band: those of this rank, and of all others.
   /// @param leaves in any order, with repetitions
   void insert(std::vector<std::size_t> leaves)
   {
-    // The same order for any number of threads.
-    std::sort(leaves.begin(), leaves.end());
+    this->Ranks.gatherLeaves(leaves);
+    this->Ranks.together(
+      [&]()
+      {
+        this->Marks.grow(this->Tree.nodes.size());
+        this->Band.insert(this->newSites(leaves),
+          [this](double share)
+          {
+            throwIfAborted(this->Run);
+            this->report(share);
+          });
+      });
+  }
+
+  /// Marks leaves as those of the band. @returns those that were not
+  std::vector<BandSite> newSites(std::vector<std::size_t>& leaves)
+  {
+    // In the same order for any number of threads and on all ranks.
+    std::sort(leaves.begin(), leaves.end(),
+      [this](std::size_t a, std::size_t b)
+      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
     LeafValueCache<TSample> values(this->Tree, this->Means);
     std::vector<BandSite> sites;
@@ -149,14 +189,10 @@ private:
           values.at(leaf) < this->Isovalue });
       }
     }
-    this->Band.insert(sites,
-      [this](double share)
-      {
-        throwIfAborted(this->Run);
-        this->report(share);
-      });
+    return sites;
   }
 
+  /// Splits nodes of this rank.
   void split(const std::vector<std::size_t>& nodes)
   {
     splitFurther(this->Run, this->Tree, nodes);
@@ -166,12 +202,21 @@ private:
   /// Inserts all samples.
   void insertAll()
   {
-    splitCompletely(this->Run, this->Tree);
-    this->Marks.grow(this->Tree.nodes.size());
     std::vector<std::size_t> leaves;
-    Path path = pathToRoot(this->Tree);
-    forEachBelow(this->Tree, path, maximumDepth,
-      [&leaves](const Path& leaf) { leaves.push_back(leaf.nodeIndex()); });
+    this->Ranks.together(
+      [&]()
+      {
+        splitCompletely(this->Run, this->Tree);
+        Path path = pathToRoot(this->Tree);
+        forEachBelow(this->Tree, path, maximumDepth,
+          [&](const Path& leaf)
+          {
+            if (this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
+            {
+              leaves.push_back(leaf.nodeIndex());
+            }
+          });
+      });
     this->insert(std::move(leaves));
     this->Counts.isWhole = true;
   }
@@ -181,23 +226,30 @@ private:
   {
     while (this->Band.size() > 0 && this->Band.dimension() < 3)
     {
-      const std::optional<std::size_t> node = this->nodeOffBand();
-      if (!node)
+      std::optional<std::size_t> node;
+      std::vector<std::size_t> leaves;
+      this->Ranks.together(
+        [&]()
+        {
+          node = this->nodeOffBand();
+          if (node && this->Tree.nodes[*node].isLeaf)
+          {
+            leaves.push_back(*node);
+          }
+          else if (node)
+          {
+            this->split({ *node });
+          }
+        });
+      if (!this->Ranks.isAny(node.has_value()))
       {
         return;
       }
-      if (this->Tree.nodes[*node].isLeaf)
-      {
-        this->insert({ *node });
-      }
-      else
-      {
-        this->split({ *node });
-      }
+      this->insert(std::move(leaves));
     }
   }
 
-  /// A node without children with a sample that would raise the dimension of the band.
+  /// A node of this rank without children with a sample that would raise the dimension of the band.
   std::optional<std::size_t> nodeOffBand()
   {
     std::optional<std::size_t> found;
@@ -207,7 +259,7 @@ private:
       {
         const Node<TSample>& node = this->Tree.nodes[below.nodeIndex()];
         const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
-        for (std::size_t i = node.begin; i < end && !found; ++i)
+        for (std::size_t i = node.begin; i < end && !found && this->Tree.hasOwn(node); ++i)
         {
           if (this->Band.raisesDimension(positionOf(this->Tree.samples[i])))
           {
@@ -218,29 +270,53 @@ private:
     return found;
   }
 
+  /// What searches in spheres yield.
+  struct SearchResult
+  {
+    std::vector<std::size_t> leaves;  // that lie inside
+    std::vector<std::size_t> unsplit; // nodes that have to be split for searches to be complete
+  };
+
   /// Looks for samples inside the spheres of crossing cells, certifies cells without any, and
-  /// inserts those found.
+  /// inserts those found. A cell that holds one of another rank does not outlive that.
   /// @returns whether cells remain to be certified
   bool certify()
   {
-    const std::size_t count = this->Band.listOpenCells();
-    this->Visits += this->Band.cellCount();
-    std::vector<std::size_t> found;
-    std::vector<std::size_t> unsplit;
+    std::size_t openCount = 0;
+    SearchResult result;
+    this->Ranks.together(
+      [&]()
+      {
+        throwIfAborted(this->Run);
+        openCount = this->Band.listOpenCells();
+        this->Visits += this->Band.cellCount();
+        result = this->searchSpheres(openCount);
+      });
+    if (!this->Ranks.isAny(this->isSpent()))
+    {
+      this->Ranks.together([&]() { this->split(result.unsplit); });
+      this->insert(std::move(result.leaves));
+    }
+    return this->Ranks.isAny(openCount > 0);
+  }
+
+  SearchResult searchSpheres(std::size_t openCount)
+  {
+    SearchResult all;
     std::mutex mutex;
     constexpr std::size_t grain = 512;
     forBatches(
-      this->Run, count, 8 * grain, grain,
+      this->Run, openCount, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         SphereSearch<TSample> search(this->Tree, this->Band, this->Marks);
-        std::vector<std::size_t> foundHere;
+        std::vector<std::size_t> leaves;
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)
         {
           if (const std::optional<std::size_t> leaf = search.find(i))
           {
-            foundHere.push_back(*leaf);
+            leaves.push_back(*leaf);
           }
           else if (search.isComplete())
           {
@@ -251,33 +327,33 @@ private:
           visits = search.visits();
         }
         const std::lock_guard<std::mutex> lock(mutex);
-        found.insert(found.end(), foundHere.begin(), foundHere.end());
-        unsplit.insert(unsplit.end(), search.unsplit().begin(), search.unsplit().end());
+        all.leaves.insert(all.leaves.end(), leaves.begin(), leaves.end());
+        all.unsplit.insert(all.unsplit.end(), search.unsplit().begin(), search.unsplit().end());
       },
       [this](double share) { this->report(share); });
-    if (!this->isSpent())
-    {
-      this->split(unsplit);
-      this->insert(std::move(found));
-    }
-    return count > 0;
+    return all;
   }
 
   /// Inserts samples whose value is on the other side than the band's surface has it.
   /// @returns whether there were any
   bool checkSides()
   {
-    SideCheck<TSample> check(this->Run, this->Tree, this->Band, this->Marks, this->Means);
-    const std::vector<std::size_t> nodes = check.find(this->Isovalue);
     std::vector<std::size_t> leaves;
-    std::vector<std::size_t> unsplit;
-    for (const std::size_t node : nodes)
-    {
-      (this->Tree.nodes[node].isLeaf ? leaves : unsplit).push_back(node);
-    }
-    this->split(unsplit);
+    bool isAnyWrong = false;
+    this->Ranks.together(
+      [&]()
+      {
+        SideCheck<TSample> check(this->Run, this->Tree, this->Band, this->Marks, this->Means);
+        std::vector<std::size_t> unsplit;
+        for (const std::size_t node : check.find(this->Isovalue))
+        {
+          (this->Tree.nodes[node].isLeaf ? leaves : unsplit).push_back(node);
+        }
+        isAnyWrong = !leaves.empty() || !unsplit.empty();
+        this->split(unsplit);
+      });
     this->insert(std::move(leaves));
-    return !nodes.empty();
+    return this->Ranks.isAny(isAnyWrong);
   }
 
   /// Reports progress: half of the work is the first tetrahedrisation, most of the rest the first
@@ -312,6 +388,7 @@ private:
 
   const Execution& Run;
   SampleTree<TSample>& Tree;
+  TRanks& Ranks;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
   BandTriangulation Band;

@@ -3,7 +3,7 @@
 #define isopoint_BandTriangulation_h
 
 #include "Isopoint/Base/Vector.h"
-#include "Isopoint/Triangles/SphereFunction.h"
+#include "Isopoint/Tetrahedra/SphereFunction.h"
 
 #include <array>
 #include <cstddef>

@@ -3,10 +3,10 @@
 #define isopoint_SphereSearch_h
 
 #include "Isopoint/Base/Region.h"
+#include "Isopoint/Tetrahedra/BandTriangulation.h"
+#include "Isopoint/Tetrahedra/NodeMarks.h"
+#include "Isopoint/Tetrahedra/SphereFunction.h"
 #include "Isopoint/Tree/SampleTree.h"
-#include "Isopoint/Triangles/BandTriangulation.h"
-#include "Isopoint/Triangles/NodeMarks.h"
-#include "Isopoint/Triangles/SphereFunction.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -105,7 +105,8 @@ private:
 constexpr std::size_t fewSamples = 16;
 
 /// Searches the tree for a sample inside the sphere of a cell, the nearest to the centre first as
-/// far as the tree indicates it. Memory is kept. For one thread.
+/// far as the tree indicates it; where ranks share the tree, for one of this rank's. Memory is
+/// kept. For one thread.
 template <class TSample>
 class SphereSearch
 {
@@ -162,6 +163,10 @@ private:
   {
     ++this->Visits;
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!this->Tree.hasOwn(node))
+    {
+      return false;
+    }
     if (!node.isSplit())
     {
       return this->visitEnd(nodeIndex, shape);
