@@ -35,8 +35,10 @@
  *
  * Samples that are all coplanar have no tetrahedra: the output is then empty.
  *
- * @warning
- * Several ranks are not supported: that is an error. See SetController().
+ * On several ranks (see SetController()) each triangle of one process is in the output of one rank,
+ * with its points; those at seams are in several outputs, and counted on one rank. Downstream
+ * requests for ghost levels add as many rings of triangles of other ranks, marked in vtkGhostType,
+ * as are all points that are counted on other ranks.
  *
  * @warning
  * Where samples are in noise or stand on a few curves, most tetrahedra cross the isovalue, and it

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
- * RanksBenchmark RANKS SAMPLES [all]: extracts a sphere from random samples on ranks that are
- * threads of this process, points alone or with "all" fits, normals and radii. Prints for each rank
+ * RanksBenchmark RANKS SAMPLES [all] [triangles]: extracts a sphere from random samples on ranks
+ * that are threads of this process, points or triangles alone, or with "all" fits, normals and
+ * radii. Prints for each rank
  * the processor seconds, what it sent to others and the number of exchanges: of loading, of the
  * first isovalue, of another one, and of new values at the same positions with the first one.
  */
@@ -9,6 +10,7 @@
 
 #include "Isopoint/IsosurfaceExtractor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -110,18 +112,24 @@ int main(int argc, char** argv)
 {
   if (argc < 3 || std::atoi(argv[1]) < 1 || std::atof(argv[2]) < 1)
   {
-    std::fprintf(stderr, "usage: %s RANKS SAMPLES [all]\n", argv[0]);
+    std::fprintf(stderr, "usage: %s RANKS SAMPLES [all] [triangles]\n", argv[0]);
     return 2;
   }
   const int ranks = std::atoi(argv[1]);
   const auto samples = static_cast<std::size_t>(std::atof(argv[2]));
   isopoint::ExtractionRequest request;
   request.isosurface.isovalue = 1.0 / 3.0;
-  if (argc > 3 && std::strcmp(argv[3], "all") == 0)
+  const auto hasWord = [&](const char* word)
+  {
+    return std::any_of(argv + 3, argv + argc,
+      [word](const char* argument) { return std::strcmp(argument, word) == 0; });
+  };
+  if (hasWord("all"))
   {
     request.isosurface.fit = isopoint::FitRequest{ isopoint::FitOrder::Cubic, true };
     request.splats = isopoint::SplatOptions();
   }
+  request.triangles = hasWord("triangles");
   if (ranks == 1)
   {
     isopoint::IsosurfaceExtractor extractor;

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The filter on the ranks of MPI, or in a plain process, on random samples of a sphere:
 
-pvbatch ranks.py SAMPLES [all]
-mpirun -n N pvbatch --symmetric ranks.py SAMPLES [all]
+pvbatch ranks.py SAMPLES [all] [triangles]
+mpirun -n N pvbatch --symmetric ranks.py SAMPLES [all] [triangles]
 
-Points alone, or with "all" fits, normals and radii. Each rank uses one thread. Prints the seconds
+Points or triangles alone, or with "all" fits, normals and radii. Each rank uses one thread. Prints the seconds
 and processor seconds of the slowest rank for the first isovalue, for another one and for new values
 at the same positions, and the largest peak of memory of any rank, all included."""
 
@@ -15,7 +15,7 @@ import time
 os.environ["VTK_SMP_MAX_THREADS"] = "1"  # noqa: E402
 
 import numpy as np
-from scatteredisopoints import vtkScatteredIsopointFilter
+from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -77,11 +77,11 @@ def timed(what, isopoints):
               f"{points:.0f} points", flush=True)
 
 
-def main(count, everything):
+def main(count, everything, kind):
     data = samples(count)
     if RANK == 0:
         print(f"{SIZE} ranks, {count} samples; input made: peak {peak_memory():.0f} MB", flush=True)
-    isopoints = vtkScatteredIsopointFilter()
+    isopoints = kind()
     isopoints.SetInputData(data)
     isopoints.UseAllCoresOff()
     if not everything:
@@ -99,4 +99,5 @@ def main(count, everything):
     timed("new values", isopoints)
 
 
-main(int(float(sys.argv[1])), "all" in sys.argv[2:])
+main(int(float(sys.argv[1])), "all" in sys.argv[2:],
+     vtkScatteredIsosurfaceFilter if "triangles" in sys.argv[2:] else vtkScatteredIsopointFilter)
