@@ -18,12 +18,14 @@ vtk_module_wrap_python(
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/ScatteredIsopoints"
   INSTALL_HEADERS OFF)
 
-set(package_source "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Python/__init__.py")
 set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
-configure_file("${package_source}"
-  "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints/__init__.py" COPYONLY)
-install(FILES "${package_source}"
-  DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
+foreach (file __init__.py contouring.py py.typed)
+  set(package_source "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Python/${file}")
+  configure_file("${package_source}"
+    "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints/${file}" COPYONLY)
+  install(FILES "${package_source}"
+    DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
+endforeach ()
 
 # A relative run path from the package to the libraries, so that the installed tree can be moved.
 file(RELATIVE_PATH libraries_from_package
