@@ -2,6 +2,7 @@
 // The fast halving against the definition, in orders that are hard on selection algorithms.
 #include "Clouds.h"
 
+#include "Isopoint/Tree/BinaryIndex.h"
 #include "Isopoint/Tree/Splitting.h"
 
 #include <gtest/gtest.h>
@@ -112,4 +113,41 @@ TEST(Splitting, SignedZerosCoincide)
   std::vector<FloatSample> samples =
     samplesOf(2, [](std::size_t i, int) { return i == 0 ? 0.0 : -0.0; });
   EXPECT_FALSE(isopoint::halveByDefinition(samples.data(), 2, 0));
+}
+
+// A way down from the root and back, by the turns taken.
+TEST(BinaryIndex, NamesAWayThroughTheTree)
+{
+  std::vector<isopoint::BinaryIndex> way{ isopoint::rootIndex };
+  std::vector<bool> turns;
+  for (int depth = 0; depth < isopoint::maximumDepth; ++depth)
+  {
+    turns.push_back(depth % 3 == 0 || depth % 7 == 2);
+    way.push_back(
+      turns.back() ? isopoint::upperChild(way.back()) : isopoint::lowerChild(way.back()));
+    EXPECT_EQ(isopoint::depthOf(way.back()), depth + 1);
+    EXPECT_EQ(isopoint::isUpperChild(way.back()), turns.back());
+  }
+  for (std::size_t from = 0; from < way.size(); ++from)
+  {
+    for (std::size_t to = 0; to <= from; ++to)
+    {
+      EXPECT_TRUE(isopoint::ancestorOf(way[from], static_cast<int>(from - to)) == way[to]);
+      EXPECT_TRUE(from == to || way[from] != way[to]);
+    }
+  }
+}
+
+TEST(BinaryIndex, LevelsThatHalveSamples)
+{
+  EXPECT_EQ(isopoint::levelsToHalve(1), 0);
+  EXPECT_EQ(isopoint::levelsToHalve(2), 1);
+  EXPECT_EQ(isopoint::levelsToHalve(3), 2);
+  for (int level = 2; level < 60; ++level)
+  {
+    const std::size_t power = std::size_t{ 1 } << level;
+    EXPECT_EQ(isopoint::levelsToHalve(power - 1), level);
+    EXPECT_EQ(isopoint::levelsToHalve(power), level);
+    EXPECT_EQ(isopoint::levelsToHalve(power + 1), level + 1);
+  }
 }

@@ -69,7 +69,7 @@ public:
 
   /// Writes a node and what is below it as far as it touches any of the boxes: nodes of the given
   /// depth, and what touches none, by their ranges alone, small nodes above it by their samples.
-  void write(BinaryIndex index, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
+  void write(const BinaryIndex& index, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
   {
     Path path = pathTo(this->Tree, index);
     this->write(path, depth, boxes, out);

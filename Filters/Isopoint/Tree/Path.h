@@ -56,7 +56,7 @@ void descend(const SampleTree<TSample>& tree, Path& path, bool upper)
 /// Shortens the path to the parent of its node.
 inline void ascend(Path& path)
 {
-  path.index >>= 1;
+  path.index = ancestorOf(path.index, 1);
   --path.depth;
   const bool upper = path.uppers[path.depth];
   const int axis = path.axes[path.depth];
@@ -66,22 +66,22 @@ inline void ascend(Path& path)
 /// Moves a path to the node with that binary index, over the nearest common ancestor: nodes that
 /// follow each other in the order of the tree take few steps.
 template <class TSample>
-void moveTo(const SampleTree<TSample>& tree, Path& path, BinaryIndex index)
+void moveTo(const SampleTree<TSample>& tree, Path& path, const BinaryIndex& index)
 {
   const int depth = depthOf(index);
-  while (path.depth > depth || path.index != index >> (depth - path.depth))
+  while (path.depth > depth || path.index != ancestorOf(index, depth - path.depth))
   {
     ascend(path);
   }
   while (path.depth < depth)
   {
-    descend(tree, path, isUpperChild(index >> (depth - path.depth - 1)));
+    descend(tree, path, isUpperChild(ancestorOf(index, depth - path.depth - 1)));
   }
 }
 
 /// The path to the node with that binary index. O(depth)
 template <class TSample>
-Path pathTo(const SampleTree<TSample>& tree, BinaryIndex index)
+Path pathTo(const SampleTree<TSample>& tree, const BinaryIndex& index)
 {
   Path path = pathToRoot(tree);
   moveTo(tree, path, index);
