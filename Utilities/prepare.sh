@@ -24,10 +24,28 @@ preset=$1
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_dir"
 
+if ! command -v dpkg-query > /dev/null; then
+  echo "$0: this is not a Debian system. Install the equivalents of the packages that" >&2
+  echo "Utilities/debian-packages*.txt list, then use cmake as the README says." >&2
+  exit 1
+fi
 package_lists=(Utilities/debian-packages.txt)
-if [[ -f Utilities/debian-packages-$preset.txt ]]; then
+if [[ $preset == vtk* ]]; then
+  package_lists+=(Utilities/debian-packages-vtk.txt)
+else
+  release=$(. /etc/os-release && echo "${VERSION_ID-}")
+  package_lists+=("Utilities/debian-packages-paraview-$release.txt")
+fi
+if [[ -f Utilities/debian-packages-$preset.txt && $preset != vtk ]]; then
   package_lists+=("Utilities/debian-packages-$preset.txt")
 fi
+for list in "${package_lists[@]}"; do
+  if [[ ! -f $list ]]; then
+    echo "$0: there is no $list: with ParaView Debian 12 and 13 are known." >&2
+    echo "Build with VTK alone (the preset vtk), or install what the other lists name." >&2
+    exit 1
+  fi
+done
 
 missing_packages()
 {
@@ -39,11 +57,6 @@ missing_packages()
   done < <(cat "${package_lists[@]}")
 }
 
-if ! command -v dpkg-query > /dev/null; then
-  echo "$0: this is not a Debian system. Install the equivalents of the packages in" >&2
-  echo "${package_lists[*]}, then use cmake as the README says." >&2
-  exit 1
-fi
 mapfile -t missing < <(missing_packages)
 if ((${#missing[@]} > 0)); then
   if ((EUID != 0)); then
