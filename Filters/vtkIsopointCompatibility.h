@@ -6,7 +6,10 @@
 #define vtkIsopointCompatibility_h
 
 #include "vtkAlgorithm.h"
+#include "vtkDataSet.h"
 #include "vtkSMPTools.h"
+#include "vtkUniformGrid.h"
+#include "vtkUniformGridAMR.h"
 #include "vtkVersionMacros.h"
 
 #include <type_traits>
@@ -31,6 +34,26 @@ inline bool vtkIsAborted(vtkAlgorithm* filter)
 inline int vtkGetRequestedSMPThreads()
 {
   return vtk::detail::smp::vtkSMPToolsAPI::GetInstance().GetInternalDesiredNumberOfThread();
+}
+
+/**
+ * The number of grids of a level of an AMR, and one of them, null or not.
+ */
+inline unsigned int vtkCountGridsOfLevel(vtkUniformGridAMR* amr, unsigned int level)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return amr->GetNumberOfBlocks(level);
+#else
+  return amr->GetNumberOfDataSets(level);
+#endif
+}
+inline vtkDataSet* vtkGetGridOfLevel(vtkUniformGridAMR* amr, unsigned int level, unsigned int grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return amr->GetDataSetAsCartesianGrid(level, grid);
+#else
+  return amr->GetDataSet(level, grid);
+#endif
 }
 
 /// Whether a grid stores the faces of its polyhedra in cell arrays, as from VTK 9.4 on. Derived

@@ -2,6 +2,7 @@
 #include "vtkIsopointStructure.h"
 
 #include "Isopoint/Base/Team.h"
+#include "vtkIsopointCompatibility.h"
 #include "vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataSet.h"
@@ -123,9 +124,9 @@ bool forChildren(vtkDataObject* object, const Visit& visit)
 std::vector<vtkDataObject*> boxesOf(vtkUniformGridAMR* levels, unsigned int level)
 {
   std::vector<vtkDataObject*> boxes;
-  for (unsigned int box = 0; box < levels->GetNumberOfDataSets(level); ++box)
+  for (unsigned int box = 0; box < vtkCountGridsOfLevel(levels, level); ++box)
   {
-    boxes.push_back(levels->GetDataSet(level, box));
+    boxes.push_back(vtkGetGridOfLevel(levels, level, box));
   }
   return boxes;
 }

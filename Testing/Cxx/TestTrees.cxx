@@ -2,6 +2,8 @@
 // Adaptive grids: AMR and hyper trees.
 #include "InputTesting.h"
 
+#include "vtkIsopointCompatibility.h"
+
 #include <cmath>
 
 using namespace inputtesting;
@@ -55,7 +57,7 @@ TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
   Samples points;
   for (unsigned int level = 0; level < 2; ++level)
   {
-    vtkUniformGrid* const grid = amr->GetDataSet(level, 0);
+    vtkDataSet* const grid = vtkGetGridOfLevel(amr, level, 0);
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
       if (level == 1 || cell % 8 >= 4)
@@ -85,7 +87,8 @@ TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
   {
     auto* const boxes = vtkMultiBlockDataSet::SafeDownCast(levels->GetBlock(level));
     ASSERT_TRUE(boxes);
-    const auto alone = newFilter(amr->GetDataSet(level, 0), vtkDataObject::FIELD_ASSOCIATION_CELLS);
+    const auto alone =
+      newFilter(vtkGetGridOfLevel(amr, level, 0), vtkDataObject::FIELD_ASSOCIATION_CELLS);
     alone->Update();
     EXPECT_GT(alone->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(everythingOf(vtkPolyData::SafeDownCast(boxes->GetBlock(0))),
@@ -103,7 +106,7 @@ TEST(Trees, NonOverlappingAmr)
   Samples samples;
   for (unsigned int level = 0; level < 2; ++level)
   {
-    vtkUniformGrid* const grid = amr->GetDataSet(level, level);
+    vtkDataSet* const grid = vtkGetGridOfLevel(amr, level, level);
     addCellField(grid);
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
