@@ -6,10 +6,13 @@
 #define vtkIsopointCompatibility_h
 
 #include "vtkAlgorithm.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkSMPTools.h"
 #include "vtkUniformGrid.h"
 #include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkVersionMacros.h"
 
 #include <type_traits>
@@ -53,6 +56,18 @@ inline vtkDataSet* vtkGetGridOfLevel(vtkUniformGridAMR* amr, unsigned int level,
   return amr->GetDataSetAsCartesianGrid(level, grid);
 #else
   return amr->GetDataSet(level, grid);
+#endif
+}
+
+/**
+ * The type of each cell.
+ */
+inline vtkDataArray* vtkGetTypesOfCells(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
 #endif
 }
 

@@ -76,7 +76,7 @@ void addGhosts(vtkIsopointInputState& state, vtkDataSetAttributes* attributes)
 void addGrid(vtkIsopointInputState& state, vtkUnstructuredGrid* grid)
 {
   add(state, grid->GetCells());
-  add(state, grid->GetCellTypesArray());
+  add(state, vtkGetTypesOfCells(grid));
   const auto faces = vtkGetFacesOfPolyhedra(grid);
   add(state, faces.first);
   add(state, faces.second);

@@ -1,4 +1,4 @@
-# Installs to a fresh prefix; Python package and plugin must work from there alone.
+# Installs to a fresh prefix; Python package, plugin and CMake package must work from there alone.
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
   if (NOT result EQUAL 0)
@@ -10,5 +10,9 @@ file(REMOVE_RECURSE "${PREFIX}")
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
   "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestFilter.py")
+file(REMOVE_RECURSE "${PREFIX}-consumer")
+run("${CMAKE_CTEST_COMMAND}" --build-and-test "${SOURCE_DIR}/Testing/Consumer" "${PREFIX}-consumer"
+  --build-generator "${GENERATOR}" --build-options "-DCMAKE_PREFIX_PATH=${PREFIX}"
+  --test-command consumer)
 run("${OFFSCREEN}" "${PVPYTHON}" "${SOURCE_DIR}/Testing/ParaView/TestPipeline.py"
   "${PREFIX}/${LIB_DIR}/ScatteredIsopoints/ScatteredIsopoints.so")
