@@ -70,6 +70,14 @@ if ((${#missing[@]} > 0)); then
   apt-get install --quiet=2 --yes --no-install-recommends "${missing[@]}" > /dev/null
 fi
 
+# Debian 13's paraview-dev looks for Python modules under other names than python3-paraview gives them.
+if [[ ${release-} == 13 ]] && ((EUID == 0)); then
+  for module in /usr/lib/python3/dist-packages/{vtkmodules,paraview/modules}/*.cpython-*.so; do
+    link=${module%%.cpython-*}.so
+    [[ -e $link ]] || ln --symbolic "${module##*/}" "$link"
+  done
+fi
+
 if [[ $preset == check ]]; then
   exit 0
 fi
