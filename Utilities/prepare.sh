@@ -72,7 +72,7 @@ fi
 
 # Debian 13's paraview-dev looks for Python modules under other names than python3-paraview gives them.
 if [[ ${release-} == 13 ]] && ((EUID == 0)); then
-  for module in /usr/lib/python3/dist-packages/{vtkmodules,paraview/modules}/*.cpython-*.so; do
+  for module in /usr/lib/python3/dist-packages/{vtkmodules,paraview/modules,paraview/incubator}/*.cpython-*.so; do
     link=${module%%.cpython-*}.so
     [[ -e $link ]] || ln --symbolic "${module##*/}" "$link"
   done
