@@ -241,6 +241,29 @@ TEST(Tetrahedra, OfAllSamplesWhereThatIsQuicker)
   EXPECT_TRUE(expectSameTetrahedra(shell, 0.1).counts.isWhole);
 }
 
+/// Large insertions run on several threads, where they get in each other's way more or less.
+TEST(Tetrahedra, AreTheSameFromSeveralThreads)
+{
+  const Cloud uniform = clouds::uniform(20000, 21);
+  Cloud sphere = clouds::uniform(10000, 22);
+  for (std::size_t i = 0; i < sphere.size(); ++i)
+  {
+    double* const p = sphere.positions.data() + 3 * i;
+    const double length = distanceFrom(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5);
+    std::for_each(p, p + 3, [length](double& coordinate) { coordinate = coordinate / length; });
+  }
+  for (const std::size_t threads : { 2, 5, 300 })
+  {
+    SCOPED_TRACE(threads);
+    EXPECT_TRUE(expectSameTetrahedra(withNoise(uniform, 0.5, 21), 0.5, threads).counts.isWhole);
+    expectSameTetrahedra(withNoise(clouds::lattice(25, 25, 25), 0.5, 22), 0.5, threads);
+    expectSameTetrahedra(scaled(withNoise(uniform, 0.5, 23), 1.0, 1e-4, 1.0), 0.5, threads);
+    expectSameTetrahedra(scaled(withNoise(uniform, 0.5, 24), 1e300, 1e300, 1e300), 0.5, threads);
+    expectSameTetrahedra(withNoise(sphere, 0.5, 25), 0.5, threads);
+    expectSameTetrahedra(clouds::coarse(20000, 40, 26), 4.5, threads);
+  }
+}
+
 /// Wherever the band begins, all pieces of the surface are found: samples on the wrong side of what
 /// is found so far show that others are missing.
 TEST(Tetrahedra, DoNotDependOnTheFirstBand)

@@ -49,6 +49,7 @@ public:
     , Tree(tree)
     , Means(values)
     , Isovalue(isovalue)
+    , Band(execution)
   {
   }
 
