@@ -13,7 +13,7 @@
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <cstddef>
 #include <cstdint>

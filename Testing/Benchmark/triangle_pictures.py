@@ -18,12 +18,12 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 SIZE = [420, 420]
 COLOR = [0.85, 0.72, 0.5]
 
-# file, array, isovalue, GapFactor, direction and up of the camera
+# file, array, isovalue, GapFactor; the camera's direction, its view up, and how large things are drawn
 ROWS = [
-    ("multiblock/bluntfin.vts", "Density", 1.0, 3.0, (0.3, 1.0, -0.5), (0, 0, 1)),
-    ("unstructured/disk_out_ref.vtu", "Temp", 400.0, 0.0, (1.0, 0.5, -0.4), (0, 0, 1)),
-    ("unstructured/fea_bracket_kiefer.vtu", "von_Mises_psi", 5.0, 3.0, (0.0, 0.0, -1.0), (0, 1, 0)),
-    ("scattered/sph_water_jet.vtp", "speed", 33.0, 3.0, (0.5, 1.0, -0.4), (0, 0, 1)),
+    ("multiblock/bluntfin.vts", "Density", 1.0, 3.0, (0.3, 1.0, -0.5), (0, 0, 1), 0.95),
+    ("unstructured/disk_out_ref.vtu", "Temp", 400.0, 0.0, (1.0, 0.5, -0.4), (0, 0, 1), 1.25),
+    ("unstructured/fea_bracket_kiefer.vtu", "von_Mises_psi", 5.0, 3.0, (0, 0, -1), (0, 1, 0), 1.3),
+    ("scattered/sph_water_jet.vtp", "speed", 33.0, 3.0, (0.5, 1.0, -0.4), (0, 0, 1), 1.25),
 ]
 
 
@@ -42,6 +42,7 @@ def surfaces_of(folder, name, array, isovalue, gap_factor):
     if array not in mesh.PointData.keys():
         samples = simple.CellCenters(Input=mesh)
         mesh = simple.CellDatatoPointData(Input=mesh)
+        mesh.UpdatePipeline()
     columns = []
     for make, representation in (
         (simple.ScatteredIsopoints, "Isopoint Splats"),
@@ -55,19 +56,19 @@ def surfaces_of(folder, name, array, isovalue, gap_factor):
     return columns
 
 
-def place(camera, bounds, direction, up):
-    """Looks along a direction, with the bounds in view."""
+def place(camera, bounds, direction, up, zoom):
+    """Looks along a direction, with all of the bounds in view if the zoom is 1."""
     center = np.add(bounds[0::2], bounds[1::2]) / 2
     radius = np.linalg.norm(np.subtract(bounds[1::2], bounds[0::2])) / 2
     direction = np.divide(direction, np.linalg.norm(direction))
-    distance = radius / np.sin(np.radians(camera.GetViewAngle() / 2))
+    distance = radius / zoom / np.tan(np.radians(camera.GetViewAngle() / 2))
     camera.SetFocalPoint(*center)
     camera.SetPosition(*(center - distance * direction))
     camera.SetViewUp(*up)
 
 
-def pixels_of(column, bounds, direction, up, path):
-    """A picture as an array of rows, the lowest first."""
+def pixels_of(column, bounds, camera, path):
+    """A picture as an array of rows, the lowest first. camera: direction, view up, zoom."""
     if column is None:
         return np.full((SIZE[1], SIZE[0], 3), 255, np.uint8)
     surface, representation = column
@@ -81,8 +82,7 @@ def pixels_of(column, bounds, direction, up, path):
     display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = display.AmbientColor = COLOR
     simple.ResetCamera(view)
-    place(view.GetActiveCamera(), bounds, direction, up)
-    view.CameraParallelProjection = 0
+    place(view.GetActiveCamera(), bounds, *camera)
     simple.SaveScreenshot(path, view, ImageResolution=SIZE)
     simple.Delete(view)
     reader = vtkPNGReader()
@@ -98,14 +98,14 @@ def main(plugin, folder, picture):
     simple.LoadPlugin(plugin)
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
-        for name, array, isovalue, gap_factor, direction, up in ROWS:
+        for name, array, isovalue, gap_factor, *camera in ROWS:
             columns = surfaces_of(folder, name, array, isovalue, gap_factor)
-            # All columns are seen alike.
-            framed = columns[2] or columns[1]
+            # All columns are seen alike: triangles may have outliers, and splats be huge.
+            framed = columns[2] or columns[0]
             framed[0].UpdatePipeline()
             bounds = framed[0].GetDataInformation().GetBounds()
             path = os.path.join(scratch, "part.png")
-            parts = [pixels_of(column, bounds, direction, up, path) for column in columns]
+            parts = [pixels_of(column, bounds, camera, path) for column in columns]
             rows.insert(0, np.concatenate(parts, axis=1))
     pixels = np.concatenate(rows, axis=0)
     image = vtkImageData()

@@ -9,7 +9,7 @@
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Tree/LeafValueCache.h"
 #include "Isopoint/Triangles/BandTriangulation.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <array>

@@ -6,12 +6,15 @@
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
 
 #include <vector>
 
 namespace isopoint
 {
+
+/// Three different vertices of a surface, the lowest first. Seen from the side of lower values they
+/// stand counterclockwise: the right-hand normal points to decreasing values.
+using SurfaceTriangle = std::array<std::size_t, 3>;
 
 /// Takes back those moves of vertices by fits that would turn triangles over. A triangle is turned
 /// over if the right-hand normal of its unmoved vertices has a positive product with the sum of the
