@@ -22,6 +22,7 @@ namespace
 
 constexpr const char* usage =
   "usage: IsopointBenchmark [--threads N] [--largest MILLIONS] [--file IMAGE.vti ISOVALUE]\n"
+  "       IsopointBenchmark [--threads N] --triangles MILLIONS\n"
   "       IsopointBenchmark --paper\n"
   "Times isopoints and other methods on clouds of several kinds and sizes, and writes benchmark.md and\n"
   "benchmark.csv to the current folder.\n"
@@ -29,6 +30,8 @@ constexpr const char* usage =
   "  --largest MILLIONS      size of the largest uniform cloud, in millions of samples (default: 64);\n"
   "                          the other methods run on up to 4 million\n"
   "  --file IMAGE ISOVALUE   also contours a volume, interpolated at 16 million random positions\n"
+  "  --triangles MILLIONS    compares triangles of a uniform cloud with CGAL's parallel tetrahedrisation of\n"
+  "                          all samples instead, which takes half a gigabyte for each million\n"
   "  --paper                 repeats Tables 1 and 2 of [RL06] (docs/references.md) instead, and writes\n"
   "                          paper.md\n"
   "  --help                  prints this text\n";
@@ -39,6 +42,7 @@ struct Options
   double largestMillions = 64.0;
   std::string file;
   double isovalue = 0.0;
+  double trianglesMillions = 0.0; // 0: not asked for
   bool paper = false;
 };
 
@@ -82,6 +86,10 @@ Options parse(int argumentCount, char** arguments)
       options.file = arguments[++i];
       options.isovalue = number(arguments[++i]);
     }
+    else if (argument == "--triangles" && remaining >= 1)
+    {
+      options.trianglesMillions = number(arguments[++i]);
+    }
     else if (argument == "--paper")
     {
       options.paper = true;
@@ -105,17 +113,30 @@ void append(std::vector<Row>& rows, const std::vector<Row>& more)
   writeCsv(rows, "benchmark.csv");
 }
 
+constexpr double million = 1e6;
+
+Task uniformTask(const Options& options, double millions)
+{
+  return { "uniform", clouds::uniform(static_cast<std::size_t>(millions * million)), 70.0,
+    options.threads, true };
+}
+
+void compareTriangles(const Options& options)
+{
+  const Task task = uniformTask(options, options.trianglesMillions);
+  std::vector<Row> rows;
+  append(rows, measureTriangles(task, copySeconds(task.samples)));
+}
+
 void compare(const Options& options)
 {
-  constexpr double million = 1e6;
   constexpr double largestWithPeers = 4.0;
   std::vector<Row> rows;
   for (const double millions : { 0.05, 0.25, 1.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0 })
   {
     if (millions <= options.largestMillions)
     {
-      const Task task{ "uniform", clouds::uniform(static_cast<std::size_t>(millions * million)),
-        70.0, options.threads, true };
+      const Task task = uniformTask(options, millions);
       const double copy = copySeconds(task.samples);
       const std::vector<Row> ours = measureOurs(task, copy);
       append(rows, ours);
@@ -204,7 +225,18 @@ int main(int argumentCount, char** arguments)
   {
     const Options options = parse(argumentCount, arguments);
     vtkSMPTools::SetBackend("STDThread");
-    options.paper ? repeatPaper(options) : compare(options);
+    if (options.paper)
+    {
+      repeatPaper(options);
+    }
+    else if (options.trianglesMillions > 0.0)
+    {
+      compareTriangles(options);
+    }
+    else
+    {
+      compare(options);
+    }
   }
   catch (const std::exception& error)
   {

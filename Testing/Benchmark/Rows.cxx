@@ -243,6 +243,20 @@ std::vector<Row> measureOurs(const Task& task, double copy)
   return rows;
 }
 
+std::vector<Row> measureTriangles(const Task& task, double copy)
+{
+  vtkSMPTools::Initialize(task.threads);
+  std::vector<Row> rows;
+  rows.push_back(
+    measureNewFilter<vtkScatteredIsosurfaceFilter>(task, "triangles", copy, Extras::None));
+  rows.push_back(measureCgal(task, copy, true));
+  for (Row& row : rows)
+  {
+    row.oursSeconds = rows.front().seconds;
+  }
+  return rows;
+}
+
 std::vector<Row> measurePeers(const Task& task, double copy, const Row& ours)
 {
   constexpr std::size_t vtkDelaunayLimit = 50000; // it takes over a minute for 100,000

@@ -29,6 +29,10 @@ double copySeconds(vtkPolyData* samples);
 /// and with new values; on one thread.
 std::vector<Row> measureOurs(const Task& task, double copy);
 
+/// Triangles on their edges, and CGAL's parallel tetrahedrisation with one pass over its cells,
+/// which runs once.
+std::vector<Row> measureTriangles(const Task& task, double copy);
+
 /// The alternatives: VTK's resampling to a grid, CGAL's Delaunay triangulation, and vtkDelaunay3D
 /// where it takes less than a minute.
 std::vector<Row> measurePeers(const Task& task, double copy, const Row& ours);

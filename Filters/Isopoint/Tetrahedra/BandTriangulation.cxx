@@ -1,61 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
+#include "Isopoint/Tetrahedra/BandInsertion.h"
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/scalable_allocator.h>
+#endif
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
+#include <cstddef>
 
 namespace isopoint
 {
 namespace
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-
-/// The leaf of a vertex, and the side of its value, in the bits of one number.
-class VertexInfo
-{
-public:
-  VertexInfo() = default;
-  explicit VertexInfo(const BandSite& site)
-    : Bits(2 * site.leaf + (site.isBelow ? 1 : 0))
-  {
-  }
-
-  std::uint64_t leaf() const { return this->Bits / 2; }
-  bool isBelow() const { return this->Bits % 2 != 0; }
-
-private:
-  std::uint64_t Bits = 0;
-};
-
-struct CellInfo
-{
-  bool isCertified = false;
-};
-
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel,
-  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-using Triangulation = CGAL::Delaunay_triangulation_3<Kernel,
-  CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-using Cell = Triangulation::Cell_handle;
-using Vertex = Triangulation::Vertex_handle;
-
-Point pointAt(const Vector& position)
-{
-  return { position[0], position[1], position[2] };
-}
+using band::Cell;
+using band::Point;
+using band::pointAt;
+using band::Triangulation;
+using band::Vertex;
+using band::VertexInfo;
 
 /// Permutes corners evenly, so that those below come first.
 CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
@@ -94,6 +59,12 @@ Vector positionOf(const Point& point)
 class BandTriangulation::Internals
 {
 public:
+  explicit Internals(const Execution& execution)
+    : Run(execution)
+  {
+  }
+
+  const Execution& Run;
   Triangulation Cells;
   std::vector<Cell> Open; // the listed ones
 
@@ -113,20 +84,6 @@ public:
     return hasBelow && hasOther;
   }
 
-  /// Makes room for the cells of an insertion. An allocation that fails in the middle of one would
-  /// leave a static variable of CGAL as no later insertion expects it.
-  void reserveCells()
-  {
-    constexpr std::size_t mostAtOnce = 256; // larger holes are filled in another way
-    auto& cells = this->Cells.tds().cells();
-    if (cells.capacity() - cells.size() < mostAtOnce)
-    {
-      constexpr std::size_t leastBlock = 1024;
-      constexpr std::size_t shareOfBlock = 64;
-      cells.reserve(cells.capacity() + leastBlock + cells.size() / shareOfBlock);
-    }
-  }
-
   /// The index of the infinite vertex, or -1.
   int infiniteIndexOf(Cell cell) const
   {
@@ -135,40 +92,25 @@ public:
   }
 };
 
-BandTriangulation::BandTriangulation()
-  : Inside(std::make_unique<Internals>())
+BandTriangulation::BandTriangulation(const Execution& execution)
+  : Inside(std::make_unique<Internals>(execution))
 {
 }
 
-BandTriangulation::~BandTriangulation() = default;
+BandTriangulation::~BandTriangulation()
+{
+  this->Inside.reset();
+#ifdef CGAL_LINKED_WITH_TBB
+  // CGAL's cells are in memory of oneTBB, which would keep it for later ones.
+  scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
+#endif
+}
 
 void BandTriangulation::insert(
   const std::vector<BandSite>& sites, const std::function<void(double share)>& step)
 {
   this->Inside->Open = {};
-  std::vector<Point> points;
-  points.reserve(sites.size());
-  std::transform(sites.begin(), sites.end(), std::back_inserter(points),
-    [](const BandSite& site) { return pointAt(site.position); });
-  std::vector<std::size_t> order(sites.size());
-  std::iota(order.begin(), order.end(), std::size_t{ 0 });
-  // As CGAL does for a range of points: each is close to the one before.
-  const auto pointOf = CGAL::make_property_map(points);
-  CGAL::spatial_sort(order.begin(), order.end(),
-    CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(pointOf)>(pointOf));
-  constexpr std::size_t stepSize = 512;
-  Cell hint;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    this->Inside->reserveCells();
-    const Vertex vertex = this->Inside->Cells.insert(points[order[i]], hint);
-    vertex->info() = VertexInfo(sites[order[i]]);
-    hint = vertex->cell();
-    if (i % stepSize == 0)
-    {
-      step(static_cast<double>(i) / static_cast<double>(order.size()));
-    }
-  }
+  band::Insertion(this->Inside->Run, this->Inside->Cells, sites, step).run();
 }
 
 std::size_t BandTriangulation::size() const

@@ -2,6 +2,7 @@
 #ifndef isopoint_BandTriangulation_h
 #define isopoint_BandTriangulation_h
 
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Tetrahedra/SphereFunction.h"
 
@@ -42,14 +43,17 @@ struct CrossingTetrahedron
 class BandTriangulation
 {
 public:
-  BandTriangulation();
+  /// @param execution must outlive this; large insertions run on its threads, where TBB is at hand
+  explicit BandTriangulation(const Execution& execution);
   BandTriangulation(const BandTriangulation&) = delete;
   BandTriangulation& operator=(const BandTriangulation&) = delete;
   ~BandTriangulation();
 
   /// Adds samples, none of which coincide with another one.
-  /// @param step(share) called with the share that is done, every few milliseconds
-  /// @throws std::bad_alloc, and what step throws; then some of them are added
+  /// @param step(share) called from the calling thread with the share that is done, every few
+  /// milliseconds
+  /// @throws what step throws, and then some of them are added; std::bad_alloc, after which this
+  /// can only be destroyed
   void insert(const std::vector<BandSite>& sites, const std::function<void(double share)>& step);
 
   std::size_t size() const;

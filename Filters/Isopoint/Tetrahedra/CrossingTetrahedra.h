@@ -54,6 +54,7 @@ public:
     , Ranks(ranks)
     , Means(values)
     , Isovalue(isovalue)
+    , Band(execution)
   {
   }
 
@@ -367,7 +368,7 @@ private:
   /// Whether so many samples are near the surface that it is better to insert all.
   bool areMany(std::size_t leafCount) const
   {
-    constexpr double manyShare = 0.4;
+    constexpr double manyShare = 1.0 / 3.0;
     constexpr std::size_t smallCloud = 1000; // whose samples are mostly near the surface
     const std::size_t count = this->Tree.samples.size();
     return count > smallCloud &&
@@ -379,11 +380,10 @@ private:
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;
-    constexpr std::size_t smallCloud = 10000;
     const std::size_t visits = this->Visits.load(std::memory_order_relaxed);
     const bool areLong = visits > longSearch * this->Searches.load(std::memory_order_relaxed);
     const std::size_t visitsForSample = areLong ? 25 : 100;
-    return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
+    return visits > visitsForSample * this->Tree.samples.size();
   }
 
   const Execution& Run;
@@ -393,7 +393,7 @@ private:
   const double Isovalue;
   BandTriangulation Band;
   NodeMarks Marks;
-  std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists
+  std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists, or as long as these
   std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;
 };

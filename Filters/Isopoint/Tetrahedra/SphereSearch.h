@@ -140,7 +140,7 @@ public:
   /// Nodes that have to be split for searches to see all samples, with repetitions.
   const std::vector<std::size_t>& unsplit() const { return this->Unsplit; }
 
-  /// The number of nodes visited so far.
+  /// The number of nodes visited so far, and what took as long.
   std::size_t visits() const { return this->Visits; }
 
 private:
@@ -227,12 +227,17 @@ private:
   }
 
   template <class TShape>
-  bool isInside(const TShape& shape, std::size_t sample) const
+  bool isInside(const TShape& shape, std::size_t sample)
   {
     const Vector position = positionOf(this->Tree.samples[sample]);
     const Side side = shape.sideOf(position);
-    return side == Side::Inside ||
-           (side == Side::Unknown && this->Band.isInside(this->Cell, position));
+    if (side == Side::Unknown)
+    {
+      constexpr std::size_t visitsForExact = 50;
+      this->Visits += visitsForExact;
+      return this->Band.isInside(this->Cell, position);
+    }
+    return side == Side::Inside;
   }
 
   const SampleTree<TSample>& Tree;

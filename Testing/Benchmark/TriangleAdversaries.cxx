@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clouds that are hard on the search for crossing tetrahedra, each timed beside CGAL's
+// tetrahedrisation of all samples.
+#include "Clouds.h"
+
+#include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Triangles/ExtractTriangles.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using clouds::Cloud;
+using clouds::Random;
+
+constexpr double largestShare = 1.5;
+
+constexpr const char* usage =
+  "usage: TriangleAdversaries [--samples N] [--threads N] [--only NAME]\n"
+  "Finds the crossing tetrahedra of clouds that are hard on the search for them, and prints a Markdown\n"
+  "table of the times, as shares of that of CGAL's tetrahedrisation of all samples on one thread and\n"
+  "one pass over its cells. Exits with 1 if any share is above 1.5.\n"
+  "  --samples N   of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
+  "                tenth or less\n"
+  "  --threads N   times are processor seconds of one thread (the default), else elapsed seconds\n"
+  "  --only NAME   only clouds whose name contains this\n";
+
+double distanceFrom(double x, double y, double z)
+{
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+using Field = std::function<double(double x, double y, double z)>;
+
+double distanceToMiddle(double x, double y, double z)
+{
+  return distanceFrom(x - 0.5, y - 0.5, z - 0.5);
+}
+
+Cloud withField(Cloud cloud, const Field& field)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    cloud.values[i] = field(p[0], p[1], p[2]);
+  }
+  return cloud;
+}
+
+/// A share of the values becomes 0, the others 1.
+Cloud withNoise(Cloud cloud, double share)
+{
+  Random random(2);
+  for (double& value : cloud.values)
+  {
+    value = random() < share ? 0.0 : 1.0;
+  }
+  return cloud;
+}
+
+using Move = std::function<void(double* position, Random& random)>;
+
+Cloud moved(Cloud cloud, const Move& move)
+{
+  Random random(3);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    move(cloud.positions.data() + 3 * i, random);
+  }
+  return cloud;
+}
+
+/// Turned about two axes: what was on planes and spheres is so but for rounding.
+void turn(double* p, Random&)
+{
+  const double x = 0.8 * p[0] - 0.6 * p[1];
+  const double y = 0.6 * p[0] + 0.8 * p[1];
+  const double z = p[2];
+  p[0] = x;
+  p[1] = 0.28 * y - 0.96 * z;
+  p[2] = 0.96 * y + 0.28 * z;
+}
+
+Move scatteredBy(double length)
+{
+  return [length](double* p, Random& random)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] += length * (random() - 0.5);
+    }
+  };
+}
+
+Move stretched(double x, double y, double z)
+{
+  return [=](double* p, Random&)
+  {
+    p[0] *= x;
+    p[1] *= y;
+    p[2] *= z;
+  };
+}
+
+/// Positions go to a sphere around the middle, or between it and one that is larger by a share.
+Move ontoShell(double thickness)
+{
+  return [thickness](double* p, Random& random)
+  {
+    const double length = distanceToMiddle(p[0], p[1], p[2]);
+    const double scale = 0.4 * (1.0 + thickness * random()) / length;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = 0.5 + scale * (p[axis] - 0.5);
+    }
+  };
+}
+
+Cloud latticeOf(std::size_t count)
+{
+  const int side = static_cast<int>(std::round(std::cbrt(static_cast<double>(count))));
+  const double spacing = 1.0 / (side - 1);
+  return withField(moved(clouds::lattice(side, side, side), stretched(spacing, spacing, spacing)),
+    distanceToMiddle);
+}
+
+/// Uniform but for an empty ball in the middle, which the surface crosses.
+Cloud withVoid(std::size_t count)
+{
+  Cloud cloud;
+  Random random(4);
+  while (cloud.size() < count)
+  {
+    const double x = random();
+    const double y = random();
+    const double z = random();
+    if (distanceToMiddle(x, y, z) > 0.3)
+    {
+      cloud.add(x, y, z, x);
+    }
+  }
+  return cloud;
+}
+
+/// Two balls of samples far apart, one on each side of the surface.
+Cloud farBalls(std::size_t count)
+{
+  return moved(withField(clouds::uniform(count, 5), [](double x, double, double) { return x; }),
+    [](double* p, Random& random) { p[0] += random() < 0.5 ? 100.0 : 0.0; });
+}
+
+/// Two skew lines at right angles, on which the Delaunay tetrahedrisation has quadratic size.
+Cloud skewLines(std::size_t count, double scatter)
+{
+  Cloud cloud;
+  Random random(6);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double place = random();
+    i % 2 ? cloud.add(0.25, place, 0.5, place) : cloud.add(0.75, 0.5, place, place);
+  }
+  return moved(cloud, scatteredBy(scatter));
+}
+
+struct Adversary
+{
+  std::string name;
+  double share; // of the samples asked for
+  std::function<Cloud(std::size_t count)> make;
+  double isovalue;
+};
+
+std::vector<Adversary> adversaries()
+{
+  const auto random = [](std::size_t count) { return clouds::uniform(count, 1); };
+  const auto sphere = [=](std::size_t count) { return withField(random(count), distanceToMiddle); };
+  const auto noisy = [=](double share)
+  { return [=](std::size_t count) { return withNoise(random(count), share); }; };
+  const auto along = [](double x, double, double) { return x; };
+  const auto shell = [=](double thickness)
+  {
+    return [=](std::size_t count)
+    { return withField(moved(random(count), ontoShell(thickness)), along); };
+  };
+  const auto slab = [=](double thickness)
+  {
+    return [=](std::size_t count)
+    { return withField(moved(random(count), stretched(1.0, 1.0, thickness)), distanceToMiddle); };
+  };
+  const auto skew = [](double scatter)
+  { return [=](std::size_t count) { return skewLines(count, scatter); }; };
+  constexpr double tenth = 0.1;
+  constexpr double few = 0.03;
+  return {
+    { "sphere", 1.0, sphere, 0.3 },
+    { "three sheets", 1.0, random, 0.4 },
+    { "many sheets", 1.0,
+      [=](std::size_t count) {
+        return withField(
+          random(count), [](double x, double, double) { return std::sin(60.0 * x); });
+      },
+      0.0 },
+    { "strong clusters", 1.0, [](std::size_t count) { return clouds::clustered(count, 1); }, -4.0 },
+    { "a void", 1.0, withVoid, 0.5 },
+    { "two balls far apart", 1.0, farBalls, 0.5 },
+    { "noise: 1 % of the values", 1.0, noisy(0.01), 0.5 },
+    { "noise: 3 % of the values", 1.0, noisy(0.03), 0.5 },
+    { "noise: half of the values", 1.0, noisy(0.5), 0.5 },
+    { "lattice", 1.0, latticeOf, 0.4 },
+    { "lattice, turned", 1.0, [](std::size_t count) { return moved(latticeOf(count), turn); },
+      0.4 },
+    { "lattice, scattered by 1e-6: hull slivers", 1.0,
+      [](std::size_t count) { return moved(latticeOf(count), scatteredBy(1e-6)); }, 0.6 },
+    { "slab of thickness 0.05", 1.0, slab(0.05), 0.6 },
+    { "slab of thickness 0.001", 1.0, slab(1e-3), 0.6 },
+    { "slab of thickness 0.0001", 1.0, slab(1e-4), 0.6 },
+    { "shell of thickness 1e-6", 1.0, shell(1e-6), 0.5 },
+    { "shell of thickness 0.01", 1.0, shell(0.01), 0.5 },
+    { "shell of thickness 0.1", 1.0, shell(0.1), 0.5 },
+    { "a cell that touches half of all", 1.0,
+      [](std::size_t count) { return clouds::layerBeforeOne(count, 1); }, 0.5 },
+    { "skew lines", 0.02, skew(0.0), 0.5 },
+    { "skew lines, scattered by 0.001", tenth, skew(0.001), 0.5 },
+    { "skew lines, scattered by 0.01", 1.0, skew(0.01), 0.5 },
+    { "100 lines", tenth, [](std::size_t count) { return clouds::lines(count, 100, 0, 1); }, 0.3 },
+    { "100 lines, smooth", tenth,
+      [](std::size_t count)
+      { return withField(clouds::lines(count, 100, 0, 1), distanceToMiddle); },
+      0.3 },
+    { "combs", tenth, [](std::size_t count) { return clouds::combs(count, 30, 1); }, 0.3 },
+    { "linked circles", few, [](std::size_t count) { return clouds::curves(count, 1); }, 0.3 },
+  };
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Full = CGAL::Delaunay_triangulation_3<Kernel,
+  CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_with_info_3<bool, Kernel>,
+    CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+
+/// The number of crossing tetrahedra, by a tetrahedrisation of all samples.
+std::size_t countInFull(const Cloud& cloud, double isovalue)
+{
+  std::vector<std::pair<Kernel::Point_3, bool>> points;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    points.emplace_back(Kernel::Point_3(p[0], p[1], p[2]), cloud.values[i] < isovalue);
+  }
+  const Full full(points.begin(), points.end());
+  std::size_t count = 0;
+  for (const auto cell : full.finite_cell_handles())
+  {
+    int below = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      below += cell->vertex(i)->info() ? 1 : 0;
+    }
+    count += below > 0 && below < 4 ? 1 : 0;
+  }
+  return count;
+}
+
+struct Found
+{
+  std::size_t crossing;
+  isopoint::TetrahedraCounts counts;
+};
+
+Found find(const Cloud& cloud, double isovalue, std::size_t threads)
+{
+  using TSample = isopoint::WideSample;
+  const isopoint::Execution execution = clouds::executionOn(threads);
+  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
+  const isopoint::NeighborhoodCache<TSample::Id> none;
+  isopoint::IsosurfaceRequest request;
+  request.isovalue = isovalue;
+  isopoint::TriangleExtraction<TSample> extraction(execution, tree, none, request);
+  isopoint::WorkProgress progress(execution);
+  const std::size_t crossing = extraction.tetrahedra(progress, 0.0).size();
+  return { crossing, extraction.counts() };
+}
+
+struct Options
+{
+  std::size_t samples = 200000;
+  std::size_t threads = 1;
+  std::string only;
+};
+
+double seconds(const Options& options, const std::function<void()>& work)
+{
+  const auto now = [&options]()
+  {
+    if (options.threads == 1)
+    {
+      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
+    const auto time = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(time).count();
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
+}
+
+/// Prints the row of a cloud. @returns the share
+double measure(const Adversary& adversary, const Options& options)
+{
+  const Cloud cloud = adversary.make(
+    static_cast<std::size_t>(adversary.share * static_cast<double>(options.samples)));
+  Found found{};
+  std::size_t expected = 0;
+  double full = HUGE_VAL;
+  double ours = HUGE_VAL;
+  constexpr int runs = 2; // the faster one counts; the machine's load may change between them
+  for (int run = 0; run < runs; ++run)
+  {
+    full = std::min(
+      full, seconds(options, [&]() { expected = countInFull(cloud, adversary.isovalue); }));
+    ours = std::min(
+      ours, seconds(options, [&]() { found = find(cloud, adversary.isovalue, options.threads); }));
+  }
+  std::printf("| %s | %zu | %.2f | %.2f | %zu + %zu in %zu rounds%s | %zu%s |\n",
+    adversary.name.c_str(), cloud.size(), full, ours / full, found.counts.band,
+    found.counts.inserted, found.counts.rounds, found.counts.isWhole ? ", all" : "", found.crossing,
+    found.crossing == expected ? "" : ", WRONG");
+  std::fflush(stdout);
+  return ours / full;
+}
+
+bool parse(int argumentCount, char** arguments, Options& options)
+{
+  for (int i = 1; i + 1 < argumentCount; i += 2)
+  {
+    const std::string name = arguments[i];
+    const std::string value = arguments[i + 1];
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (name == "--only")
+    {
+      options.only = value;
+    }
+    else if ((name == "--samples" || name == "--threads") && *end == '\0' && number >= 1.0)
+    {
+      (name == "--samples" ? options.samples : options.threads) = static_cast<std::size_t>(number);
+    }
+    else
+    {
+      return false;
+    }
+  }
+  return argumentCount % 2 == 1;
+}
+
+} // namespace
+
+int main(int argumentCount, char** arguments)
+{
+  if (argumentCount == 2 && std::string(arguments[1]) == "--help")
+  {
+    std::fputs(usage, stdout);
+    return 0;
+  }
+  Options options;
+  if (!parse(argumentCount, arguments, options))
+  {
+    std::fputs(usage, stderr);
+    return 2;
+  }
+  std::puts("| cloud | samples | CGAL, seconds | share | band + inserted | crossing tetrahedra |\n"
+            "|---|---|---|---|---|---|");
+  bool isWithinLimit = true;
+  for (const Adversary& adversary : adversaries())
+  {
+    if (adversary.name.find(options.only) != std::string::npos)
+    {
+      isWithinLimit = measure(adversary, options) <= largestShare && isWithinLimit;
+    }
+  }
+  return isWithinLimit ? 0 : 1;
+}
