@@ -51,7 +51,11 @@
  *    arrays, arrays whose length is not the number of points (or cells), and, as by
  *    vtkAppendFilter, arrays that not all blocks have with the same type. A computed array
  *    ("Normals", "Radius", ...) replaces an input array of its name, with a warning.
- * 6. Invalid input, invalid options and a lack of memory give one error and an empty output; an
+ * 6. There is one warning for an update of each of these: isovalues outside the range of the array;
+ *    skipped samples, unless all of them are ghosts or hidden; and more than half of the points
+ *    left where linear interpolation puts them although fits were requested. On several ranks the
+ *    first one reports what all of them found.
+ * 7. Invalid input, invalid options and a lack of memory give one error and an empty output; an
  *    abort gives an empty output. The filter can be updated again afterwards.
  *
  * Degenerate clouds are no special cases. An input without points or cells is an error. The output
@@ -111,6 +115,7 @@ struct Execution;
 struct ExtractedIsosurface;
 class Team;
 } // namespace isopoint
+class vtkCompositeDataSet;
 class vtkContourValues;
 class vtkDataObject;
 class vtkIsopointEndSamples;
@@ -490,6 +495,8 @@ private:
 
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractInput(vtkDataObject* input, vtkDataObject* output);
+  /// Each leaf of a composite input by itself.
+  void ExtractLeaves(vtkDataObject* input, vtkCompositeDataSet* output);
   /// The same on one of several ranks, which all call it. @throws on all of them, if on any
   void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
   void CollectOnRanks(
@@ -500,8 +507,12 @@ private:
   /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
   void ExtractBlocksOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
     std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  /// Of an update whose blocks have been collected.
+  void StartCounting();
   void CountSkippedSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
   void ReportProblem(const std::string& problem);
+  /// Warns of what the update found out about samples and points, on the first rank alone.
+  void ReportFindings();
   void ConnectRanks();
   std::set<double> GetIsovalues();
   /// The progress after loading so many samples, and after each isovalue.

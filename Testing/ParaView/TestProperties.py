@@ -24,9 +24,11 @@ def check(condition, message):
 
 
 def vector_properties(root):
-    """Those of one value with a default: name, XML, the name in the class, and the default."""
+    """Those that are set, of one value with a default: name, XML, the name in the class, and the default."""
     for element in root.iter():
         if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
+            continue
+        if element.get("information_only") == "1":
             continue
         if element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib:
             check(element.get("command")[:3] == "Set", element.get("command"))
@@ -88,7 +90,7 @@ def filter_accepts(contour, name):
 
 
 def check_filter(root):
-    filter_class = getattr(scatteredisopoints, root.find(".//SourceProxy").get("class"))
+    filter_class = getattr(scatteredisopoints, root.find(".//IsopointSourceProxy").get("class"))
     contour = filter_class()
     names = []
     for name, element, name_in_class, default in vector_properties(root):

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkSMIsopointRepresentationDomain
+ * @brief   makes "Isopoint Splats" the default representation of isopoints
+ *
+ * A further domain of the property "Representation". Data are taken for isopoints, whatever filters
+ * they have passed through, if they have the point arrays "Normals" of three components and
+ * "Radius" of one, and as many cells as points: the vertices. Of other data the property's other
+ * domains determine the default. Every value is in this domain.
+ *
+ * The required property "Input" yields the data.
+ */
+#ifndef vtkSMIsopointRepresentationDomain_h
+#define vtkSMIsopointRepresentationDomain_h
+
+#include "vtkSMDomain.h"
+#include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+
+class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRepresentationDomain
+  : public vtkSMDomain
+{
+public:
+  static vtkSMIsopointRepresentationDomain* New();
+  vtkTypeMacro(vtkSMIsopointRepresentationDomain, vtkSMDomain);
+
+  /**
+   * Sets the property if the data are isopoints. @returns whether it did
+   */
+  int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
+
+protected:
+  vtkSMIsopointRepresentationDomain() = default;
+  ~vtkSMIsopointRepresentationDomain() override = default;
+
+private:
+  vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
+  void operator=(const vtkSMIsopointRepresentationDomain&) = delete;
+};
+
+#endif
