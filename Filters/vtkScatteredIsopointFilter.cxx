@@ -499,7 +499,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NormalMethod: " << this->NormalMethod << "\n";
   os << indent << "ComputeGradients: " << onOff(this->ComputeGradients) << "\n";
   os << indent << "ComputeSplatAxes: " << onOff(this->ComputeSplatAxes) << "\n";
-  os << indent << "ComputeSplatClips: " << onOff(this->ComputeSplatClips) << "\n";
+  os << indent << "ComputeSplatClips: " << this->ComputeSplatClips << "\n";
   os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
   os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

@@ -201,6 +201,7 @@ public:
 
   enum NormalMethods
   {
+    AUTOMATIC_NORMALS = -1,
     NORMALS_FROM_FIELD = 0,
     NORMALS_FROM_PLANES = 1
   };
@@ -208,6 +209,9 @@ public:
   ///@{
   /**
    * The source of the normals:
+   * - AUTOMATIC_NORMALS: NORMALS_FROM_FIELD where fits are made for other reasons as well, that is
+   *   with any Projection but NO_PROJECTION, with ComputeGradients or with a MinimumSpacing;
+   *   NORMALS_FROM_PLANES otherwise, which takes less time.
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
    *   NO_PROJECTION), or that of a simpler polynomial through the samples where both agree within
    * the error of the former: of an affine function, as in noise, or of degree two. Where no fit
@@ -216,9 +220,9 @@ public:
    * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
    *   SetNumberOfNeighbors()).
    *
-   * Values outside the enumeration are clamped. Default: NORMALS_FROM_FIELD.
+   * Values outside the enumeration are clamped. Default: AUTOMATIC_NORMALS.
    */
-  vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
+  vtkSetClampMacro(NormalMethod, int, AUTOMATIC_NORMALS, NORMALS_FROM_PLANES);
   vtkGetMacro(NormalMethod, int);
   ///@}
 
@@ -257,6 +261,13 @@ public:
   vtkBooleanMacro(ComputeSplatAxes, vtkTypeBool);
   ///@}
 
+  enum SplatClipChoices
+  {
+    AUTOMATIC_SPLAT_CLIPS = -1,
+    NO_SPLAT_CLIPS = 0,
+    SPLAT_CLIPS = 1
+  };
+
   ///@{
   /**
    * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): the plane at which a
@@ -267,11 +278,12 @@ public:
    * belong to the surface. (a, b, c) is a unit vector; d >= 0 is the distance of q from the plane,
    * in units of the coordinates. At the plane the surface turns towards the normal (e = 1), as in a
    * groove, or away from it (e = -1), as at an edge. All five are 0 for a splat that is not
-   * clipped. Default: off.
+   * clipped. Values outside the enumeration are clamped. Default: AUTOMATIC_SPLAT_CLIPS, which
+   * computes it with CREASE_FIT.
    */
-  vtkSetMacro(ComputeSplatClips, vtkTypeBool);
-  vtkGetMacro(ComputeSplatClips, vtkTypeBool);
-  vtkBooleanMacro(ComputeSplatClips, vtkTypeBool);
+  vtkSetClampMacro(ComputeSplatClips, int, AUTOMATIC_SPLAT_CLIPS, SPLAT_CLIPS);
+  vtkGetMacro(ComputeSplatClips, int);
+  vtkBooleanMacro(ComputeSplatClips, int);
   ///@}
 
   ///@{
@@ -470,11 +482,11 @@ protected:
   double GapFactor = 0.0;
   double MinimumSpacing = 0.0;
   int Projection = CUBIC_FIT;
-  int NormalMethod = NORMALS_FROM_FIELD;
+  int NormalMethod = AUTOMATIC_NORMALS;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;
   vtkTypeBool ComputeSplatAxes = 0;
-  vtkTypeBool ComputeSplatClips = 0;
+  int ComputeSplatClips = AUTOMATIC_SPLAT_CLIPS;
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeRadii = 1;
   vtkTypeBool ComputeScalars = 1;
