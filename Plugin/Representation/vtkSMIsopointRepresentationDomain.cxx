@@ -20,6 +20,12 @@ bool hasPointArray(vtkPVDataInformation* data, const char* name, int components)
   return array && array->GetNumberOfComponents() == components;
 }
 
+bool hasVerticesAlone(vtkPVDataInformation* data)
+{
+  const auto cells = data->GetNumberOfCells();
+  return cells == 0 || cells == data->GetNumberOfPoints();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -27,8 +33,8 @@ int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   vtkSMProperty* property, bool usesUncheckedValues)
 {
   vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
-  if (!data || data->GetNumberOfPoints() != data->GetNumberOfCells() ||
-      !hasPointArray(data, "Normals", 3) || !hasPointArray(data, "Radius", 1))
+  if (!data || !hasVerticesAlone(data) || !hasPointArray(data, "Normals", 3) ||
+      !hasPointArray(data, "Radius", 1))
   {
     return 0;
   }

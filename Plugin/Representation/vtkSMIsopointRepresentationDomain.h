@@ -5,8 +5,8 @@
  *
  * A further domain of the property "Representation". Data are taken for isopoints, whatever filters
  * they have passed through, if they have the point arrays "Normals" of three components and
- * "Radius" of one, and as many cells as points: the vertices. Of other data the property's other
- * domains determine the default. Every value is in this domain.
+ * "Radius" of one, and as many cells as points, the vertices, or none. Of other data the property's
+ * other domains determine the default. Every value is in this domain.
  *
  * The required property "Input" yields the data.
  */
