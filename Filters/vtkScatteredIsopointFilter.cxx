@@ -64,6 +64,7 @@ vtkScatteredIsopointFilter::vtkScatteredIsopointFilter()
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   this->Kept->Controller = vtkMultiProcessController::GetGlobalController();
+  this->SetProgressText("Scattered Isopoints"); // as in ParaView's menu
 }
 
 vtkScatteredIsopointFilter::~vtkScatteredIsopointFilter() = default;

@@ -89,7 +89,20 @@ def filter_accepts(contour, name):
     return accepts
 
 
+def check_groups(root):
+    """The panel shows groups of properties in the order of the XML, what is contoured first."""
+    proxy = root.find(".//IsopointSourceProxy")
+    names = [element.get("name") for element in proxy if element.tag.endswith("VectorProperty")]
+    groups = proxy.findall("PropertyGroup")
+    grouped = [element.get("name") for group in groups for element in group]
+    check(names[:2] == ["SelectInputScalars", "ContourValues"], f"first: {names[:2]}")
+    check(grouped == names, f"groups have all properties in their order: {grouped}")
+    labels = ["Isosurfaces", "Sampling", "Output Arrays", "Performance", "Last Update"]
+    check([group.get("label") for group in groups] == labels, "groups")
+
+
 def check_filter(root):
+    check_groups(root)
     filter_class = getattr(scatteredisopoints, root.find(".//IsopointSourceProxy").get("class"))
     contour = filter_class()
     names = []
