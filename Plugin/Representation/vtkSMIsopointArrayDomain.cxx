@@ -5,6 +5,8 @@
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMUncheckedPropertyHelper.h"
 
 vtkStandardNewMacro(vtkSMIsopointArrayDomain);
 
@@ -47,4 +49,33 @@ int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool use
     }
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkSMProperty* const inputs = this->GetRequiredProperty("Input");
+  if (!inputs)
+  {
+    return;
+  }
+  const vtkSMUncheckedPropertyHelper helper(inputs);
+  vtkSMProxy* const input = helper.GetNumberOfElements() > 0 ? helper.GetAsProxy(0) : nullptr;
+  if (!input)
+  {
+    return; // the former one is taken off before another one is connected
+  }
+  const bool isReplaced = this->Input && this->Input.GetPointer() != input;
+  this->Input = input;
+  vtkSMProperty* const property = this->GetProperty();
+  if (isReplaced && property && this->GetNumberOfStrings() > 0)
+  {
+    const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();
+    unsigned int index = 0;
+    if (!chosen || !this->IsInDomain(chosen, index))
+    {
+      this->SetDefaultValues(property, false);
+    }
+  }
 }

@@ -11,8 +11,9 @@
 
 #include "vtkSMArrayListDomain.h"
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+#include "vtkWeakPointer.h"
 
-class vtkPVDataInformation;
+class vtkSMProxy;
 
 class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointArrayDomain
   : public vtkSMArrayListDomain
@@ -26,11 +27,19 @@ public:
    */
   int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
 
+  /**
+   * Sets the default once more where another input, without the chosen array, takes the place of a
+   * former one. Scripts first connect the active source, then the input that they name.
+   */
+  void Update(vtkSMProperty* requestingProperty) override;
+
 protected:
   vtkSMIsopointArrayDomain() = default;
   ~vtkSMIsopointArrayDomain() override = default;
 
 private:
+  vtkWeakPointer<vtkSMProxy> Input;
+
   vtkSMIsopointArrayDomain(const vtkSMIsopointArrayDomain&) = delete;
   void operator=(const vtkSMIsopointArrayDomain&) = delete;
 };

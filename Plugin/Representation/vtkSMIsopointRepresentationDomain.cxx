@@ -38,7 +38,8 @@ int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   {
     return 0;
   }
-  vtkSMPropertyHelper helper(property->GetParent(), "Representation");
+  vtkSMProxy* const part = property->GetParent();
+  vtkSMPropertyHelper helper(part->GetTrueParentProxy(), "Representation");
   helper.SetUseUnchecked(usesUncheckedValues);
   helper.Set("Isopoint Splats");
   return 1;

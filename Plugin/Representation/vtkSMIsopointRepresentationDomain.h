@@ -3,10 +3,11 @@
  * @class   vtkSMIsopointRepresentationDomain
  * @brief   makes "Isopoint Splats" the default representation of isopoints
  *
- * A further domain of the property "Representation". Data are taken for isopoints, whatever filters
+ * A domain of a property of the representation's proxy, which is part of one with the property
+ * "Representation" that it sets. Data are taken for isopoints, whatever filters
  * they have passed through, if they have the point arrays "Normals" of three components and
- * "Radius" of one, and as many cells as points, the vertices, or none. Of other data the property's
- * other domains determine the default. Every value is in this domain.
+ * "Radius" of one, and as many cells as points, the vertices, or none. Of other data the default
+ * is left as it is.
  *
  * The required property "Input" yields the data.
  */

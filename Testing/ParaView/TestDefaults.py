@@ -72,6 +72,18 @@ def active_scalars_come_first_unless_constant():
     check(simple.ScatteredIsopoints(Input=produced(constant)).ContourBy[1] == "BlockId", "alone")
 
 
+def input_matters_rather_than_the_active_source():
+    named = produced(lattice("POINTS", named=distance))
+    other = produced(lattice("POINTS", other=distance))
+    for create in filters():
+        simple.SetActiveSource(other)
+        chosen = list(create(Input=named).ContourBy)
+        check(chosen == ["POINTS", "named"], f"the array of the input: {chosen}")
+        kept = create(Input=named, ContourBy=["POINTS", "named"])
+        kept.Input = produced(lattice("POINTS", other=distance, named=distance))
+        check(kept.ContourBy[1] == "named", "a choice that both inputs have")
+
+
 def panel():
     for create in filters():
         isopoints = create(Input=simple.Wavelet())
@@ -97,6 +109,7 @@ def main(plugin):
     simple.LoadPlugin(plugin)
     first_array_with_a_range()
     active_scalars_come_first_unless_constant()
+    input_matters_rather_than_the_active_source()
     panel()
     creases_are_clipped()
 
