@@ -28,7 +28,7 @@ def vector_properties(root):
     for element in root.iter():
         if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
             continue
-        if element.get("information_only") == "1":
+        if element.get("information_only") == "1" or "command" not in element.attrib:
             continue
         if element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib:
             check(element.get("command")[:3] == "Set", element.get("command"))
