@@ -5,6 +5,7 @@ A trace loads the plugin by itself. States of ParaView load it from PV_PLUGIN_PA
 run nothing is lost: neither what the filters compute nor how it is drawn."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -77,6 +78,11 @@ def main(plugin, pvbatch):
         counts = [line.split(", ('Isopoint Splats'")[0] for line in (found, expected)]
         check(counts[0] == counts[1], f"{found} instead of {expected}")
         check(found.count("('Isopoint Splats', 1)") == 1, found)
+    # A second copy of the plugin, as of another build, does not end the program.
+    copy = shutil.copy(plugin, folder)
+    found, _ = run(pvbatch, folder, f"from paraview.simple import *\nLoadPlugin({copy!r})\n" + state,
+                   **with_path)
+    check("('ScatteredIsopoints1', 1449)" in found and "('Isopoint Splats', 1)" in found, found)
     for text, name in ((trace, "trace"), (state, "state")):
         check("NumberOf" not in text, f"a {name} does not set counters")
 
