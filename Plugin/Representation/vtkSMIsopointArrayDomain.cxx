@@ -4,8 +4,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
 vtkStandardNewMacro(vtkSMIsopointArrayDomain);
@@ -30,24 +32,23 @@ bool isVarying(vtkPVDataInformation* data, const char* name, int association)
 //------------------------------------------------------------------------------
 int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues)
 {
-  const int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
+  int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
   vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(usesUncheckedValues);
   const char* const chosen = helper.GetInputArrayNameToProcess();
-  if (!data || !chosen || isVarying(data, chosen, helper.GetInputArrayAssociation()))
-  {
-    return result;
-  }
-  for (unsigned int i = 0; i < this->GetNumberOfStrings(); ++i)
+  bool isSet = !data || !chosen || isVarying(data, chosen, helper.GetInputArrayAssociation());
+  for (unsigned int i = 0; !isSet && i < this->GetNumberOfStrings(); ++i)
   {
     const int association = this->GetFieldAssociation(i);
-    if (isVarying(data, this->GetString(i), association))
+    isSet = isVarying(data, this->GetString(i), association);
+    if (isSet)
     {
       helper.SetInputArrayToProcess(association, this->GetString(i));
-      return 1;
+      result = 1;
     }
   }
+  this->DefaultTime = property->GetMTime();
   return result;
 }
 
@@ -69,13 +70,23 @@ void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
   const bool isReplaced = this->Input && this->Input.GetPointer() != input;
   this->Input = input;
   vtkSMProperty* const property = this->GetProperty();
-  if (isReplaced && property && this->GetNumberOfStrings() > 0)
+  if (isReplaced && property && this->GetNumberOfStrings() > 0 && this->IsReplaceable(property))
   {
-    const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();
-    unsigned int index = 0;
-    if (!chosen || !this->IsInDomain(chosen, index))
-    {
-      this->SetDefaultValues(property, false);
-    }
+    this->SetDefaultValues(property, false);
   }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMIsopointArrayDomain::IsReplaceable(vtkSMProperty* property)
+{
+  const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();
+  unsigned int index = 0;
+  if (!chosen || !this->IsInDomain(chosen, index))
+  {
+    return true;
+  }
+  vtkSMProxy* const filter = property->GetParent();
+  const bool isBeingCreated =
+    filter && !filter->GetSessionProxyManager()->GetProxyName("sources", filter);
+  return isBeingCreated && property->GetMTime() == this->DefaultTime;
 }

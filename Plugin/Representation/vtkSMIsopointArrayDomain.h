@@ -28,8 +28,9 @@ public:
   int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
 
   /**
-   * Sets the default once more where another input, without the chosen array, takes the place of a
-   * former one. Scripts first connect the active source, then the input that they name.
+   * Sets the default once more where another input takes the place of a former one, and that has no
+   * such array or, while the filter is being created, the array is still the former one's default:
+   * scripts first connect the active source, then the input that they name.
    */
   void Update(vtkSMProperty* requestingProperty) override;
 
@@ -38,7 +39,10 @@ protected:
   ~vtkSMIsopointArrayDomain() override = default;
 
 private:
+  bool IsReplaceable(vtkSMProperty* property);
+
   vtkWeakPointer<vtkSMProxy> Input;
+  vtkMTimeType DefaultTime = 0; // of the property, when its default was set
 
   vtkSMIsopointArrayDomain(const vtkSMIsopointArrayDomain&) = delete;
   void operator=(const vtkSMIsopointArrayDomain&) = delete;

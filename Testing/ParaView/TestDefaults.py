@@ -79,8 +79,14 @@ def input_matters_rather_than_the_active_source():
         simple.SetActiveSource(other)
         chosen = list(create(Input=named).ContourBy)
         check(chosen == ["POINTS", "named"], f"the array of the input: {chosen}")
+        both = produced(lattice("POINTS", first=distance, named=distance))
+        simple.SetActiveSource(named)
+        check(create(Input=both).ContourBy[1] == "first", "the first array of the input")
+        simple.SetActiveSource(named)
+        chosen = create(Input=both, ContourBy=["POINTS", "named"]).ContourBy[1]
+        check(chosen == "named", "an array that is given")
         kept = create(Input=named, ContourBy=["POINTS", "named"])
-        kept.Input = produced(lattice("POINTS", other=distance, named=distance))
+        kept.Input = both
         check(kept.ContourBy[1] == "named", "a choice that both inputs have")
 
 
