@@ -42,7 +42,8 @@ std::string arrayNames(vtkDataSetAttributes* attributes)
 /// The remedy of an error about the array to process, with the arrays of a leaf.
 std::string remedyFor(vtkDataObject* leaf)
 {
-  return " Choose a scalar array with SetInputArrayToProcess(); the point arrays are: " +
+  return " Choose a scalar array with SetInputArrayToProcess() (Contour By in ParaView); the point"
+         " arrays are: " +
          arrayNames(leaf->GetAttributes(vtkDataObject::POINT)) +
          "; the cell arrays are: " + arrayNames(leaf->GetAttributes(vtkDataObject::CELL)) + ".";
 }

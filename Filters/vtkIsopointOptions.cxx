@@ -20,6 +20,25 @@
 namespace
 {
 
+bool hasNormalsFromField(vtkScatteredIsopointFilter* filter)
+{
+  if (filter->GetNormalMethod() == vtkScatteredIsopointFilter::AUTOMATIC_NORMALS)
+  {
+    return filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION ||
+           filter->GetComputeGradients() || filter->GetMinimumSpacing() > 0.0;
+  }
+  return filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
+}
+
+bool hasSplatClips(vtkScatteredIsopointFilter* filter)
+{
+  if (filter->GetComputeSplatClips() == vtkScatteredIsopointFilter::AUTOMATIC_SPLAT_CLIPS)
+  {
+    return filter->GetProjection() == vtkScatteredIsopointFilter::CREASE_FIT;
+  }
+  return filter->GetComputeSplatClips() == vtkScatteredIsopointFilter::SPLAT_CLIPS;
+}
+
 /// The fit that the projection or an output requires, if any: thinning and normals from the field
 /// require polynomials, other splats and fit orders at least the sample spacing.
 std::optional<isopoint::FitRequest> fitRequestOf(
@@ -40,9 +59,7 @@ std::optional<isopoint::FitRequest> fitRequestOf(
     default:
       break;
   }
-  const bool hasFieldNormals =
-    arrays.NeedsSplats() &&
-    filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
+  const bool hasFieldNormals = arrays.NeedsSplats() && hasNormalsFromField(filter);
   if (arrays.Gradients || hasFieldNormals || filter->GetMinimumSpacing() > 0.0)
   {
     return FitRequest{ FitOrder::Cubic, false };
@@ -143,7 +160,7 @@ vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFi
   choice.Normals = filter->GetComputeNormals() != 0;
   choice.Radius = hasSplats && filter->GetComputeRadii() != 0;
   choice.SplatAxes = hasSplats && filter->GetComputeSplatAxes() != 0;
-  choice.SplatClip = hasSplats && filter->GetComputeSplatClips() != 0;
+  choice.SplatClip = hasSplats && hasSplatClips(filter);
   choice.Gradients = filter->GetComputeGradients() != 0;
   choice.ProjectionOrder = filter->GetComputeProjectionOrders() != 0;
   choice.IsProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
@@ -162,8 +179,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   if (arrays.NeedsSplats())
   {
     request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),
-      filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
-      arrays.NeedsShapes() };
+      hasNormalsFromField(filter), arrays.NeedsShapes() };
   }
   return request;
 }

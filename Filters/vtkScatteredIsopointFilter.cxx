@@ -9,6 +9,7 @@
 #include "vtkIsopointComputedArrays.h"
 #include "vtkIsopointEndSamples.h"
 #include "vtkIsopointExecution.h"
+#include "vtkIsopointFindings.h"
 #include "vtkIsopointInput.h"
 #include "vtkIsopointInputState.h"
 #include "vtkIsopointInterpolatedArrays.h"
@@ -22,6 +23,7 @@
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -37,6 +39,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <iterator>
@@ -61,6 +64,7 @@ vtkScatteredIsopointFilter::vtkScatteredIsopointFilter()
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   this->Kept->Controller = vtkMultiProcessController::GetGlobalController();
+  this->SetProgressText("Scattered Isopoints"); // as in ParaView's menu
 }
 
 vtkScatteredIsopointFilter::~vtkScatteredIsopointFilter() = default;
@@ -206,6 +210,7 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
     {
       this->ExtractInput(input, output);
     }
+    this->ReportFindings();
     return;
   }
   catch (const isopoint::Aborted&)
@@ -260,20 +265,65 @@ void vtkScatteredIsopointFilter::ReportProblem(const std::string& problem)
   }
 }
 
+void vtkScatteredIsopointFilter::ReportFindings()
+{
+  if (this->Kept->Link && this->Kept->Link->rank() > 0)
+  {
+    return;
+  }
+  vtkIsopointFindings& findings = this->Kept->Findings;
+  findings.UnprojectedPoints = this->Projection == NO_PROJECTION
+                                 ? 0
+                                 : static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints);
+  try
+  {
+    for (const std::string& message : vtkDescribeIsopointFindings(findings))
+    {
+      vtkWarningMacro(<< message);
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    // The output is complete without warnings.
+  }
+}
+
 void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObject* output)
 {
   vtkCheckIsopointOptions(this);
   vtkIsopointBlocks& blocks = this->Kept->Input;
   blocks.Collect(vtkMakeIsopointExecution(this, this->UseAllCores != 0), input,
     vtkIsopointArrayChoice(this->GetInputArrayInformation(0)), nullptr);
-  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
-  const std::size_t count = blocks.GetBlocks().size();
+  this->StartCounting();
   if (auto* const surface = vtkPolyData::SafeDownCast(output))
   {
     this->Kept->Trees.erase(this->Kept->Trees.upper_bound(0), this->Kept->Trees.end());
-    this->ExtractBlocks(0, count, this->Kept->Trees[0], surface);
-    return;
+    this->ExtractBlocks(0, blocks.GetBlocks().size(), this->Kept->Trees[0], surface);
   }
+  else
+  {
+    this->ExtractLeaves(input, vtkCompositeDataSet::SafeDownCast(output));
+  }
+  vtkFindIsopointRange(blocks.GetBlocks(), this->Kept->Findings);
+}
+
+void vtkScatteredIsopointFilter::StartCounting()
+{
+  const vtkIsopointBlocks& blocks = this->Kept->Input;
+  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+  vtkIsopointFindings& findings = this->Kept->Findings;
+  findings.Start(this->GetIsovalues());
+  findings.WithoutArray = static_cast<std::uint64_t>(blocks.GetNumberOfPointsWithoutArray());
+  findings.Samples = findings.WithoutArray;
+  const char* const name =
+    blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
+  findings.Array = name ? name : "";
+}
+
+void vtkScatteredIsopointFilter::ExtractLeaves(vtkDataObject* input, vtkCompositeDataSet* output)
+{
+  const vtkIsopointBlocks& blocks = this->Kept->Input;
+  const std::size_t count = blocks.GetBlocks().size();
   this->Kept->Trees.erase(
     this->Kept->Trees.lower_bound(blocks.GetNumberOfLeaves()), this->Kept->Trees.end());
   const vtkIsopointStructure structure(input);
@@ -288,7 +338,7 @@ void vtkScatteredIsopointFilter::ExtractInput(vtkDataObject* input, vtkDataObjec
     surface = vtkSmartPointer<vtkPolyData>::New();
     this->ExtractBlocks(i, i + 1, this->Kept->Trees[leaf], surface);
   }
-  structure.Fill(input, surfaces, vtkCompositeDataSet::SafeDownCast(output));
+  structure.Fill(input, surfaces, output);
 }
 
 void vtkScatteredIsopointFilter::ExtractBlocks(
@@ -322,6 +372,7 @@ void vtkScatteredIsopointFilter::ExtractBlocks(
 void vtkScatteredIsopointFilter::CountSkippedSamples(
   const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped)
 {
+  this->Kept->Findings.CountSamples(blocks, skipped);
   this->NumberOfSkippedSamples += static_cast<vtkIdType>(skipped);
   for (const vtkIsopointBlock& block : blocks)
   {
@@ -367,6 +418,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
     surfaces.push_back(
       kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
         hasGhosts ? &ghosts[i] : nullptr));
+    this->Kept->Findings.Points[i] += surfaces.back().surface.size();
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);
@@ -446,7 +498,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NormalMethod: " << this->NormalMethod << "\n";
   os << indent << "ComputeGradients: " << onOff(this->ComputeGradients) << "\n";
   os << indent << "ComputeSplatAxes: " << onOff(this->ComputeSplatAxes) << "\n";
-  os << indent << "ComputeSplatClips: " << onOff(this->ComputeSplatClips) << "\n";
+  os << indent << "ComputeSplatClips: " << this->ComputeSplatClips << "\n";
   os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
   os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

@@ -51,7 +51,11 @@
  *    arrays, arrays whose length is not the number of points (or cells), and, as by
  *    vtkAppendFilter, arrays that not all blocks have with the same type. A computed array
  *    ("Normals", "Radius", ...) replaces an input array of its name, with a warning.
- * 6. Invalid input, invalid options and a lack of memory give one error and an empty output; an
+ * 6. There is one warning for an update of each of these: isovalues outside the range of the array;
+ *    skipped samples, unless all of them are ghosts or hidden; and more than half of the points
+ *    left where linear interpolation puts them although fits were requested. On several ranks the
+ *    first one reports what all of them found.
+ * 7. Invalid input, invalid options and a lack of memory give one error and an empty output; an
  *    abort gives an empty output. The filter can be updated again afterwards.
  *
  * Degenerate clouds are no special cases. An input without points or cells is an error. The output
@@ -111,6 +115,7 @@ struct Execution;
 struct ExtractedIsosurface;
 class Team;
 } // namespace isopoint
+class vtkCompositeDataSet;
 class vtkContourValues;
 class vtkDataObject;
 class vtkIsopointEndSamples;
@@ -196,6 +201,7 @@ public:
 
   enum NormalMethods
   {
+    AUTOMATIC_NORMALS = -1,
     NORMALS_FROM_FIELD = 0,
     NORMALS_FROM_PLANES = 1
   };
@@ -203,6 +209,9 @@ public:
   ///@{
   /**
    * The source of the normals:
+   * - AUTOMATIC_NORMALS: NORMALS_FROM_FIELD where fits are made for other reasons as well, that is
+   *   with any Projection but NO_PROJECTION, with ComputeGradients or with a MinimumSpacing;
+   *   NORMALS_FROM_PLANES otherwise, which takes less time.
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (of CUBIC_FIT with
    *   NO_PROJECTION), or that of a simpler polynomial through the samples where both agree within
    * the error of the former: of an affine function, as in noise, or of degree two. Where no fit
@@ -211,9 +220,9 @@ public:
    * - NORMALS_FROM_PLANES: the least-squares plane through the nearest isopoints, as in [RL06] (see
    *   SetNumberOfNeighbors()).
    *
-   * Values outside the enumeration are clamped. Default: NORMALS_FROM_FIELD.
+   * Values outside the enumeration are clamped. Default: AUTOMATIC_NORMALS.
    */
-  vtkSetClampMacro(NormalMethod, int, NORMALS_FROM_FIELD, NORMALS_FROM_PLANES);
+  vtkSetClampMacro(NormalMethod, int, AUTOMATIC_NORMALS, NORMALS_FROM_PLANES);
   vtkGetMacro(NormalMethod, int);
   ///@}
 
@@ -252,6 +261,13 @@ public:
   vtkBooleanMacro(ComputeSplatAxes, vtkTypeBool);
   ///@}
 
+  enum SplatClipChoices
+  {
+    AUTOMATIC_SPLAT_CLIPS = -1,
+    NO_SPLAT_CLIPS = 0,
+    SPLAT_CLIPS = 1
+  };
+
   ///@{
   /**
    * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): the plane at which a
@@ -262,11 +278,12 @@ public:
    * belong to the surface. (a, b, c) is a unit vector; d >= 0 is the distance of q from the plane,
    * in units of the coordinates. At the plane the surface turns towards the normal (e = 1), as in a
    * groove, or away from it (e = -1), as at an edge. All five are 0 for a splat that is not
-   * clipped. Default: off.
+   * clipped. Values outside the enumeration are clamped. Default: AUTOMATIC_SPLAT_CLIPS, which
+   * computes it with CREASE_FIT.
    */
-  vtkSetMacro(ComputeSplatClips, vtkTypeBool);
-  vtkGetMacro(ComputeSplatClips, vtkTypeBool);
-  vtkBooleanMacro(ComputeSplatClips, vtkTypeBool);
+  vtkSetClampMacro(ComputeSplatClips, int, AUTOMATIC_SPLAT_CLIPS, SPLAT_CLIPS);
+  vtkGetMacro(ComputeSplatClips, int);
+  vtkBooleanMacro(ComputeSplatClips, int);
   ///@}
 
   ///@{
@@ -465,11 +482,11 @@ protected:
   double GapFactor = 0.0;
   double MinimumSpacing = 0.0;
   int Projection = CUBIC_FIT;
-  int NormalMethod = NORMALS_FROM_FIELD;
+  int NormalMethod = AUTOMATIC_NORMALS;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;
   vtkTypeBool ComputeSplatAxes = 0;
-  vtkTypeBool ComputeSplatClips = 0;
+  int ComputeSplatClips = AUTOMATIC_SPLAT_CLIPS;
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeRadii = 1;
   vtkTypeBool ComputeScalars = 1;
@@ -490,6 +507,8 @@ private:
 
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractInput(vtkDataObject* input, vtkDataObject* output);
+  /// Each leaf of a composite input by itself.
+  void ExtractLeaves(vtkDataObject* input, vtkCompositeDataSet* output);
   /// The same on one of several ranks, which all call it. @throws on all of them, if on any
   void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
   void CollectOnRanks(
@@ -500,8 +519,12 @@ private:
   /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
   void ExtractBlocksOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
     std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  /// Of an update whose blocks have been collected.
+  void StartCounting();
   void CountSkippedSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
   void ReportProblem(const std::string& problem);
+  /// Warns of what the update found out about samples and points, on the first rank alone.
+  void ReportFindings();
   void ConnectRanks();
   std::set<double> GetIsovalues();
   /// The progress after loading so many samples, and after each isovalue.

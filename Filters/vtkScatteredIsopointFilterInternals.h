@@ -4,6 +4,7 @@
 
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlocks.h"
+#include "vtkIsopointFindings.h"
 #include "vtkIsopointInputState.h"
 #include "vtkIsopointRanks.h"
 #include "vtkScatteredIsopointFilter.h"
@@ -31,6 +32,7 @@ public:
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
   int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
+  vtkIsopointFindings Findings;          // of the current update
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
 
   void Clear()

@@ -9,6 +9,7 @@
 #include "vtkIsopointBlocks.h"
 #include "vtkIsopointEndSamples.h"
 #include "vtkIsopointExecution.h"
+#include "vtkIsopointFindings.h"
 #include "vtkIsopointInput.h"
 #include "vtkIsopointInputState.h"
 #include "vtkIsopointOptions.h"
@@ -58,7 +59,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
   this->Kept->GhostLevels =
     static_cast<int>(team.maximum(static_cast<std::uint64_t>(this->Kept->GhostLevels)));
   const vtkIsopointBlocks& blocks = this->Kept->Input;
-  this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
+  team.together([this]() { this->StartCounting(); });
   const vtkIsopointStructure structure =
     this->ContourBlocks ? vtkMergeIsopointStructures(team, input) : vtkIsopointStructure();
   if (structure.IsComposite())
@@ -75,6 +76,7 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfSkippedSamples)));
   this->NumberOfUnprojectedPoints =
     static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
+  vtkShareIsopointFindings(team, blocks.GetBlocks(), this->Kept->Findings);
 }
 
 void vtkScatteredIsopointFilter::ExtractLeavesOnRanks(isopoint::Team& team,

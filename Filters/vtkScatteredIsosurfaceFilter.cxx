@@ -5,6 +5,11 @@
 
 vtkStandardNewMacro(vtkScatteredIsosurfaceFilter);
 
+vtkScatteredIsosurfaceFilter::vtkScatteredIsosurfaceFilter()
+{
+  this->SetProgressText("Scattered Isosurface");
+}
+
 void vtkScatteredIsosurfaceFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

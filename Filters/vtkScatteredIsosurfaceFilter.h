@@ -68,7 +68,7 @@ public:
   bool ExtractsTriangles() const override { return true; }
 
 protected:
-  vtkScatteredIsosurfaceFilter() = default;
+  vtkScatteredIsosurfaceFilter();
   ~vtkScatteredIsosurfaceFilter() override = default;
 
 private:

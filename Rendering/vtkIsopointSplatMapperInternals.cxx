@@ -259,8 +259,9 @@ void vtkIsopointSplatMapper::Internals::UpdateGeometry(
   if (!shape.Normals && !this->WarnedOfNormals)
   {
     vtkWarningWithObjectMacro(mapper,
-      "The input has no point normals: its splats face the camera. Compute normals, for example "
-      "with vtkPCANormalEstimation, and make them the active normals.");
+      "The input has no point normals: its splats face the camera. Of isopoints let their filter "
+      "compute normals (Compute Normals in ParaView, ComputeNormalsOn()); for other points compute "
+      "them, for example with vtkPCANormalEstimation, and make them the active normals.");
     this->WarnedOfNormals = true;
   }
   if (block.Data->GetNumberOfPoints() > std::numeric_limits<GLsizei>::max())

@@ -90,6 +90,62 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
   }
 }
 
+TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
+{
+  using Filter = vtkScatteredIsopointFilter;
+  vtkNew<Filter> filter;
+  filter->SetInputData(newCloud(5000));
+  filter->SetValue(0, 0.7);
+  const auto normals = [&filter](int method)
+  {
+    filter->SetNormalMethod(method);
+    filter->Update();
+    vtkDataArray* const array = filter->GetOutput()->GetPointData()->GetNormals();
+    std::vector<double> all;
+    for (vtkIdType i = 0; i < 3 * array->GetNumberOfTuples(); ++i)
+    {
+      all.push_back(array->GetComponent(i / 3, static_cast<int>(i % 3)));
+    }
+    return all;
+  };
+  const auto expectAutomatic = [&normals](int method, int other)
+  {
+    const std::vector<double> automatic = normals(Filter::AUTOMATIC_NORMALS);
+    EXPECT_EQ(automatic, normals(method));
+    EXPECT_NE(automatic, normals(other));
+  };
+  EXPECT_EQ(filter->GetNormalMethod(), Filter::AUTOMATIC_NORMALS);
+  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
+  filter->SetProjection(Filter::NO_PROJECTION);
+  expectAutomatic(Filter::NORMALS_FROM_PLANES, Filter::NORMALS_FROM_FIELD);
+  filter->ComputeGradientsOn();
+  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
+  filter->ComputeGradientsOff();
+  filter->SetMinimumSpacing(0.5);
+  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
+}
+
+TEST(FilterSplats, ClipsComeWithTheFitForCreases)
+{
+  using Filter = vtkScatteredIsopointFilter;
+  vtkNew<Filter> filter;
+  filter->SetInputData(newCubeCloud({ 0.0, 0.0, 0.0 }));
+  filter->SetValue(0, 0.0);
+  const auto hasClips = [&filter]()
+  {
+    filter->Update();
+    return filter->GetOutput()->GetPointData()->HasArray("SplatClip") != 0;
+  };
+  EXPECT_FALSE(hasClips());
+  filter->SetProjection(Filter::CREASE_FIT);
+  EXPECT_TRUE(hasClips());
+  filter->ComputeSplatClipsOff();
+  EXPECT_FALSE(hasClips());
+  filter->SetProjection(Filter::CUBIC_FIT);
+  filter->ComputeSplatClipsOn();
+  EXPECT_TRUE(hasClips());
+}
+
 // Far from the origin, coordinates in single precision have errors of several sample spacings.
 TEST(FilterSplats, ClipPlanesAreRelativeToThePoints)
 {

@@ -298,6 +298,7 @@ TEST(IsosurfaceFilter, ReportsProgressAndStops)
     void Execute(vtkObject* caller, unsigned long, void* data) override
     {
       this->Shares.push_back(*static_cast<double*>(data));
+      EXPECT_STREQ(static_cast<vtkAlgorithm*>(caller)->GetProgressText(), "Scattered Isosurface");
       if (this->Shares.size() == this->StopAfter)
       {
         static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);

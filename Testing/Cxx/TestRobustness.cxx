@@ -26,6 +26,7 @@ public:
   void Execute(vtkObject* caller, unsigned long, void* progress) override
   {
     this->Seen.push_back(*static_cast<double*>(progress));
+    EXPECT_STREQ(static_cast<vtkAlgorithm*>(caller)->GetProgressText(), "Scattered Isopoints");
     if (this->Seen.size() == this->AbortAt)
     {
       static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);

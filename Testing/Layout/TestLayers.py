@@ -31,6 +31,7 @@ CORE_FOLDERS = {
 FOLDERS = {
     "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
     "Rendering": ["Rendering/*.h"],
+    "Plugin/Window": ["Plugin/Window/*.h"],
     "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
 }
 

@@ -25,7 +25,9 @@ def write_cloud(path):
     points.SetData(numpy_to_vtk(positions, deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    for name, values in (("noise", positions[:, 0]), ("r", np.linalg.norm(positions, axis=1))):
+    distances = np.linalg.norm(positions, axis=1)
+    gaps = np.where(np.arange(40000) % 100 == 0, np.nan, distances)
+    for name, values in (("noise", positions[:, 0]), ("r", distances), ("gaps", gaps)):
         array = numpy_to_vtk(values, deep=True)
         array.SetName(name)
         data.GetPointData().AddArray(array)
@@ -43,6 +45,23 @@ def pixels(path):
     image = reader.GetOutput()
     width, height, _ = image.GetDimensions()
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[..., :3]
+
+
+def check_counters(reader):
+    """They are properties of both filters, and those of the last update."""
+    for create in (simple.ScatteredIsopoints, simple.ScatteredIsosurface):
+        counted = create(Input=reader, ContourBy=["POINTS", "gaps"], Isosurfaces=[0.5])
+        for projection in ("None", "Cubic fit", "None"):
+            counted.Projection = projection
+            counted.UpdatePipeline()
+            points = counted.GetDataInformation().GetNumberOfPoints()
+            check(counted.NumberOfSkippedSamples == 400, "skipped samples")
+            unprojected = counted.NumberOfUnprojectedPoints
+            check((unprojected == points) == (projection == "None"),
+                  f"{unprojected} points unprojected of {points} by {projection}")
+        for name in ("NumberOfSkippedSamples", "NumberOfUnprojectedPoints"):
+            check(counted.SMProxy.GetProperty(name).GetPanelVisibility() == "default", name)
+        simple.Delete(counted)
 
 
 def check_triangles(reader):
@@ -85,9 +104,7 @@ def main(plugin):
     check(isopoints.PointData["Normals"].GetNumberOfComponents() == 3, "normals")
     check(isopoints.PointData["Radius"].GetRange()[0] > 0.0, "radii")
     check(isopoints.PointData["noise"] is not None, "other arrays")
-    isopoints.SMProxy.UpdatePropertyInformation()
-    skipped = isopoints.SMProxy.GetProperty("NumberOfSkippedSamples")
-    check(skipped.GetElement(0) == 0, "skipped samples")
+    check_counters(reader)
 
     check_triangles(reader)
 

@@ -24,9 +24,11 @@ def check(condition, message):
 
 
 def vector_properties(root):
-    """Those of one value with a default: name, XML, the name in the class, and the default."""
+    """Those that are set, of one value with a default: name, XML, the name in the class, and the default."""
     for element in root.iter():
         if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
+            continue
+        if element.get("information_only") == "1" or "command" not in element.attrib:
             continue
         if element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib:
             check(element.get("command")[:3] == "Set", element.get("command"))
@@ -87,8 +89,21 @@ def filter_accepts(contour, name):
     return accepts
 
 
+def check_groups(root):
+    """The panel shows groups of properties in the order of the XML, what is contoured first."""
+    proxy = root.find(".//IsopointSourceProxy")
+    names = [element.get("name") for element in proxy if element.tag.endswith("VectorProperty")]
+    groups = proxy.findall("PropertyGroup")
+    grouped = [element.get("name") for group in groups for element in group]
+    check(names[:2] == ["SelectInputScalars", "ContourValues"], f"first: {names[:2]}")
+    check(grouped == names, f"groups have all properties in their order: {grouped}")
+    labels = ["Isosurfaces", "Sampling", "Output Arrays", "Performance", "Last Update"]
+    check([group.get("label") for group in groups] == labels, "groups")
+
+
 def check_filter(root):
-    filter_class = getattr(scatteredisopoints, root.find(".//SourceProxy").get("class"))
+    check_groups(root)
+    filter_class = getattr(scatteredisopoints, root.find(".//IsopointSourceProxy").get("class"))
     contour = filter_class()
     names = []
     for name, element, name_in_class, default in vector_properties(root):

@@ -438,6 +438,36 @@ class RanksTest(RanksTestCase):
         self.check_one_error(poly_data(points[:0], points[:0]))
         self.check(points, "even")
 
+    def test_warnings_are_of_all_samples_and_come_once(self):
+        points = cloud("uniform", 2000, 4)
+        owner = np.sort(ranks_of(points, "skewed"))
+        data = poly_data(points[owner == RANK], np.flatnonzero(owner == RANK))
+        for values, bad, expected in (
+                ((9.0,), 0, f"isovalue 9 has no points: the values of the array \"value\" are from"
+                 f" {field(points).min():.6g} to {field(points).max():.6g}."),
+                ((0.3,), 3, f"{3 * SIZE} of {2000 + 10 * SIZE} samples were skipped")):
+            more = poly_data(cloud("uniform", 10, 20 + RANK), np.arange(10))
+            vtk_to_numpy(more.GetPointData().GetArray("value"))[:] = 0.25
+            vtk_to_numpy(more.GetPointData().GetArray("value"))[:bad] = np.nan
+            blocks = vtkMultiBlockDataSet()
+            blocks.SetBlock(0, data)
+            blocks.SetBlock(1, more)
+            isopoints = vtkScatteredIsopointFilter()
+            isopoints.SetInputData(blocks)
+            isopoints.SetInputArrayToProcess(0, 0, 0, 0, "value")
+            warnings = []
+
+            def warned(_object, _event, message, warnings=warnings):
+                warnings.append(message)
+
+            warned.CallDataType = "string0"
+            isopoints.AddObserver("WarningEvent", warned)
+            run(isopoints, values)
+            everything = gather(warnings)
+            if RANK == 0:
+                self.assertEqual([len(each) for each in everything], [1] + (SIZE - 1) * [0])
+                self.assertIn(expected, everything[0][0])
+
     def errors_with_array(self, data, name):
         """How many errors all ranks report together; on the others than rank 0, the expected one."""
         watch = []

@@ -159,7 +159,7 @@ def selection(view, isopoints, display):
 
 
 def sharp_edges(view):
-    """With the filter's clipping planes splats end at creases, and do not extend beyond the cube."""
+    """With the fit for creases splats end there as they come, and do not extend beyond the cube."""
     image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
     distance = "max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))"
     source = simple.Calculator(Input=image, ResultArrayName="r", Function=distance)
@@ -168,7 +168,7 @@ def sharp_edges(view):
     cube.Isosurfaces = [20.3]
     cube.Projection = "Cubic fit with creases"
     outside = []
-    for cube.ComputeSplatClips in (0, 1):
+    for cube.ComputeSplatClips in (0, "Automatic"):
         simple.ColorBy(simple.Show(cube, view), None)
         simple.Render(view)
         picture = pixels(view)

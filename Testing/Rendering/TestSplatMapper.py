@@ -174,11 +174,19 @@ def warns_once_without_normals():
     data = polydata([(0, 0, 0), (1, 0, 0)], None, Radius=np.full(2, 0.3))
     actor = actor_of(data)
     events = events_of(actor.GetMapper())
+    messages = []
+
+    def keep(_object, _event, message):
+        messages.append(message)
+
+    keep.CallDataType = "string0"
+    actor.GetMapper().AddObserver("WarningEvent", keep)
     scene = Scene(actor)
     check(area(scene.image()) > 0, "splats without normals")
     data.Modified()
     scene.image()
     check(events == ["warning"], f"one warning, not {events}")
+    check("Compute Normals in ParaView" in messages[0], "the filter's checkbox is named")
     zero = Scene(actor_of(disk(normal=(0, 0, 0))))
     check(area(zero.image()) > 0, "a normal of no length faces the camera")
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointFindings_h
+#define vtkIsopointFindings_h
+
+#include "vtkIsopointBlock.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace isopoint
+{
+class Team;
+}
+
+/**
+ * What an update found out that its user may have to know.
+ */
+struct vtkIsopointFindings
+{
+  std::vector<double> Isovalues;       // ascending
+  std::vector<std::uint64_t> Points;   // for each isovalue
+  std::uint64_t UnprojectedPoints = 0; // that no fit moved, where fits were to
+  std::uint64_t Samples = 0;           // those that were left out included
+  std::uint64_t NotFinite = 0;         // samples with such a coordinate or value
+  std::uint64_t Ghosts = 0;            // ghost and hidden samples
+  std::uint64_t WithoutArray = 0;      // samples of blocks without the contoured array
+  std::string Array;                   // its name, perhaps empty
+  /// The range of the samples that take part, known where an isovalue has no points; else, and if
+  /// there are no such samples, empty.
+  double Least = std::numeric_limits<double>::infinity();
+  double Greatest = -std::numeric_limits<double>::infinity();
+
+  /// Nothing yet, of these isovalues. @throws std::bad_alloc
+  void Start(const std::set<double>& isovalues);
+
+  /// Counts the samples of some blocks, of which the extractor left out so many.
+  void CountSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
+};
+
+/**
+ * Looks for the range of the blocks' samples, if any isovalue has no points.
+ */
+void vtkFindIsopointRange(
+  const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings);
+
+/**
+ * The same of all ranks together, whose findings are summed. Collective.
+ * @throws std::bad_alloc or FailedElsewhere
+ */
+void vtkShareIsopointFindings(
+  isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings);
+
+/**
+ * One sentence or two for each thing to be warned of: cause and remedy. Ghosts alone are no reason.
+ * @throws std::bad_alloc
+ */
+std::vector<std::string> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings);
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkSMIsopointRepresentationDomain
+ * @brief   makes "Isopoint Splats" the default representation of isopoints
+ *
+ * A domain of a property of the representation's proxy, which is part of one with the property
+ * "Representation" that it sets. Data are taken for isopoints, whatever filters
+ * they have passed through, if they have the point arrays "Normals" of three components and
+ * "Radius" of one, and as many cells as points, the vertices, or none. Of other data the default
+ * is left as it is.
+ *
+ * The required property "Input" yields the data.
+ */
+#ifndef vtkSMIsopointRepresentationDomain_h
+#define vtkSMIsopointRepresentationDomain_h
+
+#include "vtkSMDomain.h"
+#include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+
+class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRepresentationDomain
+  : public vtkSMDomain
+{
+public:
+  static vtkSMIsopointRepresentationDomain* New();
+  vtkTypeMacro(vtkSMIsopointRepresentationDomain, vtkSMDomain);
+
+  /**
+   * Sets the property if the data are isopoints. @returns whether it did
+   */
+  int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
+
+protected:
+  vtkSMIsopointRepresentationDomain() = default;
+  ~vtkSMIsopointRepresentationDomain() override = default;
+
+private:
+  vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
+  void operator=(const vtkSMIsopointRepresentationDomain&) = delete;
+};
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an update warns of: isovalues without points, samples left out, fits that do not hold. One
+// warning of each for an update, with figures.
+#include "InputTesting.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkScatteredIsosurfaceFilter.h"
+
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace inputtesting;
+
+namespace
+{
+
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+
+/// Keeps all warnings.
+class WarningWatcher : public vtkCommand
+{
+public:
+  static WarningWatcher* New() { return new WarningWatcher; }
+
+  void Execute(vtkObject*, unsigned long, void* message) override
+  {
+    this->All.emplace_back(static_cast<const char*>(message));
+  }
+
+  std::vector<std::string> All;
+};
+
+std::vector<std::string> warningsOf(vtkScatteredIsopointFilter* filter)
+{
+  const auto watcher = vtkSmartPointer<WarningWatcher>::Take(WarningWatcher::New());
+  const unsigned long tag = filter->AddObserver(vtkCommand::WarningEvent, watcher);
+  filter->Modified();
+  filter->Update();
+  filter->RemoveObserver(tag);
+  return watcher->All;
+}
+
+void expectWarning(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+{
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  for (const std::string& part : parts)
+  {
+    EXPECT_NE(warnings.front().find(part), std::string::npos) << warnings.front();
+  }
+}
+
+template <class TFilter = vtkScatteredIsopointFilter>
+vtkSmartPointer<TFilter> newFilterOf(vtkDataObject* input)
+{
+  auto filter = vtkSmartPointer<TFilter>::New();
+  filter->SetInputData(input);
+  filter->SetValue(0, 0.7);
+  return filter;
+}
+
+} // namespace
+
+TEST(Warnings, AnIsovalueOutsideTheRangeIsNamedWithTheRange)
+{
+  const auto cloud = newCloud(500);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  values->SetValue(0, 0.0625);
+  values->SetValue(1, 7.5);
+  const auto filter = newFilterOf(cloud);
+  EXPECT_TRUE(warningsOf(filter).empty());
+  const auto surface = newFilterOf<vtkScatteredIsosurfaceFilter>(cloud);
+  for (vtkScatteredIsopointFilter* const any :
+    std::initializer_list<vtkScatteredIsopointFilter*>{ filter, surface })
+  {
+    any->SetNumberOfContours(1);
+    any->SetValue(0, 8.25);
+    expectWarning(any, { "isovalue 8.25 ", "\"distance\"", "from 0.0625 to 7.5" });
+    any->SetValue(1, 0.5);
+    any->SetValue(2, -1.0);
+    expectWarning(any, { "isovalues -1, 8.25 ", "from 0.0625 to 7.5" });
+    EXPECT_GT(any->GetOutput()->GetNumberOfPoints(), 0);
+  }
+}
+
+TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
+{
+  const auto cloud = newCloud(500);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  const auto ghosts = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 500);
+  ghosts->FillValue(0);
+  ghosts->SetValue(3, vtkDataSetAttributes::DUPLICATEPOINT);
+  cloud->GetPointData()->AddArray(ghosts);
+  values->SetValue(3, 9.0);
+  values->SetValue(4, 7.5);
+  const auto filter = newFilterOf(cloud);
+  filter->SetValue(0, 8.0);
+  expectWarning(filter, { "isovalue 8 ", " to 7.5" });
+}
+
+TEST(Warnings, AConstantArrayHasNoIsosurface)
+{
+  const auto cloud = newCloud(500);
+  vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars())->FillValue(0.7);
+  expectWarning(newFilterOf(cloud), { "all values of the array \"distance\" are 0.7" });
+}
+
+TEST(Warnings, SkippedSamplesAreCountedByTheirReason)
+{
+  const auto cloud = newCloud(500);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  values->SetValue(5, notANumber);
+  cloud->GetPoints()->SetPoint(6, std::numeric_limits<double>::infinity(), 0.0, 0.0);
+  const auto filter = newFilterOf(cloud);
+  expectWarning(filter, { "2 of 500 samples", "2 with a coordinate or value that is not finite" });
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 2);
+
+  const auto other = newCloud(30);
+  other->GetPointData()->Initialize();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, cloud);
+  blocks->SetBlock(1, other);
+  blocks->SetBlock(2, newCloud(400));
+  filter->SetInputData(blocks);
+  for (const int byBlock : { 0, 1 })
+  {
+    filter->SetContourBlocks(byBlock);
+    expectWarning(filter, { "32 of 930 samples", "2 with a coordinate",
+                            "30 of blocks without the array \"distance\"" });
+  }
+}
+
+TEST(Warnings, GhostsAloneAreMeantToBeLeftOut)
+{
+  const auto cloud = newCloud(500);
+  const auto ghosts = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 500);
+  ghosts->FillValue(0);
+  ghosts->SetValue(3, vtkDataSetAttributes::DUPLICATEPOINT);
+  cloud->GetPointData()->AddArray(ghosts);
+  const auto filter = newFilterOf(cloud);
+  EXPECT_TRUE(warningsOf(filter).empty());
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 1);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  values->SetValue(5, notANumber);
+  values->Modified();
+  expectWarning(filter, { "2 of 500", "1 with a coordinate or value", "1 ghost or hidden" });
+}
+
+TEST(Warnings, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
+{
+  const auto cloud = newCloud(4000);
+  const auto filter = newFilterOf(cloud);
+  EXPECT_TRUE(warningsOf(filter).empty());
+  std::mt19937 random(2);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    values->SetValue(i, random() * 0x1p-32);
+  }
+  cloud->Modified();
+  values->Modified();
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  const std::string figures = std::to_string(filter->GetNumberOfUnprojectedPoints()) + " of " +
+                              std::to_string(filter->GetOutput()->GetNumberOfPoints()) + " points";
+  EXPECT_NE(warnings.front().find(figures), std::string::npos) << warnings.front();
+  filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  EXPECT_TRUE(warningsOf(filter).empty());
+}

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the filters do as they come: the array, the isovalue and what is computed by default."""
+
+import sys
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("failed: " + message)
+
+
+def filters():
+    return simple.ScatteredIsopoints, simple.ScatteredIsosurface
+
+
+def lattice(association, **arrays):
+    """A lattice with arrays of points or cells, in their order, named here by functions."""
+    image = vtkImageData()
+    image.SetDimensions(*([13] * 3 if association == "CELLS" else [12] * 3))
+    places = np.stack(np.meshgrid(*3 * [np.arange(12.0)], indexing="ij"), -1).reshape(-1, 3)
+    attributes = image.GetCellData() if association == "CELLS" else image.GetPointData()
+    for name, function in arrays.items():
+        values = numpy_to_vtk(np.ascontiguousarray(function(places)), deep=True)
+        values.SetName(name)
+        attributes.AddArray(values)
+    return image
+
+
+def produced(data):
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def distance(places):
+    return np.linalg.norm(places - 5.6, axis=1)
+
+
+def number(value):
+    return lambda places: np.full(len(places), value)
+
+
+def first_array_with_a_range():
+    """As in an AMR, whose first array is the number of a block."""
+    for association in ("POINTS", "CELLS"):
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, lattice(association, BlockId=number(0), distance=distance, z=distance))
+        for create in filters():
+            isopoints = create(Input=produced(blocks))
+            chosen = list(isopoints.ContourBy)
+            check(chosen == [association, "distance"], f"not constant: {chosen}")
+            low, high = distance(np.zeros((1, 3)))[0], distance(np.full((1, 3), 6.0))[0]
+            check(len(isopoints.Isosurfaces) == 1 and high < isopoints.Isosurfaces[0] < low,
+                  f"an isovalue within the range: {isopoints.Isosurfaces}")
+            isopoints.UpdatePipeline()
+            check(isopoints.GetDataInformation().GetNumberOfPoints() > 100, "points")
+
+
+def active_scalars_come_first_unless_constant():
+    data = lattice("POINTS", BlockId=number(0), first=distance, second=distance)
+    data.GetPointData().SetActiveScalars("second")
+    check(simple.ScatteredIsopoints(Input=produced(data)).ContourBy[1] == "second", "active")
+    data.GetPointData().SetActiveScalars("BlockId")
+    check(simple.ScatteredIsopoints(Input=produced(data)).ContourBy[1] == "first", "constant")
+    constant = lattice("POINTS", BlockId=number(0))
+    check(simple.ScatteredIsopoints(Input=produced(constant)).ContourBy[1] == "BlockId", "alone")
+
+
+def input_matters_rather_than_the_active_source():
+    named = produced(lattice("POINTS", named=distance))
+    other = produced(lattice("POINTS", other=distance))
+    for create in filters():
+        simple.SetActiveSource(other)
+        chosen = list(create(Input=named).ContourBy)
+        check(chosen == ["POINTS", "named"], f"the array of the input: {chosen}")
+        both = produced(lattice("POINTS", first=distance, named=distance))
+        simple.SetActiveSource(named)
+        check(create(Input=both).ContourBy[1] == "first", "the first array of the input")
+        simple.SetActiveSource(named)
+        chosen = create(Input=both, ContourBy=["POINTS", "named"]).ContourBy[1]
+        check(chosen == "named", "an array that is given")
+        kept = create(Input=named, ContourBy=["POINTS", "named"])
+        kept.Input = both
+        check(kept.ContourBy[1] == "named", "a choice that both inputs have")
+
+
+def panel():
+    for create in filters():
+        isopoints = create(Input=simple.Wavelet())
+        gap_factor = isopoints.SMProxy.GetProperty("GapFactor")
+        check(gap_factor.GetPanelVisibility() == "default", "GapFactor")
+        check("Set 4 where" in gap_factor.GetDocumentation().GetDescription(), "when to set it")
+
+
+def creases_are_clipped():
+    cube = lattice("POINTS", size=lambda places: np.abs(places - 5.6).max(axis=1))
+    isopoints = simple.ScatteredIsopoints(Input=produced(cube), Isosurfaces=[3.7])
+    for projection, choice, has_clips in (
+            ("Cubic fit", "Automatic", False), ("Cubic fit with creases", "Automatic", True),
+            ("Cubic fit with creases", "Off", False), ("Cubic fit", "On", True)):
+        isopoints.Projection = projection
+        isopoints.ComputeSplatClips = choice
+        isopoints.UpdatePipeline()
+        arrays = isopoints.PointData.keys()
+        check(("SplatClip" in arrays) == has_clips, f"{projection}, {choice}: {arrays}")
+
+
+def main(plugin):
+    simple.LoadPlugin(plugin)
+    first_array_with_a_range()
+    active_scalars_come_first_unless_constant()
+    input_matters_rather_than_the_active_source()
+    panel()
+    creases_are_clipped()
+
+
+main(sys.argv[1])
+print("passed")
