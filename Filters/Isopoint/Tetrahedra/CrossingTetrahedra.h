@@ -380,10 +380,11 @@ private:
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;
+    constexpr std::size_t smallCloud = 10000;
     const std::size_t visits = this->Visits.load(std::memory_order_relaxed);
     const bool areLong = visits > longSearch * this->Searches.load(std::memory_order_relaxed);
-    const std::size_t visitsForSample = areLong ? 25 : 100;
-    return visits > visitsForSample * this->Tree.samples.size();
+    const std::size_t visitsForSample = areLong ? 25 : 300;
+    return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
   }
 
   const Execution& Run;
