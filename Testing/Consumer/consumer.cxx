@@ -41,6 +41,7 @@ int main()
   surface->SetValue(0, 6.0);
   surface->Update();
   const bool isRight = isopoints->GetOutput()->GetNumberOfPoints() > 300 &&
-    std::abs(mapper->GetBounds()[1] - 6.0) < 1.0 && surface->GetOutput()->GetNumberOfPolys() > 600;
+                       std::abs(mapper->GetBounds()[1] - 6.0) < 1.0 &&
+                       surface->GetOutput()->GetNumberOfPolys() > 600;
   return isRight ? EXIT_SUCCESS : EXIT_FAILURE;
 }
