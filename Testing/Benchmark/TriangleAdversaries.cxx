@@ -4,6 +4,7 @@
 #include "Clouds.h"
 
 #include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Tetrahedra/SingleRank.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -288,7 +289,9 @@ Found find(const Cloud& cloud, double isovalue, std::size_t threads)
   const isopoint::NeighborhoodCache<TSample::Id> none;
   isopoint::IsosurfaceRequest request;
   request.isovalue = isovalue;
-  isopoint::TriangleExtraction<TSample> extraction(execution, tree, none, request);
+  isopoint::SingleRank<TSample> rank(tree);
+  isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
+    execution, tree, rank, none, request);
   isopoint::WorkProgress progress(execution);
   const std::size_t crossing = extraction.tetrahedra(progress, 0.0).size();
   return { crossing, extraction.counts() };
