@@ -3,8 +3,8 @@
 // tetrahedrisation of all samples.
 #include "Clouds.h"
 
-#include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tetrahedra/SingleRank.h"
+#include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>

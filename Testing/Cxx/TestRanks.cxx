@@ -14,22 +14,8 @@
 #include <string>
 #include <utility>
 
-namespace
-{
-
 using clouds::Cloud;
-
-std::vector<Cloud> variousClouds()
-{
-  return { clouds::uniform(3000, 1), clouds::clustered(2000, 2), clouds::lattice(14, 13, 12),
-    clouds::coarse(1500, 6, 3), clouds::coincident(clouds::uniform(1200, 4), 0.4),
-    clouds::lines(600, 5, 0, 5), clouds::lines(900, 7, 40, 6), clouds::combs(700, 9, 7),
-    clouds::curves(900, 8), clouds::flattened(clouds::uniform(900, 9), 2),
-    clouds::flattened(clouds::uniform(300, 10), 1), clouds::nestedCoincident(400),
-    clouds::layerBeforeOne(900, 11) };
-}
-
-} // namespace
+using ranks::variousClouds;
 
 TEST(Ranks, YieldThePointsOfOneProcess)
 {

@@ -106,23 +106,13 @@ void expectSameTriangles(const Cloud& cloud, std::size_t size, ranks::Deal deal,
   }
 }
 
-std::vector<Cloud> variousClouds()
-{
-  return { clouds::uniform(3000, 1), clouds::clustered(2000, 2), clouds::lattice(14, 13, 12),
-    clouds::coarse(1500, 6, 3), clouds::coincident(clouds::uniform(1200, 4), 0.4),
-    clouds::lines(600, 5, 0, 5), clouds::lines(900, 7, 40, 6), clouds::combs(700, 9, 7),
-    clouds::curves(900, 8), clouds::flattened(clouds::uniform(900, 9), 2),
-    clouds::flattened(clouds::uniform(300, 10), 1), clouds::nestedCoincident(400),
-    clouds::layerBeforeOne(900, 11) };
-}
-
 } // namespace
 
 TEST(RanksTriangles, AreThoseOfOneProcess)
 {
   const std::vector<ExtractionRequest> requests{ requestOf(0.3), requestOf(-0.4, 3.0),
     fitted(requestOf(0.5)), requestOf(99.0) };
-  for (const Cloud& cloud : variousClouds())
+  for (const Cloud& cloud : ranks::variousClouds())
   {
     for (const std::size_t size : { 2, 3, 5 })
     {

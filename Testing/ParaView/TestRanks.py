@@ -163,19 +163,19 @@ POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeRadii=0)
 
 
 class RanksTestCase(unittest.TestCase):
-    def same(self, output, expected):
+    def same(self, output, expected, describe=described):
         """Compares, on rank 0, all ranks' outputs with one, which is called for there."""
-        parts = gather(described(output))
+        parts = gather(describe(output))
         failure = ""
         if RANK == 0:
-            kinds, rows = described(expected())
+            kinds, rows = describe(expected())
             found = sorted(row for part in parts for row in part[1])
             if any(part[0] != kinds for part in parts):
                 failure = f"arrays {[part[0] for part in parts]} instead of {kinds}"
             elif not rows:
-                failure = "no points to compare"
+                failure = "nothing to compare"
             elif found != sorted(rows):
-                failure = f"{len(found)} points instead of {len(rows)}, or others"
+                failure = f"{len(found)} rows instead of {len(rows)}, or others"
         self.assertEqual(failure, "")
 
     def errors(self, data, **options):

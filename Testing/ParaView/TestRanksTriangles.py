@@ -44,18 +44,7 @@ def triangles(output):
 
 class RanksTrianglesTest(RanksTestCase):
     def same_triangles(self, output, expected):
-        parts = gather(triangles(output))
-        failure = ""
-        if RANK == 0:
-            kinds, rows = triangles(expected())
-            found = sorted(row for part in parts for row in part[1])
-            if any(part[0] != kinds for part in parts):
-                failure = f"arrays {[part[0] for part in parts]} instead of {kinds}"
-            elif not rows:
-                failure = "no triangles to compare"
-            elif found != sorted(rows):
-                failure = f"{len(found)} triangles instead of {len(rows)}, or others"
-        self.assertEqual(failure, "")
+        self.same(output, expected, triangles)
 
     def dealt(self, points, deal):
         """This rank's samples, and those of all ranks in their order."""

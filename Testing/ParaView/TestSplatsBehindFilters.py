@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What filters leave of isopoints is drawn as splats too, unless it became a mesh."""
 
-import os
 import sys
-import tempfile
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from TestSplats import pixels
 
 RADIUS = 7.3
 
@@ -29,18 +27,6 @@ def make_view():
     view.CameraFocalPoint = [0.0, 0.0, 0.0]
     view.CameraParallelScale = 10.0
     return view
-
-
-def pixels(view):
-    path = os.path.join(tempfile.mkdtemp(), "view.png")
-    simple.SaveScreenshot(path, view)
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(int)
 
 
 def ball():
