@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointFindings.h"
 
+#include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Team.h"
 #include "vtkIsopointBlock.h"
 
@@ -12,7 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <iomanip>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -34,27 +37,16 @@ bool isFinite(const vtkIsopointBlock& block, vtkIdType sample)
   return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
 }
 
-/// Numbers that are ordered as doubles are: ranks compare such.
-std::uint64_t orderedBits(double value)
-{
-  constexpr std::uint64_t sign = std::uint64_t{ 1 } << 63;
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return (bits & sign) != 0 ? ~bits : bits | sign;
-}
-
-double fromOrderedBits(std::uint64_t ordered)
-{
-  constexpr std::uint64_t sign = std::uint64_t{ 1 } << 63;
-  const std::uint64_t bits = (ordered & sign) != 0 ? ordered & ~sign : ~ordered;
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
 std::string describeArray(const vtkIsopointFindings& findings)
 {
   return findings.Array.empty() ? "the array" : "the array \"" + findings.Array + "\"";
+}
+
+std::string textOf(double number, int digits)
+{
+  std::ostringstream text;
+  text << std::setprecision(digits) << number;
+  return text.str();
 }
 
 std::string join(const std::vector<std::string>& parts)
@@ -67,36 +59,85 @@ std::string join(const std::vector<std::string>& parts)
   return all;
 }
 
-std::string describeIsovalues(const vtkIsopointFindings& findings)
+std::string join(const std::vector<double>& numbers, int digits)
 {
-  std::vector<std::string> outside;
-  for (std::size_t i = 0; i < findings.Isovalues.size(); ++i)
+  std::vector<std::string> texts;
+  std::transform(numbers.begin(), numbers.end(), std::back_inserter(texts),
+    [digits](double number) { return textOf(number, digits); });
+  return join(texts);
+}
+
+/// So many digits that the isovalues and the ends of the range look different if they are.
+int digitsFor(const vtkIsopointFindings& findings, const std::vector<double>& isovalues)
+{
+  constexpr int few = 6;
+  for (int digits = few; digits < std::numeric_limits<double>::max_digits10; ++digits)
   {
-    const double value = findings.Isovalues[i];
-    if (findings.Points[i] == 0 && (value <= findings.Least || value > findings.Greatest))
+    const auto lookAlike = [digits](double a, double b)
+    { return a != b && textOf(a, digits) == textOf(b, digits); };
+    if (!lookAlike(findings.Least, findings.Greatest) &&
+        std::none_of(isovalues.begin(), isovalues.end(),
+          [&](double isovalue) {
+            return lookAlike(isovalue, findings.Least) || lookAlike(isovalue, findings.Greatest);
+          }))
     {
-      std::ostringstream text;
-      text << value;
-      outside.push_back(text.str());
+      return digits;
     }
   }
-  if (outside.empty() || findings.Least > findings.Greatest)
+  return std::numeric_limits<double>::max_digits10;
+}
+
+std::string describeIsovaluesOutside(
+  const vtkIsopointFindings& findings, const std::vector<double>& outside)
+{
+  if (outside.empty())
   {
     return {};
   }
-  std::ostringstream message;
+  const int digits = digitsFor(findings, outside);
   if (findings.Least == findings.Greatest)
   {
-    message << "There is no isosurface: all values of " << describeArray(findings) << " are "
-            << findings.Least << ". Choose another array.";
-    return message.str();
+    return "There is no isosurface: all values of " + describeArray(findings) + " are " +
+           textOf(findings.Least, digits) + ". Choose another array.";
   }
-  message << (outside.size() > 1 ? "The isovalues " : "The isovalue ") << join(outside)
-          << (outside.size() > 1 ? " have" : " has") << " no points: the values of "
-          << describeArray(findings) << " are from " << findings.Least << " to "
-          << findings.Greatest << ". Choose " << (outside.size() > 1 ? "isovalues" : "one")
-          << " in between.";
-  return message.str();
+  return (outside.size() > 1 ? "The isovalues " : "The isovalue ") + join(outside, digits) +
+         (outside.size() > 1 ? " have" : " has") + " no points: the values of " +
+         describeArray(findings) + " are from " + textOf(findings.Least, digits) + " to " +
+         textOf(findings.Greatest, digits) + ". Choose " +
+         (outside.size() > 1 ? "isovalues" : "one") + " above the former and up to the latter.";
+}
+
+/// Of isovalues in the range.
+std::string describeEmptyIsovalues(
+  const vtkIsopointFindings& findings, const std::vector<double>& empty)
+{
+  if (empty.empty())
+  {
+    return {};
+  }
+  return (empty.size() > 1 ? "The isovalues " : "The isovalue ") +
+         join(empty, digitsFor(findings, empty)) + (empty.size() > 1 ? " have" : " has") +
+         " no points, although samples are on both sides: " +
+         (findings.AreTriangles
+             ? "the gap factor drops all, or the samples are all in one plane. Set a larger gap"
+               " factor or 0; of samples in a plane extract points instead of triangles."
+             : "the gap factor drops all. Set a larger one, or 0.");
+}
+
+std::vector<std::string> describeIsovalues(const vtkIsopointFindings& findings)
+{
+  std::vector<double> outside;
+  std::vector<double> empty;
+  for (std::size_t i = 0; i < findings.Isovalues.size(); ++i)
+  {
+    const double value = findings.Isovalues[i];
+    if (findings.Points[i] == 0 && findings.Least <= findings.Greatest)
+    {
+      const bool isInside = value > findings.Least && value <= findings.Greatest;
+      (isInside ? empty : outside).push_back(value);
+    }
+  }
+  return { describeIsovaluesOutside(findings, outside), describeEmptyIsovalues(findings, empty) };
 }
 
 std::string describeSkipped(const vtkIsopointFindings& findings)
@@ -132,8 +173,8 @@ std::string describeUnprojected(const vtkIsopointFindings& findings)
   }
   return std::to_string(findings.UnprojectedPoints) + " of " + std::to_string(points) +
          " points are where linear interpolation places them: around them no fit holds, as in"
-         " strong noise or where samples are few or on lines. Smooth the samples first, or set the"
-         " projection to none, which is faster.";
+         " strong noise or where samples are few, on lines or in one plane. Smooth noise first, or"
+         " set the projection to none, which is faster.";
 }
 
 } // namespace
@@ -196,21 +237,27 @@ void vtkShareIsopointFindings(
   {
     *count = team.sum(*count);
   }
-  team.together([&]() { vtkFindIsopointRange(blocks, findings); });
-  findings.Least = fromOrderedBits(~team.maximum(~orderedBits(findings.Least)));
-  findings.Greatest = fromOrderedBits(team.maximum(orderedBits(findings.Greatest)));
+  const std::vector<std::vector<char>> names =
+    team.gather(std::vector<char>(findings.Array.begin(), findings.Array.end()));
+  team.together(
+    [&]()
+    {
+      for (auto name = names.begin(); name != names.end() && findings.Array.empty(); ++name)
+      {
+        findings.Array.assign(name->begin(), name->end()); // a rank without blocks has none
+      }
+      vtkFindIsopointRange(blocks, findings);
+    });
+  findings.Least = isopoint::fromOrderedKey(~team.maximum(~isopoint::orderedKey(findings.Least)));
+  findings.Greatest =
+    isopoint::fromOrderedKey(team.maximum(isopoint::orderedKey(findings.Greatest)));
 }
 
 std::vector<std::string> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings)
 {
-  std::vector<std::string> messages;
-  for (const std::string& message :
-    { describeIsovalues(findings), describeSkipped(findings), describeUnprojected(findings) })
-  {
-    if (!message.empty())
-    {
-      messages.push_back(message);
-    }
-  }
+  std::vector<std::string> messages = describeIsovalues(findings);
+  messages.push_back(describeSkipped(findings));
+  messages.push_back(describeUnprojected(findings));
+  messages.erase(std::remove(messages.begin(), messages.end(), ""), messages.end());
   return messages;
 }

@@ -20,12 +20,18 @@
 namespace
 {
 
+/// Whether isopoints are thinned out; triangles never are.
+bool isThinned(vtkScatteredIsopointFilter* filter)
+{
+  return filter->GetMinimumSpacing() > 0.0 && !filter->ExtractsTriangles();
+}
+
 bool hasNormalsFromField(vtkScatteredIsopointFilter* filter)
 {
   if (filter->GetNormalMethod() == vtkScatteredIsopointFilter::AUTOMATIC_NORMALS)
   {
     return filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION ||
-           filter->GetComputeGradients() || filter->GetMinimumSpacing() > 0.0;
+           filter->GetComputeGradients() || isThinned(filter);
   }
   return filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
 }
@@ -60,7 +66,7 @@ std::optional<isopoint::FitRequest> fitRequestOf(
       break;
   }
   const bool hasFieldNormals = arrays.NeedsSplats() && hasNormalsFromField(filter);
-  if (arrays.Gradients || hasFieldNormals || filter->GetMinimumSpacing() > 0.0)
+  if (arrays.Gradients || hasFieldNormals || isThinned(filter))
   {
     return FitRequest{ FitOrder::Cubic, false };
   }

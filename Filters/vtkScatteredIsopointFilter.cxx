@@ -313,6 +313,7 @@ void vtkScatteredIsopointFilter::StartCounting()
   this->NumberOfSkippedSamples = blocks.GetNumberOfPointsWithoutArray();
   vtkIsopointFindings& findings = this->Kept->Findings;
   findings.Start(this->GetIsovalues());
+  findings.AreTriangles = this->ExtractsTriangles();
   findings.WithoutArray = static_cast<std::uint64_t>(blocks.GetNumberOfPointsWithoutArray());
   findings.Samples = findings.WithoutArray;
   const char* const name =
@@ -418,7 +419,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
     surfaces.push_back(
       kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
         hasGhosts ? &ghosts[i] : nullptr));
-    this->Kept->Findings.Points[i] += surfaces.back().surface.size();
+    this->Kept->Findings.Points[i] += surfaces.back().countHere();
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);

@@ -15,6 +15,7 @@
 #include "Isopoint/Tree/SampleTree.h"
 #include "Isopoint/Triangles/SurfaceTriangle.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -59,6 +60,13 @@ struct ExtractedIsosurface
   std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
   /// Whether each isopoint is counted on another rank; empty if none is.
   std::vector<bool> areElsewhere;
+
+  /// The number of isopoints that are counted on this rank.
+  std::size_t countHere() const
+  {
+    return this->surface.size() - static_cast<std::size_t>(std::count(
+                                    this->areElsewhere.begin(), this->areElsewhere.end(), true));
+  }
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings

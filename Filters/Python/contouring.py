@@ -24,6 +24,9 @@ class Isosurface:
     polydata: vtkPolyData
     """Points, vertices or triangles, and all arrays, for VTK; pyvista.wrap() takes it as well."""
 
+    are_triangles: bool
+    """Whether triangles were extracted, or points alone."""
+
     @property
     def points(self) -> np.ndarray:
         """Positions in the units of the input: shape (n, 3), of float32 or float64."""
@@ -45,17 +48,18 @@ class Isosurface:
     @property
     def triangles(self) -> Optional[np.ndarray]:
         """Indices of points, shape (m, 3), counterclockwise seen from lower values; None of points."""
-        polygons = self.polydata.GetPolys()
-        if polygons is None or polygons.GetNumberOfCells() == 0:
-            return None if self.polydata.GetNumberOfVerts() > 0 else np.zeros((0, 3), np.int64)
-        return vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
+        if not self.are_triangles:
+            return None
+        if self.polydata.GetNumberOfPolys() == 0:
+            return np.zeros((0, 3), np.int64)
+        return vtk_to_numpy(self.polydata.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
-        """All numeric arrays of the points, by name: shape (n,) or (n, components)."""
+        """All numeric arrays of the points that have a name, by that: shape (n,) or (n, components)."""
         data = self.polydata.GetPointData()
         found = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
-        return {array.GetName(): vtk_to_numpy(array) for array in found if array}
+        return {array.GetName(): vtk_to_numpy(array) for array in found if array and array.GetName()}
 
     def __len__(self) -> int:
         return self.polydata.GetNumberOfPoints()
@@ -84,7 +88,7 @@ def contour(
         its points or cells, an array with one value for each point or cell, or None for the active
         scalars of its points.
     isovalues
-        One or several, in the unit of the values.
+        One or several (any iterable), in the unit of the values.
     triangles
         Whether to connect points by triangles (vtkScatteredIsosurfaceFilter) instead of giving them
         radii (vtkScatteredIsopointFilter).
@@ -93,7 +97,9 @@ def contour(
         Not of a data set, which has its own.
     options
         Properties of the filter in snake case, as `gap_factor=4.0`, `projection="CREASE_FIT"`,
-        `compute_gradients=True`. docs/properties.md lists them.
+        `compute_gradients=True`. docs/properties.md lists them. On several ranks each process
+        contours its own samples, unless `controller` is given: then all ranks have to call this
+        together, and an error is raised on the first one alone.
 
     Raises
     ------
@@ -106,14 +112,15 @@ def contour(
     """
     filter_class = vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter
     isopoints = filter_class()
+    isopoints.SetController(None)
     data = _data_object(positions)
     if data is None:
-        isopoints.SetInputData(_samples(positions, values, arrays or {}))
+        isopoints.SetInputData(_samples(positions, values, {} if arrays is None else arrays))
     elif arrays:
         raise TypeError("arrays go with an array of positions: add them to the data set instead")
     else:
         _set_input(isopoints, data, values)
-    chosen = np.atleast_1d(np.asarray(isovalues, dtype=float)).ravel()
+    chosen = _isovalues(isovalues)
     isopoints.SetNumberOfContours(len(chosen))
     for i, isovalue in enumerate(chosen):
         isopoints.SetValue(i, isovalue)
@@ -122,7 +129,17 @@ def contour(
     _update(isopoints)
     output = vtkPolyData()
     output.ShallowCopy(isopoints.GetOutput())
-    return Isosurface(output)
+    return Isosurface(output, triangles)
+
+
+def _isovalues(isovalues: Any) -> list[float]:
+    if isovalues is None or isinstance(isovalues, (str, bytes)):
+        raise TypeError(f"isovalues are {isovalues!r}, not numbers")
+    if np.ndim(isovalues) == 0 and not hasattr(isovalues, "__iter__"):
+        return [float(isovalues)]
+    if isinstance(isovalues, np.ma.MaskedArray):
+        isovalues = isovalues.compressed()
+    return [float(value) for value in np.ravel(list(isovalues))]
 
 
 def _data_object(source: Any) -> Optional[vtkDataObject]:
@@ -154,6 +171,8 @@ def _samples(positions: Any, values: Any, arrays: Mapping[str, Any]) -> vtkPolyD
     data = vtkPolyData()
     data.SetPoints(points)
     data.GetPointData().SetScalars(_named("values", values, len(place), one_component=True))
+    if not isinstance(arrays, Mapping) or not all(isinstance(name, str) for name in arrays):
+        raise TypeError("arrays are to be a mapping of names to arrays")
     for name, array in arrays.items():
         if name == "values":
             raise ValueError('an array cannot have the name "values", which is that of the values')
@@ -174,14 +193,15 @@ def _set_input(isopoints: vtkScatteredIsopointFilter, data: vtkDataObject, value
                        and not (of_points is not None and values in of_points.keys()))
         isopoints.SetInputArrayToProcess(0, 0, 0, cells if is_of_cells else points, values)
     else:
+        if not hasattr(data, "GetCellData"):
+            raise TypeError(
+                f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
         counts = [data.GetNumberOfElements(association) for association in (points, cells)]
         length = len(_real_array("values", values))
         if length not in counts:
             raise ValueError(
                 f"{length} values for a data set of {counts[0]} points and {counts[1]} cells")
         is_of_cells = length != counts[0]
-        if not hasattr(data, "GetCellData"):
-            raise TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
         copy = data.NewInstance()
         copy.ShallowCopy(data)
         attributes = copy.GetCellData() if is_of_cells else copy.GetPointData()
@@ -237,15 +257,27 @@ def _options_of(isopoints: vtkScatteredIsopointFilter) -> dict[str, str]:
     }
 
 
+# The constants that can be named, of properties with such.
+_CONSTANTS = {
+    "projection": r"NO_PROJECTION|[A-Z]+_FIT",
+    "normal_method": r"[A-Z]+_NORMALS|NORMALS_FROM_[A-Z]+",
+    "compute_splat_clips": r"([A-Z]+_)?SPLAT_CLIPS",
+}
+
+
 def _set_option(isopoints: vtkScatteredIsopointFilter, name: str, value: Any) -> None:
     methods = _options_of(isopoints)
     if name not in methods:
         raise TypeError(f"unknown option {name}; there are {', '.join(sorted(methods))}")
+    given = value
     if isinstance(value, str):
-        if not hasattr(isopoints, value.upper()):
-            raise ValueError(f"{name} cannot be {value!r}")
-        value = getattr(isopoints, value.upper())
+        isNamed = re.fullmatch(_CONSTANTS.get(name, "(?!)"), value.upper())
+        value = getattr(isopoints, value.upper(), None) if isNamed else None
+        if value is None:
+            raise ValueError(f"{name} cannot be {given!r}")
     getattr(isopoints, methods[name])(value)
+    if name in _CONSTANTS and getattr(isopoints, "G" + methods[name][1:])() != value:
+        raise ValueError(f"{name} cannot be {given!r}")
 
 
 def _update(isopoints: vtkScatteredIsopointFilter) -> None:

@@ -182,3 +182,72 @@ TEST(RanksFaults, AnAbortOnOneRankEndsTheTrianglesOfAll)
 {
   expectAbortsEndTheWorkOfAll(triangles());
 }
+
+namespace
+{
+
+/// Lets the n-th allocation of one rank fail, however small, while triangles are extracted.
+/// @returns whether there were that many
+bool extractionFailsAt(long n, const std::vector<clouds::Cloud>& pieces)
+{
+  std::atomic<int> failures{ 0 };
+  std::atomic<int> others{ 0 };
+  std::atomic<bool> wasReached{ false };
+  ThreadRanks team(static_cast<int>(pieces.size()));
+  team.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.loadOnRanks<double, double>(
+        isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
+      isopoint::ExtractionRequest request;
+      request.isosurface.isovalue = 0.3;
+      request.isosurface.gapFactor = 4.0;
+      request.triangles = true;
+      request.ghostRings = 1;
+      const isopoint::Execution execution;
+      wait(communicator);
+      if (communicator.rank() == 1)
+      {
+        failingallocator::failAt(n, false, 1);
+      }
+      wait(communicator);
+      try
+      {
+        extractor.extract(execution, request);
+      }
+      catch (const std::bad_alloc&)
+      {
+        ++failures;
+      }
+      catch (const isopoint::FailedElsewhere&)
+      {
+        ++others;
+      }
+      wait(communicator);
+      if (communicator.rank() == 1)
+      {
+        wasReached = failingallocator::stop() >= n;
+      }
+      wait(communicator);
+    });
+  EXPECT_TRUE(failures + others == 0 || failures + others == static_cast<int>(pieces.size()));
+  return wasReached;
+}
+
+} // namespace
+
+/// No allocation stands between two exchanges where its failure would leave other ranks waiting.
+TEST(RanksFaults, LackOfAFewBytesEndsTheTrianglesOfAll)
+{
+  const std::vector<clouds::Cloud> pieces =
+    ranks::dealOut(clouds::uniform(300, 3), 2, ranks::Deal::RoundRobin);
+  long n = 1;
+  while (extractionFailsAt(n, pieces) && !HasFailure())
+  {
+    SCOPED_TRACE(n);
+    ++n;
+  }
+  EXPECT_GT(n, 500);
+}

@@ -85,6 +85,50 @@ TEST(Warnings, AnIsovalueOutsideTheRangeIsNamedWithTheRange)
   }
 }
 
+TEST(Warnings, FiguresThatDifferLookDifferent)
+{
+  const auto cloud = newCloud(500);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    values->SetValue(i, 300.0 + 1e-5 * static_cast<double>(i % 5));
+  }
+  const auto filter = newFilterOf(cloud);
+  filter->SetValue(0, 300.0001);
+  expectWarning(filter, { "300.0001 has no points", "from 300 to 300.00004" });
+  filter->SetValue(0, 300.0); // no sample is below
+  expectWarning(filter, { "above the former and up to the latter" });
+}
+
+TEST(Warnings, AVoidThatTheGapFactorLeavesWithoutPointsIsExplained)
+{
+  const auto cloud = newCloud(2000);
+  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); i += 2)
+  {
+    double position[3];
+    cloud->GetPoint(i, position);
+    cloud->GetPoints()->SetPoint(i, position[0] + 50.0, position[1], position[2]);
+    values->SetValue(i, values->GetValue(i) + 100.0);
+  }
+  const auto filter = newFilterOf(cloud);
+  filter->SetValue(0, 50.0);
+  filter->SetGapFactor(4.0);
+  expectWarning(filter, { "50 has no points", "on both sides", "the gap factor drops all" });
+}
+
+TEST(Warnings, APlaneWithoutTrianglesIsExplained)
+{
+  const auto cloud = newCloud(500);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double position[3];
+    cloud->GetPoint(i, position);
+    cloud->GetPoints()->SetPoint(i, position[0], position[1], 0.0);
+  }
+  expectWarning(newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "on both sides", "in one plane" });
+}
+
 TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
 {
   const auto cloud = newCloud(500);

@@ -106,8 +106,9 @@ private:
     const int Rank;
   };
 
-  /// Does something under a lock, then waits for all ranks to have done theirs.
-  void await(const std::function<void()>& work)
+  /// Does something under a lock, then waits for all ranks to have done theirs. Takes no memory.
+  template <class Work>
+  void await(const Work& work)
   {
     std::unique_lock<std::mutex> lock(this->Mutex);
     work();

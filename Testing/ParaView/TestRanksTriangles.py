@@ -2,10 +2,12 @@
 """All ranks yield together the triangles that one process does:
 mpirun -n N pvbatch --symmetric TestRanksTriangles.py FOLDER"""
 
+import re
 import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkMultiBlockDataSet
 from scatteredisopoints import vtkScatteredIsosurfaceFilter
 
@@ -80,6 +82,34 @@ class RanksTrianglesTest(RanksTestCase):
                              expected.GetNumberOfUnprojectedPoints())
             if options:
                 self.assertGreater(expected.GetNumberOfUnprojectedPoints(), 0)
+
+    def test_points_of_warnings_are_counted_once(self):
+        points = cloud("uniform", 3000, 9)
+        values = np.random.default_rng(9).normal(size=len(points))  # no fit holds
+        mine, whole = self.dealt(points, "even")
+        owner = np.sort(ranks_of(points, "even"))
+
+        def warnings(data, chosen, controller, levels):
+            vtk_to_numpy(data.GetPointData().GetArray("value"))[:] = values[chosen]
+            texts = []
+
+            def note(_caller, _event, text):
+                texts.append(re.search(r"\d+ of \d+ points", text).group())
+
+            note.CallDataType = VTK_STRING
+            isosurface = vtkScatteredIsosurfaceFilter()
+            isosurface.SetController(controller)
+            isosurface.SetInputData(data)
+            isosurface.SetValue(0, 0.1)
+            isosurface.AddObserver("WarningEvent", note)
+            isosurface.UpdatePiece(RANK if controller else 0, SIZE if controller else 1, levels)
+            return texts
+
+        for levels in (0, 3):
+            parts = gather(warnings(mine, owner == RANK, RANKS, levels))
+            if RANK == 0:
+                self.assertEqual(sum(parts, []), warnings(whole, owner >= 0, None, 0))
+                self.assertEqual(len(parts[0]), 1)
 
     def test_ghosts_are_rings_of_other_ranks(self):
         mine, _ = self.dealt(cloud("uniform", 3000, 4), "round robin")

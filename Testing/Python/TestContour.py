@@ -200,8 +200,41 @@ class ContourTest(unittest.TestCase):
             contour(positions, values, 0.3, angle=200.0)
         with self.assertRaisesRegex(ValueError, "other have the shape"):
             contour(positions, values, 0.3, arrays={"other": values[:3]})
+        for arrays in ([values], {3: values}):
+            with self.assertRaisesRegex(TypeError, "a mapping of names"):
+                contour(positions, values, 0.3, arrays=arrays)
+        with self.assertRaisesRegex(TypeError, "give its name"):
+            contour(vtkTable(), values, 0.3)
         with self.assertRaisesRegex(TypeError, "add them to the data set"):
             contour(as_data(positions, values), None, 0.3, arrays={"other": values})
+
+    def test_isovalues(self):
+        positions, values = samples()
+        expected = contour(positions, values, [0.2, 0.3]).polydata
+        for isovalues in ((x for x in (0.3, 0.2)), {0.2, 0.3}, range(1, 0), np.float32([0.2])):
+            if not isinstance(isovalues, (range, np.ndarray)):
+                self.same(contour(positions, values, isovalues), expected)
+            else:
+                contour(positions, values, isovalues)
+        masked = np.ma.masked_array([0.2, 0.3], [True, False])
+        self.same(contour(positions, values, masked), contour(positions, values, 0.3).polydata)
+        for isovalues in (None, "0.3"):
+            with self.assertRaisesRegex(TypeError, "not numbers"):
+                contour(positions, values, isovalues)
+
+    def test_constants_belong_to_their_properties(self):
+        positions, values = samples(500)
+        for options in (dict(projection="NORMALS_FROM_PLANES"), dict(normal_method="CUBIC_FIT"),
+                        dict(projection=99), dict(projection="update"), dict(angle="CUBIC_FIT")):
+            with self.subTest(options=options), self.assertRaisesRegex(ValueError, "cannot be"):
+                contour(positions, values, 0.3, **options)
+        contour(positions, values, 0.3, normal_method="normals_from_planes")
+
+    def test_triangles_are_never_thinned(self):
+        positions, values = samples()
+        options = dict(triangles=True, projection="NO_PROJECTION")
+        self.same(contour(positions, values, 0.3, minimum_spacing=0.5, **options),
+                  contour(positions, values, 0.3, **options).polydata)
 
     def test_warnings_are_those_of_python(self):
         positions, values = samples()
@@ -211,6 +244,12 @@ class ContourTest(unittest.TestCase):
             warnings.simplefilter("error")
             contour(positions, values, 0.3)
 
+    def test_a_plane_has_no_triangles(self):
+        positions, values = samples(500)
+        positions[:, 2] = 0.0
+        with self.assertWarnsRegex(RuntimeWarning, "in one plane"):
+            contour(positions, values, 0.5, triangles=True)
+
     def test_a_surface_without_points(self):
         positions, values = samples(100)
         with warnings.catch_warnings():
@@ -218,6 +257,7 @@ class ContourTest(unittest.TestCase):
             result = contour(positions, values, 99.0)
             surface = contour(positions, values, 99.0, triangles=True)
         self.assertEqual(len(result), 0)
+        self.assertIsNone(result.triangles)
         self.assertEqual(result.points.shape, (0, 3))
         self.assertEqual(surface.triangles.shape, (0, 3))
 

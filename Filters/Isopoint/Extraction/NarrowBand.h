@@ -126,10 +126,16 @@ public:
   {
     std::vector<BandNode> front;
     const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
-    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
-    {
-      front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
-    }
+    const bool isCrossed =
+      root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root);
+    peers.together(
+      [&]()
+      {
+        if (isCrossed)
+        {
+          front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
+        }
+      });
     bool isDone = front.empty();
     for (int depth = 0; peers.isAny(!isDone);)
     {
@@ -155,7 +161,9 @@ public:
         });
       depth = bottom;
     }
-    return crossingOf(front);
+    std::vector<BinaryIndex> crossing;
+    peers.together([&]() { crossing = crossingOf(front); });
+    return crossing;
   }
 
 private:

@@ -27,7 +27,8 @@ namespace isopoint
 {
 
 /// The ranks that share a tree, as the extraction of triangles sees them: what SingleRank is for
-/// one. All functions but isHome() are collective.
+/// one. All functions but order() and
+/// isHome() are collective.
 /// @throws FailedElsewhere, besides what work throws
 template <class TSample>
 class TriangleRanks

@@ -18,8 +18,8 @@ namespace isopoint
 {
 
 /// The ranks that share a tree, as the extraction of triangles sees them, where there is but one,
-/// which has all samples. TriangleRanks has the same functions for several, where all of them are
-/// collective.
+/// which has all samples. TriangleRanks has the same functions for several, where all of them but
+/// order() and isHome() are collective.
 template <class TSample>
 class SingleRank
 {

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -95,10 +96,11 @@ public:
     const std::vector<BinaryIndex> nodes = this->Ranks.refine(band);
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrising, count * laterWork);
-    CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue);
-    std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
-    this->Counts = finder.counts();
+    std::optional<CrossingTetrahedraFinder<TSample, TRanks>> finder;
+    this->Ranks.together([&]()
+      { finder.emplace(part, this->Tree, this->Ranks, this->Means, this->Request.isovalue); });
+    std::vector<CrossingTetrahedron<Id>> found = finder->find(nodes);
+    this->Counts = finder->counts();
     return found;
   }
 
