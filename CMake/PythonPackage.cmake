@@ -19,13 +19,17 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF)
 
 set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
+set(built_package "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints")
 foreach (file __init__.py contouring.py py.typed)
-  set(package_source "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Python/${file}")
-  configure_file("${package_source}"
-    "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints/${file}" COPYONLY)
-  install(FILES "${package_source}"
-    DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
+  configure_file("Filters/Python/${file}" "${built_package}/${file}" COPYONLY)
+  list(APPEND python_sources "${built_package}/${file}")
 endforeach ()
+file(RELATIVE_PATH plugin_from_package
+  "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints"
+  "/prefix/${CMAKE_INSTALL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}/ScatteredIsopoints/ScatteredIsopoints.so")
+configure_file(Filters/Python/plugin.py.in "${built_package}/plugin.py" @ONLY)
+install(FILES ${python_sources} "${built_package}/plugin.py"
+  DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
 
 # A relative run path from the package to the libraries, so that the installed tree can be moved.
 file(RELATIVE_PATH libraries_from_package

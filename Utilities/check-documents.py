@@ -38,7 +38,6 @@ LINKS = re.compile(
     re.MULTILINE,
 )
 IDENTIFIERS = re.compile(r"\b(?:vtk\w+|(?=\w*[a-z])[A-Za-z]\w*[A-Z]\w*)\b")
-INSTALLED_PLUGIN = "/usr/local/lib/ScatteredIsopoints/ScatteredIsopoints.so"
 UNWANTED = (
     # words of no field, where it has its own
     re.compile(r"\b(?:[Tt]ell|[Tt]ells|[Tt]old|[Hh]eaps?|[Ss]lots?)\b"),
@@ -87,8 +86,9 @@ class BuildNames:
 
 
 class Checker:
-    def __init__(self, root, python_path=None, plugin=None):
-        self.root, self.python_path, self.plugin = os.path.abspath(root), python_path, plugin
+    def __init__(self, root, python_path=None, runs_pvbatch=False):
+        self.root, self.python_path = os.path.abspath(root), python_path
+        self.runs_pvbatch = runs_pvbatch
         self.defects, self.documents = [], {}
         self.entries = set(os.listdir(self.root)) - {"build"}
         self.file_names, self.names, self.identifiers = set(), BuildNames(), set(PLACEHOLDERS)
@@ -254,15 +254,15 @@ class Checker:
         except SyntaxError as error:
             self.report(name, error.lineno or first, "no Python: %s" % error.msg)
             return
-        environment = dict(os.environ)
         if language == "python" and self.python_path:
             command = [sys.executable]
-            environment["PYTHONPATH"] = self.python_path
-        elif language == "pvpython" and self.plugin:
+        elif language == "pvpython" and self.runs_pvbatch:
             command = ["pvbatch"]
-            code = code.replace(INSTALLED_PLUGIN, os.path.abspath(self.plugin))
         else:
             return
+        environment = dict(os.environ)
+        if self.python_path:
+            environment["PYTHONPATH"] = self.python_path
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "script.py"), "w", encoding="utf-8") as file:
                 file.write(setup + "\n" + code)
@@ -277,7 +277,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--root", default=source_dir, help="the source tree; default: this one")
     parser.add_argument("--run-with", metavar="PYTHONPATH", help="run python blocks with it")
-    parser.add_argument("--run-pvbatch", metavar="PLUGIN", help="run pvpython blocks with it")
+    parser.add_argument("--run-pvbatch", action="store_true", help="run pvpython blocks as well")
     arguments = parser.parse_args()
     defects = Checker(arguments.root, arguments.run_with, arguments.run_pvbatch).run()
     print("\n".join(defects) if defects else "documents: no defects")

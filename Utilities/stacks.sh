@@ -31,14 +31,7 @@ if (($# > 0)); then
 fi
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# Runs a command in a root, whose mounts end with it.
-run_in()
-{
-  unshare --mount bash -c '
-    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" &&
-      exec chroot "$0" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-        bash -c "cd /root/source && $1"' "$1" "$2"
-}
+source "$source_dir/Utilities/roots.sh"
 
 test_stack()
 {
@@ -48,20 +41,16 @@ test_stack()
   if [[ $stack == *-vtk ]]; then
     preset=vtk-ci
   fi
-  if [[ ! -d $root ]]; then
-    debootstrap --variant=minbase "${stack%-*}" "$root.part" > "$root.log" 2>&1
-    mv "$root.part" "$root"
-  fi
-  cp /etc/resolv.conf "$root/etc/"
+  make_root "${stack%-*}" "$root"
   rm -rf "$root/root/source"
   git clone --quiet "$source_dir" "$root/root/source"
-  run_in "$root" "Utilities/prepare.sh $preset" >> "$root.log" 2>&1 || {
+  run_in_root "$root" "cd /root/source && Utilities/prepare.sh $preset" >> "$root.log" 2>&1 || {
     echo "$stack: does not build; see $root.log"
     return
   }
-  run_in "$root" "ctest --preset $preset" > "$root.tests.log" 2>&1 || true
+  run_in_root "$root" "cd /root/source && ctest --preset $preset" > "$root.tests.log" 2>&1 || true
   local versions
-  versions=$(run_in "$root" "dpkg-query --show --showformat='\${Package} \${Version}, ' \
+  versions=$(run_in_root "$root" "cd /root/source && dpkg-query --show --showformat='\${Package} \${Version}, ' \
     libvtk9-dev paraview-dev libcgal-dev libeigen3-dev g++ cmake 2> /dev/null") || true
   echo "$stack: $(grep 'tests passed' "$root.tests.log" || tail -1 "$root.tests.log"); ${versions%, }"
 }

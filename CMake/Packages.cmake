@@ -1,0 +1,48 @@
+# Packages of the installed tree, by `cmake --build --preset package --target package`: a relocatable
+# archive, and on Debian a .deb whose plugin is listed and loaded by ParaView as its own ones are.
+set(CPACK_PACKAGE_NAME "scattered-isopoints")
+set(CPACK_PACKAGE_VENDOR "Scattered Isopoints developers")
+set(CPACK_PACKAGE_CONTACT "Scattered Isopoints developers <scattered-isopoints@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Isosurfaces straight from scattered samples, for ParaView and VTK")
+set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR TGZ)
+set(CPACK_THREADS 0)
+
+file(STRINGS /etc/os-release distribution REGEX "^(ID|VERSION_ID)=")
+if (distribution MATCHES "VERSION_ID=\"([0-9]+)\"" AND EXISTS /etc/debian_version)
+  set(CPACK_DEBIAN_PACKAGE_RELEASE "1~deb${CMAKE_MATCH_1}")
+  list(APPEND CPACK_GENERATOR DEB)
+endif ()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+  "A ParaView plugin, VTK modules and a Python package that extract isosurfaces, as points with
+ normals and radii or as triangles, from samples without a mesh.")
+# Libraries add what they are linked with, among it the version of ParaView.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-paraview, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev")
+
+# Programs of ParaView read the lists of plugins that the file paraview.conf beside them names. Debian
+# has none. The archive does without: it can be extracted over a ParaView that has its own.
+set(debian_folder "${CMAKE_BINARY_DIR}/debian")
+file(RELATIVE_PATH plugin_list "${CMAKE_INSTALL_FULL_BINDIR}"
+  "${CMAKE_INSTALL_FULL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}/scatteredisopoints.plugins.xml")
+file(WRITE "${debian_folder}/paraview.conf" "${plugin_list}\n")
+file(WRITE "${debian_folder}/add_configuration.cmake"
+  "if (CPACK_GENERATOR STREQUAL DEB)
+  file(COPY \"${debian_folder}/paraview.conf\"
+    DESTINATION \"\${CPACK_TEMPORARY_DIRECTORY}/${CMAKE_INSTALL_FULL_BINDIR}\")
+endif ()
+")
+set(CPACK_PRE_BUILD_SCRIPTS "${debian_folder}/add_configuration.cmake")
+file(WRITE "${debian_folder}/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${debian_folder}/triggers")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_PACKAGE_NAME}")
+install(FILES CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_PACKAGE_NAME}")
+
+include(CPack)
