@@ -25,21 +25,11 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTOR
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-paraview, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev")
 
-# Programs of ParaView read the lists of plugins that the file paraview.conf beside them names. Debian
-# has none. The archive does without: it can be extracted over a ParaView that has its own.
-set(debian_folder "${CMAKE_BINARY_DIR}/debian")
-file(RELATIVE_PATH plugin_list "${CMAKE_INSTALL_FULL_BINDIR}"
-  "${CMAKE_INSTALL_FULL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}/scatteredisopoints.plugins.xml")
-file(WRITE "${debian_folder}/paraview.conf" "${plugin_list}\n")
-file(WRITE "${debian_folder}/add_configuration.cmake"
-  "if (CPACK_GENERATOR STREQUAL DEB)
-  file(COPY \"${debian_folder}/paraview.conf\"
-    DESTINATION \"\${CPACK_TEMPORARY_DIRECTORY}/${CMAKE_INSTALL_FULL_BINDIR}\")
-endif ()
-")
-set(CPACK_PRE_BUILD_SCRIPTS "${debian_folder}/add_configuration.cmake")
-file(WRITE "${debian_folder}/triggers" "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${debian_folder}/triggers")
+set(plugins_folder "${CMAKE_INSTALL_FULL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}")
+configure_file(CMake/DebianPluginList.cmake.in "${CMAKE_BINARY_DIR}/DebianPluginList.cmake" @ONLY)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_BINARY_DIR}/DebianPluginList.cmake")
+file(WRITE "${CMAKE_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/triggers")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_PACKAGE_NAME}")
