@@ -17,6 +17,7 @@
 
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 /**
  * Whether an abort was requested of a filter or, if this version of VTK propagates that, of an
@@ -37,6 +38,19 @@ inline bool vtkIsAborted(vtkAlgorithm* filter)
 inline int vtkGetRequestedSMPThreads()
 {
   return vtk::detail::smp::vtkSMPToolsAPI::GetInstance().GetInternalDesiredNumberOfThread();
+}
+
+/**
+ * Gives an AMR so many grids in each level.
+ */
+inline void vtkInitializeLevels(vtkUniformGridAMR* amr, const std::vector<unsigned int>& grids)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  amr->Initialize(grids);
+#else
+  amr->Initialize(
+    static_cast<int>(grids.size()), std::vector<int>(grids.begin(), grids.end()).data());
+#endif
 }
 
 /**

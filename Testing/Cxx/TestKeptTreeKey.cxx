@@ -238,9 +238,9 @@ TEST(KeptTreeKey, CellsOfAnUnstructuredGrid)
       {
         for (vtkIdType cell = 0; cell < 200; ++cell)
         {
-          grid->GetCellTypesArray()->SetValue(cell, VTK_POLY_LINE);
+          vtkGetTypesOfCells(grid)->SetComponent(cell, 0, VTK_POLY_LINE);
         }
-        grid->GetCellTypesArray()->Modified();
+        vtkGetTypesOfCells(grid)->Modified();
       },
       [&]()
       {

@@ -3,6 +3,7 @@
 #include "InputTesting.h"
 
 #include "vtkIsopointCompatibility.h"
+#include "vtkStructuredData.h"
 
 #include <cmath>
 
@@ -16,12 +17,11 @@ namespace
 vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
 {
   auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
-  const int blocksPerLevel[2] = { 1, 1 };
-  amr->Initialize(2, blocksPerLevel);
+  vtkInitializeLevels(amr, { 1, 1 });
   const double origin[3] = { -1.0, -1.0, -1.0 };
   amr->SetOrigin(origin);
-  amr->SetGridDescription(VTK_XYZ_GRID);
   const auto coarse = newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0);
+  amr->SetGridDescription(vtkStructuredData::GetDataDescription(coarse->GetDimensions()));
   vtkNew<vtkUniformGrid> fine;
   fine->SetDimensions(9, 17, 17);
   fine->SetSpacing(0.125, 0.125, 0.125);
@@ -34,8 +34,7 @@ vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
     double spacing[3];
     grid->GetSpacing(spacing);
     amr->SetSpacing(level, spacing);
-    vtkAMRBox box(
-      grid->GetOrigin(), grid->GetDimensions(), grid->GetSpacing(), origin, VTK_XYZ_GRID);
+    vtkAMRBox box(grid->GetOrigin(), grid->GetDimensions(), grid->GetSpacing(), origin);
     amr->SetAMRBox(level, 0, box);
     amr->SetDataSet(level, 0, grid);
   }
@@ -99,8 +98,7 @@ TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
 TEST(Trees, NonOverlappingAmr)
 {
   vtkNew<vtkNonOverlappingAMR> amr;
-  const int blocksPerLevel[2] = { 1, 2 };
-  amr->Initialize(2, blocksPerLevel);
+  vtkInitializeLevels(amr, { 1, 2 });
   amr->SetDataSet(0, 0, newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0));
   amr->SetDataSet(1, 1, newImage<vtkUniformGrid>(8, 0.125, 1.0, -1.0, -1.0)); // one box is missing
   Samples samples;
