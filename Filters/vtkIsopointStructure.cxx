@@ -75,10 +75,15 @@ void setChild(vtkPartitionedDataSet* tree, unsigned int i, vtkDataObject* child)
   tree->SetPartition(i, child);
 }
 
-/// Calls action(tree), with the tree's own type; does nothing for other objects.
+/// Calls action(tree), with the tree's own type; does nothing for other objects, an AMR among them,
+/// which is a collection from VTK 9.5 on.
 template <class Action>
 void withTree(vtkDataObject* object, const Action& action)
 {
+  if (vtkUniformGridAMR::SafeDownCast(object))
+  {
+    return;
+  }
   if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
   {
     action(blocks);

@@ -90,14 +90,17 @@ void main()
   vec3 normal = vec3(0.0);
   vec3 axis1;
   vec3 axis2;
+  bool hasNormal = false;
 #ifdef SPLAT_NORMALS
-  normal = normalize(normalMatrix * normalMC);
+  normal = normalMatrix * normalMC;
+  // Decided before the division by the length, since OpenGL leaves open what follows of 0 / 0. False
+  // also where the transform is singular.
+  hasNormal = dot(normal, normal) > 0.0;
+  normal = normalize(normal);
   tangents(normalize(normalMC), axis1, axis2);
   axis1 = mat3(MCVCMatrix) * (axis1 * r);
   axis2 = mat3(MCVCMatrix) * (axis2 * r);
 #endif
-  // False also where the transform is singular or the normal is zero.
-  bool hasNormal = dot(normal, normal) > 0.0;
   if (!hasNormal)
   {
     normal = towardsCamera;
