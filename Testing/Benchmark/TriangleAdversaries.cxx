@@ -85,15 +85,9 @@ Cloud moved(Cloud cloud, const Move& move)
   return cloud;
 }
 
-/// Turned about two axes: what was on planes and spheres is so but for rounding.
-void turn(double* p, Random&)
+void turned(double* p, Random&)
 {
-  const double x = 0.8 * p[0] - 0.6 * p[1];
-  const double y = 0.6 * p[0] + 0.8 * p[1];
-  const double z = p[2];
-  p[0] = x;
-  p[1] = 0.28 * y - 0.96 * z;
-  p[2] = 0.96 * y + 0.28 * z;
+  clouds::turn(p);
 }
 
 Move scatteredBy(double length)
@@ -222,7 +216,7 @@ std::vector<Adversary> adversaries()
     { "noise: 3 % of the values", 1.0, noisy(0.03), 0.5 },
     { "noise: half of the values", 1.0, noisy(0.5), 0.5 },
     { "lattice", 1.0, latticeOf, 0.4 },
-    { "lattice, turned", 1.0, [](std::size_t count) { return moved(latticeOf(count), turn); },
+    { "lattice, turned", 1.0, [](std::size_t count) { return moved(latticeOf(count), turned); },
       0.4 },
     { "lattice, scattered by 1e-6: hull slivers", 1.0,
       [](std::size_t count) { return moved(latticeOf(count), scatteredBy(1e-6)); }, 0.6 },

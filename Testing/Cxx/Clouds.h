@@ -306,6 +306,17 @@ isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
   return extractFrom(extractor, execution, isovalue, angle, gapFactor);
 }
 
+/// Turns a position about two axes: what was on planes and spheres is so but for rounding.
+inline void turn(double* p)
+{
+  const double x = 0.8 * p[0] - 0.6 * p[1];
+  const double y = 0.6 * p[0] + 0.8 * p[1];
+  const double z = p[2];
+  p[0] = x;
+  p[1] = 0.28 * y - 0.96 * z;
+  p[2] = 0.96 * y + 0.28 * z;
+}
+
 } // namespace clouds
 
 #endif

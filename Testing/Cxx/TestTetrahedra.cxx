@@ -52,7 +52,7 @@ Cloud turned(Cloud cloud)
 {
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
-    triangles::turn(cloud.positions.data() + 3 * i);
+    clouds::turn(cloud.positions.data() + 3 * i);
   }
   return cloud;
 }

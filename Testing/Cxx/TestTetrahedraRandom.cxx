@@ -36,7 +36,7 @@ void deform(Cloud& cloud, Dice& dice)
     }
     if (isTurned)
     {
-      triangles::turn(p);
+      clouds::turn(p);
     }
     for (int axis = 0; axis < 3; ++axis)
     {

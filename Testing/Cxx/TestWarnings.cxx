@@ -126,7 +126,8 @@ TEST(Warnings, APlaneWithoutTrianglesIsExplained)
     cloud->GetPoint(i, position);
     cloud->GetPoints()->SetPoint(i, position[0], position[1], 0.0);
   }
-  expectWarning(newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "on both sides", "in one plane" });
+  expectWarning(
+    newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "on both sides", "in one plane" });
 }
 
 TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
