@@ -30,5 +30,8 @@ endforeach ()
 # A relative run path from the package to the libraries, so that the installed tree can be moved.
 file(RELATIVE_PATH libraries_from_package
   "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython
-  PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_package}")
+foreach (module IN LISTS python_modules)
+  string(REPLACE "ScatteredIsopoints::" "" module "${module}")
+  set_target_properties("${module}Python"
+    PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_package}")
+endforeach ()

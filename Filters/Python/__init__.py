@@ -4,4 +4,8 @@ contour(), which takes and returns NumPy arrays."""
 
 from .vtkScatteredIsopointFilters import *  # noqa: F401,F403
 from .vtkScatteredIsopointRendering import *  # noqa: F401,F403
+try:
+    from .vtkScatteredIsopointRayTracing import *  # noqa: F401,F403
+except ModuleNotFoundError:  # built without Embree
+    pass
 from .contouring import Isosurface, contour  # noqa: F401
