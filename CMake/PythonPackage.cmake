@@ -19,7 +19,7 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF)
 
 set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
-foreach (file __init__.py contouring.py py.typed)
+foreach (file __init__.py contouring.py py.typed ray_tracing.py)
   set(package_source "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Python/${file}")
   configure_file("${package_source}"
     "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints/${file}" COPYONLY)

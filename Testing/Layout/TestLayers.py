@@ -35,6 +35,7 @@ FOLDERS = {
     "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h"],
     TRACER: [TRACER + "/*.h"],
     "Plugin/Window": ["Plugin/Window/*.h"],
+    "Plugin/Exporter": ["Plugin/Exporter/*.h", "RayTracing/vtkIsopointRayTracer.h"],
     "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
 }
 
