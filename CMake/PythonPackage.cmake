@@ -20,7 +20,7 @@ vtk_module_wrap_python(
 
 set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
 set(built_package "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints")
-foreach (file __init__.py contouring.py py.typed)
+foreach (file __init__.py contouring.py py.typed ray_tracing.py)
   configure_file("Filters/Python/${file}" "${built_package}/${file}" COPYONLY)
   list(APPEND python_sources "${built_package}/${file}")
 endforeach ()
@@ -34,5 +34,8 @@ install(FILES ${python_sources} "${built_package}/plugin.py"
 # A relative run path from the package to the libraries, so that the installed tree can be moved.
 file(RELATIVE_PATH libraries_from_package
   "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(vtkScatteredIsopointFiltersPython vtkScatteredIsopointRenderingPython
-  PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_package}")
+foreach (module IN LISTS python_modules)
+  string(REPLACE "ScatteredIsopoints::" "" module "${module}")
+  set_target_properties("${module}Python"
+    PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_package}")
+endforeach ()

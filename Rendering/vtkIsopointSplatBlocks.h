@@ -4,6 +4,7 @@
 
 #include "vtkIsopointSplatBuffers.h"
 
+#include "vtkScatteredIsopointRenderingModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -28,7 +29,7 @@ struct vtkIsopointSplatLeaf
 
 /// The leaves of a data object. Their visibilities and colors are those of the innermost block
 /// around them that has any; attributes may be null.
-std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
+VTKSCATTEREDISOPOINTRENDERING_EXPORT std::vector<vtkIsopointSplatLeaf> vtkIsopointSplatLeaves(
   vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes);
 
 /**

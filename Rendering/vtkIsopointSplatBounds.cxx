@@ -70,6 +70,15 @@ vtkBoundingBox vtkIsopointSplatBounds::OfFinite(vtkPoints* points)
 }
 
 //------------------------------------------------------------------------------
+double vtkIsopointSplatBounds::AutomaticRadius(vtkPoints* points)
+{
+  const double diagonal = OfFinite(points).GetDiagonalLength();
+  const double radius =
+    2.0 * diagonal / std::sqrt(static_cast<double>(points->GetNumberOfPoints()));
+  return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
+}
+
+//------------------------------------------------------------------------------
 vtkBoundingBox vtkIsopointSplatBounds::Of(
   vtkDataObject* input, vtkCompositeDataDisplayAttributes* attributes, const Reach& reach)
 {

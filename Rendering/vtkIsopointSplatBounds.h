@@ -3,6 +3,7 @@
 #define vtkIsopointSplatBounds_h
 
 #include "vtkBoundingBox.h"
+#include "vtkScatteredIsopointRenderingModule.h" // for the export macro
 #include "vtkType.h"
 
 #include <map>
@@ -18,11 +19,15 @@ class vtkPoints;
  * Bounds of splats whose points have finite coordinates, the only ones that are drawn: one point
  * that is not finite would make the bounds, and a camera reset to them, infinite.
  */
-class vtkIsopointSplatBounds
+class VTKSCATTEREDISOPOINTRENDERING_EXPORT vtkIsopointSplatBounds
 {
 public:
   /// Bounds of points; not valid if none is finite. O(points).
   static vtkBoundingBox OfFinite(vtkPoints* points);
+
+  /// Radius for points spread over a surface whose area is the square of the diagonal of the finite
+  /// ones' bounding box. O(points).
+  static double AutomaticRadius(vtkPoints* points);
 
   /// How far splats reach from their points: the value of the array of this name or, without it,
   /// the same for all, times a scale; nothing where that is not positive and finite.

@@ -42,14 +42,6 @@ const char* orNothing(const char* name)
   return name ? name : "";
 }
 
-/// Radius for points spread over a surface whose area is the square of the bounding box's diagonal.
-double automaticRadius(vtkPolyData* data)
-{
-  const double diagonal = vtkIsopointSplatBounds::OfFinite(data->GetPoints()).GetDiagonalLength();
-  const double radius = 2.0 * diagonal / std::sqrt(static_cast<double>(data->GetNumberOfPoints()));
-  return std::isfinite(radius) && radius > 0.0 ? radius : 1.0;
-}
-
 /// Colors of points from those of points, of vertex cells or of a tuple of the field data.
 /// @throws std::bad_alloc
 vtkSmartPointer<vtkUnsignedCharArray> colorsOfPoints(
@@ -210,7 +202,9 @@ vtkIsopointSplatBuffers::Shape vtkIsopointSplatMapper::Internals::ShapeOf(
   shape.Radii = usable(arrayOf(data, mapper->RadiusArrayName), 1);
   if (!shape.Radii)
   {
-    shape.Radius = mapper->Radius > 0.0 ? mapper->Radius : automaticRadius(data);
+    shape.Radius = mapper->Radius > 0.0
+                     ? mapper->Radius
+                     : vtkIsopointSplatBounds::AutomaticRadius(data->GetPoints());
   }
   if (mapper->Shape == vtkIsopointSplatMapper::ELLIPSE)
   {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh [format|lint|documents|fix]...: whether C++ files are formatted (clang-format 14), whether the
-# sources of Filters, Rendering and Plugin are clean (clang-tidy 14, of the build of the preset ci), and
+# sources of Filters, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the build of the preset ci), and
 # whether links, paths and commands in the documents hold. Without arguments all three. fix formats
 # in place.
 set -euo pipefail
@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cxx_files()
 {
-  find Filters Plugin Rendering Testing -name '*.h' -print0 -o -name '*.cxx' -print0
+  find Filters Plugin RayTracing Rendering Testing -name '*.h' -print0 -o -name '*.cxx' -print0
 }
 
 # The command of a tool's version 14, installed where that is possible.
@@ -50,7 +50,7 @@ import os
 entries = {}
 for entry in json.load(open("build/ci/compile_commands.json")):
     path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
-    if path.startswith(("Filters/", "Plugin/", "Rendering/")):
+    if path.startswith(("Filters/", "Plugin/", "RayTracing/", "Rendering/")):
         entries.setdefault(path, entry)
 json.dump(list(entries.values()), open("build/ci/lint/compile_commands.json", "w"))
 for path in sorted(entries, key=lambda path: (not path.startswith("Filters/Isopoint/"), path)):

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 CORE = "Filters/Isopoint"
+TRACER = "RayTracing/Tracer"
 
 # Each folder of the core, and those whose headers its files may include besides its own.
 CORE_FOLDERS = {
@@ -31,14 +32,22 @@ CORE_FOLDERS = {
 FOLDERS = {
     "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
     "Rendering": ["Rendering/*.h"],
+    "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h"],
+    TRACER: [TRACER + "/*.h"],
     "Plugin/Window": ["Plugin/Window/*.h"],
+    "Plugin/Exporter": ["Plugin/Exporter/*.h", "RayTracing/vtkIsopointRayTracer.h"],
     "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
 }
 
-# The folders of the core that alone may include a library.
-LIBRARIES = {"Eigen": [CORE + "/Fit"], "CGAL": [CORE + "/Splat", CORE + "/Tetrahedra"]}
+# The folders that alone may include a library.
+LIBRARIES = {
+    "Eigen": [CORE + "/Fit"],
+    "CGAL": [CORE + "/Splat", CORE + "/Tetrahedra"],
+    "embree3": [TRACER],
+    "embree4": [TRACER],
+}
 
-TOP_FOLDERS = ("Filters", "Rendering", "Plugin")
+TOP_FOLDERS = ("Filters", "Rendering", "RayTracing", "Plugin")
 MOST_FILES = 14
 SOURCES = (".h", ".cxx")
 OTHER_SUFFIXES = (".c", ".cc", ".cpp", ".c++", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".txx")
@@ -78,6 +87,8 @@ class Project:
         """The header of the project that an include names, or None."""
         if include.startswith("Isopoint/"):
             return "Filters/" + include
+        if include.startswith("Tracer/"):
+            return "RayTracing/" + include
         return self.headers.get(include.rsplit("/", 1)[-1])
 
     def check(self):
@@ -128,6 +139,8 @@ class Project:
             self.report(name, f"includes {include}: {folder} may not know it")
         elif folder == "Filters" and RENDERING.match(include.rsplit("/", 1)[-1]):
             self.report(name, f"includes {include}: filters know no rendering")
+        elif folder == TRACER and include.startswith("vtk"):
+            self.report(name, f"includes {include}: the tracer knows no VTK")
 
     def check_all_files(self):
         for path in sorted(path for top in TOP_FOLDERS for path in (self.root / top).glob("**/*")):
@@ -217,6 +230,12 @@ class LayersTest(unittest.TestCase):
                           "may not know")
         self.check_defect({"Rendering/vtkA.h": "\n",
                            "Plugin/Representation/b.cxx": '#include "vtkA.h"\n'}, "may not know")
+        self.check_defect({"Filters/vtkA.h": "\n", "RayTracing/b.cxx": '#include "vtkA.h"\n'},
+                          "may not know")
+        self.check_defect({"RayTracing/Tracer/A.h": '#include "vtkType.h"\n'}, "knows no VTK")
+        self.check_defect({"RayTracing/vtkA.h": "\n", "Rendering/b.cxx": '#include "vtkA.h"\n'},
+                          "may not know")
+        self.check_defect({"RayTracing/a.cxx": "#include <embree4/rtcore.h>\n"}, "embree4 belongs into")
         self.check_defect({"Rendering/a.cxx": '#import "vtkType.h"\n'}, "#import")
         for name in (core + "Fit/A.h", "Rendering/A.h"):
             include = name.replace("Filters/", "")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An example runs as it stands, and its pictures show something: TestExamples.py SCRIPT FOLDER, with
-pvbatch or the interpreter that the example is for. FOLDER receives what it writes."""
+"""An example runs as it stands, and its pictures show something: TestExamples.py SCRIPT FOLDER
+[ARGUMENTS], with pvbatch or the interpreter that the example is for. FOLDER receives what it writes."""
 
 import glob
 import os
@@ -26,7 +26,7 @@ def check(path):
         sys.exit(f"{path} shows a surface at {share:.3f} of it, in {shades} shades")
 
 
-def main(script, folder):
+def main(script, folder, *arguments):
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
     name = os.path.splitext(os.path.basename(script))[0]
@@ -36,6 +36,7 @@ def main(script, folder):
     if isFirst:
         for path in glob.glob(pattern):
             os.remove(path)
+    sys.argv = [script, *arguments]
     runpy.run_path(script, run_name="__main__")
     pictures = glob.glob(pattern)
     if isFirst and not pictures:
@@ -44,4 +45,4 @@ def main(script, folder):
         check(path)
 
 
-main(*sys.argv[-2:])
+main(*sys.argv[1:])

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointRayTracingExporter.h"
+
+#include "vtkIsopointRayTracer.h"
+
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkObjectFactory.h"
+#include "vtkPNGWriter.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
+
+vtkStandardNewMacro(vtkIsopointRayTracingExporter);
+
+//------------------------------------------------------------------------------
+vtkIsopointRayTracingExporter::vtkIsopointRayTracingExporter() = default;
+
+//------------------------------------------------------------------------------
+vtkIsopointRayTracingExporter::~vtkIsopointRayTracingExporter()
+{
+  this->SetFileName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetSamplesPerPixel(int samples)
+{
+  this->Tracer->SetSamplesPerPixel(samples);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetShadows(bool shadows)
+{
+  this->Tracer->SetShadows(shadows);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetLightAngle(double angle)
+{
+  this->Tracer->SetLightAngle(angle);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetAmbientLight(double light)
+{
+  this->Tracer->SetAmbientLight(light);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetAmbientDistance(double distance)
+{
+  this->Tracer->SetAmbientDistance(distance);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetMaximumNumberOfBounces(int bounces)
+{
+  this->Tracer->SetMaximumNumberOfBounces(bounces);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetAbsorptionDistance(double distance)
+{
+  this->Tracer->SetAbsorptionDistance(distance);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::WriteData()
+{
+  if (!this->FileName || !this->FileName[0])
+  {
+    vtkErrorMacro("There is no file name: set one.");
+    return;
+  }
+  vtkRenderer* const renderer = this->ActiveRenderer
+                                  ? this->ActiveRenderer
+                                  : this->RenderWindow->GetRenderers()->GetFirstRenderer();
+  if (!renderer)
+  {
+    vtkErrorMacro("The window shows nothing: it has no renderer.");
+    return;
+  }
+  int size[2];
+  int origin[2];
+  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  vtkNew<vtkImageData> image;
+  if (!this->Tracer->RenderToImage(
+        renderer, this->Magnification * size[0], this->Magnification * size[1], image))
+  {
+    return; // the tracer has reported why
+  }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(this->FileName);
+  writer->SetInputData(image);
+  writer->Write();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    vtkErrorMacro("The picture " << this->FileName << " cannot be written: "
+                                 << vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
+                                 << ". Choose a folder that can be written to.");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n'
+     << indent << "Magnification: " << this->Magnification << '\n'
+     << indent << "Tracer:\n";
+  this->Tracer->PrintSelf(os, indent.GetNextIndent());
+}

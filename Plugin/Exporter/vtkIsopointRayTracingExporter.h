@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkIsopointRayTracingExporter
+ * @brief   writes what a view shows as a ray-traced PNG picture
+ *
+ * The picture is that of vtkIsopointRayTracer, as large as the view or a multiple of it. Its
+ * properties are those of the ray tracer.
+ */
+#ifndef vtkIsopointRayTracingExporter_h
+#define vtkIsopointRayTracingExporter_h
+
+#include "vtkExporter.h"
+#include "vtkNew.h"
+#include "vtkScatteredIsopointExportersModule.h" // for the export macro
+
+class vtkIsopointRayTracer;
+
+class VTKSCATTEREDISOPOINTEXPORTERS_EXPORT vtkIsopointRayTracingExporter : public vtkExporter
+{
+public:
+  static vtkIsopointRayTracingExporter* New();
+  vtkTypeMacro(vtkIsopointRayTracingExporter, vtkExporter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Name of the PNG file. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Factor on the width and height of the view. Range: 1 to 16. Default: 1.
+   */
+  vtkSetClampMacro(Magnification, int, 1, 16);
+  vtkGetMacro(Magnification, int);
+  ///@}
+
+  ///@{
+  /**
+   * Properties of the ray tracer, see vtkIsopointRayTracer.
+   */
+  void SetSamplesPerPixel(int samples);
+  void SetShadows(bool shadows);
+  void SetLightAngle(double angle);
+  void SetAmbientLight(double light);
+  void SetAmbientDistance(double distance);
+  void SetMaximumNumberOfBounces(int bounces);
+  void SetAbsorptionDistance(double distance);
+  ///@}
+
+protected:
+  vtkIsopointRayTracingExporter();
+  ~vtkIsopointRayTracingExporter() override;
+
+  void WriteData() override;
+
+  char* FileName = nullptr;
+  int Magnification = 1;
+
+private:
+  vtkIsopointRayTracingExporter(const vtkIsopointRayTracingExporter&) = delete;
+  void operator=(const vtkIsopointRayTracingExporter&) = delete;
+
+  vtkNew<vtkIsopointRayTracer> Tracer;
+};
+
+#endif

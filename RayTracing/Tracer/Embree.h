@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef raytracing_Embree_h
+#define raytracing_Embree_h
+
+// What differs between Embree 3 and 4. RAYTRACING_EMBREE_VERSION is set by CMake.
+#if RAYTRACING_EMBREE_VERSION >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace raytracing::embree
+{
+
+#if RAYTRACING_EMBREE_VERSION >= 4
+using Context = RTCRayQueryContext;
+
+inline void initialize(Context& context)
+{
+  rtcInitRayQueryContext(&context);
+}
+
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray)
+{
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+
+inline void occlude(RTCScene scene, Context& context, RTCRay& ray)
+{
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+using Context = RTCIntersectContext;
+
+inline void initialize(Context& context)
+{
+  rtcInitIntersectContext(&context);
+}
+
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray)
+{
+  rtcIntersect1(scene, &context, &ray);
+}
+
+inline void occlude(RTCScene scene, Context& context, RTCRay& ray)
+{
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
+
+/// Throws what Embree has last reported of a device, if it has.
+/// @throws std::bad_alloc, std::runtime_error
+inline void check(RTCDevice device)
+{
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+  {
+    throw std::bad_alloc();
+  }
+  if (error != RTC_ERROR_NONE)
+  {
+    throw std::runtime_error("Embree reports error " + std::to_string(static_cast<int>(error)));
+  }
+}
+
+/// A handle of Embree, released at the end. Release is rtcRelease...
+template <class Handle, void (*Release)(Handle)>
+class Owner
+{
+public:
+  explicit Owner(Handle handle = nullptr)
+    : Held(handle)
+  {
+  }
+  ~Owner() { this->reset(); }
+  Owner(const Owner&) = delete;
+  Owner& operator=(const Owner&) = delete;
+
+  void reset(Handle handle = nullptr)
+  {
+    if (this->Held)
+    {
+      Release(this->Held);
+    }
+    this->Held = handle;
+  }
+  Handle get() const { return this->Held; }
+
+private:
+  Handle Held;
+};
+
+using Device = Owner<RTCDevice, rtcReleaseDevice>;
+using SceneOwner = Owner<RTCScene, rtcReleaseScene>;
+using Geometry = Owner<RTCGeometry, rtcReleaseGeometry>;
+
+} // namespace raytracing::embree
+
+#endif

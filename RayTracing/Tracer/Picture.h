@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef raytracing_Picture_h
+#define raytracing_Picture_h
+
+#include "Tracer/PathTracer.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace raytracing
+{
+
+/// Where the rays of a picture begin, and where they pass: places on the near and far plane of what
+/// the window shows, in the scene's coordinates.
+struct Camera
+{
+  using Position = std::array<double, 3>;
+
+  Position nearCorner{}; // the lower left one
+  Position nearRight{};  // from there to the lower right one
+  Position nearUp{};     // from there to the upper left one
+  Position farCorner{};
+  Position farRight{};
+  Position farUp{};
+
+  /// The ray through a place of the window, 0 to 1 from left to right and from bottom to top. It
+  /// begins where it comes near the scene.
+  /// @param skipped the distance of its origin from the near plane
+  Ray through(double x, double y, float& skipped) const;
+};
+
+/**
+ * A picture that gets better with each sample of its pixels. Its content depends neither on threads
+ * nor on how the samples are divided among calls.
+ */
+class Picture
+{
+public:
+  /// @param width, height in pixels, 1 or more
+  /// @param samples of each pixel in the end, 1 or more
+  /// @throws std::bad_alloc
+  Picture(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
+
+  /// Adds samples, until all pixels have this many.
+  /// @param threads 1 or more, the calling one included
+  /// @param goesOn called from the calling thread several times a second with the share of the
+  /// work that is done; false ends the call at once, and a later one goes on
+  /// @returns whether all were added
+  bool addSamples(const Camera& camera, const PathTracer& tracer, std::uint32_t samples,
+    std::size_t threads, const std::function<bool(double share)>& goesOn);
+
+  /// Finds the distance from the near plane at which rays through the pixels' centres meet the
+  /// first surface; infinity where they meet none.
+  void findDistances(const Camera& camera, const Scene& scene, std::size_t threads);
+
+  std::uint32_t getWidth() const { return this->Width; }
+  std::uint32_t getHeight() const { return this->Height; }
+
+  /// How many samples all pixels have.
+  std::uint32_t getSamples() const { return this->Done; }
+
+  /// Color times coverage, and coverage, by rows from the bottom.
+  Radiance pixel(std::size_t index) const;
+
+  float distance(std::size_t index) const { return this->Distances[index]; }
+
+private:
+  struct Sum
+  {
+    Color color;
+    float alpha = 0.0f;
+    std::uint32_t count = 0;
+  };
+
+  std::uint32_t Width;
+  std::uint32_t Height;
+  std::uint32_t Samples;
+  std::uint32_t Done = 0;
+  std::vector<Sum> Sums;
+  std::vector<float> Distances;
+};
+
+} // namespace raytracing
+
+#endif

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointRayTracer.h"
+
+#include "vtkIsopointTracedDisplay.h"
+#include "vtkIsopointTracedScene.h"
+#include "vtkIsopointTracedView.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCameraPass.h"
+#include "vtkCommand.h"
+#include "vtkImageData.h"
+#include "vtkLightsPass.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpaquePass.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOverlayPass.h"
+#include "vtkPropCollection.h"
+#include "vtkRenderPassCollection.h"
+#include "vtkRenderState.h"
+#include "vtkRenderer.h"
+#include "vtkSequencePass.h"
+#include "vtkTexture.h"
+#include "vtkTranslucentPass.h"
+#include "vtkVolumetricPass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+vtkStandardNewMacro(vtkIsopointRayTracer);
+
+namespace
+{
+
+/// The pass within that of the camera: a function.
+class vtkIsopointFunctionPass : public vtkRenderPass
+{
+public:
+  static vtkIsopointFunctionPass* New();
+  vtkTypeMacro(vtkIsopointFunctionPass, vtkRenderPass);
+  void Render(const vtkRenderState* state) override { this->Function(state); }
+
+  std::function<void(const vtkRenderState*)> Function;
+};
+vtkStandardNewMacro(vtkIsopointFunctionPass);
+
+void describe(const raytracing::Vector& vector, std::ostream& state)
+{
+  state << vector.x << ' ' << vector.y << ' ' << vector.z << ' ';
+}
+
+/// Differs where another picture is seen.
+std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
+{
+  std::ostringstream state;
+  state << std::hexfloat;
+  for (const raytracing::Camera::Position& position :
+    { view.Camera.nearCorner, view.Camera.nearRight, view.Camera.nearUp, view.Camera.farCorner,
+      view.Camera.farRight, view.Camera.farUp })
+  {
+    state << position[0] << ' ' << position[1] << ' ' << position[2] << '\n';
+  }
+  for (const raytracing::Light& light : view.Lights)
+  {
+    for (const raytracing::Vector& vector :
+      { light.position, light.towards, light.diffuse, light.specular, light.attenuation })
+    {
+      describe(vector, state);
+    }
+    state << light.isPositional << light.coneCosine << ' ' << light.exponent << ' ' << light.extent
+          << '\n';
+  }
+  describe(view.Environment.bottom, state);
+  describe(view.Environment.top, state);
+  state << renderer->GetTexturedBackground();
+  for (vtkTexture* const texture :
+    { renderer->GetBackgroundTexture(), renderer->GetEnvironmentTexture() })
+  {
+    state << texture << ' ' << (texture ? texture->GetMTime() : 0) << '\n';
+  }
+  return state.str();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+class vtkIsopointRayTracer::Internals
+{
+public:
+  Internals()
+  {
+    this->CameraPass->SetDelegatePass(this->InnerPass);
+    vtkNew<vtkRenderPassCollection> passes;
+    vtkNew<vtkLightsPass> lights;
+    vtkNew<vtkOpaquePass> opaque;
+    vtkNew<vtkTranslucentPass> translucent;
+    vtkNew<vtkVolumetricPass> volumetric;
+    vtkNew<vtkOverlayPass> overlay;
+    passes->AddItem(lights);
+    passes->AddItem(opaque);
+    passes->AddItem(translucent);
+    passes->AddItem(volumetric);
+    passes->AddItem(overlay);
+    this->OtherPasses->SetPasses(passes);
+  }
+
+  /// Brings the picture up to date with a renderer.
+  /// @param samples that are added at most
+  /// @returns whether it has as many samples as it is to have
+  bool Trace(vtkIsopointRayTracer* self, vtkRenderer* renderer,
+    const std::vector<vtkActor*>& actors, const int* size, int samples);
+
+  /// Traces and draws the props of a state.
+  void RenderTraced(vtkIsopointRayTracer* self, const vtkRenderState* state);
+  void Draw(vtkOpenGLRenderWindow* window);
+
+  vtkNew<vtkCameraPass> CameraPass;
+  vtkNew<vtkIsopointFunctionPass> InnerPass;
+  vtkNew<vtkSequencePass> OtherPasses; // of what is not traced
+  vtkIsopointTracedDisplay Display;
+  vtkIsopointTracedScene Scene;
+  std::unique_ptr<vtkIsopointTracedView> View;
+  std::unique_ptr<raytracing::Picture> Picture;
+  std::string PictureState;
+};
+
+//------------------------------------------------------------------------------
+bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRenderer* renderer,
+  const std::vector<vtkActor*>& actors, const int* size, int samples)
+{
+  self->AbortExecute = 0;
+  const bool isNewScene = this->Scene.Update(
+    actors, self->AbsorptionDistance, renderer->GetActiveCamera()->GetPosition());
+  const double aspect = static_cast<double>(size[0]) / size[1];
+  this->View = std::make_unique<vtkIsopointTracedView>(
+    renderer, aspect, self->LightAngle, this->Scene.GetFrame());
+
+  raytracing::Illuminants illuminants;
+  illuminants.lights = this->View->Lights;
+  illuminants.environment = this->View->Environment;
+  const auto ambient = static_cast<float>(self->AmbientLight);
+  illuminants.ambient.color = { ambient, ambient, ambient };
+  illuminants.ambient.distance = static_cast<float>(self->AmbientDistance);
+  illuminants.hasShadows = self->Shadows != 0;
+  illuminants.mostBounces = self->MaximumNumberOfBounces;
+
+  const auto threads = static_cast<std::size_t>(
+    self->NumberOfThreads > 0
+      ? self->NumberOfThreads
+      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  std::ostringstream state;
+  state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
+        << size[0] << ' ' << size[1] << ' ' << self->SamplesPerPixel << ' ' << self->AmbientLight
+        << ' ' << self->AmbientDistance << ' ' << self->Shadows << ' '
+        << self->MaximumNumberOfBounces;
+  if (isNewScene || !this->Picture || this->PictureState != state.str())
+  {
+    this->Picture.reset();
+    this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
+      static_cast<std::uint32_t>(size[1]), static_cast<std::uint32_t>(self->SamplesPerPixel));
+    this->Picture->findDistances(this->View->Camera, this->Scene.Get(), threads);
+    this->PictureState = state.str();
+  }
+  const raytracing::PathTracer tracer(this->Scene.Get(), illuminants);
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  const auto goesOn = [self, window](double share)
+  {
+    self->InvokeEvent(vtkCommand::ProgressEvent, &share);
+    return !self->AbortExecute && !(window && window->CheckAbortStatus());
+  };
+  const bool isDone = this->Picture->addSamples(this->View->Camera, tracer,
+    this->Picture->getSamples() + static_cast<std::uint32_t>(samples), threads, goesOn);
+  self->NumberOfSamples = static_cast<int>(this->Picture->getSamples());
+  return isDone;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracer::Internals::RenderTraced(
+  vtkIsopointRayTracer* self, const vtkRenderState* state)
+{
+  vtkRenderer* const renderer = state->GetRenderer();
+  std::vector<vtkActor*> traced;
+  std::vector<vtkProp*> others;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    vtkProp* const prop = state->GetPropArray()[i];
+    if (!renderer->GetSelector() && vtkIsopointIsTraced(prop))
+    {
+      traced.push_back(vtkActor::SafeDownCast(prop));
+    }
+    else
+    {
+      others.push_back(prop);
+    }
+  }
+  const auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  int size[2];
+  int origin[2];
+  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  if (!traced.empty() && size[0] > 0 && size[1] > 0)
+  {
+    const int samples = self->SamplesPerFrame > 0 ? self->SamplesPerFrame : self->SamplesPerPixel;
+    this->Trace(self, renderer, traced, size, samples);
+    this->Draw(window);
+  }
+  vtkRenderState rest(renderer);
+  rest.SetPropArrayAndCount(others.data(), static_cast<int>(others.size()));
+  rest.SetFrameBuffer(state->GetFrameBuffer());
+  this->OtherPasses->Render(&rest);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
+{
+  const std::size_t width = this->Picture->getWidth();
+  const std::size_t height = this->Picture->getHeight();
+  std::vector<float> colors(4 * width * height);
+  std::vector<float> depths(width * height);
+  constexpr double half = 0.5;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    const raytracing::Radiance pixel = this->Picture->pixel(i);
+    const float values[4] = { pixel.color.x, pixel.color.y, pixel.color.z, pixel.alpha };
+    std::copy(values, values + 4, &colors[4 * i]);
+    const double x = (static_cast<double>(i % width) + half) / static_cast<double>(width);
+    const double y = (static_cast<double>(i / width) + half) / static_cast<double>(height);
+    depths[i] = static_cast<float>(this->View->GetDepth(x, y, this->Picture->distance(i)));
+  }
+  this->Display.Draw(window, static_cast<int>(width), static_cast<int>(height), colors, depths);
+}
+
+//------------------------------------------------------------------------------
+vtkIsopointRayTracer::vtkIsopointRayTracer()
+  : Internal(std::make_unique<Internals>())
+{
+}
+
+vtkIsopointRayTracer::~vtkIsopointRayTracer() = default;
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracer::Render(const vtkRenderState* state)
+{
+  this->Internal->InnerPass->Function = [this](const vtkRenderState* inner)
+  {
+    try
+    {
+      this->Internal->RenderTraced(this, inner);
+    }
+    catch (const std::bad_alloc&)
+    {
+      this->Internal->Scene.Clear();
+      this->Internal->Picture.reset();
+      vtkErrorMacro(
+        "Out of memory: the scene is not traced. Show fewer points, or a smaller window.");
+    }
+    catch (const std::runtime_error& error)
+    {
+      this->Internal->Scene.Clear();
+      this->Internal->Picture.reset();
+      vtkErrorMacro("The scene is not traced: " << error.what());
+    }
+  };
+  this->Internal->CameraPass->Render(state);
+  this->NumberOfRenderedProps = this->Internal->CameraPass->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointRayTracer::RenderToImage(
+  vtkRenderer* renderer, int width, int height, vtkImageData* image)
+{
+  if (!renderer || !image)
+  {
+    vtkErrorMacro("There is no renderer or no image: give both.");
+    return false;
+  }
+  int size[2] = { width, height };
+  if ((width <= 0 || height <= 0) && renderer->GetRenderWindow())
+  {
+    int origin[2];
+    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  }
+  constexpr int most = 65536;
+  if (size[0] <= 0 || size[1] <= 0 || size[0] > most || size[1] > most)
+  {
+    vtkErrorMacro("A picture of " << size[0] << " x " << size[1]
+                                  << " pixels cannot be traced: choose 1 to " << most << ".");
+    return false;
+  }
+  std::vector<vtkActor*> actors;
+  vtkCollectionSimpleIterator iterator;
+  renderer->GetViewProps()->InitTraversal(iterator);
+  while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
+  {
+    if (vtkIsopointIsTraced(prop))
+    {
+      actors.push_back(vtkActor::SafeDownCast(prop));
+    }
+  }
+  try
+  {
+    if (!this->Internal->Trace(this, renderer, actors, size, this->SamplesPerPixel))
+    {
+      return false;
+    }
+    image->SetDimensions(size[0], size[1], 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* const bytes = static_cast<unsigned char*>(image->GetScalarPointer());
+    const auto toByte = [](float value)
+    {
+      constexpr float white = 255.0f;
+      return static_cast<unsigned char>(std::lround(white * std::clamp(value, 0.0f, 1.0f)));
+    };
+    constexpr float half = 0.5f;
+    for (int y = 0; y < size[1]; ++y)
+    {
+      for (int x = 0; x < size[0]; ++x)
+      {
+        const std::size_t index = static_cast<std::size_t>(y) * size[0] + x;
+        const raytracing::Radiance pixel = this->Internal->Picture->pixel(index);
+        const raytracing::Color background = this->Internal->View->Environment.behind(
+          (static_cast<float>(x) + half) / static_cast<float>(size[0]),
+          (static_cast<float>(y) + half) / static_cast<float>(size[1]));
+        const raytracing::Color color = pixel.color + (1.0f - pixel.alpha) * background;
+        bytes[3 * index] = toByte(color.x);
+        bytes[3 * index + 1] = toByte(color.y);
+        bytes[3 * index + 2] = toByte(color.z);
+      }
+    }
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory: the scene is not traced. Show fewer points, or make the picture "
+                  "smaller.");
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro("The scene is not traced: " << error.what());
+  }
+  this->Internal->Scene.Clear();
+  this->Internal->Picture.reset();
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracer::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Internal->Display.ReleaseGraphicsResources(window);
+  this->Internal->CameraPass->ReleaseGraphicsResources(window);
+  this->Internal->OtherPasses->ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracer::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << '\n'
+     << indent << "SamplesPerFrame: " << this->SamplesPerFrame << '\n'
+     << indent << "Shadows: " << this->Shadows << '\n'
+     << indent << "LightAngle: " << this->LightAngle << '\n'
+     << indent << "AmbientLight: " << this->AmbientLight << '\n'
+     << indent << "AmbientDistance: " << this->AmbientDistance << '\n'
+     << indent << "MaximumNumberOfBounces: " << this->MaximumNumberOfBounces << '\n'
+     << indent << "AbsorptionDistance: " << this->AbsorptionDistance << '\n'
+     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n'
+     << indent << "AbortExecute: " << this->AbortExecute << '\n'
+     << indent << "NumberOfSamples: " << this->NumberOfSamples << '\n';
+}

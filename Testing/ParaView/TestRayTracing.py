@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ray-traced pictures of ParaView's views, by ray_trace() and by File > Export Scene:
+TestRayTracing.py PLUGIN"""
+
+import os
+import sys
+import tempfile
+
+import numpy as np
+from paraview import simple
+from scatteredisopoints import ray_trace
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+folder = tempfile.mkdtemp()
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("failed: " + message)
+
+
+def read(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    pixels = vtk_to_numpy(image.GetPointData().GetScalars())
+    return pixels.reshape(height, width, -1)[::-1, :, :3].astype(float)
+
+
+def psnr(one, other):
+    error = np.mean((one.astype(float) - other) ** 2)
+    return np.inf if error == 0 else 10 * np.log10(255**2 / error)
+
+
+def scene():
+    """A view of splats, colored by an array, above a disk of triangles."""
+    wavelet = simple.Wavelet()
+    points = ScatteredIsopoints(  # noqa: F821, of the plugin
+        Input=wavelet, ContourBy=["POINTS", "RTData"], Isosurfaces=[200.0])
+    view = simple.CreateRenderView(ViewSize=[320, 240])
+    view.OrientationAxesVisibility = 0
+    shown = simple.Show(points, view)
+    check(shown.Representation == "Isopoint Splats", "splats are shown")
+    simple.ColorBy(shown, None)
+    shown.DiffuseColor = [0.8, 0.7, 0.4]
+    floor = simple.Disk(InnerRadius=0.0, OuterRadius=20.0, CircumferentialResolution=60)
+    moved = simple.Transform(Input=floor)
+    moved.Transform.Translate = [0.0, 0.0, -10.0]
+    simple.Show(moved, view).DiffuseColor = [0.4, 0.6, 0.8]
+    view.CameraPosition = [40.0, -50.0, 30.0]
+    view.CameraFocalPoint = [0.0, 0.0, -2.0]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    return view, shown
+
+
+def is_what_the_view_shows(view):
+    path = os.path.join(folder, "drawn.png")
+    simple.SaveScreenshot(path, view)
+    drawn = read(path)
+    traced = ray_trace(view, samples=16, shadows=False)
+    check(traced.shape == drawn.shape, "as large as the view")
+    quality = psnr(traced, drawn)
+    print(f"without shadows against the view: {quality:.1f} dB")
+    check(quality > 27, "the picture is that of the view")
+    small = ray_trace(view, os.path.join(folder, "small.png"), samples=1, size=(80, 60))
+    check(small.shape == (60, 80, 3), "of the size asked for")
+    check(np.array_equal(read(os.path.join(folder, "small.png")), small), "the file is the picture")
+
+
+def can_be_exported(view, shown):
+    path = os.path.join(folder, "exported.png")
+    simple.ExportView(path, view=view, SamplesPerPixel=4, AmbientLight=0.2)
+    exported = read(path)
+    expected = ray_trace(view, samples=4, ambient_light=0.2)
+    check(np.array_equal(exported, expected), "the file is that of ray_trace()")
+    shown.Interpolation = "PBR"
+    shown.Metallic = 1.0
+    shown.Roughness = 0.0
+    simple.ExportView(path, view=view, SamplesPerPixel=4, Magnification=2)
+    mirror = read(path)
+    check(mirror.shape == (480, 640, 3), "twice as large")
+    check(np.array_equal(mirror, ray_trace(view, samples=4, size=(640, 480))), "a mirror")
+    check(psnr(mirror[::2, ::2], exported) < 30, "the material is that of the view")
+
+
+def rejects_what_it_cannot_trace(view):
+    for arguments, options, expected in (
+        ((simple.Sphere(),), {}, TypeError),
+        ((view,), {"softness": 1.0}, TypeError),
+        ((view,), {"size": (100_000, 1)}, RuntimeError),
+        ((view, "/no/such/folder/a.png"), {"samples": 1}, OSError),
+    ):
+        try:
+            ray_trace(*arguments, **options)
+        except expected as error:
+            check(str(error), "it says why")
+        else:
+            check(False, f"{options} is accepted")
+
+
+simple.LoadPlugin(sys.argv[1], ns=globals())
+VIEW, SHOWN = scene()
+is_what_the_view_shows(VIEW)
+can_be_exported(VIEW, SHOWN)
+rejects_what_it_cannot_trace(VIEW)
