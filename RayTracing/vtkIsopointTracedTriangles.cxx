@@ -80,7 +80,7 @@ private:
       return;
     }
     this->Polygon->Initialize(static_cast<int>(count), points, this->Data->GetPoints());
-    this->Polygon->Triangulate(this->Corners);
+    vtkIsopointTriangulate(this->Polygon.Get(), this->Corners);
     for (vtkIdType i = 0; i + 2 < this->Corners->GetNumberOfIds(); i += 3)
     {
       this->Add(points[this->Corners->GetId(i)], points[this->Corners->GetId(i + 1)],
