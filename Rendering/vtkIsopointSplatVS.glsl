@@ -36,6 +36,10 @@ uniform int cameraParallel;
 uniform int culledFacing; // 1: front faces are not drawn, -1: back faces, 0: all are
 
 out vec3 centerVS;
+#ifdef SPLAT_SAMPLES
+out vec2 centerPixelsVS; // the centre on the screen
+out float slantVS; // squared cosine between the normal and the direction to the camera
+#endif
 out vec3 axis1VS;
 out vec3 axis2VS;
 out vec3 normalVS;
@@ -148,6 +152,10 @@ void main()
   bool culled = facesCamera ? culledFacing == 1 : culledFacing == -1;
 
   centerVS = center;
+#ifdef SPLAT_SAMPLES
+  slantVS = dot(normal, towardsCamera) * dot(normal, towardsCamera);
+  centerPixelsVS = (0.5 + 0.5 * centerDC.xy / centerDC.w) * viewportSize;
+#endif
   axis1VS = reach * axis1;
   axis2VS = reach * axis2;
   normalVS = normal;
