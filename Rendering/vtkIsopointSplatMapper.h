@@ -144,9 +144,11 @@ public:
 
   ///@{
   /**
-   * Level of detail: one splat in Stride is rendered, its radius multiplied by the square root of
-   * Stride. The choice is quasi-random and the same at each frame. Meant for interaction: a change
-   * uploads only indices to the graphics card. Range: 1 or more. Default: 1, all splats.
+   * Level of detail: about one splat in Stride is rendered, and at most four. Each is the middle
+   * one of that many neighbors on one sheet of the surface, and grows until it covers them: where
+   * all splats leave no hole, neither do these. The choice is the same at each frame. Meant for
+   * interaction: the first frame after a change sorts all splats, O(n log(n)), and uploads indices
+   * and sizes to the graphics card. Range: 1 or more. Default: 1, all splats.
    */
   vtkSetClampMacro(Stride, int, 1, VTK_INT_MAX);
   vtkGetMacro(Stride, int);

@@ -488,6 +488,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   define(isDeeper, "SPLAT_DEEPER_LAYER");
   define(buffers.HasNormals(), "SPLAT_NORMALS");
   define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
+  define(buffers.HasGrowth(), "SPLAT_GROWTH");
   define(buffers.HasClips(), "SPLAT_CLIPS");
   define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
   if (settings.Samples > 0 && pass != Pass::Ids)
@@ -541,8 +542,7 @@ void vtkIsopointSplatPasses::SetUniforms(
   const float size[2] = { static_cast<float>(settings.Size[0]),
     static_cast<float>(settings.Size[1]) };
   program->SetUniform2f("viewportSize", size);
-  const double scale = settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
-  program->SetUniformf("radiusScale", static_cast<float>(scale));
+  program->SetUniformf("radiusScale", static_cast<float>(settings.RadiusScale));
   program->SetUniformf("reach", static_cast<float>(pass == Pass::Blend ? blendingReach : 1.0));
   program->SetUniformf("viewScale", static_cast<float>(viewScale));
   program->SetUniformf("blendDepth", static_cast<float>(settings.BlendDepth));

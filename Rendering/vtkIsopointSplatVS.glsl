@@ -15,6 +15,9 @@ in vec3 normalMC;
 in vec3 axis1MC;
 in vec3 axis2MC;
 #endif
+#ifdef SPLAT_GROWTH
+in float growth; // factor on the splat's size
+#endif
 #ifdef SPLAT_CLIPS
 in vec4 clipMC; // clipping plane: normal divided by the radius, the centre's distance in radii
 in float clipTurn; // 1: the face across the crease is on the normal's side, -1: on the other side
@@ -84,11 +87,16 @@ void main()
   vec4 centerVC = MCVCMatrix * vec4(centerMC, 1.0);
   vec3 center = centerVC.xyz;
   vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
+#ifdef SPLAT_GROWTH
+  float scale = radiusScale * growth;
+#else
+  float scale = radiusScale;
+#endif
 #ifdef SPLAT_GHOSTS
-  float r = abs(radius) * radiusScale;
+  float r = abs(radius) * scale;
   ownVS = radius < 0.0 ? 0.0 : 1.0;
 #else
-  float r = max(radius, 0.0) * radiusScale;
+  float r = max(radius, 0.0) * scale;
 #endif
   float radiusVC = r * viewScale;
   vec3 normal = vec3(0.0);
@@ -112,8 +120,8 @@ void main()
 #ifdef SPLAT_ELLIPSES
   if (dot(axis1MC, axis1MC) > 0.0 && dot(axis2MC, axis2MC) > 0.0)
   {
-    axis1 = mat3(MCVCMatrix) * (axis1MC * radiusScale);
-    axis2 = mat3(MCVCMatrix) * (axis2MC * radiusScale);
+    axis1 = mat3(MCVCMatrix) * (axis1MC * scale);
+    axis2 = mat3(MCVCMatrix) * (axis2MC * scale);
   }
 #endif
 
