@@ -3,6 +3,7 @@
 
 #include "vtkIsopointSplatBounds.h"
 #include "vtkIsopointSplatOpenGL.h"
+#include "vtkIsopointSplatSubset.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
@@ -26,12 +27,7 @@
 namespace
 {
 
-struct Disk
-{
-  float Position[3];
-  float Normal[3];
-  float Radius;
-};
+using Disk = vtkIsopointSplatSubset::Splat;
 
 bool isFinite(const double* vector)
 {
@@ -118,6 +114,17 @@ void upload(vtkOpenGLBufferObject* buffer, const TElement* elements, std::size_t
   {
     vtkIsopointSplatOutOfGraphicsMemory();
   }
+}
+
+/// What was uploaded.
+template <class TElement>
+std::vector<TElement> download(vtkOpenGLBufferObject* buffer, std::size_t count)
+{
+  std::vector<TElement> elements(count);
+  buffer->Bind();
+  glGetBufferSubData(
+    GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(TElement)), elements.data());
+  return elements;
 }
 
 } // namespace
@@ -308,6 +315,10 @@ void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
   add(this->Disks, "centerMC", offsetof(Disk, Position), sizeof(Disk), VTK_FLOAT, 3);
   add(this->Disks, "normalMC", offsetof(Disk, Normal), sizeof(Disk), VTK_FLOAT, 3);
   add(this->Disks, "radius", offsetof(Disk, Radius), sizeof(Disk), VTK_FLOAT, 1);
+  if (this->SubsetStride > 1)
+  {
+    add(this->Growth, "growth", 0, sizeof(float), VTK_FLOAT, 1);
+  }
   if (this->Ellipses)
   {
     constexpr std::size_t vectorSize = 3 * sizeof(float);
@@ -332,25 +343,21 @@ void vtkIsopointSplatBuffers::Bind(vtkShaderProgram* program)
 //------------------------------------------------------------------------------
 void vtkIsopointSplatBuffers::SetStride(int stride)
 {
-  if (stride > 1 && this->SubsetStride != stride)
+  if (stride > 1 && this->SubsetStride != stride && this->NumberOfSplats > 0)
   {
-    // Multiples of the golden ratio modulo 1 are evenly distributed in every range of indices, and
-    // neighbours in a file are mostly neighbours in space.
-    constexpr std::uint32_t goldenRatio = 2654435769u;
-    const std::uint32_t limit = std::numeric_limits<std::uint32_t>::max() / stride;
-    std::vector<std::uint32_t> indices;
-    indices.reserve(static_cast<std::size_t>(this->NumberOfSplats / stride + 16));
-    for (vtkIdType i = 0; i < this->NumberOfSplats; ++i)
-    {
-      if (static_cast<std::uint32_t>(i) * goldenRatio <= limit)
-      {
-        indices.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
+    const auto count = static_cast<std::size_t>(this->NumberOfSplats);
+    const std::vector<Disk> disks = download<Disk>(this->Disks, count);
+    const std::vector<float> axes =
+      this->Ellipses ? download<float>(this->Axes, 6 * count) : std::vector<float>();
+    const vtkIsopointSplatSubset subset(
+      disks.data(), this->Ellipses ? axes.data() : nullptr, count, stride);
+    const std::vector<std::uint32_t>& indices = subset.GetIndices();
     glBindVertexArray(0); // a vertex array would keep the binding of the indices
     upload(this->Subset, indices.data(), indices.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
+    upload(this->Growth, subset.GetGrowth().data(), count);
     this->SubsetSize = static_cast<vtkIdType>(indices.size());
     this->SubsetStride = stride;
+    this->ForgetPrograms();
   }
   this->Stride = stride;
 }
@@ -373,6 +380,7 @@ void vtkIsopointSplatBuffers::ReleaseGraphicsResources()
   this->Axes->ReleaseGraphicsResources();
   this->Clips->ReleaseGraphicsResources();
   this->Colors->ReleaseGraphicsResources();
+  this->Growth->ReleaseGraphicsResources();
   this->Subset->ReleaseGraphicsResources();
   this->SubsetStride = 0;
 }

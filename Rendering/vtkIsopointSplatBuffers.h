@@ -55,8 +55,8 @@ public:
   /// Sets coordinates of 2 components in a color map, one per point.
   void SetColorCoordinates(vtkDataArray* coordinates);
 
-  /// Selects about one splat in this number, always the same ones, to be drawn. To be called after
-  /// SetSplats.
+  /// Selects about one splat in this number to be drawn, always the same ones, grown as
+  /// vtkIsopointSplatSubset describes. To be called after SetSplats.
   void SetStride(int stride);
 
   /// Draws the selected splats with a program that is in use.
@@ -70,6 +70,7 @@ public:
   bool HasNormals() const { return this->Normals; }
   bool HasEllipses() const { return this->Ellipses; }
   bool HasClips() const { return this->Clipped; }
+  bool HasGrowth() const { return this->Stride > 1; }
   bool HasColors() const { return this->ColorComponents > 0; }
 
 private:
@@ -83,7 +84,8 @@ private:
   vtkNew<vtkOpenGLBufferObject> Axes;
   vtkNew<vtkOpenGLBufferObject> Clips;
   vtkNew<vtkOpenGLBufferObject> Colors;
-  vtkNew<vtkOpenGLBufferObject> Subset;                      // indices of the selected splats
+  vtkNew<vtkOpenGLBufferObject> Growth; // factors on the selected splats' sizes
+  vtkNew<vtkOpenGLBufferObject> Subset; // indices of the selected splats
   std::map<unsigned int, std::unique_ptr<Program>> Programs; // by the program's handle
   std::array<double, 3> Center = { 0.0, 0.0, 0.0 };
   vtkIdType NumberOfSplats = 0;

@@ -1,10 +1,13 @@
 //VTK::System::Dec
+//VTK::Samples::Dec
 
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fragments of the off-screen passes: visibility (depth only), blending (weighted sums of the
 // surface's attributes) and ids (of the splat whose centre is nearest).
-// Blending writes weight x (normal, z), weight x (color, 1), weight x opacity and, among ghosts, the
-// weight of others. Ids are written as the lower and upper 16 bits of the point's id, the block's
+// Blending writes weight x (normal, z), weight x (color, 1), for samples weight x (offset on the
+// screen from the splat's centre in pixels, squared cosine between normal and view), weight x
+// opacity and, among ghosts, the weight of others. Splats have the same value at all samples of a
+// pixel that they cover. Ids are written as the lower and upper 16 bits of the point's id, the block's
 // id, and 0 for a ghost or 1.
 //VTK::Define::Dec
 
@@ -17,6 +20,10 @@ flat in int isBehindCreaseGS;
 in float depthGS;
 flat in vec3 normalGS;
 flat in vec4 colorGS;
+#ifdef SPLAT_SAMPLES
+flat in vec2 centerPixelsGS;
+flat in float slantGS;
+#endif
 #endif
 #ifdef SPLAT_IDS
 flat in uint pointIdGS;
@@ -33,6 +40,10 @@ uniform sampler2D previousDepth;
 
 //VTK::Output::Dec
 
+#ifdef SPLAT_SAMPLES
+uniform vec2 samplePositions[SPLAT_SAMPLES]; // in pixels, from the pixel's centre
+#endif
+
 #ifdef SPLAT_CLIPS
 // Overlap in pixels of faces at a crease, so that there is no slit where their planes differ
 // slightly.
@@ -47,11 +58,37 @@ void main()
   bool isBeyond = clipGS < 0.0;
   bool isBehind = isBehindCreaseGS == 1;
 #endif
+#ifdef SPLAT_SAMPLES
+  vec2 placeX = dFdx(placeGS);
+  vec2 placeY = dFdy(placeGS);
+#ifdef SPLAT_CLIPS
+  float clipX = dFdx(clipGS);
+  float clipY = dFdy(clipGS);
+#endif
+  int mask = 0;
+  for (int i = 0; i < SPLAT_SAMPLES; ++i)
+  {
+    vec2 offset = samplePositions[i];
+    vec2 place = placeGS + offset.x * placeX + offset.y * placeY;
+    bool isInside = dot(place, place) <= 1.0;
+#ifdef SPLAT_CLIPS
+    isInside = isInside && clipGS + offset.x * clipX + offset.y * clipY >= -slit * pixel;
+#endif
+    mask |= isInside ? 1 << i : 0;
+  }
+  if (mask == 0)
+  {
+    discard;
+  }
+  gl_SampleMask[0] = mask;
+  squaredRadius = min(squaredRadius, 1.0);
+#else
   if (squaredRadius > 1.0)
   {
     discard;
   }
-#ifdef SPLAT_CLIPS
+#endif
+#if defined(SPLAT_CLIPS) && !defined(SPLAT_SAMPLES)
   // Twice the overlap in the other passes, so that every visible fragment has a weight despite
   // rounding.
 #ifdef SPLAT_VISIBILITY
@@ -78,13 +115,15 @@ void main()
 #endif
   gl_FragData[0] = weight * vec4(normalGS, depthGS);
   gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
-#ifdef SPLAT_TRANSLUCENT_COLORS
-  gl_FragData[2] = vec4(weight * colorGS.a);
-#ifdef SPLAT_GHOSTS
-  gl_FragData[3] = vec4(weight * ownGS);
+#ifdef SPLAT_SAMPLES
+  gl_FragData[OUTLINE_TARGET] =
+    vec4(weight * (floor(gl_FragCoord.xy) + 0.5 - centerPixelsGS), weight * slantGS, 0.0);
 #endif
-#elif defined(SPLAT_GHOSTS)
-  gl_FragData[2] = vec4(weight * ownGS);
+#ifdef SPLAT_TRANSLUCENT_COLORS
+  gl_FragData[OPACITY_TARGET] = vec4(weight * colorGS.a);
+#endif
+#ifdef SPLAT_GHOSTS
+  gl_FragData[OWN_TARGET] = vec4(weight * ownGS);
 #endif
 #endif
 #ifdef SPLAT_IDS

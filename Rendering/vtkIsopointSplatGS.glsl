@@ -10,6 +10,10 @@ layout(points) in;
 layout(triangle_strip, max_vertices = 3) out;
 
 in vec3 centerVS[];
+#ifdef SPLAT_SAMPLES
+in vec2 centerPixelsVS[];
+in float slantVS[];
+#endif
 in vec3 axis1VS[];
 in vec3 axis2VS[];
 in vec3 normalVS[];
@@ -39,6 +43,10 @@ flat out int isBehindCreaseGS;
 out float depthGS; // z in view coordinates
 flat out vec3 normalGS;
 flat out vec4 colorGS;
+#ifdef SPLAT_SAMPLES
+flat out vec2 centerPixelsGS;
+flat out float slantGS;
+#endif
 #endif
 #ifdef SPLAT_IDS
 flat out uint pointIdGS;
@@ -77,6 +85,10 @@ void emitCorner(vec2 place)
   depthGS = corner.z;
   normalGS = normalVS[0];
   colorGS = colorVS[0];
+#ifdef SPLAT_SAMPLES
+  centerPixelsGS = centerPixelsVS[0];
+  slantGS = slantVS[0];
+#endif
 #endif
 #ifdef SPLAT_IDS
   pointIdGS = pointIdVS[0];

@@ -23,6 +23,7 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
+#include "vtkTextureUnitManager.h"
 
 #include <algorithm>
 #include <vector>
@@ -189,14 +190,25 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     setTexture("splatVisibleDepth", layer.Depth);
     setTexture("splatSurfaceSums", layer.Surface);
     setTexture("splatColorSums", layer.Color);
+    setTexture("splatOutlineSums", settings.Samples > 0 ? layer.Outline : layer.Color);
     setTexture("splatOpacitySums", layer.HasOpacity ? layer.Opacity : layer.Color);
     setTexture("splatOwnSums", layer.HasOwn ? layer.Own : layer.Color);
-    setTexture("splatIds", settings.Ids ? passes.GetIds() : layer.Color);
+    // Samplers of two kinds must not share a unit, even if one of them is not read.
+    vtkTextureUnitManager* const units = passes.GetWindow()->GetTextureUnitManager();
+    const int unused = units->Allocate();
+    if (settings.Ids)
+    {
+      setTexture("splatIds", passes.GetIds());
+    }
+    else if (program->IsUniformUsed("splatIds"))
+    {
+      program->SetUniformi("splatIds", unused);
+    }
     if (program->IsUniformUsed("splatColorMap"))
     {
       const bool hasMap = this->Internal->ColoredBy == Internals::Coloring::ColorMap;
-      program->SetUniformi("splatColorMap",
-        hasMap ? this->InternalColorTexture->GetTextureUnit() : layer.Color->GetTextureUnit());
+      program->SetUniformi(
+        "splatColorMap", hasMap ? this->InternalColorTexture->GetTextureUnit() : unused);
     }
     program->SetUniformi("splatColoring", static_cast<int>(this->Internal->ColoredBy));
     program->SetUniformi("splatGhosts", layer.HasOwn ? (settings.Ids ? 2 : 1) : 0);
@@ -206,10 +218,15 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
       static_cast<float>(settings.Size[1]) };
     program->SetUniform2f("splatViewportSize", size);
     program->SetUniformMatrix("splatVCDCMatrix", settings.ViewToClip);
+    if (settings.Samples > 0)
+    {
+      vtkIsopointSplatPasses::SetSamplePositions(program, "splatSamplePositions", layer);
+    }
     program->SetUniformi("splatCameraParallel", settings.ParallelProjection ? 1 : 0);
 
     helper.VAO->Bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    units->Free(unused);
     for (vtkTextureObject* const texture : active)
     {
       texture->Deactivate();

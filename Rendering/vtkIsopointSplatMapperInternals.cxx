@@ -475,6 +475,11 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
   settings.NumberOfLayers = actor->IsRenderingTranslucentPolygonalGeometry() && !settings.Ids
                               ? mapper->MaximumNumberOfLayers
                               : 1;
+  // Layers with samples would take too much memory.
+  settings.Samples = settings.Ids || settings.NumberOfLayers > 1
+                       ? 0
+                       : vtkIsopointSplatPasses::SamplesOfFramebuffer();
+  this->Samples = settings.Samples;
   settings.TranslucentColors = this->HasTranslucentColors && this->ColoredBy == Coloring::Colors;
 }
 

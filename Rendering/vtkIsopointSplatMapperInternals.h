@@ -52,6 +52,8 @@ public:
   vtkMTimeType TooManyPlanes = 0; // modified time of the clipping planes last reported as too many
   unsigned long WindowObserver = 0;
   bool ShaderOfComposite = false; // whether the current shader was built for composite input
+  int Samples = 0;                // per pixel, of the present frame; 0: no multisampling
+  int ShaderOfSamples = 0;        // Samples for which the current shader was built
   int ViewportOrigin[2] = { 0, 0 };
 
 private:

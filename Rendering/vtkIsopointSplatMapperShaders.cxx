@@ -34,8 +34,11 @@ bool vtkIsopointSplatMapper::GetNeedToRebuildShaders(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
   const bool isComposite = this->Internal->Blocks.IsComposite();
-  const bool differs = isComposite != this->Internal->ShaderOfComposite;
+  const int samples = this->Internal->Samples;
+  const bool differs =
+    isComposite != this->Internal->ShaderOfComposite || samples != this->Internal->ShaderOfSamples;
   this->Internal->ShaderOfComposite = isComposite;
+  this->Internal->ShaderOfSamples = samples;
   return this->Superclass::GetNeedToRebuildShaders(helper, renderer, actor) || differs;
 }
 
@@ -46,6 +49,13 @@ void vtkIsopointSplatMapper::GetShaderTemplate(
   this->Superclass::GetShaderTemplate(shaders, renderer, actor);
   shaders[vtkShader::Vertex]->SetSource(vtkIsopointSplatResolveVS);
   shaders[vtkShader::Geometry]->SetSource("");
+  if (this->Internal->Samples > 0)
+  {
+    const std::string tag = "//VTK::System::Dec";
+    substitute(shaders, tag,
+      tag + "\n#extension GL_ARB_sample_shading : require\n#define SPLAT_SAMPLES " +
+        std::to_string(this->Internal->Samples));
+  }
 }
 
 //------------------------------------------------------------------------------

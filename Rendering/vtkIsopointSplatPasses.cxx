@@ -15,6 +15,7 @@
 #include "vtkTextureObject.h"
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace
@@ -27,10 +28,13 @@ constexpr float minimumHalfAxis = 0.75f;
 /// unchanged.
 constexpr double blendingReach = 1.4;
 
-void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components)
+/// With several samples per pixel, or one if their number is 0.
+void prepareColorTexture(vtkTextureObject* texture, const int size[2], int components, int samples)
 {
   if (texture->GetHandle() == 0)
   {
+    texture->SetSamples(static_cast<unsigned int>(samples));
+    texture->SetAutoParameters(samples == 0); // there are none where there are samples
     texture->Allocate2D(size[0], size[1], components, VTK_FLOAT);
     texture->SetMinificationFilter(vtkTextureObject::Nearest);
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
@@ -38,10 +42,12 @@ void prepareColorTexture(vtkTextureObject* texture, const int size[2], int compo
   texture->Resize(size[0], size[1]);
 }
 
-void prepareDepthTexture(vtkTextureObject* texture, const int size[2])
+void prepareDepthTexture(vtkTextureObject* texture, const int size[2], int samples)
 {
   if (texture->GetHandle() == 0)
   {
+    texture->SetSamples(static_cast<unsigned int>(samples));
+    texture->SetAutoParameters(samples == 0); // there are none where there are samples
     texture->AllocateDepth(size[0], size[1], vtkTextureObject::Float32);
     texture->SetMinificationFilter(vtkTextureObject::Nearest);
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
@@ -60,6 +66,37 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int buffers)
   {
     vtkIsopointSplatOutOfGraphicsMemory();
   }
+}
+
+bool hasSampleShading()
+{
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+  {
+    const auto* const name =
+      reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (name && std::strcmp(name, "GL_ARB_sample_shading") == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Of the samples of the bound framebuffer: x and y of each, in pixels, from the pixel's centre.
+std::vector<float> samplePositions(int samples)
+{
+  constexpr float center = 0.5f;
+  std::vector<float> positions(2 * static_cast<std::size_t>(samples));
+  for (int i = 0; i < samples; ++i)
+  {
+    float* const position = &positions[2 * static_cast<std::size_t>(i)];
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), position);
+    position[0] -= center;
+    position[1] -= center;
+  }
+  return positions;
 }
 
 /// Restores OpenGL's state at the end of a scope. vtkOpenGLState::Push and Pop would restore
@@ -161,6 +198,27 @@ void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView,
 } // namespace
 
 //------------------------------------------------------------------------------
+int vtkIsopointSplatPasses::SamplesOfFramebuffer()
+{
+  constexpr int mostSamples = 32; // of one word of a sample mask
+  GLint samples = 0;
+  if (glIsEnabled(GL_MULTISAMPLE))
+  {
+    glGetIntegerv(GL_SAMPLES, &samples);
+  }
+  return samples > 1 && samples <= mostSamples && hasSampleShading() ? samples : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPasses::SetSamplePositions(
+  vtkShaderProgram* program, const char* name, const Layer& layer)
+{
+  using Position = float[2];
+  program->SetUniform2fv(
+    name, layer.Samples, reinterpret_cast<const Position*>(layer.SamplePositions.data()));
+}
+
+//------------------------------------------------------------------------------
 vtkIsopointSplatPasses::vtkIsopointSplatPasses() = default;
 vtkIsopointSplatPasses::~vtkIsopointSplatPasses() = default;
 
@@ -171,7 +229,8 @@ bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vec
     static_cast<double>(settings.Size[1]), settings.ParallelProjection ? 1.0 : 0.0,
     settings.RadiusScale, settings.BlendDepth, static_cast<double>(settings.Stride),
     static_cast<double>(settings.CulledFacing), static_cast<double>(settings.NumberOfLayers),
-    settings.TranslucentColors ? 1.0 : 0.0, settings.BlendsGhosts ? 1.0 : 0.0 };
+    static_cast<double>(settings.Samples), settings.TranslucentColors ? 1.0 : 0.0,
+    settings.BlendsGhosts ? 1.0 : 0.0 };
   state.insert(state.end(), settings.ModelToView->GetData(), settings.ModelToView->GetData() + 16);
   state.insert(state.end(), settings.ViewToClip->GetData(), settings.ViewToClip->GetData() + 16);
   for (const std::array<double, 4>& plane : settings.ClippingPlanes)
@@ -240,27 +299,34 @@ void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings
   {
     layer.Framebuffer->SetContext(this->Window);
     for (vtkTextureObject* texture : { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(),
-           layer.Opacity.Get(), layer.Own.Get() })
+           layer.Opacity.Get(), layer.Own.Get(), layer.Outline.Get() })
     {
       texture->SetContext(this->Window);
     }
   }
+  if (layer.Samples != settings.Samples)
+  {
+    this->ReleaseLayer(layer);
+    layer.Samples = settings.Samples;
+  }
   const bool isNew = layer.Depth->GetHandle() == 0;
-  prepareDepthTexture(layer.Depth, settings.Size);
-  prepareColorTexture(layer.Surface, settings.Size, 4);
-  prepareColorTexture(layer.Color, settings.Size, 4);
+  prepareDepthTexture(layer.Depth, settings.Size, settings.Samples);
+  prepareColorTexture(layer.Surface, settings.Size, 4, settings.Samples);
+  prepareColorTexture(layer.Color, settings.Size, 4, settings.Samples);
   std::vector<vtkTextureObject*> wanted = { layer.Surface, layer.Color };
   layer.HasOpacity = settings.TranslucentColors;
   layer.HasOwn = settings.BlendsGhosts;
-  for (vtkTextureObject* sums :
-    { layer.HasOpacity ? layer.Opacity.Get() : nullptr, layer.HasOwn ? layer.Own.Get() : nullptr })
+  const auto want = [&](bool condition, vtkTextureObject* sums, int components)
   {
-    if (sums)
+    if (condition)
     {
-      prepareColorTexture(sums, settings.Size, 1);
+      prepareColorTexture(sums, settings.Size, components, settings.Samples);
       wanted.push_back(sums);
     }
-  }
+  };
+  want(settings.Samples > 0, layer.Outline, 4);
+  want(layer.HasOpacity, layer.Opacity, 1);
+  want(layer.HasOwn, layer.Own, 1);
   layer.Framebuffer->Bind();
   if (isNew)
   {
@@ -293,6 +359,8 @@ bool vtkIsopointSplatPasses::RenderLayer(
   Layer& layer = *this->Layers[index];
   this->PrepareLayer(layer, settings);
   bind(layer.Framebuffer, static_cast<unsigned int>(layer.Attached.size()));
+
+  layer.SamplePositions = samplePositions(settings.Samples);
 
   vtkOpenGLState* const state = this->Window->GetState();
   state->vtkglDisable(GL_BLEND);
@@ -342,8 +410,8 @@ void vtkIsopointSplatPasses::PrepareIds(const Settings& settings)
     this->IdDepth->SetContext(this->Window);
   }
   const bool isNew = this->Ids->GetHandle() == 0;
-  prepareColorTexture(this->Ids, settings.Size, 4);
-  prepareDepthTexture(this->IdDepth, settings.Size);
+  prepareColorTexture(this->Ids, settings.Size, 4, 0);
+  prepareDepthTexture(this->IdDepth, settings.Size, 0);
   this->IdFramebuffer->Bind();
   if (isNew)
   {
@@ -406,6 +474,7 @@ void vtkIsopointSplatPasses::DrawBlocks(
 vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   Pass pass, bool isDeeper, const Settings& settings, const vtkIsopointSplatBuffers& buffers)
 {
+  std::string sources[3] = { vtkIsopointSplatVS, vtkIsopointSplatFS, vtkIsopointSplatGS };
   std::string definitions = pass == Pass::Visibility ? "#define SPLAT_VISIBILITY\n"
                             : pass == Pass::Blend    ? "#define SPLAT_BLEND\n"
                                                      : "#define SPLAT_IDS\n";
@@ -419,13 +488,26 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   define(isDeeper, "SPLAT_DEEPER_LAYER");
   define(buffers.HasNormals(), "SPLAT_NORMALS");
   define(buffers.HasEllipses(), "SPLAT_ELLIPSES");
+  define(buffers.HasGrowth(), "SPLAT_GROWTH");
   define(buffers.HasClips(), "SPLAT_CLIPS");
   define(buffers.HasColors() && pass == Pass::Blend, "SPLAT_COLORS");
+  if (settings.Samples > 0 && pass != Pass::Ids)
+  {
+    definitions += "#define SPLAT_SAMPLES " + std::to_string(settings.Samples) + "\n";
+    vtkShaderProgram::Substitute(
+      sources[1], "//VTK::Samples::Dec", "#extension GL_ARB_sample_shading : require");
+  }
   define(settings.BlendsGhosts, "SPLAT_GHOSTS");
   define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
   define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
 
-  std::string sources[3] = { vtkIsopointSplatVS, vtkIsopointSplatFS, vtkIsopointSplatGS };
+  // Their names cannot be defined: VTK replaces the text gl_FragData[number].
+  int target = 2; // after the sums that are always there, in the order of PrepareLayer
+  const auto place = [&](bool condition, const char* name)
+  { vtkShaderProgram::Substitute(sources[1], name, std::to_string(condition ? target++ : 0)); };
+  place(settings.Samples > 0, "OUTLINE_TARGET");
+  place(settings.TranslucentColors, "OPACITY_TARGET");
+  place(settings.BlendsGhosts, "OWN_TARGET");
   for (std::string& source : sources)
   {
     vtkShaderProgram::Substitute(source, "//VTK::Define::Dec", definitions);
@@ -460,8 +542,7 @@ void vtkIsopointSplatPasses::SetUniforms(
   const float size[2] = { static_cast<float>(settings.Size[0]),
     static_cast<float>(settings.Size[1]) };
   program->SetUniform2f("viewportSize", size);
-  const double scale = settings.RadiusScale * std::sqrt(static_cast<double>(settings.Stride));
-  program->SetUniformf("radiusScale", static_cast<float>(scale));
+  program->SetUniformf("radiusScale", static_cast<float>(settings.RadiusScale));
   program->SetUniformf("reach", static_cast<float>(pass == Pass::Blend ? blendingReach : 1.0));
   program->SetUniformf("viewScale", static_cast<float>(viewScale));
   program->SetUniformf("blendDepth", static_cast<float>(settings.BlendDepth));
@@ -471,6 +552,10 @@ void vtkIsopointSplatPasses::SetUniforms(
   program->SetUniform4f("plainColor", block.PlainColor.data());
   program->SetUniformf("blockIndex", static_cast<float>(block.Index));
 
+  if (settings.Samples > 0 && pass != Pass::Ids)
+  {
+    SetSamplePositions(program, "samplePositions", *this->Layers[0]);
+  }
   float planes[MaximumNumberOfClippingPlanes][4] = {};
   const int planeCount = static_cast<int>(settings.ClippingPlanes.size());
   for (int i = 0; i < planeCount; ++i)
@@ -508,7 +593,7 @@ void vtkIsopointSplatPasses::ReleaseLayer(Layer& layer)
 {
   layer.Framebuffer->ReleaseGraphicsResources(this->Window);
   for (vtkTextureObject* texture : { layer.Depth.Get(), layer.Surface.Get(), layer.Color.Get(),
-         layer.Opacity.Get(), layer.Own.Get() })
+         layer.Opacity.Get(), layer.Own.Get(), layer.Outline.Get() })
   {
     texture->ReleaseGraphicsResources(this->Window);
   }

@@ -56,6 +56,7 @@ public:
     int Stride = 1;
     int CulledFacing = 0; // 1: front faces, -1: back faces, 0: none
     int NumberOfLayers = 1;
+    int Samples = 0; // per pixel; 0: one, without multisampling
     bool TranslucentColors = false;
     bool BlendsGhosts = false;
     bool Ids = false;
@@ -68,12 +69,22 @@ public:
     vtkNew<vtkTextureObject> Surface;
     vtkNew<vtkTextureObject> Color;
     vtkNew<vtkTextureObject> Opacity;
-    vtkNew<vtkTextureObject> Own; // the weight, without that of ghosts
+    vtkNew<vtkTextureObject> Outline; // for samples, see vtkIsopointSplatFS.glsl
+    vtkNew<vtkTextureObject> Own;     // the weight, without that of ghosts
     vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
+    int Samples = 0;                    // in each texture, 0: these have no samples
+    std::vector<float> SamplePositions; // x, y of each, in pixels, from the pixel's centre
     bool HasOpacity = false;
     bool HasOwn = false;
     std::vector<vtkTextureObject*> Attached; // to the framebuffer, but for the depth
   };
+
+  /// Samples per pixel of the bound framebuffer; 0 without multisampling, and where shaders have no
+  /// access to samples.
+  static int SamplesOfFramebuffer();
+
+  /// Sets a program's array of the positions of a layer's samples.
+  static void SetSamplePositions(vtkShaderProgram* program, const char* name, const Layer& layer);
 
   /// The window to render for. Resources of a former window must have been released before. The
   /// window may be deleted at any time, and is null then.

@@ -7,7 +7,7 @@
     }
     else if (splatOpacities != 0)
     {
-      splatColor.a = texelFetch(splatOpacitySums, splatPixel, 0).r / splatWeight;
+      splatColor.a = texelFetch(splatOpacitySums, splatPixel, splatSample).r / splatWeight;
     }
     ambientColor = ambientIntensity * splatColor.rgb;
     diffuseColor = diffuseIntensity * splatColor.rgb;

@@ -15,6 +15,9 @@ in vec3 normalMC;
 in vec3 axis1MC;
 in vec3 axis2MC;
 #endif
+#ifdef SPLAT_GROWTH
+in float growth; // factor on the splat's size
+#endif
 #ifdef SPLAT_CLIPS
 in vec4 clipMC; // clipping plane: normal divided by the radius, the centre's distance in radii
 in float clipTurn; // 1: the face across the crease is on the normal's side, -1: on the other side
@@ -36,6 +39,10 @@ uniform int cameraParallel;
 uniform int culledFacing; // 1: front faces are not drawn, -1: back faces, 0: all are
 
 out vec3 centerVS;
+#ifdef SPLAT_SAMPLES
+out vec2 centerPixelsVS; // the centre on the screen
+out float slantVS; // squared cosine between the normal and the direction to the camera
+#endif
 out vec3 axis1VS;
 out vec3 axis2VS;
 out vec3 normalVS;
@@ -80,11 +87,16 @@ void main()
   vec4 centerVC = MCVCMatrix * vec4(centerMC, 1.0);
   vec3 center = centerVC.xyz;
   vec3 towardsCamera = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-center);
+#ifdef SPLAT_GROWTH
+  float scale = radiusScale * growth;
+#else
+  float scale = radiusScale;
+#endif
 #ifdef SPLAT_GHOSTS
-  float r = abs(radius) * radiusScale;
+  float r = abs(radius) * scale;
   ownVS = radius < 0.0 ? 0.0 : 1.0;
 #else
-  float r = max(radius, 0.0) * radiusScale;
+  float r = max(radius, 0.0) * scale;
 #endif
   float radiusVC = r * viewScale;
   vec3 normal = vec3(0.0);
@@ -111,8 +123,8 @@ void main()
 #ifdef SPLAT_ELLIPSES
   if (dot(axis1MC, axis1MC) > 0.0 && dot(axis2MC, axis2MC) > 0.0)
   {
-    axis1 = mat3(MCVCMatrix) * (axis1MC * radiusScale);
-    axis2 = mat3(MCVCMatrix) * (axis2MC * radiusScale);
+    axis1 = mat3(MCVCMatrix) * (axis1MC * scale);
+    axis2 = mat3(MCVCMatrix) * (axis2MC * scale);
   }
 #endif
 
@@ -151,6 +163,10 @@ void main()
   bool culled = facesCamera ? culledFacing == 1 : culledFacing == -1;
 
   centerVS = center;
+#ifdef SPLAT_SAMPLES
+  slantVS = dot(normal, towardsCamera) * dot(normal, towardsCamera);
+  centerPixelsVS = (0.5 + 0.5 * centerDC.xy / centerDC.w) * viewportSize;
+#endif
   axis1VS = reach * axis1;
   axis2VS = reach * axis2;
   normalVS = normal;

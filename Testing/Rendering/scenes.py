@@ -133,12 +133,12 @@ def color_by(actor, name, low, high):
 
 
 class Scene:
-    """A window with one renderer that looks down at the torus."""
+    """A window with one renderer that looks down at the torus; multisampling is off by default."""
 
-    def __init__(self, *actors, size=600):
+    def __init__(self, *actors, size=600, samples=0):
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
-        self.window.SetMultiSamples(0)
+        self.window.SetMultiSamples(samples)
         self.window.SetSize(size, size)
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(*BACKGROUND)
