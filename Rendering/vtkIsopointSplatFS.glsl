@@ -4,11 +4,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fragments of the off-screen passes: visibility (depth only), blending (weighted sums of the
 // surface's attributes) and ids (of the splat whose centre is nearest).
-// Blending writes weight x (normal, z), weight x (color, 1), for samples weight x (offset on the
-// screen from the splat's centre in pixels, squared cosine between normal and view), weight x
-// opacity and, among ghosts, the weight of others. Splats have the same value at all samples of a
-// pixel that they cover. Ids are written as the lower and upper 16 bits of the point's id, the block's
-// id, and 0 for a ghost or 1.
+// Blending writes weight x (normal, z), weight x (color, 1), weight x opacity and, among ghosts, the
+// weight of others; for samples weight x (offset on the screen from the splat's centre in pixels,
+// squared cosine between normal and view), in place of the color where all have the same one. Splats
+// have the same value at all samples of a pixel that they cover. Ids are written as the lower and
+// upper 16 bits of the point's id, the block's id, and 0 for a ghost or 1.
 //VTK::Define::Dec
 
 in vec2 placeGS;
@@ -114,10 +114,16 @@ void main()
   weight *= (isBeyond ? 1e-3 : 1.0) * (isBehind ? 1e-6 : 1.0);
 #endif
   gl_FragData[0] = weight * vec4(normalGS, depthGS);
-  gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
 #ifdef SPLAT_SAMPLES
-  gl_FragData[OUTLINE_TARGET] =
-    vec4(weight * (floor(gl_FragCoord.xy) + 0.5 - centerPixelsGS), weight * slantGS, 0.0);
+  vec3 outline = vec3(floor(gl_FragCoord.xy) + 0.5 - centerPixelsGS, slantGS);
+#endif
+#ifdef SPLAT_OUTLINE_FOR_COLOR
+  gl_FragData[1] = weight * vec4(outline, 1.0);
+#else
+  gl_FragData[1] = weight * vec4(colorGS.rgb, 1.0);
+#endif
+#ifdef SPLAT_OUTLINE
+  gl_FragData[OUTLINE_TARGET] = vec4(weight * outline, 0.0);
 #endif
 #ifdef SPLAT_TRANSLUCENT_COLORS
   gl_FragData[OPACITY_TARGET] = vec4(weight * colorGS.a);

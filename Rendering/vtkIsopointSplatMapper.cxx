@@ -190,7 +190,7 @@ void vtkIsopointSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     setTexture("splatVisibleDepth", layer.Depth);
     setTexture("splatSurfaceSums", layer.Surface);
     setTexture("splatColorSums", layer.Color);
-    setTexture("splatOutlineSums", settings.Samples > 0 ? layer.Outline : layer.Color);
+    setTexture("splatOutlineSums", layer.HasOutline ? layer.Outline : layer.Color);
     setTexture("splatOpacitySums", layer.HasOpacity ? layer.Opacity : layer.Color);
     setTexture("splatOwnSums", layer.HasOwn ? layer.Own : layer.Color);
     // Samplers of two kinds must not share a unit, even if one of them is not read.

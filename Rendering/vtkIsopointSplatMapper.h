@@ -26,9 +26,10 @@
  *
  * In a window with multisampling (vtkRenderWindow::SetMultiSamples(), 8 by default) outlines,
  * creases and intersections with other surfaces are as smooth as those of a mesh, and the parts of
- * splats that reach out beyond the horizon of a curved surface are cut away. This takes 52 bytes of
- * graphics memory per sample of the window. Translucent surfaces, and frames for a hardware
- * selection, have one sample per pixel, as have all where OpenGL lacks GL_ARB_sample_shading.
+ * splats that reach out beyond the horizon of a curved surface are cut away. This takes 36 bytes of
+ * graphics memory per sample of the window, 52 with colors. Translucent surfaces, and frames for a
+ * hardware selection, have one sample per pixel, as have all where OpenGL lacks
+ * GL_ARB_sample_shading.
  *
  * A hardware selection finds the splat that is seen at a pixel: of the splats that cover the pixel
  * at the visible surface, the one whose centre is nearest, in radii. Selections of cells find the

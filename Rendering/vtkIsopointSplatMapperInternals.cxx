@@ -480,6 +480,7 @@ void vtkIsopointSplatMapper::Internals::SetUpPasses(vtkIsopointSplatMapper* mapp
                        ? 0
                        : vtkIsopointSplatPasses::SamplesOfFramebuffer();
   this->Samples = settings.Samples;
+  settings.HasColors = this->ColoredBy != Coloring::Material;
   settings.TranslucentColors = this->HasTranslucentColors && this->ColoredBy == Coloring::Colors;
 }
 

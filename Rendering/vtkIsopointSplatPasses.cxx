@@ -231,6 +231,7 @@ bool vtkIsopointSplatPasses::IsUpToDate(const Settings& settings, const std::vec
     static_cast<double>(settings.CulledFacing), static_cast<double>(settings.NumberOfLayers),
     static_cast<double>(settings.Samples), settings.TranslucentColors ? 1.0 : 0.0,
     settings.BlendsGhosts ? 1.0 : 0.0 };
+  state.push_back(settings.HasColors ? 1.0 : 0.0);
   state.insert(state.end(), settings.ModelToView->GetData(), settings.ModelToView->GetData() + 16);
   state.insert(state.end(), settings.ViewToClip->GetData(), settings.ViewToClip->GetData() + 16);
   for (const std::array<double, 4>& plane : settings.ClippingPlanes)
@@ -324,7 +325,8 @@ void vtkIsopointSplatPasses::PrepareLayer(Layer& layer, const Settings& settings
       wanted.push_back(sums);
     }
   };
-  want(settings.Samples > 0, layer.Outline, 4);
+  layer.HasOutline = settings.Samples > 0 && settings.HasColors;
+  want(layer.HasOutline, layer.Outline, 4);
   want(layer.HasOpacity, layer.Opacity, 1);
   want(layer.HasOwn, layer.Own, 1);
   layer.Framebuffer->Bind();
@@ -497,6 +499,9 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
     vtkShaderProgram::Substitute(
       sources[1], "//VTK::Samples::Dec", "#extension GL_ARB_sample_shading : require");
   }
+  const bool hasOutline = settings.Samples > 0 && settings.HasColors;
+  define(hasOutline, "SPLAT_OUTLINE");
+  define(settings.Samples > 0 && !settings.HasColors, "SPLAT_OUTLINE_FOR_COLOR");
   define(settings.BlendsGhosts, "SPLAT_GHOSTS");
   define(settings.TranslucentColors, "SPLAT_TRANSLUCENT_COLORS");
   define(!settings.ClippingPlanes.empty(), "SPLAT_CLIPPED");
@@ -505,7 +510,7 @@ vtkShaderProgram* vtkIsopointSplatPasses::ReadyProgram(
   int target = 2; // after the sums that are always there, in the order of PrepareLayer
   const auto place = [&](bool condition, const char* name)
   { vtkShaderProgram::Substitute(sources[1], name, std::to_string(condition ? target++ : 0)); };
-  place(settings.Samples > 0, "OUTLINE_TARGET");
+  place(hasOutline, "OUTLINE_TARGET");
   place(settings.TranslucentColors, "OPACITY_TARGET");
   place(settings.BlendsGhosts, "OWN_TARGET");
   for (std::string& source : sources)

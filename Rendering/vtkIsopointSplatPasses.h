@@ -56,7 +56,8 @@ public:
     int Stride = 1;
     int CulledFacing = 0; // 1: front faces, -1: back faces, 0: none
     int NumberOfLayers = 1;
-    int Samples = 0; // per pixel; 0: one, without multisampling
+    int Samples = 0;       // per pixel; 0: one, without multisampling
+    bool HasColors = true; // false: the colors of a layer are not read
     bool TranslucentColors = false;
     bool BlendsGhosts = false;
     bool Ids = false;
@@ -74,6 +75,7 @@ public:
     vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
     int Samples = 0;                    // in each texture, 0: these have no samples
     std::vector<float> SamplePositions; // x, y of each, in pixels, from the pixel's centre
+    bool HasOutline = false;            // apart from the color, in place of which it may stand
     bool HasOpacity = false;
     bool HasOwn = false;
     std::vector<vtkTextureObject*> Attached; // to the framebuffer, but for the depth
