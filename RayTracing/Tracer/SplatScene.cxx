@@ -18,7 +18,7 @@ namespace
 
 // Splats end this far beyond their planes, in radii, so that there is no slit where the planes of
 // two faces at a crease differ slightly.
-constexpr float slit = 0.02f;
+constexpr float slit = 0.005f;
 // The weights of splats beyond their planes, and of those hidden by the face across the crease.
 constexpr float weightBeyond = 1e-3f;
 constexpr float weightBehind = 1e-6f;
