@@ -111,7 +111,7 @@ public:
 
   ///@{
   /**
-   * Reflections and refractions along a path, after which it sees the background. Range: 0 to 64.
+   * Reflections and refractions along a path, after which no light arrives. Range: 0 to 64.
    * Default: 8.
    */
   vtkSetClampMacro(MaximumNumberOfBounces, int, 0, 64);
