@@ -254,7 +254,8 @@ void vtkIsopointRayTracer::Render(const vtkRenderState* state)
   vtkRenderer* const renderer = state->GetRenderer();
   if (renderer->GetSelector())
   {
-    // VTK's own passes do not say to a selector which prop they draw; a renderer without a pass does.
+    // VTK's own passes do not say to a selector which prop they draw; a renderer without a pass
+    // does.
     const vtkSmartPointer<vtkIsopointRayTracer> self = this;
     renderer->SetPass(nullptr);
     renderer->DeviceRender();

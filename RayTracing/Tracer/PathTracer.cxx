@@ -73,8 +73,8 @@ struct PathTracer::Path
     next.name = hashOf(this->name, 1000u + branch);
     next.bounces = this->bounces + 1;
     next.importance = this->importance * itsImportance;
-    next.roughness = std::max(this->roughness,
-      hit.surface->material.isPhysical ? hit.surface->material.roughness : 0.0f);
+    next.roughness = std::max(
+      this->roughness, hit.surface->material.isPhysical ? hit.surface->material.roughness : 0.0f);
     return next;
   }
 };
@@ -232,9 +232,9 @@ Color PathTracer::shadePhysical(const Shading& shading) const
 
   // Diffuse reflection and highlights of lights.
   const float before = shading.path.roughness;
-  const Microfacets highlights(std::min(1.0f,
-    std::max({ material.roughness, leastRoughnessOfHighlights,
-      before > 0.0f ? before + roughnessBehindRough : 0.0f })));
+  const Microfacets highlights(
+    std::min(1.0f, std::max({ material.roughness, leastRoughnessOfHighlights,
+                     before > 0.0f ? before + roughnessBehindRough : 0.0f })));
   const float opaque = (1.0f - material.metallic) * material.opacity * hit.opacity;
   const float seen = std::max(dot(shading.normal, shading.towards), 1e-4f);
   const auto reflect = [&](const raytracing::Light& light, const Vector& towards, float cosine)

@@ -157,10 +157,12 @@ struct Blend
     hit.distance = this->distance / this->weight;
     hit.normal = directionOf(this->fit.normal(), -direction);
     const float away = splats.outward * dot(hit.normal, direction);
-    if (this->hasFront && this->hasBack && away > 0.0f)
+    // Splats extend beyond the horizon of a closed surface. There its outside is what is seen,
+    // though their normals may point away.
+    constexpr float grazing = 0.1f; // cosine
+    constexpr float slant = 0.01f;
+    if (away > 0.0f && (away < grazing || (this->hasFront && this->hasBack)))
     {
-      // Beyond the horizon of the surface: its outside is what is seen there.
-      constexpr float slant = 0.01f;
       hit.normal = directionOf(hit.normal - splats.outward * (away + slant) * direction);
     }
     hit.radius = this->radius;

@@ -131,6 +131,24 @@ TEST(SplatScene, RaysLeaveTheirSurfaceAndMeetItAgain)
   }
 }
 
+TEST(SplatScene, ShowsItsOutsideBeyondTheHorizon)
+{
+  const auto splats = splatSphere(20000, 0.5f);
+  const Scene scene = sceneOf(splats);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const auto turn = static_cast<float>(i);
+    const float height = 0.4997f + 0.0003f * static_cast<float>(i) / 1000.0f;
+    const Ray ray{ { height * std::cos(turn), height * std::sin(turn), 2.0f },
+      { 0.0f, 0.0f, -1.0f } };
+    const Hit hit = scene.closest(ray, Departure());
+    met += hit.surface && height > 0.5f ? 1 : 0;
+    EXPECT_LE(hit.surface ? dot(hit.normal, ray.direction) : 0.0f, 0.0f) << "height " << height;
+  }
+  EXPECT_GT(met, 100); // where rims of splats stand out
+}
+
 TEST(SplatScene, KeepsTheSidesOfAThinWallApart)
 {
   const auto splats = std::make_shared<Splats>();
@@ -210,6 +228,39 @@ TEST(PathTracer, WhiteSurroundingsStayWhite)
       EXPECT_EQ(picture.pixel(i).alpha, 1.0f);
     }
   }
+}
+
+TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
+{
+  Illuminants illuminants;
+  illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
+  illuminants.mostBounces = 0;
+  const auto splats = splatSphere(2000, 0.5f);
+  splats->material.isPhysical = true;
+  splats->material.metallic = 1.0f;
+  const Scene scene = sceneOf(splats);
+  const Sampler sampler(0, 0, 1);
+  const Ray ray{ { 0.0f, 0.0f, 2.0f }, { 0.0f, 0.0f, -1.0f } };
+  EXPECT_EQ(PathTracer(scene, illuminants).along(ray, sampler).color.x, 0.0f);
+  illuminants.mostBounces = 1;
+  EXPECT_NEAR(PathTracer(scene, illuminants).along(ray, sampler).color.x, 1.0f, 1e-3f);
+}
+
+TEST(Picture, NoSampleOutshinesTheOthers)
+{
+  // Half of the pixel shows a surface a hundred times as bright as white.
+  const auto splats = std::make_shared<Splats>();
+  splats->discs = { { { 0.0f, 0.0f, 0.0f }, 0.1f } };
+  splats->planes = { { 0.0f, 0.0f, 1.0f } };
+  const Scene scene = sceneOf(splats);
+  Illuminants illuminants;
+  illuminants.lights.emplace_back();
+  illuminants.lights[0].diffuse = { 100.0f, 100.0f, 100.0f };
+  Picture picture(1, 1, 400);
+  picture.addSamples(
+    cameraOf(0.25), PathTracer(scene, illuminants), 400, 1, [](double) { return true; });
+  EXPECT_NEAR(picture.pixel(0).color.x, picture.pixel(0).alpha, 1e-4f);
+  EXPECT_NEAR(picture.pixel(0).alpha, 0.5f, 0.05f);
 }
 
 TEST(Picture, EndsAndGoesOn)
