@@ -20,6 +20,7 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSequencePass.h"
+#include "vtkSmartPointer.h"
 #include "vtkTexture.h"
 #include "vtkTranslucentPass.h"
 #include "vtkVolumetricPass.h"
@@ -190,7 +191,7 @@ void vtkIsopointRayTracer::Internals::RenderTraced(
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
     vtkProp* const prop = state->GetPropArray()[i];
-    if (!renderer->GetSelector() && vtkIsopointIsTraced(prop))
+    if (vtkIsopointIsTraced(prop))
     {
       traced.push_back(vtkActor::SafeDownCast(prop));
     }
@@ -223,14 +224,18 @@ void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
   std::vector<float> colors(4 * width * height);
   std::vector<float> depths(width * height);
   constexpr double half = 0.5;
-  for (std::size_t i = 0; i < depths.size(); ++i)
+  for (std::size_t row = 0; row < height; ++row)
   {
-    const raytracing::Radiance pixel = this->Picture->pixel(i);
-    const float values[4] = { pixel.color.x, pixel.color.y, pixel.color.z, pixel.alpha };
-    std::copy(values, values + 4, &colors[4 * i]);
-    const double x = (static_cast<double>(i % width) + half) / static_cast<double>(width);
-    const double y = (static_cast<double>(i / width) + half) / static_cast<double>(height);
-    depths[i] = static_cast<float>(this->View->GetDepth(x, y, this->Picture->distance(i)));
+    const double y = (static_cast<double>(row) + half) / static_cast<double>(height);
+    for (std::size_t column = 0; column < width; ++column)
+    {
+      const double x = (static_cast<double>(column) + half) / static_cast<double>(width);
+      const std::size_t i = row * width + column;
+      const raytracing::Radiance pixel = this->Picture->pixel(i);
+      const float values[4] = { pixel.color.x, pixel.color.y, pixel.color.z, pixel.alpha };
+      std::copy(values, values + 4, &colors[4 * i]);
+      depths[i] = static_cast<float>(this->View->GetDepth(x, y, this->Picture->distance(i)));
+    }
   }
   this->Display.Draw(window, static_cast<int>(width), static_cast<int>(height), colors, depths);
 }
@@ -246,6 +251,17 @@ vtkIsopointRayTracer::~vtkIsopointRayTracer() = default;
 //------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Render(const vtkRenderState* state)
 {
+  vtkRenderer* const renderer = state->GetRenderer();
+  if (renderer->GetSelector())
+  {
+    // VTK's own passes do not say to a selector which prop they draw; a renderer without a pass
+    // does.
+    const vtkSmartPointer<vtkIsopointRayTracer> self = this;
+    renderer->SetPass(nullptr);
+    renderer->DeviceRender();
+    renderer->SetPass(this);
+    return;
+  }
   this->Internal->InnerPass->Function = [this](const vtkRenderState* inner)
   {
     try

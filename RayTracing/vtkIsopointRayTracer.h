@@ -32,7 +32,8 @@
  * @warning Textures of actors, interpolation of scalars before mapping, mappers' clipping planes,
  * face culling, back face properties, ghost points marked as DUPLICATEPOINT, assemblies and Stride
  * are not considered.
- * @warning Splats, disks of 1e-5 of the scene's diagonal and less are not resolved.
+ * @warning Positions are resolved to 1e-7 of the diagonal of all that is traced: leave out a floor
+ * that is many thousand times as large as the splats' surface.
  *
  * @sa vtkIsopointSplatMapper
  */
@@ -110,7 +111,7 @@ public:
 
   ///@{
   /**
-   * Reflections and refractions along a path, after which it sees the background. Range: 0 to 64.
+   * Reflections and refractions along a path, after which no light arrives. Range: 0 to 64.
    * Default: 8.
    */
   vtkSetClampMacro(MaximumNumberOfBounces, int, 0, 64);

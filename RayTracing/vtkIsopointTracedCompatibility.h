@@ -2,12 +2,7 @@
 #ifndef vtkIsopointTracedCompatibility_h
 #define vtkIsopointTracedCompatibility_h
 
-#include "vtkIdList.h"
-#include "vtkPolygon.h"
 #include "vtkVersionMacros.h"
-
-#include <type_traits>
-#include <utility>
 
 // The mapper of composite data with attributes of blocks: vtkCompositePolyDataMapper from VTK 9.3
 // on.
@@ -24,30 +19,6 @@ inline vtkCompositeDataDisplayAttributes* vtkIsopointTracedBlockAttributes(vtkMa
 {
   const auto composite = vtkIsopointTracedCompositeMapper::SafeDownCast(mapper);
   return composite ? composite->GetCompositeDataDisplayAttributes() : nullptr;
-}
-
-template <class TCell, class = void>
-struct vtkIsopointTriangulatesLocalIds : std::false_type
-{
-};
-template <class TCell>
-struct vtkIsopointTriangulatesLocalIds<TCell,
-  std::void_t<decltype(std::declval<TCell&>().TriangulateLocalIds(0, nullptr))>> : std::true_type
-{
-};
-
-/// Triangulates a polygon; corners are places in it, three for each triangle.
-template <class TPolygon>
-void vtkIsopointTriangulate(TPolygon* polygon, vtkIdList* corners)
-{
-  if constexpr (vtkIsopointTriangulatesLocalIds<TPolygon>::value) // VTK 9.4 and later
-  {
-    polygon->TriangulateLocalIds(0, corners);
-  }
-  else
-  {
-    polygon->Triangulate(corners);
-  }
 }
 
 #endif

@@ -11,6 +11,7 @@
 #include "vtkMapper.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
 #include "vtkProperty.h"
@@ -80,17 +81,18 @@ private:
       return;
     }
     this->Polygon->Initialize(static_cast<int>(count), points, this->Data->GetPoints());
-    vtkIsopointTriangulate(this->Polygon.Get(), this->Corners);
+    this->Polygon->Triangulate(0, this->Corners, this->CornerPoints);
     for (vtkIdType i = 0; i + 2 < this->Corners->GetNumberOfIds(); i += 3)
     {
-      this->Add(points[this->Corners->GetId(i)], points[this->Corners->GetId(i + 1)],
-        points[this->Corners->GetId(i + 2)], cell);
+      this->Add(
+        this->Corners->GetId(i), this->Corners->GetId(i + 1), this->Corners->GetId(i + 2), cell);
     }
   }
 
   vtkPolyData* Data;
   vtkNew<vtkPolygon> Polygon;
   vtkNew<vtkIdList> Corners;
+  vtkNew<vtkPoints> CornerPoints;
 };
 
 void setColors(raytracing::Triangles& surface, const Triangulation& triangulation,

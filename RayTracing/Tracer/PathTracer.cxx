@@ -27,6 +27,10 @@ enum Decision : std::uint32_t
 /// roughness.
 constexpr float leastRoughnessOfHighlights = 0.12f;
 
+/// Highlights seen by way of a rough surface are blurred by this much more than that surface blurs:
+/// few paths lead to a narrow one, which would make specks.
+constexpr float roughnessBehindRough = 0.25f;
+
 /// Contributions below half a step of the picture are not followed.
 constexpr float leastImportance = 1.0f / 512.0f;
 
@@ -50,6 +54,7 @@ struct PathTracer::Path
   std::uint32_t name = 1; // which of the paths of a sample this is: chooses its random numbers
   int bounces = 0;
   bool isStraight = true; // from the camera
+  float roughness = 0.0f; // of the roughest surface that it was reflected at
   float importance = 1.0f;
 
   Pair pair(std::uint32_t decision) const
@@ -68,6 +73,8 @@ struct PathTracer::Path
     next.name = hashOf(this->name, 1000u + branch);
     next.bounces = this->bounces + 1;
     next.importance = this->importance * itsImportance;
+    next.roughness = std::max(
+      this->roughness, hit.surface->material.isPhysical ? hit.surface->material.roughness : 0.0f);
     return next;
   }
 };
@@ -95,9 +102,11 @@ Radiance PathTracer::along(const Ray& ray, const Sampler& sampler) const
 //------------------------------------------------------------------------------
 Radiance PathTracer::follow(const Path& path) const
 {
-  const bool isFollowed =
-    path.bounces <= this->Light.mostBounces && path.importance >= leastImportance;
-  const Hit hit = isFollowed ? this->Surfaces.closest(path.ray, path.departure) : Hit();
+  if (path.bounces > this->Light.mostBounces || path.importance < leastImportance)
+  {
+    return {}; // nothing arrives
+  }
+  const Hit hit = this->Surfaces.closest(path.ray, path.departure);
   if (!hit.surface)
   {
     return { path.isStraight ? Color{} : this->Light.environment.towards(path.ray.direction),
@@ -222,7 +231,10 @@ Color PathTracer::shadePhysical(const Shading& shading) const
   };
 
   // Diffuse reflection and highlights of lights.
-  const Microfacets highlights(std::max(material.roughness, leastRoughnessOfHighlights));
+  const float before = shading.path.roughness;
+  const Microfacets highlights(
+    std::min(1.0f, std::max({ material.roughness, leastRoughnessOfHighlights,
+                     before > 0.0f ? before + roughnessBehindRough : 0.0f })));
   const float opaque = (1.0f - material.metallic) * material.opacity * hit.opacity;
   const float seen = std::max(dot(shading.normal, shading.towards), 1e-4f);
   const auto reflect = [&](const raytracing::Light& light, const Vector& towards, float cosine)

@@ -140,10 +140,13 @@ bool Picture::addSamples(const Camera& camera, const PathTracer& tracer, std::ui
         const Sampler sampler(static_cast<std::uint32_t>(index), sample, this->Samples);
         const Pair place = sampler.pair(0);
         float skipped = 0.0f;
-        const Ray ray = camera.through((x + place.first) / this->Width,
-          (static_cast<double>(y) + place.second) / this->Height, skipped);
+        const Ray ray =
+          camera.through((static_cast<double>(x) + static_cast<double>(place.first)) / this->Width,
+            (static_cast<double>(y) + static_cast<double>(place.second)) / this->Height, skipped);
         const Radiance radiance = tracer.along(ray, sampler);
-        sum.color += radiance.color;
+        // As it is displayed: one path to a light's highlight would outshine all others of a pixel.
+        sum.color += { std::min(radiance.color.x, 1.0f), std::min(radiance.color.y, 1.0f),
+          std::min(radiance.color.z, 1.0f) };
         sum.alpha += radiance.alpha;
         ++sum.count;
       }

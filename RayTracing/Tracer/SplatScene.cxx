@@ -18,7 +18,7 @@ namespace
 
 // Splats end this far beyond their planes, in radii, so that there is no slit where the planes of
 // two faces at a crease differ slightly.
-constexpr float slit = 0.02f;
+constexpr float slit = 0.005f;
 // The weights of splats beyond their planes, and of those hidden by the face across the crease.
 constexpr float weightBeyond = 1e-3f;
 constexpr float weightBehind = 1e-6f;
@@ -118,18 +118,23 @@ struct Blend
   float distance = 0.0f;
   float radius = 0.0f;
   float opacity = 0.0f;
+  bool hasFront = false; // splats that face the ray, and that do not
+  bool hasBack = false;
   Color color;
 
   void add(const Splats& splats, const Candidate& item, const Ray& ray)
   {
     const Vector& direction = ray.direction;
     const Vector& itsNormal = splats.normal(item.splat);
+    const bool isFront = dot(itsNormal, direction) < 0.0f;
+    this->hasFront = this->hasFront || isFront;
+    this->hasBack = this->hasBack || !isFront;
     const float inner = 1.0f - item.squaredRadius;
     float itsWeight = inner * inner + 1e-4f;
     if (!splats.clips.empty())
     {
       const Clip& clip = splats.clips[item.splat];
-      const bool turnsTowardsRay = (dot(itsNormal, direction) <= 0.0f) == (clip.turn > 0.0f);
+      const bool turnsTowardsRay = isFront == (clip.turn > 0.0f);
       const bool isBehind = turnsTowardsRay && dot(clip.normal, direction) > 0.0f;
       itsWeight *= (item.isBeyond ? weightBeyond : 1.0f) * (isBehind ? weightBehind : 1.0f);
     }
@@ -151,6 +156,15 @@ struct Blend
     hit.surface = &splats;
     hit.distance = this->distance / this->weight;
     hit.normal = directionOf(this->fit.normal(), -direction);
+    const float away = splats.outward * dot(hit.normal, direction);
+    // Splats extend beyond the horizon of a closed surface. There its outside is what is seen,
+    // though their normals may point away.
+    constexpr float grazing = 0.1f; // cosine
+    constexpr float slant = 0.01f;
+    if (away > 0.0f && (away < grazing || (this->hasFront && this->hasBack)))
+    {
+      hit.normal = directionOf(hit.normal - splats.outward * (away + slant) * direction);
+    }
     hit.radius = this->radius;
     hit.color = splats.colors.empty() ? splats.color : (1.0f / this->weight) * this->color;
     hit.opacity = splats.colors.empty() ? 1.0f : this->opacity / this->weight;

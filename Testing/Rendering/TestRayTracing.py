@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
+    vtkHardwareSelector,
     vtkLight,
     vtkPolyDataMapper,
     vtkRenderer,
@@ -200,6 +201,19 @@ def is_drawn_in_windows():
         check(green == is_seen, f"a line at {y} is {'seen' if is_seen else 'hidden'}")
 
 
+def can_be_selected_from():
+    sphere, floor = actor_of(SPLATS), actor_of(tiles())
+    renderer = renderer_of(sphere, floor)
+    window = window_of(renderer, tracer_of(SamplesPerPixel=1))
+    window.Render()
+    selector = vtkHardwareSelector()
+    selector.SetRenderer(renderer)
+    for x, y, expected in ((WIDTH // 2, HEIGHT // 2, sphere), (WIDTH // 2, 8, floor)):
+        selector.SetArea(x, y, x, y)
+        node = selector.Select().GetNode(0)
+        check(node.GetProperties().Get(node.PROP()) is expected, "the actor at a pixel is selected")
+
+
 def can_be_aborted():
     renderer = renderer_of(actor_of(SPLATS, "glass"), actor_of(tiles()))
     tracer = tracer_of(SamplesPerPixel=4000)
@@ -248,5 +262,6 @@ is_the_same_on_any_threads()
 is_the_same_in_any_unit()
 is_progressive()
 is_drawn_in_windows()
+can_be_selected_from()
 can_be_aborted()
 has_clear_results_of_nothing()

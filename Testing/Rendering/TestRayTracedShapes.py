@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ray-traced splats are those that the mapper draws: shapes, clips, colors, blocks, transforms,
+radii, opacities. Pictures without shadows are compared with the window's."""
+
+import numpy as np
+from scatteredisopoints import vtkIsopointRayTracer
+from scenes import Scene, actor_of, add_array, as_array, check, color_by, isopoints, polydata, psnr
+from scenes import torus_mesh, torus_splats
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes
+
+SIZE = 300
+
+
+def traced(scene, samples=9):
+    tracer = vtkIsopointRayTracer()
+    tracer.SetSamplesPerPixel(samples)
+    tracer.ShadowsOff()
+    image = vtkImageData()
+    check(tracer.RenderToImage(scene.renderer, SIZE, SIZE, image), "there is a picture")
+    return as_array(image)
+
+
+def drawn(scene):
+    """The window's picture in four times as many pixels, averaged."""
+    scene.window.SetSize(2 * SIZE, 2 * SIZE)
+    image = scene.image()
+    return image.reshape(SIZE, 2, SIZE, 2, 3).mean(axis=(1, 3))
+
+
+def compare(name, *actors, bar=33.0):
+    scene = Scene(*actors, size=SIZE)
+    picture = traced(scene)
+    quality = psnr(picture, drawn(scene))
+    print(f"{name}: {quality:.1f} dB")
+    check(quality >= bar, f"{name}: {quality:.1f} dB, below {bar}")
+    return picture
+
+
+def body_field(p):
+    """A box, which has sharp edges."""
+    return 0.8 - np.abs(p * [1.0, 1.2, 2.4]).max(axis=1)
+
+
+def changed(data, **arrays):
+    copy = data.NewInstance()
+    copy.ShallowCopy(data)
+    for name, values in arrays.items():
+        add_array(copy, name, values)
+    return copy
+
+
+def shapes():
+    torus = torus_splats(200_000)
+    compare("disks", actor_of(torus))
+    larger = actor_of(torus)
+    larger.GetMapper().SetRadiusScale(1.5)
+    compare("larger disks", larger)
+    body = isopoints(body_field, -1.1, 1.1, 150_000, creases=True)
+    compare("ellipses with clips", actor_of(body))
+    circles = actor_of(body)
+    circles.GetMapper().SetShapeToCircle()
+    compare("disks with clips", circles)
+    # Single splats, whose outlines are seen.
+    normal = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)
+    along, across = np.array([[1.1, 0.2, 0.2]]), np.array([[-0.1, 0.3, 0.3]])
+    plane = np.array([[1.0, 0.0, 0.0, 0.4, 1.0]])
+    ellipse = polydata([[0, 0, 0]], [normal], Radius=np.array([1.1]), SplatAxis1=along, SplatAxis2=across)
+    compare("one ellipse", actor_of(ellipse), bar=35)
+    clipped = changed(ellipse, SplatClip=plane)
+    half = compare("one ellipse with a clip", actor_of(clipped), bar=35)
+    check(psnr(half, traced(Scene(actor_of(ellipse), size=SIZE))) < 25, "the clip is seen")
+
+
+def transforms():
+    torus = torus_splats(200_000)
+    for name, scale in (("uniform", (0.7, 0.7, 0.7)), ("not uniform", (1.2, 0.6, 0.9))):
+        actor = actor_of(torus)
+        actor.SetScale(*scale)
+        actor.RotateX(25)
+        actor.RotateY(-10)
+        actor.SetPosition(0.1, 0.2, -0.1)
+        compare(f"{name} transform", actor)
+
+
+def colors():
+    torus = torus_splats(200_000)
+    by_points = actor_of(torus)
+    color_by(by_points, "x", -1.4, 1.4)
+    compare("colors of points", by_points)
+    mesh = actor_of(torus_mesh(200, 100), splats=False)
+    color_by(mesh, "x", -1.4, 1.4)
+    compare("colors of a mesh", mesh)
+    shiny = actor_of(torus)
+    shiny.GetProperty().SetSpecular(0.7)
+    shiny.GetProperty().SetSpecularPower(30)
+    shiny.GetProperty().SetAmbient(0.2)
+    shiny.GetProperty().SetColor(0.3, 0.6, 0.9)
+    compare("highlights", shiny)
+
+
+def blocks():
+    torus = torus_splats(200_000)
+    moved = torus.NewInstance()
+    moved.DeepCopy(torus)
+    points = moved.GetPoints()
+    for i in range(0, points.GetNumberOfPoints()):
+        x, y, z = points.GetPoint(i)
+        points.SetPoint(i, 0.4 * x, 0.4 * y, 0.4 * z)
+    moved.GetPointData().RemoveArray("Radius")
+    add_array(moved, "Radius", np.full(points.GetNumberOfPoints(), 0.03))
+    composite = vtkMultiBlockDataSet()
+    composite.SetBlock(0, torus)
+    composite.SetBlock(1, moved)
+    attributes = vtkCompositeDataDisplayAttributes()
+    attributes.SetBlockColor(moved, (0.9, 0.2, 0.1))
+    actor = actor_of(composite)
+    actor.GetMapper().SetCompositeDataDisplayAttributes(attributes)
+    both = compare("blocks", actor)
+    attributes.SetBlockVisibility(torus, False)
+    actor.GetMapper().Modified()
+    one = compare("a hidden block", actor)
+    check(psnr(both, one) < 25, "the block is hidden")
+
+
+def opacities():
+    mesh = torus_mesh(200, 100)
+    for splats, data in ((True, torus_splats(200_000)), (False, mesh)):
+        actor = actor_of(data, splats)
+        actor.GetProperty().SetOpacity(0.5)
+        scene = Scene(actor, size=SIZE)
+        scene.window.AlphaBitPlanesOn()
+        scene.renderer.UseDepthPeelingOn()
+        quality = psnr(traced(scene), drawn(scene))
+        print(f"translucent {'splats' if splats else 'mesh'}: {quality:.1f} dB")
+        check(quality > 30, "translucent")
+
+
+shapes()
+transforms()
+colors()
+blocks()
+opacities()
