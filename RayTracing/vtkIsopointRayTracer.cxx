@@ -26,7 +26,9 @@
 #include "vtkVolumetricPass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <new>
@@ -56,17 +58,37 @@ void describe(const raytracing::Vector& vector, std::ostream& state)
   state << vector.x << ' ' << vector.y << ' ' << vector.z << ' ';
 }
 
-/// Differs where another picture is seen.
+/// Whether two windows onto a scene are the same but for a small part of a pixel. What grabs the
+/// picture of a window sets the camera's angle to another value, and back.
+bool isSameWindow(const std::array<raytracing::Camera::Position, 3>& a,
+  const std::array<raytracing::Camera::Position, 3>& b)
+{
+  constexpr double share = 1e-6; // of the window's width and height
+  double size = 0.0;
+  double difference = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    size = std::max({ size, std::abs(a[1][axis]), std::abs(a[2][axis]) });
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      difference = std::max(difference, std::abs(a[i][axis] - b[i][axis]));
+    }
+  }
+  return difference <= share * size;
+}
+
+bool isSameCamera(const raytracing::Camera& a, const raytracing::Camera& b)
+{
+  return isSameWindow(
+           { a.nearCorner, a.nearRight, a.nearUp }, { b.nearCorner, b.nearRight, b.nearUp }) &&
+         isSameWindow({ a.farCorner, a.farRight, a.farUp }, { b.farCorner, b.farRight, b.farUp });
+}
+
+/// Differs where another picture is seen by the same camera.
 std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
 {
   std::ostringstream state;
   state << std::hexfloat;
-  for (const raytracing::Camera::Position& position :
-    { view.Camera.nearCorner, view.Camera.nearRight, view.Camera.nearUp, view.Camera.farCorner,
-      view.Camera.farRight, view.Camera.farUp })
-  {
-    state << position[0] << ' ' << position[1] << ' ' << position[2] << '\n';
-  }
   for (const raytracing::Light& light : view.Lights)
   {
     for (const raytracing::Vector& vector :
@@ -129,6 +151,7 @@ public:
   std::unique_ptr<vtkIsopointTracedView> View;
   std::unique_ptr<raytracing::Picture> Picture;
   std::string PictureState;
+  raytracing::Camera PictureCamera;
 };
 
 //------------------------------------------------------------------------------
@@ -160,13 +183,15 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
         << size[0] << ' ' << size[1] << ' ' << self->SamplesPerPixel << ' ' << self->AmbientLight
         << ' ' << self->AmbientDistance << ' ' << self->Shadows << ' '
         << self->MaximumNumberOfBounces;
-  if (isNewScene || !this->Picture || this->PictureState != state.str())
+  if (isNewScene || !this->Picture || this->PictureState != state.str() ||
+      !isSameCamera(this->PictureCamera, this->View->Camera))
   {
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
       static_cast<std::uint32_t>(size[1]), static_cast<std::uint32_t>(self->SamplesPerPixel));
     this->Picture->findDistances(this->View->Camera, this->Scene.Get(), threads);
     this->PictureState = state.str();
+    this->PictureCamera = this->View->Camera;
   }
   const raytracing::PathTracer tracer(this->Scene.Get(), illuminants);
   vtkRenderWindow* const window = renderer->GetRenderWindow();
@@ -175,7 +200,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
     self->InvokeEvent(vtkCommand::ProgressEvent, &share);
     return !self->AbortExecute && !(window && window->CheckAbortStatus());
   };
-  const bool isDone = this->Picture->addSamples(this->View->Camera, tracer,
+  const bool isDone = this->Picture->addSamples(this->PictureCamera, tracer,
     this->Picture->getSamples() + static_cast<std::uint32_t>(samples), threads, goesOn);
   self->NumberOfSamples = static_cast<int>(this->Picture->getSamples());
   return isDone;
