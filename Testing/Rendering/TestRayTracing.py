@@ -129,6 +129,7 @@ def frame_of(window):
 
 
 SPLATS = sphere_of_splats()
+ROUNDING = 2  # levels of 255 between a picture and the window that Mesa draws it in (1 before Mesa 25)
 
 
 def is_like_the_true_sphere():
@@ -174,11 +175,11 @@ def is_progressive():
     for samples in (2, 4, 6, 6):
         window.Render()
         check(tracer.GetNumberOfSamples() == samples, f"{samples} samples")
-    check(np.array_equal(frame_of(window), expected), "as many frames as one")
-    check(tracer.GetNumberOfSamples() == 6, "a grabbed picture has all samples")
     grabbed = vtkImageData()
     check(tracer.RenderToImage(list(window.GetRenderers())[0], WIDTH, HEIGHT, grabbed), "a picture")
-    check(psnr(pixels_of(grabbed), expected) > 50, "a picture as in the window")
+    check(np.abs(pixels_of(grabbed) - expected).max() <= ROUNDING, "a picture as in the window")
+    check(np.array_equal(frame_of(window), expected), "as many frames as one")
+    check(tracer.GetNumberOfSamples() == 6, "a grabbed picture has all samples")
     list(window.GetRenderers())[0].GetActiveCamera().Azimuth(5)
     window.Render()
     check(tracer.GetNumberOfSamples() == 2, "another camera begins again")
@@ -189,8 +190,10 @@ def is_drawn_in_windows():
     sphere, floor = actor_of(SPLATS), actor_of(tiles())
     renderer = renderer_of(sphere, floor)
     expected = traced(renderer, tracer_of())
-    frame = frame_of(window_of(renderer, tracer_of()))
-    check(np.abs(frame - expected).max() <= 1, "the window shows the picture")
+    window = window_of(renderer, tracer_of())
+    window.Render()
+    frame = frame_of(window)
+    check(np.abs(frame - expected).max() <= ROUNDING, "the window shows the picture")
     for y, is_seen in ((-1.5, True), (1.5, False)):
         line = vtkLineSource()
         line.SetPoint1(-0.5, y, 0.0)
