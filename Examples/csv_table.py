@@ -4,7 +4,7 @@
 import numpy as np
 from paraview.simple import *
 
-# Stands for your file: samples every metre down 200 boreholes, with their grade.
+# Stands for your file: samples every meter down 200 boreholes, with their grade.
 random = np.random.default_rng(1)
 x, y = random.uniform(0, 100, (2, 200))
 holes = np.array([(px, py, -z) for px, py in zip(x, y) for z in range(60)])

@@ -21,7 +21,7 @@ options = parser.parse_args()
 
 
 def sphere(center, seed):
-    """Stands for your samples: the distance from a centre at random places."""
+    """Stands for your samples: the distance from a center at random places."""
     offsets = np.random.default_rng(seed).uniform(-1.2, 1.2, (options.samples, 3))
     distances = np.linalg.norm(offsets, axis=1)
     mapper = vtkIsopointSplatMapper()

@@ -13,8 +13,8 @@ class vtkDataSetAttributes;
 class vtkUnsignedCharArray;
 
 /**
- * The samples of a data set or hyper tree grid: its points or the centres of its cells. Sample ids
- * are those of the points or cells. Nothing of the input is copied except cell centres, where they
+ * The samples of a data set or hyper tree grid: its points or the centers of its cells. Sample ids
+ * are those of the points or cells. Nothing of the input is copied except cell centers, where they
  * have to be computed.
  */
 struct vtkIsopointBlock

@@ -52,7 +52,7 @@ private:
 
 /**
  * Presents a data object as samples: each of its data sets or hyper tree grids is a block. Computed
- * cell centres are kept from one call to the next while the cells do not change. Modified() must be
+ * cell centers are kept from one call to the next while the cells do not change. Modified() must be
  * called for arrays that are changed in place, except ghost arrays and the mask of a hyper tree
  * grid, whose content is compared.
  */
@@ -78,7 +78,7 @@ public:
   /// The number of points (or cells, where there are more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
-  /// Drops all references to the input. Computed cell centres are kept.
+  /// Drops all references to the input. Computed cell centers are kept.
   void ReleaseInput();
 
 private:

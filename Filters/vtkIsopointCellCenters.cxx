@@ -36,7 +36,7 @@ vtkSmartPointer<vtkDataSet> dualOf(vtkImageData* image)
 {
   int extent[6];
   image->GetExtent(extent);
-  double halfway[3]; // continuous index of the first cell's centre, from the first point
+  double halfway[3]; // continuous index of the first cell's center, from the first point
   for (int axis = 0; axis < 3; ++axis)
   {
     const bool isFlat = extent[2 * axis + 1] <= extent[2 * axis];

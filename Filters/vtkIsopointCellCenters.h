@@ -15,13 +15,13 @@ class vtkPoints;
 struct vtkIsopointBlock;
 
 /**
- * The dual grid of an image or a rectilinear grid, whose points are the centres of the cells; it
+ * The dual grid of an image or a rectilinear grid, whose points are the centers of the cells; it
  * takes next to no memory. Null for other data sets.
  */
 vtkSmartPointer<vtkDataSet> vtkMakeDualGrid(vtkDataSet* input);
 
 /**
- * The centres of all cells as vtkCellCenters defines them, NaN for empty cells. They are float if
+ * The centers of all cells as vtkCellCenters defines them, NaN for empty cells. They are float if
  * the points of the data set are, else double. O(cells), on the threads of the execution.
  * @throws std::bad_alloc, isopoint::Aborted
  */

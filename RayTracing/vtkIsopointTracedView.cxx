@@ -58,7 +58,7 @@ raytracing::Texture textureOf(vtkTexture* texture)
   {
     const auto component = [&](int index)
     {
-      // One or two components are grey and opacity.
+      // One or two components are gray and opacity.
       const int source = last < 2 ? 0 : index;
       return static_cast<float>(unit * pixels->GetComponent(static_cast<vtkIdType>(i), source));
     };

@@ -76,7 +76,7 @@ struct Clip
   float Turn = 0.0f; // 1: the face across the crease is on the normal's side, -1: on the other
 };
 
-/// A splat's clipping plane: its normal divided by the radius, and the centre's distance from it in
+/// A splat's clipping plane: its normal divided by the radius, and the center's distance from it in
 /// radii. Zeros for none, and for one that is out of the range of single precision.
 std::array<float, 4> planeOf(const double* clip, double radius)
 {

@@ -20,7 +20,7 @@ class vtkUnsignedCharArray;
 /**
  * The splats of one vtkPolyData in buffers of the graphics card, for all passes.
  *
- * Positions are relative to a centre, which the caller's matrices add in double precision: single
+ * Positions are relative to a center, which the caller's matrices add in double precision: single
  * precision would not resolve coordinates around 1e9. Methods that fill buffers throw
  * std::bad_alloc where memory runs out, of the program or of OpenGL; ReleaseGraphicsResources is
  * then to be called.
@@ -64,7 +64,7 @@ public:
 
   void ReleaseGraphicsResources();
 
-  /// The centre, in the coordinates of the points.
+  /// The center, in the coordinates of the points.
   const std::array<double, 3>& GetCenter() const { return this->Center; }
   vtkIdType GetNumberOfSplats() const { return this->NumberOfSplats; }
   bool HasNormals() const { return this->Normals; }

@@ -3,9 +3,9 @@
 
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fragments of the off-screen passes: visibility (depth only), blending (weighted sums of the
-// surface's attributes) and ids (of the splat whose centre is nearest).
+// surface's attributes) and ids (of the splat whose center is nearest).
 // Blending writes weight x (normal, z), weight x (color, 1), weight x opacity and, among ghosts, the
-// weight of others; for samples weight x (offset on the screen from the splat's centre in pixels,
+// weight of others; for samples weight x (offset on the screen from the splat's center in pixels,
 // squared cosine between normal and view), in place of the color where all have the same one. Splats
 // have the same value at all samples of a pixel that they cover. Ids are written as the lower and
 // upper 16 bits of the point's id, the block's id, and 0 for a ghost or 1.
@@ -41,7 +41,7 @@ uniform sampler2D previousDepth;
 //VTK::Output::Dec
 
 #ifdef SPLAT_SAMPLES
-uniform vec2 samplePositions[SPLAT_SAMPLES]; // in pixels, from the pixel's centre
+uniform vec2 samplePositions[SPLAT_SAMPLES]; // in pixels, from the pixel's center
 #endif
 
 #ifdef SPLAT_CLIPS

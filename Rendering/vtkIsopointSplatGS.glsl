@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A triangle around a splat in its own plane: the rasteriser interpolates exact positions within
+// A triangle around a splat in its own plane: the rasterizer interpolates exact positions within
 // the ellipse, in perspective too. In all passes the triangle covers the same fragments, at
 // different depths.
 //VTK::Define::Dec

@@ -5,7 +5,7 @@
  *
  * Each point is rendered as a splat: a disk or an ellipse in the plane orthogonal to its normal.
  * Splats within BlendDepth of the visible surface are blended, with weights that decrease from a
- * splat's centre to its rim: normals, depths and colors alike. The blended surface is lit once per
+ * splat's center to its rim: normals, depths and colors alike. The blended surface is lit once per
  * pixel and looks like a smooth mesh (surface splatting [ZPBG01] with deferred shading [BHZK05]).
  *
  * Input is vtkPolyData, or a composite data set of them (SetInputDataObject or
@@ -32,7 +32,7 @@
  * GL_ARB_sample_shading.
  *
  * A hardware selection finds the splat that is seen at a pixel: of the splats that cover the pixel
- * at the visible surface, the one whose centre is nearest, in radii. Selections of cells find the
+ * at the visible surface, the one whose center is nearest, in radii. Selections of cells find the
  * points' vertex cells.
  *
  * @warning Composite input is colored by coordinates in a color map

@@ -21,7 +21,7 @@
 namespace
 {
 
-/// In pixels. More than half of a pixel's diagonal, so that every splat covers a pixel's centre.
+/// In pixels. More than half of a pixel's diagonal, so that every splat covers a pixel's center.
 constexpr float minimumHalfAxis = 0.75f;
 
 /// Blended splats are larger than visible ones by this factor: the surface is smoother, its outline
@@ -84,7 +84,7 @@ bool hasSampleShading()
   return false;
 }
 
-/// Of the samples of the bound framebuffer: x and y of each, in pixels, from the pixel's centre.
+/// Of the samples of the bound framebuffer: x and y of each, in pixels, from the pixel's center.
 std::vector<float> samplePositions(int samples)
 {
   constexpr float center = 0.5f;
@@ -184,7 +184,7 @@ void clear(vtkOpenGLState* state)
   state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-/// The matrix from model coordinates relative to a centre to view coordinates, both transposed.
+/// The matrix from model coordinates relative to a center to view coordinates, both transposed.
 void placeCenter(const std::array<double, 3>& center, vtkMatrix4x4* modelToView, vtkMatrix4x4* out)
 {
   vtkNew<vtkMatrix4x4> translation;

@@ -74,7 +74,7 @@ public:
     vtkNew<vtkTextureObject> Own;     // the weight, without that of ghosts
     vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
     int Samples = 0;                    // in each texture, 0: these have no samples
-    std::vector<float> SamplePositions; // x, y of each, in pixels, from the pixel's centre
+    std::vector<float> SamplePositions; // x, y of each, in pixels, from the pixel's center
     bool HasOutline = false;            // apart from the color, in place of which it may stand
     bool HasOpacity = false;
     bool HasOwn = false;

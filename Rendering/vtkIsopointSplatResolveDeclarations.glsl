@@ -1,14 +1,14 @@
 #ifdef SPLAT_SAMPLES
 #define splatSums sampler2DMS
 #define splatSample gl_SampleID
-uniform vec2 splatSamplePositions[SPLAT_SAMPLES]; // in pixels, from the pixel's centre
+uniform vec2 splatSamplePositions[SPLAT_SAMPLES]; // in pixels, from the pixel's center
 #else
 #define splatSums sampler2D
 #define splatSample 0 // the level
 #endif
 uniform splatSums splatVisibleDepth; // less than 1 where there are splats
 uniform splatSums splatSurfaceSums; // weight x (normal, z) in view coordinates
-uniform splatSums splatOutlineSums; // weight x (offset from the splat's centre in pixels, squared slant)
+uniform splatSums splatOutlineSums; // weight x (offset from the splat's center in pixels, squared slant)
 uniform splatSums splatColorSums; // weight x color; alpha: the weight
 uniform splatSums splatOpacitySums; // weight x opacity
 uniform splatSums splatOwnSums; // weight, without that of ghosts
@@ -65,8 +65,8 @@ vec4 splatNormalAt(ivec2 pixel)
 }
 
 // Splats reach out beyond the horizon of a curved surface. A splat of a sphere lies where the sphere's
-// normal is the splat's: the sphere's centre is a radius behind that of the splat. On the screen the
-// average centre of the splats that are blended at a sample is known from their average offset and
+// normal is the splat's: the sphere's center is a radius behind that of the splat. On the screen the
+// average center of the splats that are blended at a sample is known from their average offset and
 // their average normal, and a sample farther from it than the radius is not of this surface, but of
 // that seen next to it. The sphere's curvature in pixels is that of normals on the pixels inside.
 ivec2 splatVisiblePixel(ivec2 pixel, vec2 position)

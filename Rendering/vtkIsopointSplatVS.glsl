@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Computes two conjugate half-axes of a splat's ellipse in view coordinates whose projections on
 // the screen are orthogonal. Where the shorter one is less than about half a pixel, it is
-// lengthened without a change of the other one, so that no splat falls between pixel centres.
+// lengthened without a change of the other one, so that no splat falls between pixel centers.
 //VTK::Define::Dec
 
 in vec3 centerMC;
@@ -19,7 +19,7 @@ in vec3 axis2MC;
 in float growth; // factor on the splat's size
 #endif
 #ifdef SPLAT_CLIPS
-in vec4 clipMC; // clipping plane: normal divided by the radius, the centre's distance in radii
+in vec4 clipMC; // clipping plane: normal divided by the radius, the center's distance in radii
 in float clipTurn; // 1: the face across the crease is on the normal's side, -1: on the other side
 #endif
 #ifdef SPLAT_COLORS
@@ -40,7 +40,7 @@ uniform int culledFacing; // 1: front faces are not drawn, -1: back faces, 0: al
 
 out vec3 centerVS;
 #ifdef SPLAT_SAMPLES
-out vec2 centerPixelsVS; // the centre on the screen
+out vec2 centerPixelsVS; // the center on the screen
 out float slantVS; // squared cosine between the normal and the direction to the camera
 #endif
 out vec3 axis1VS;
@@ -49,7 +49,7 @@ out vec3 normalVS;
 out vec4 colorVS;
 out float radiusVS; // along the view, in view coordinates
 #ifdef SPLAT_CLIPS
-out vec3 clipVS; // distance from the plane, in radii: of the centre, and its change along each axis
+out vec3 clipVS; // distance from the plane, in radii: of the center, and its change along each axis
 flat out int isBehindCreaseVS; // 1 where the face across the crease hides this one
 #endif
 flat out uint pointIdVS;
@@ -68,7 +68,7 @@ void tangents(vec3 n, out vec3 t1, out vec3 t2)
   t2 = vec3(b, s + n.y * n.y * a, -n.y);
 }
 
-// The projection of an offset from the centre on the screen, in pixels.
+// The projection of an offset from the center on the screen, in pixels.
 vec2 toPixels(vec3 offset, vec4 centerDC)
 {
   vec4 offsetDC = VCDCMatrix * vec4(offset, 0.0);

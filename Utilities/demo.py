@@ -4,7 +4,7 @@ isosurface.png.
 
 The samples are those of the file ISOPOINTS_FILE, the array ISOPOINTS_ARRAY and the isovalue
 ISOPOINTS_ISOVALUE in the environment, in any format that ParaView reads. Without these they are random
-positions in a cube of side 200, with the distance to its centre as values, so that errors are known;
+positions in a cube of side 200, with the distance to its center as values, so that errors are known;
 comparison.png is then written as well. If ISOPOINTS_FILTER is "triangles", triangles are computed instead of
 isopoints, and triangles.vtp and isosurface.png written.
 """
@@ -31,7 +31,7 @@ def fail(message):
 
 
 def sphere_samples():
-    """Random samples of the distance to the centre of a cube."""
+    """Random samples of the distance to the center of a cube."""
     positions = np.random.default_rng(1).random((SAMPLE_COUNT, 3), dtype=np.float32) * SIDE
     distances = np.linalg.norm(positions - 0.5 * SIDE, axis=1)
     points = vtkPoints()
@@ -45,7 +45,7 @@ def sphere_samples():
 
 
 def file_samples(path, array, isovalue):
-    """The point data of a file, with blocks merged and cell data at the cells' centres."""
+    """The point data of a file, with blocks merged and cell data at the cells' centers."""
     if not os.path.isfile(path):
         fail("there is no file " + path)
     try:

@@ -7,7 +7,7 @@ if [[ ${1-} == --help ]]; then
   cat << END
 usage: $0 [PRESET...]
 Builds presets and runs their tests:
-  address  all C++ tests with the address and undefined-behaviour sanitizers
+  address  all C++ tests with the address and undefined-behavior sanitizers
   thread   all C++ tests with the thread sanitizer
   fuzz     the fuzz targets of the core and of the filter, one minute each
 Without arguments all three, which takes half an hour on two cores.

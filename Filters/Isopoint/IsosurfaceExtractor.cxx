@@ -24,7 +24,7 @@ namespace isopoint
 namespace
 {
 
-/// Of neighbours around a rank's isopoints that are its ghosts: where splats of the second ring are
+/// Of neighbors around a rank's isopoints that are its ghosts: where splats of the second ring are
 /// seen, so are those that they overlap (docs/ranks.md).
 constexpr int ghostRings = 5;
 
@@ -127,7 +127,7 @@ double IsosurfaceExtractor::extractionWork(
   BandForecast forecast(count);
   forecast.observe(0, 1, isTreeKept ? 0.0 : 1.0);
   const double forIsopoint =
-    (request.triangles ? work::tetrahedrising : work::finding) + work::placing + work::writing +
+    (request.triangles ? work::tetrahedrizing : work::finding) + work::placing + work::writing +
     (request.isosurface.fit ? work::fitting : 0.0) + (request.splats ? work::splatting : 0.0);
   return forecast.bandWork(0) + forIsopoint * forecast.isopointCount();
 }

@@ -43,7 +43,7 @@ struct ExtractionRequest
   double minimumSpacing = 0.0;
   std::optional<SplatOptions> splats = std::nullopt;
   /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
-  /// Delaunay tetrahedrisation of the samples (docs/triangles.md). The angle and the minimum
+  /// Delaunay tetrahedrization of the samples (docs/triangles.md). The angle and the minimum
   /// spacing then have no effect, and splats have normals alone.
   bool triangles = false;
   /// Of a cloud on ranks: how many rings of triangles of other ranks, all with a vertex in the part
@@ -70,7 +70,7 @@ struct ExtractedIsosurface
 };
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
-/// all types that go through it. The tree and the neighbourhoods are kept from one extraction to
+/// all types that go through it. The tree and the neighborhoods are kept from one extraction to
 /// the next: the first takes O(n) for each level of the tree whose regions are not yet smaller than
 /// the surface; a further one only what its own narrow band adds.
 class IsosurfaceExtractor

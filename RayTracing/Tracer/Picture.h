@@ -52,7 +52,7 @@ public:
   bool addSamples(const Camera& camera, const PathTracer& tracer, std::uint32_t samples,
     std::size_t threads, const std::function<bool(double share)>& goesOn);
 
-  /// Finds the distance from the near plane at which rays through the pixels' centres meet the
+  /// Finds the distance from the near plane at which rays through the pixels' centers meet the
   /// first surface; infinity where they meet none.
   void findDistances(const Camera& camera, const Scene& scene, std::size_t threads);
 

@@ -26,7 +26,7 @@ constexpr float weightBehind = 1e-6f;
 struct Candidate
 {
   float distance;
-  float squaredRadius; // of the place in the splat, 0 at its centre and 1 at its rim
+  float squaredRadius; // of the place in the splat, 0 at its center and 1 at its rim
   unsigned int splat;
   unsigned int surface;
   bool isBeyond; // the splat's clipping plane
@@ -40,7 +40,7 @@ struct Candidate
 
 /**
  * The weighted fit of an affine function to the normals of splats, around the place where the ray
- * meets them. A mean alone is that of another place where the splats' centres lie to one side, by
+ * meets them. A mean alone is that of another place where the splats' centers lie to one side, by
  * which reflections would ripple.
  */
 class NormalFit
@@ -54,7 +54,7 @@ public:
   {
   }
 
-  /// @param offset of the splat's centre from where the ray meets it
+  /// @param offset of the splat's center from where the ray meets it
   void add(float weight, const Vector& offset, const Vector& normal)
   {
     const float x = this->Scale * dot(offset, this->Tangents.first);
@@ -226,7 +226,7 @@ SplatScene::SplatScene(RTCDevice device, std::vector<std::shared_ptr<const Splat
       continue;
     }
     const embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT));
-    static_assert(sizeof(Disc) == 4 * sizeof(float), "Embree reads centre and radius");
+    static_assert(sizeof(Disc) == 4 * sizeof(float), "Embree reads center and radius");
     // Embree reads 16 bytes at a time: its own buffer of normals is padded, as ours is not.
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
       splats->discs.data(), 0, sizeof(Disc), count);

@@ -35,7 +35,7 @@ struct Disc
   float radius = 0.0f; // of an ellipse: of the smallest circle around it
 };
 
-/// The ellipse of a splat: vectors in its plane whose products with an offset from the centre are
+/// The ellipse of a splat: vectors in its plane whose products with an offset from the center are
 /// coordinates in half-axes, within the unit circle inside it.
 struct Ellipse
 {
@@ -47,7 +47,7 @@ struct Ellipse
 struct Clip
 {
   Vector normal;         // divided by the splat's radius; zeros: the splat is not clipped
-  float distance = 0.0f; // of the centre from the plane, in radii
+  float distance = 0.0f; // of the center from the plane, in radii
   float turn = 1.0f;     // 1: the face across the crease is on the normal's side, -1: on the other
 };
 

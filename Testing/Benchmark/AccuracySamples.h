@@ -25,9 +25,9 @@ double meanSpacing(std::size_t count);
 
 /// About `count` positions.
 /// - uniform: random, of constant density;
-/// - clustered: 30 % uniform, the others around twelve random centres, with normally distributed
+/// - clustered: 30 % uniform, the others around twelve random centers, with normally distributed
 ///   offsets of standard deviation 0.15 on each axis;
-/// - jittered: one sample in each cell of a lattice, within 0.4 cells of its centre on each axis;
+/// - jittered: one sample in each cell of a lattice, within 0.4 cells of its center on each axis;
 /// - lines: random lines parallel to the z axis, four times farther apart than samples on a line.
 /// @throws std::invalid_argument for another name
 std::vector<analytic::Vector> positionsOf(const std::string& sampling, std::size_t count);

@@ -29,7 +29,7 @@ struct Splat
 
   double radius() const; // of the longer half-axis
 
-  bool isClippedAt(const analytic::Vector& offset) const; // from the centre
+  bool isClippedAt(const analytic::Vector& offset) const; // from the center
 
   /// The ends of both axes, or where these meet the clip plane.
   std::array<analytic::Vector, 4> ends() const;
@@ -55,7 +55,7 @@ public:
   bool covers(const analytic::Vector& place) const;
 
 private:
-  /// Splats of similar size, by the cell of their centre. Cells are at least as wide as the
+  /// Splats of similar size, by the cell of their center. Cells are at least as wide as the
   /// distance up to which these splats cover places.
   struct Level
   {

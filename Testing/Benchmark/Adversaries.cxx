@@ -52,7 +52,7 @@ float distanceToMiddle(const Position& p)
   return std::hypot(p[0] - 0.5f, p[1] - 0.5f, p[2] - 0.5f);
 }
 
-/// The cloud of the positions positionAt(i), with the distance to the centre as values.
+/// The cloud of the positions positionAt(i), with the distance to the center as values.
 Cloud cloudOf(std::size_t count, const std::function<Position(std::size_t)>& positionAt)
 {
   Cloud cloud;
@@ -162,7 +162,7 @@ Cloud layerBeforeCoincident(std::size_t count)
   return cloud;
 }
 
-/// Two skew lines at right angles, the Delaunay tetrahedrisation of which has quadratic size.
+/// Two skew lines at right angles, the Delaunay tetrahedrization of which has quadratic size.
 Cloud skewLines(std::size_t count)
 {
   Random random;

@@ -30,7 +30,7 @@ constexpr const char* usage =
   "  --largest MILLIONS      size of the largest uniform cloud, in millions of samples (default: 64);\n"
   "                          the other methods run on up to 4 million\n"
   "  --file IMAGE ISOVALUE   also contours a volume, interpolated at 16 million random positions\n"
-  "  --triangles MILLIONS    compares triangles of a uniform cloud with CGAL's parallel tetrahedrisation of\n"
+  "  --triangles MILLIONS    compares triangles of a uniform cloud with CGAL's parallel tetrahedrization of\n"
   "                          all samples instead, which takes half a gigabyte for each million\n"
   "  --paper                 repeats Tables 1 and 2 of [RL06] (docs/references.md) instead, and writes\n"
   "                          paper.md\n"

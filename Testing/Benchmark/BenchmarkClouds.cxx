@@ -105,7 +105,7 @@ vtkSmartPointer<vtkPolyData> uniform(std::size_t count)
 
 vtkSmartPointer<vtkPolyData> clustered(std::size_t count)
 {
-  // Distances from the cluster's centre are uniform, so that density decreases with their square.
+  // Distances from the cluster's center are uniform, so that density decreases with their square.
   Random random;
   const Position middle{ 70.0, 0.0, 0.0 };
   const auto positionAt = [&](std::size_t)

@@ -9,7 +9,7 @@
 #include <string>
 
 /// The clouds that are timed. The array "value" of all but those of files has the distance to the
-/// centre of a cube of side 200 around the origin, as for the sphere of [RL06], section 9.
+/// center of a cube of side 200 around the origin, as for the sphere of [RL06], section 9.
 namespace clouds
 {
 
@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPolyData> uniform(std::size_t count);
 /// Random positions whose density varies ten-thousandfold, highest at a point of the sphere.
 vtkSmartPointer<vtkPolyData> clustered(std::size_t count);
 
-/// Random positions in a slab twenty times thinner than wide, through the centre.
+/// Random positions in a slab twenty times thinner than wide, through the center.
 vtkSmartPointer<vtkPolyData> slab(std::size_t count);
 
 /// A regular lattice of about `count` samples, in the order of an image's points.

@@ -8,7 +8,7 @@
 namespace accuracy
 {
 
-/// The isosurface of the linear interpolation on CGAL's Delaunay tetrahedrisation of a cloud: its
+/// The isosurface of the linear interpolation on CGAL's Delaunay tetrahedrization of a cloud: its
 /// vertices, with the area-weighted means of the normals of their triangles, which point to
 /// decreasing values. Runs on one thread.
 vtkSmartPointer<vtkPolyData> marchingTetrahedra(vtkPolyData* cloud, double isovalue);

@@ -29,7 +29,7 @@ double copySeconds(vtkPolyData* samples);
 /// and with new values; on one thread.
 std::vector<Row> measureOurs(const Task& task, double copy);
 
-/// Triangles on their edges, and CGAL's parallel tetrahedrisation with one pass over its cells,
+/// Triangles on their edges, and CGAL's parallel tetrahedrization with one pass over its cells,
 /// which runs once.
 std::vector<Row> measureTriangles(const Task& task, double copy);
 

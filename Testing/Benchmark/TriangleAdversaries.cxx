@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds that are hard on the search for crossing tetrahedra, each timed beside CGAL's
-// tetrahedrisation of all samples.
+// tetrahedrization of all samples.
 #include "Clouds.h"
 
 #include "Isopoint/Tetrahedra/SingleRank.h"
@@ -33,7 +33,7 @@ constexpr double largestShare = 1.5;
 constexpr const char* usage =
   "usage: TriangleAdversaries [--samples N] [--threads N] [--only NAME]\n"
   "Finds the crossing tetrahedra of clouds that are hard on the search for them, and prints a Markdown\n"
-  "table of the times, as shares of that of CGAL's tetrahedrisation of all samples on one thread and\n"
+  "table of the times, as shares of that of CGAL's tetrahedrization of all samples on one thread and\n"
   "one pass over its cells. Exits with 1 if any share is above 1.5.\n"
   "  --samples N   of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
   "                tenth or less\n"
@@ -158,7 +158,7 @@ Cloud farBalls(std::size_t count)
     [](double* p, Random& random) { p[0] += random() < 0.5 ? 100.0 : 0.0; });
 }
 
-/// Two skew lines at right angles, on which the Delaunay tetrahedrisation has quadratic size.
+/// Two skew lines at right angles, on which the Delaunay tetrahedrization has quadratic size.
 Cloud skewLines(std::size_t count, double scatter)
 {
   Cloud cloud;
@@ -246,7 +246,7 @@ using Full = CGAL::Delaunay_triangulation_3<Kernel,
   CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_with_info_3<bool, Kernel>,
     CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
 
-/// The number of crossing tetrahedra, by a tetrahedrisation of all samples.
+/// The number of crossing tetrahedra, by a tetrahedrization of all samples.
 std::size_t countInFull(const Cloud& cloud, double isovalue)
 {
   std::vector<std::pair<Kernel::Point_3, bool>> points;

@@ -56,7 +56,7 @@ def _smooth(value, gradient, isovalue):
 
 
 def _radial(value, radii, isovalue, sides):
-    """A function of the distance to the centre; normals of spheres outwards (1) or inwards (-1)."""
+    """A function of the distance to the center; normals of spheres outwards (1) or inwards (-1)."""
 
     def feet(positions):
         outwards = unit(positions)
@@ -136,7 +136,7 @@ def two_sheets(spacing):
 
 
 def two_balls(_):
-    """The distance to the nearer of two centres: two balls that meet in a concave crease."""
+    """The distance to the nearer of two centers: two balls that meet in a concave crease."""
     centers, radius = np.array([[-0.35, 0.05, 0.02], [0.35, -0.05, -0.02]]), 0.42
     axis = unit(centers[1] - centers[0])
     ring = np.sqrt(radius**2 - length(centers[0]) ** 2)

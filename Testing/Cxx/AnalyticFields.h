@@ -16,7 +16,7 @@ namespace analytic
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The distance to the centre.
+/// The distance to the center.
 inline Surface sphere()
 {
   Surface surface;

@@ -238,7 +238,7 @@ inline bool touch(const Cell& c, const Cell& other)
   return true;
 }
 
-/// Section 4: the neighbourhood of each cell, as indices of all other cells that touch it.
+/// Section 4: the neighborhood of each cell, as indices of all other cells that touch it.
 inline std::vector<std::vector<std::size_t>> neighborhoods(const std::vector<Cell>& cells)
 {
   std::vector<std::vector<std::size_t>> neighbors(cells.size());
@@ -256,7 +256,7 @@ inline std::vector<std::vector<std::size_t>> neighborhoods(const std::vector<Cel
   return neighbors;
 }
 
-/// Section 5: whether the neighbour y of x survives at x. It is dropped if any other neighbour z,
+/// Section 5: whether the neighbor y of x survives at x. It is dropped if any other neighbor z,
 /// itself dropped or not, is strictly closer and lies within the angle. At 0 nothing is dropped.
 /// @param angle alpha, in degrees, 0 to 180
 inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size_t>& neighborsOfX,

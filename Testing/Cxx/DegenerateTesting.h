@@ -92,7 +92,7 @@ inline Surface contour(const std::vector<Sample>& samples, double isovalue)
   return contour(cloudOf(samples), isovalue);
 }
 
-/// Random samples in a cube of side 2 with the distance to its centre as values.
+/// Random samples in a cube of side 2 with the distance to its center as values.
 inline std::vector<Sample> distances(std::size_t count)
 {
   std::mt19937 random(7);

@@ -161,7 +161,7 @@ inline void append(Samples& samples, const Samples& more)
   samples.values.insert(samples.values.end(), more.values.begin(), more.values.end());
 }
 
-/// The mean of a cell's corners: its centre, for boxes and for tetrahedra alike.
+/// The mean of a cell's corners: its center, for boxes and for tetrahedra alike.
 inline std::array<double, 3> meanOfCorners(vtkDataSet* input, vtkIdType cell)
 {
   vtkNew<vtkIdList> corners;

@@ -45,7 +45,7 @@ public:
   /// The cell of the sample with this id, the lowest of coincident ones.
   std::size_t cellOf(std::uint64_t id) const { return this->Numbers.at(id); }
 
-  /// The neighbours of a cell, in the order of the search.
+  /// The neighbors of a cell, in the order of the search.
   const Cells& neighborsOf(std::size_t cell) const { return this->Neighbors[cell]; }
 
   Cells firstRing(std::size_t a, std::size_t b) const
@@ -127,7 +127,7 @@ private:
 
   bool areTooMany(std::size_t cell) const { return this->Neighbors[cell].size() > 256; }
 
-  /// The neighbours of an end of the edge {a, b} that are taken.
+  /// The neighbors of an end of the edge {a, b} that are taken.
   Cells takenAt(std::size_t end, std::size_t a, std::size_t b) const
   {
     if (!this->areTooMany(end))

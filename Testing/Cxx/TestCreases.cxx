@@ -184,7 +184,7 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
   }
 }
 
-// The residual: the root of the mean square, as by generalised cross-validation.
+// The residual: the root of the mean square, as by generalized cross-validation.
 TEST(CreaseFit, ResidualsAreCorrectedForTheCoefficients)
 {
   clouds::Random random(4);
@@ -332,7 +332,7 @@ TEST(Creases, ACubesPointsLieOnItsFaces)
   EXPECT_LT(errors.normal, 5.0);
 }
 
-// Neighbourhoods extend through the plate: near its rim they hold samples of three sides or more.
+// Neighborhoods extend through the plate: near its rim they hold samples of three sides or more.
 TEST(Creases, AThinPlatesPointsLieOnItsFaces)
 {
   const Errors errors = errorsOf(box(12.0, 12.0, 1.5));

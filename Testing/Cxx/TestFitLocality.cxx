@@ -241,7 +241,7 @@ private:
   }
 
   /// The first three are fixed; the others lie in a ball, or on two skew lines, whose cells have
-  /// many neighbours.
+  /// many neighbors.
   Vector farPlace(std::size_t number)
   {
     constexpr double x = 200.0;

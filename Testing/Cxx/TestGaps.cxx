@@ -151,7 +151,7 @@ TEST(Gaps, DropNextToNothingWhereThereIsNoVoid)
   EXPECT_GT(keptShare(stretched(150, 150, 10), isovalue), 0.95);
 }
 
-// Cell centres of a grid one half of which is four times finer.
+// Cell centers of a grid one half of which is four times finer.
 TEST(Gaps, DropNothingWhereCoarseCellsMeetFineOnes)
 {
   clouds::Cloud cloud;

@@ -83,7 +83,7 @@ TEST(IsopointNeighbors, EndInTouchingLeaves)
   {
     const Extracted extracted(cloud);
     ASSERT_GT(extracted.surface.size(), 100u);
-    // Neighbourhoods are searched for where they are not known.
+    // Neighborhoods are searched for where they are not known.
     const Cache none;
     for (const Cache* const known : { &extracted.known, &none })
     {

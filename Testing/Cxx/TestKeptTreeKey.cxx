@@ -61,7 +61,7 @@ void addScatteredFields(vtkDataSet* input)
 }
 
 /// A block of polyhedra: cubes with one side, the lower (0) or the upper one (1), pressed in to a
-/// ninth point at the centre. Both kinds have the same points.
+/// ninth point at the center. Both kinds have the same points.
 vtkSmartPointer<vtkUnstructuredGrid> newPolyhedra(int pressedSide)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -192,8 +192,8 @@ void subdivide(vtkHyperTreeGrid* trees, vtkIdType treeCount, unsigned char child
 
 } // namespace
 
-// In VTK versions that use the centre of a polyhedron's bounding box its faces do not affect its
-// centre. Points that move unnoticed show that the cells were read again.
+// In VTK versions that use the center of a polyhedron's bounding box its faces do not affect its
+// center. Points that move unnoticed show that the cells were read again.
 TEST(KeptTreeKey, FacesOfPolyhedra)
 {
   const auto grid = newPolyhedra(0);

@@ -508,7 +508,7 @@ TEST(LocalFit, DoesNotChangeTheEdges)
   EXPECT_GT(held, plain.edges.size() * 9 / 10);
 }
 
-// Neighbourhoods are complete whatever was extracted before.
+// Neighborhoods are complete whatever was extracted before.
 TEST(LocalFit, DependsNeitherOnThreadsNorOnAKeptTree)
 {
   const clouds::Cloud cloud = clouds::coarse(20000, 18, 5);

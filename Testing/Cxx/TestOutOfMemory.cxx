@@ -197,7 +197,7 @@ TEST(OutOfMemory, Triangles)
     });
 }
 
-/// All samples are tetrahedrised.
+/// All samples are tetrahedrized.
 TEST(OutOfMemory, TrianglesOfNoise)
 {
   const vtkSmartPointer<vtkPolyData> cloud = newCloud(1500);

@@ -217,11 +217,11 @@ TEST(SameResult, ForAnyOrderOfIsovaluesAndAngles)
   EXPECT_GT(isopoints, 1000u);
 }
 
-// Fits use representatives of large neighbourhoods; these must not depend on earlier extractions.
+// Fits use representatives of large neighborhoods; these must not depend on earlier extractions.
 TEST(SameResult, OfFitsInLargeNeighborhoods)
 {
   const isopoint::FitRequest quadratic{ isopoint::FitOrder::Quadratic, true };
-  // Fits of this order gather wider neighbourhoods.
+  // Fits of this order gather wider neighborhoods.
   const isopoint::FitRequest crease{ isopoint::FitOrder::Crease, true };
   for (const clouds::Cloud& cloud : { clouds::lines(6000, 3, 0, 5), clouds::curves(6000, 6) })
   {

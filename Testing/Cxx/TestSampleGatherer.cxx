@@ -38,7 +38,7 @@ struct Seen
 {
   std::size_t edges = 0;
   std::size_t widened = 0;         // a second ring adds samples to
-  std::size_t oneEnded = 0;        // with too many neighbours at one end
+  std::size_t oneEnded = 0;        // with too many neighbors at one end
   std::size_t representatives = 0; // at both
 };
 
@@ -62,7 +62,7 @@ Seen expectTheDefinition(Cloud cloud, double isovalue)
   std::sort(found.edges.begin(), found.edges.end());
   found.edges.erase(std::unique(found.edges.begin(), found.edges.end()), found.edges.end());
   Seen seen;
-  for (const bool areKnown : { false, true }) // the neighbourhoods
+  for (const bool areKnown : { false, true }) // the neighborhoods
   {
     if (areKnown)
     {

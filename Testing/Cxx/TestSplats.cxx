@@ -192,7 +192,7 @@ TEST(Splats, EndSoonBeyondTheSamples)
 }
 
 // The normal of a point without a fit may be wrong: its splat may not cover what lies beyond it, so
-// the splat of a fitted neighbour does.
+// the splat of a fitted neighbor does.
 TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
 {
   const Vector gradient{ 0.0, 0.0, -1.0 };
@@ -221,7 +221,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   EXPECT_NEAR(accompanied[1], alone[1], 1e-12);
 }
 
-// In a lattice the planes halfway to diagonal neighbours pass through the corners that the others
+// In a lattice the planes halfway to diagonal neighbors pass through the corners that the others
 // leave: rounding decides which of them cut. Shapes do not depend on that.
 TEST(Splats, ShapesDoNotDependOnRounding)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The crossing tetrahedra that the core finds are those of the full Delaunay tetrahedrisation.
+// The crossing tetrahedra that the core finds are those of the full Delaunay tetrahedrization.
 #include "TriangleTesting.h"
 
 namespace
@@ -71,7 +71,7 @@ Cloud without(const Cloud& cloud, std::size_t step)
   return rest;
 }
 
-/// Several spheres of samples about common centres, many on each.
+/// Several spheres of samples about common centers, many on each.
 Cloud cospherical(std::size_t count, std::uint64_t seed)
 {
   Random random(seed);
@@ -91,7 +91,7 @@ Cloud cospherical(std::size_t count, std::uint64_t seed)
   return cloud;
 }
 
-/// The centres of the leaves of an octree that is refined around a sphere.
+/// The centers of the leaves of an octree that is refined around a sphere.
 void addLeaves(Cloud& cloud, double x, double y, double z, double half, int levels)
 {
   const double distance = distanceFrom(x - 0.5, y - 0.5, z - 0.5);
@@ -246,7 +246,7 @@ TEST(Tetrahedra, OfPiecesThatTheBandDoesNotTouch)
   }
 }
 
-/// Where most samples are near the surface, or searches are long, all are tetrahedrised.
+/// Where most samples are near the surface, or searches are long, all are tetrahedrized.
 TEST(Tetrahedra, OfAllSamplesWhereThatIsQuicker)
 {
   EXPECT_TRUE(

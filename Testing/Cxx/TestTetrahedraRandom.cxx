@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random clouds and isovalues. The environment variables TETRAHEDRA_FIRST_SEED and TETRAHEDRA_SEEDS
 // choose others than the first few hundred. The crossing tetrahedra are those of the full Delaunay
-// tetrahedrisation.
+// tetrahedrization.
 #include "RandomClouds.h"
 #include "TriangleTesting.h"
 
@@ -75,7 +75,7 @@ void checkOne(std::uint64_t seed)
 
 } // namespace
 
-TEST(TetrahedraRandom, AreThoseOfTheFullTetrahedrisation)
+TEST(TetrahedraRandom, AreThoseOfTheFullTetrahedrization)
 {
   const std::uint64_t first = clouds::numberFrom("TETRAHEDRA_FIRST_SEED", 1);
   const std::uint64_t count = clouds::numberFrom("TETRAHEDRA_SEEDS", 300);

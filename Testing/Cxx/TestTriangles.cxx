@@ -217,7 +217,7 @@ TEST(Triangles, FollowTheFitsAndAreNotTurnedOver)
 }
 
 /// A vertex that a fit would move across the opposite edge of its triangle stays, and so do its
-/// neighbours.
+/// neighbors.
 TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
 {
   const std::vector<Vector> unmoved{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },

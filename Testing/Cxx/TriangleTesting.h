@@ -66,13 +66,13 @@ inline std::vector<Site> sitesOf(const Cloud& cloud)
 }
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using FullTetrahedrisation = CGAL::Delaunay_triangulation_3<Kernel,
+using FullTetrahedrization = CGAL::Delaunay_triangulation_3<Kernel,
   CGAL::Triangulation_data_structure_3<
     CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>,
     CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
 
-/// CGAL's Delaunay tetrahedrisation of all sites; vertices know their number.
-inline FullTetrahedrisation fullTetrahedrisation(const std::vector<Site>& sites)
+/// CGAL's Delaunay tetrahedrization of all sites; vertices know their number.
+inline FullTetrahedrization fullTetrahedrization(const std::vector<Site>& sites)
 {
   std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
   for (std::size_t i = 0; i < sites.size(); ++i)
@@ -87,7 +87,7 @@ inline FullTetrahedrisation fullTetrahedrisation(const std::vector<Site>& sites)
 inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
 {
   const std::vector<Site> sites = sitesOf(cloud);
-  const FullTetrahedrisation full = fullTetrahedrisation(sites);
+  const FullTetrahedrization full = fullTetrahedrization(sites);
   std::vector<Corners> result;
   if (full.dimension() < 3)
   {
@@ -117,7 +117,7 @@ inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
 inline std::size_t crossingHullFacets(const Cloud& cloud, double isovalue)
 {
   const std::vector<Site> sites = sitesOf(cloud);
-  const FullTetrahedrisation full = fullTetrahedrisation(sites);
+  const FullTetrahedrization full = fullTetrahedrization(sites);
   std::size_t count = 0;
   for (const auto cell : full.all_cell_handles())
   {

@@ -167,7 +167,7 @@ vtkSmartPointer<vtkDataSet> newDataSet(ByteSource& bytes)
       const int cells = bytes.below(20);
       for (int cell = 0; cell < cells; ++cell)
       {
-        // Only vertices: the rounding of other cells' centres is not defined.
+        // Only vertices: the rounding of other cells' centers is not defined.
         const vtkIdType corner = bytes.below(count);
         grid->InsertNextCell(VTK_VERTEX, 1, &corner);
       }

@@ -104,7 +104,7 @@ def inputs_are_hidden(plugin, paraview):
 
 
 def rows_follow_others(plugin, paraview):
-    """What has no effect is greyed out or hidden."""
+    """What has no effect is grayed out or hidden."""
     counters = ("NumberOfSkippedSamples", "NumberOfUnprojectedPoints")
     for name in ("Scattered Isopoints", "Scattered Isosurface"):
         events = [choose(name), *(expect(counter, "enabled", "false") for counter in counters)]

@@ -28,7 +28,7 @@ RIGHT, ABOVE = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 1.0]) / np.sqrt(2.
 
 
 def plane_through(point, normal, center=(0.0, 0.0, 0.0)):
-    """The plane of a splat at a centre that keeps the side that the normal points to."""
+    """The plane of a splat at a center that keeps the side that the normal points to."""
     return np.append(normal, np.dot(normal, np.subtract(center, point)))
 
 
@@ -50,7 +50,7 @@ def parallel_scene(actor, center=(0.0, 0.0, 0.0)):
 
 
 def segment(height):
-    """Share of a disk before a chord this far behind its centre, in radii."""
+    """Share of a disk before a chord this far behind its center, in radii."""
     return (np.pi - np.arccos(height) + height * np.sqrt(1.0 - height**2)) / np.pi
 
 
@@ -139,8 +139,8 @@ def whole_where_no_plane_is():
         ("zeros", np.zeros(4)),
         ("no normal", np.array([0.0, 0.0, 0.0, -1.0])),
         ("not a number", np.full(4, np.nan)),
-        ("infinitely far behind the centre", np.append(RIGHT, -np.inf)),
-        ("infinitely far before the centre", np.append(RIGHT, np.inf)),
+        ("infinitely far behind the center", np.append(RIGHT, -np.inf)),
+        ("infinitely far before the center", np.append(RIGHT, np.inf)),
         ("farther than single precision reaches", np.append(RIGHT, 1e300)),
         ("farther than the splat reaches", np.append(RIGHT, 1.01 * RADIUS)),
     ):
@@ -274,7 +274,7 @@ CUBE = 12.0  # half a side, of samples with a spacing of 1
 
 
 def cube(center):
-    """The isopoints of a cube at a centre."""
+    """The isopoints of a cube at a center."""
     low, high = np.subtract(center, 20.0), np.add(center, 20.0)
     return isopoints(lambda p: CUBE - np.abs(p - center).max(1), low, high, 64_000, creases=True)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A pick finds the splat that is seen: among those around the surface under the pixel, the one
-whose centre is nearest in radii, within its plane."""
+whose center is nearest in radii, within its plane."""
 
 import numpy as np
 from scenes import RING, TUBE, Scene, actor_of, check, parts, polydata, torus_splats

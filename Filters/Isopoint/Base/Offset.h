@@ -10,7 +10,7 @@
 namespace isopoint
 {
 
-/// The vector from a sample to one of its neighbours, and its length.
+/// The vector from a sample to one of its neighbors, and its length.
 struct Offset
 {
   Vector vector;

@@ -14,7 +14,7 @@
 namespace isopoint
 {
 
-/// A growing array of trivial elements that are left uninitialised. Unlike std::vector, it does not
+/// A growing array of trivial elements that are left uninitialized. Unlike std::vector, it does not
 /// touch memory before the first write (from any thread), and growing a large one remaps its pages
 /// instead of holding two copies.
 template <class T>

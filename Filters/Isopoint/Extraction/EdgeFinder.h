@@ -40,7 +40,7 @@ public:
   {
   }
 
-  /// Adds the edges from the leaf's sample to the neighbours that survive the angle criterion there
+  /// Adds the edges from the leaf's sample to the neighbors that survive the angle criterion there
   /// and lie on the other side of the isovalue ([RL06] sections 6 and 7), but not across a gap.
   /// @throws MissingNode, nothing added
   void find(const Path& leaf)
@@ -67,7 +67,7 @@ public:
   /// Node indices of the leaves with coincident samples among the edges' ends, with repetitions.
   const std::vector<std::size_t>& coincidentLeaves() const { return this->CoincidentLeaves; }
 
-  /// The neighbourhoods that were searched for, as NeighborhoodCache::add() takes them.
+  /// The neighborhoods that were searched for, as NeighborhoodCache::add() takes them.
   std::vector<Id>& records()
   {
     this->Records.resize(this->KeptRecords);
@@ -139,7 +139,7 @@ private:
     }
   }
 
-  /// What find() does, without a list of the neighbours.
+  /// What find() does, without a list of the neighbors.
   void connectToSurvivors(const Path& leaf, double value)
   {
     const bool isBelow = value < this->Isovalue;
@@ -159,7 +159,7 @@ private:
     return this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
   }
 
-  /// Lists the neighbours on the other side of the isovalue.
+  /// Lists the neighbors on the other side of the isovalue.
   void findCrossings(bool isBelow)
   {
     this->Crossings.clear();
@@ -173,7 +173,7 @@ private:
     }
   }
 
-  /// Lists the offsets to the neighbours.
+  /// Lists the offsets to the neighbors.
   void measureNeighbors(const TSample& sample)
   {
     const Vector center = positionOf(sample);
@@ -186,7 +186,7 @@ private:
     this->Sorted.clear();
   }
 
-  /// Of many neighbours, as of a large cell among small ones, the nearest are compared first:
+  /// Of many neighbors, as of a large cell among small ones, the nearest are compared first:
   /// comparing all pairs would take the square of their number.
   bool survives(std::size_t neighbor)
   {
@@ -251,7 +251,7 @@ private:
   NodeList<Id> Neighbors;
   std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf
   std::size_t KeptRecords = 0;
-  std::vector<Offset> Offsets; // of the neighbours
+  std::vector<Offset> Offsets; // of the neighbors
   std::vector<Offset> Sorted;  // the same, nearest first, where there are many
   std::vector<Crossing> Crossings;
   std::vector<CrossingEdge<TSample>> Edges;

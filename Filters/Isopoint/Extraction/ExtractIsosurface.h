@@ -148,7 +148,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   return surface;
 }
 
-/// Adds neighbourhoods to those that are known, as far as memory permits: the others will be
+/// Adds neighborhoods to those that are known, as far as memory permits: the others will be
 /// searched for again.
 /// @throws Aborted
 template <class TId>
@@ -173,7 +173,7 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
 /// @param idCount above every id
 /// @param progress divided among the band, the edges, the fits and what follows
 /// @param laterWork that follows for each isopoint
-/// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighbourhoods
+/// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighborhoods
 /// can be used again afterwards
 template <class TSample>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree,

@@ -45,7 +45,7 @@ struct ExtractionContext
   SampleBounds<TSample> bounds;
   SharedLeafMeans<TSample> leafMeans;
   NeighborListBudget listBudget;
-  std::atomic<std::int64_t> cacheBudget; // numbers that may still be added to the neighbourhoods
+  std::atomic<std::int64_t> cacheBudget; // numbers that may still be added to the neighborhoods
 };
 
 } // namespace isopoint

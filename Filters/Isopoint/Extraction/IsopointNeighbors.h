@@ -32,8 +32,8 @@ class IsopointNeighbors
 public:
   using Id = typename TSample::Id;
 
-  /// @param tree in which the leaves' neighbourhoods are complete
-  /// @param known neighbourhoods; others are searched for
+  /// @param tree in which the leaves' neighborhoods are complete
+  /// @param known neighborhoods; others are searched for
   /// @param leaves of the isopoints' edges
   /// @param isInner for each isopoint, whether others will be looked for around it; null for all
   /// @throws std::bad_alloc, Aborted

@@ -35,7 +35,7 @@ public:
   {
   }
 
-  /// Gathers the samples of both ends and of their neighbours; but if one end alone has very many,
+  /// Gathers the samples of both ends and of their neighbors; but if one end alone has very many,
   /// as a cell that fills a void has, only those of the other end. If both have, a subset of theirs
   /// that covers all directions and distances.
   void gather(Id firstLeaf, Id secondLeaf)
@@ -70,7 +70,7 @@ public:
     }
   }
 
-  /// Adds the neighbours of the ends' neighbours across the isovalue, unless there are enough
+  /// Adds the neighbors of the ends' neighbors across the isovalue, unless there are enough
   /// samples, as where these stand in lines.
   void widen()
   {
@@ -98,7 +98,7 @@ public:
   /// tree alone.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
-  /// The mean of the spacings at those ends whose neighbours are taken.
+  /// The mean of the spacings at those ends whose neighbors are taken.
   double spacing()
   {
     double sum = 0.0;
@@ -123,17 +123,17 @@ public:
   }
 
 private:
-  /// More neighbours than that are not taken whole.
+  /// More neighbors than that are not taken whole.
   static constexpr std::size_t mostNeighbors = 256;
 
   struct End
   {
     Id leaf;
-    bool isTaken; // with its neighbours
+    bool isTaken; // with its neighbors
     std::vector<Id> neighbors;
   };
 
-  /// Those of leaves whose neighbourhoods are not kept for further isovalues.
+  /// Those of leaves whose neighborhoods are not kept for further isovalues.
   struct FoundNeighbors
   {
     Id leaf = 0; // the tree's root is none
@@ -146,7 +146,7 @@ private:
     double spacing = 0.0;
   };
 
-  /// The neighbours of a leaf; none if they are too many. Valid until the next call.
+  /// The neighbors of a leaf; none if they are too many. Valid until the next call.
   NodeList<Id> neighborsOf(Id leaf)
   {
     const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leaf));
@@ -175,7 +175,7 @@ private:
     return { found.neighbors.data(), found.neighbors.size() };
   }
 
-  /// Lists some of very many neighbours: one for each subtree whose size over its distance is
+  /// Lists some of very many neighbors: one for each subtree whose size over its distance is
   /// small, as often as it represents that many.
   void listSome(Id leaf, std::vector<Id>& neighbors)
   {
@@ -186,7 +186,7 @@ private:
       { neighbors.push_back(static_cast<Id>(neighbor)); });
   }
 
-  /// The spacing of the samples around an end: the distance that two fifths of its neighbours and
+  /// The spacing of the samples around an end: the distance that two fifths of its neighbors and
   /// itself do not exceed. The farthest may stand across a void, the nearest all on one line with
   /// it.
   double spacingAt(const End& end)

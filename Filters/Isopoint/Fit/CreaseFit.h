@@ -20,7 +20,7 @@ struct CreaseFit
 {
   double sense = 1.0;
   std::vector<Polynomial> pieces;
-  /// Root mean square, weighted, as by generalised cross-validation [GHW79]: that of samples left
+  /// Root mean square, weighted, as by generalized cross-validation [GHW79]: that of samples left
   /// out of the fit, on average.
   double residual = 0.0;
 

@@ -30,7 +30,7 @@ struct FitRequest
   bool move;                       // isopoints to the zero of the fit, or leave them on their edges
 };
 
-/// A sample of a neighbourhood; coincident samples are one.
+/// A sample of a neighborhood; coincident samples are one.
 struct FitSample
 {
   Vector position;

@@ -16,20 +16,20 @@ namespace isopoint
 /// a cube: on a regular lattice the diagonals survive rounding.
 constexpr double defaultAngle = 54.7;
 
-/// Sorts a neighbourhood as AngleCriterion::survivesAmongSorted() requires.
+/// Sorts a neighborhood as AngleCriterion::survivesAmongSorted() requires.
 inline void nearestFirst(std::vector<Offset>& offsets)
 {
   std::sort(offsets.begin(), offsets.end(),
     [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
 }
 
-/// The angle criterion ([RL06] section 6; docs/algorithm.md, section 5): a neighbour is
+/// The angle criterion ([RL06] section 6; docs/algorithm.md, section 5): a neighbor is
 /// dropped if the angle between it and any strictly closer one, dropped itself or not, is smaller
-/// than the given one. Neighbours at the same distance do not drop each other.
+/// than the given one. Neighbors at the same distance do not drop each other.
 class AngleCriterion
 {
 public:
-  /// @param degrees 0 (nothing is dropped) up to 180 (all nearest neighbours survive, and of the
+  /// @param degrees 0 (nothing is dropped) up to 180 (all nearest neighbors survive, and of the
   /// others what stands exactly opposite, as far as rounding permits)
   explicit AngleCriterion(double degrees)
     : DropsNothing(degrees <= 0.0)
@@ -37,7 +37,7 @@ public:
   {
   }
 
-  /// Whether `offsets[candidate]` survives among all `count` offsets of a neighbourhood. O(count)
+  /// Whether `offsets[candidate]` survives among all `count` offsets of a neighborhood. O(count)
   bool survives(const Offset* offsets, std::size_t count, std::size_t candidate) const
   {
     if (this->DropsNothing)
@@ -55,7 +55,7 @@ public:
     return true;
   }
 
-  /// The same in a neighbourhood sorted by nearestFirst(). The nearest ones, seen in many
+  /// The same in a neighborhood sorted by nearestFirst(). The nearest ones, seen in many
   /// directions, mostly drop the others: far less than O(count) but for the few that survive.
   bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
   {

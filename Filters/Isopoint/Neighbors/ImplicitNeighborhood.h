@@ -17,8 +17,8 @@
 namespace isopoint
 {
 
-/// The neighbourhood of a leaf, searched without listing it, by the bounding boxes of the samples
-/// of nodes. A neighbourhood of n cells, as of samples on two skew lines, takes a search of about
+/// The neighborhood of a leaf, searched without listing it, by the bounding boxes of the samples
+/// of nodes. A neighborhood of n cells, as of samples on two skew lines, takes a search of about
 /// O(log n). Memory is kept from one leaf to the next. For one thread.
 template <class TSample>
 class ImplicitNeighborhood
@@ -35,7 +35,7 @@ public:
   /// Whether a search is possible: the square of no offset between samples overflows.
   bool canSearch() const { return this->CanSearch; }
 
-  /// Selects the neighbourhood of a leaf, around which the tree must be refined.
+  /// Selects the neighborhood of a leaf, around which the tree must be refined.
   /// @throws std::bad_alloc
   void moveTo(const Path& leaf)
   {
@@ -49,9 +49,9 @@ public:
     }
   }
 
-  /// Visits the neighbours that survive the angle criterion, in no particular order. Whole subtrees
-  /// are left out if one neighbour drops them, out of those next to the leaf and those found
-  /// before; for the remaining candidates the neighbourhood is searched for any neighbour that
+  /// Visits the neighbors that survive the angle criterion, in no particular order. Whole subtrees
+  /// are left out if one neighbor drops them, out of those next to the leaf and those found
+  /// before; for the remaining candidates the neighborhood is searched for any neighbor that
   /// drops them.
   /// @param enter(node) whether the node and its descendants are of interest
   /// @param isWanted(nodeIndex) whether a leaf is of interest
@@ -101,13 +101,13 @@ public:
     }
   }
 
-  /// Visits a subset of the neighbours that covers all directions and distances: a subtree whose
+  /// Visits a subset of the neighbors that covers all directions and distances: a subtree whose
   /// samples' bounding box appears small from the leaf's sample is represented by one of its
-  /// leaves. The choice depends on the neighbourhood alone, not on what else of the tree is
+  /// leaves. The choice depends on the neighborhood alone, not on what else of the tree is
   /// refined.
   /// @param size below which a box is small: its diagonal over its distance
-  /// @param visit(nodeIndex, count) a leaf, and about how many neighbours it represents
-  /// Complexity: O(log n) for n neighbours on lines
+  /// @param visit(nodeIndex, count) a leaf, and about how many neighbors it represents
+  /// Complexity: O(log n) for n neighbors on lines
   template <class Visitor>
   void forEachSpread(double size, const Visitor& visit) const
   {
@@ -129,7 +129,7 @@ private:
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
 
-  /// Takes neighbours from the smallest subtrees: they are close to the leaf's sample, and so drop
+  /// Takes neighbors from the smallest subtrees: they are close to the leaf's sample, and so drop
   /// most of what lies behind them.
   void addNearDroppers()
   {
@@ -218,7 +218,7 @@ private:
     return nodeIndex;
   }
 
-  /// One of the nearest neighbours below a node that touches the region. Requires canSearch().
+  /// One of the nearest neighbors below a node that touches the region. Requires canSearch().
   std::size_t nearLeafBelow(std::size_t nodeIndex) const
   {
     while (this->Tree.nodes[nodeIndex].isSplit())
@@ -267,7 +267,7 @@ private:
       this->Droppers.end(), [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
   }
 
-  /// Whether any neighbour drops y.
+  /// Whether any neighbor drops y.
   bool isDropped(const AngleCriterion& criterion, const Offset& y) const
   {
     return std::any_of(this->Tops.begin(), this->Tops.end(),
@@ -290,7 +290,7 @@ private:
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
   std::optional<Found> Next;     // often the nearest of all, kept out of the heap
   std::vector<Found> Queue;      // of the others
-  std::vector<Offset> Droppers;  // neighbours known so far: near ones, and those of interest
+  std::vector<Offset> Droppers;  // neighbors known so far: near ones, and those of interest
 };
 
 } // namespace isopoint

@@ -9,10 +9,10 @@
 namespace isopoint
 {
 
-/// A budget of listed neighbours, shared by all threads. To list a neighbourhood is quicker than to
-/// search it where it is small, and for a few large ones; but the neighbourhoods of n samples can
-/// add up to n^2 neighbours. With this budget, those of large neighbourhoods that are listed add up
-/// to O(n); when it is spent, neighbourhoods are to be searched (see ImplicitNeighborhood). No
+/// A budget of listed neighbors, shared by all threads. To list a neighborhood is quicker than to
+/// search it where it is small, and for a few large ones; but the neighborhoods of n samples can
+/// add up to n^2 neighbors. With this budget, those of large neighborhoods that are listed add up
+/// to O(n); when it is spent, neighborhoods are to be searched (see ImplicitNeighborhood). No
 /// result depends on it.
 class NeighborListBudget
 {
@@ -24,7 +24,7 @@ public:
 
   bool isSpent() const { return this->Remaining.load(std::memory_order_relaxed) <= 0; }
 
-  /// Accounts for a neighbourhood that was listed; small ones are free.
+  /// Accounts for a neighborhood that was listed; small ones are free.
   void spend(std::size_t neighborCount)
   {
     constexpr std::size_t few = 64;

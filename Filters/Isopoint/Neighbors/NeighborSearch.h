@@ -108,12 +108,12 @@ private:
 };
 
 /// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
-/// surrounded one, whose closed region shares a point with its closed region (the neighbourhood
+/// surrounded one, whose closed region shares a point with its closed region (the neighborhood
 /// N(c) of [RL06] section 5).
 /// @param enter(node) whether a node and its descendants are of interest
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
-/// Complexity: O(depth + nodes visited); 14.5 neighbours on average in a uniform cloud.
+/// Complexity: O(depth + nodes visited); 14.5 neighbors on average in a uniform cloud.
 template <class TSample, class Filter, class Visitor>
 bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
   const Filter& enter, const Visitor& visit)
@@ -132,7 +132,7 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
   return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
 }
 
-/// Visits the neighbours of a leaf, around which the tree has to be split down to leaves.
+/// Visits the neighbors of a leaf, around which the tree has to be split down to leaves.
 /// @param visit(nodeIndex) returns whether to end the search
 /// @returns whether a visit did
 /// @throws MissingNode where it is not, as may be where ranks share it

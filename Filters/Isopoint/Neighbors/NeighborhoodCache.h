@@ -10,7 +10,7 @@
 namespace isopoint
 {
 
-/// The neighbours of a leaf, as node indices.
+/// The neighbors of a leaf, as node indices.
 template <class TId>
 struct NodeList
 {
@@ -23,14 +23,14 @@ struct NodeList
   std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
 };
 
-/// The neighbourhoods of leaves near surfaces extracted before. They do not depend on isovalues,
+/// The neighborhoods of leaves near surfaces extracted before. They do not depend on isovalues,
 /// angles or values, and finding them is most of the work of an extraction from a tree that is
-/// refined already. Memory: one number for each neighbour and one for each node.
+/// refined already. Memory: one number for each neighbor and one for each node.
 template <class TId>
 class NeighborhoodCache
 {
 public:
-  /// The neighbourhood of a leaf, or an empty list if it is not known. O(1)
+  /// The neighborhood of a leaf, or an empty list if it is not known. O(1)
   NodeList<TId> at(std::size_t nodeIndex) const
   {
     if (nodeIndex >= this->Offsets.size() || this->Offsets[nodeIndex] == 0)
@@ -48,7 +48,7 @@ public:
     return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
   }
 
-  /// Adds neighbourhoods, one after the other as node index, count, neighbours.
+  /// Adds neighborhoods, one after the other as node index, count, neighbors.
   /// @param nodeCount above every node index
   /// @throws std::bad_alloc, the cache as before
   void add(const std::vector<TId>& records, std::size_t nodeCount)
@@ -69,7 +69,7 @@ public:
 
 private:
   std::vector<TId> Offsets;                     // by node index, into Lists; 0: not known
-  std::vector<TId> Lists = std::vector<TId>(1); // count, neighbours; the first number is unused
+  std::vector<TId> Lists = std::vector<TId>(1); // count, neighbors; the first number is unused
 };
 
 } // namespace isopoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL's tetrahedrisation as BandTriangulation.cxx needs it, and alone includes it.
+// CGAL's tetrahedrization as BandTriangulation.cxx needs it, and alone includes it.
 #ifndef isopoint_BandInsertion_h
 #define isopoint_BandInsertion_h
 

@@ -33,7 +33,7 @@ struct CrossingTetrahedron
   std::uint8_t belowCount; // 1 to 3
 };
 
-/// The Delaunay tetrahedrisation of some of the samples, which grows. It is that of CGAL, whose
+/// The Delaunay tetrahedrization of some of the samples, which grows. It is that of CGAL, whose
 /// predicates are exact and whose ties, where more than four samples lie on one empty sphere, are
 /// decided by the lexicographic order of positions: it depends on the set of positions alone, and
 /// so does whether a position lies inside a sphere.

@@ -27,16 +27,16 @@ namespace isopoint
 /// What finding the crossing tetrahedra took.
 struct TetrahedraCounts
 {
-  std::size_t band = 0;     // samples near the surface, tetrahedrised first
+  std::size_t band = 0;     // samples near the surface, tetrahedrized first
   std::size_t inserted = 0; // added since
   std::size_t rounds = 0;
-  bool isWhole = false; // whether all samples were tetrahedrised in the end
+  bool isWhole = false; // whether all samples were tetrahedrized in the end
 };
 
-/// Finds the crossing tetrahedra of the Delaunay tetrahedrisation of all samples of a tree, without
-/// that tetrahedrisation: docs/triangles.md, which proves that they are these.
+/// Finds the crossing tetrahedra of the Delaunay tetrahedrization of all samples of a tree, without
+/// that tetrahedrization: docs/triangles.md, which proves that they are these.
 ///
-/// Where several ranks share the tree, all functions are collective. Every rank tetrahedrises the
+/// Where several ranks share the tree, all functions are collective. Every rank tetrahedrizes the
 /// band of all, searches spheres for samples of its own, and finds all crossing tetrahedra.
 /// @tparam TRanks SingleRank, or TriangleRanks
 template <class TSample, class TRanks>
@@ -357,7 +357,7 @@ private:
     return this->Ranks.isAny(isAnyWrong);
   }
 
-  /// Reports progress: half of the work is the first tetrahedrisation, most of the rest the first
+  /// Reports progress: half of the work is the first tetrahedrization, most of the rest the first
   /// round.
   void report(double share)
   {

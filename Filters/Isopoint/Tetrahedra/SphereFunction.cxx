@@ -61,7 +61,7 @@ T dotOf(const Triple<T>& a, const Triple<T>& b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Twice F of the ball through 0, a1, a2 and a3: d = 2 det(a1, a2, a3), n = 2 d times the centre.
+/// Twice F of the ball through 0, a1, a2 and a3: d = 2 det(a1, a2, a3), n = 2 d times the center.
 template <class T>
 struct Ball
 {
@@ -69,7 +69,7 @@ struct Ball
   Triple<T> n;
 };
 
-/// @param a3 another corner or, with `isCorner` false, a direction in which the centre is not off
+/// @param a3 another corner or, with `isCorner` false, a direction in which the center is not off
 template <class T>
 Ball<T> ballOf(const Triple<T>& a1, const Triple<T>& a2, const Triple<T>& a3, bool isCorner)
 {

@@ -23,7 +23,7 @@ enum class Side
 ///
 ///     F(x) = d |y|^2 - 2 n . y,    y = scale * (x - origin),    d >= 0,
 ///
-/// and the origin lies on its boundary. (A ball has the centre y = n / d; a half-space has d = 0.)
+/// and the origin lies on its boundary. (A ball has the center y = n / d; a half-space has d = 0.)
 /// This form loses nothing as balls become huge, and it is a sum over the axes: its least value
 /// over a box is the sum of three. Bounds on the errors of d and n are known, so that all answers
 /// are certain.
@@ -70,7 +70,7 @@ public:
     return result;
   }
 
-  /// Whether the part of a box above a coordinate is nearer to the centre than that below.
+  /// Whether the part of a box above a coordinate is nearer to the center than that below.
   bool isAbove(int axis, double coordinate) const
   {
     const auto a = static_cast<std::size_t>(axis);

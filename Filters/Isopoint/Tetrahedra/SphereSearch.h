@@ -104,7 +104,7 @@ private:
 /// Nodes of so few samples are seen through without being split.
 constexpr std::size_t fewSamples = 16;
 
-/// Searches the tree for a sample inside the sphere of a cell, the nearest to the centre first as
+/// Searches the tree for a sample inside the sphere of a cell, the nearest to the center first as
 /// far as the tree indicates it; where ranks share the tree, for one of this rank's. Memory is
 /// kept. For one thread.
 template <class TSample>

@@ -23,7 +23,7 @@ struct MiddleCoordinates
 };
 
 /// The coordinates of rank - 1 and rank among few, 0 < rank < count: each is ranked by counting the
-/// smaller ones, which takes count^2 comparisons but no branch, and vectorises.
+/// smaller ones, which takes count^2 comparisons but no branch, and vectorizes.
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectByCounting(
   const TCoordinate* coordinates, std::size_t count, std::size_t rank)

@@ -84,7 +84,7 @@ public:
     return surface;
   }
 
-  /// The crossing tetrahedra of the Delaunay tetrahedrisation of all samples.
+  /// The crossing tetrahedra of the Delaunay tetrahedrization of all samples.
   std::vector<CrossingTetrahedron<Id>> tetrahedra(WorkProgress& progress, double laterWork)
   {
     if (this->Tree.isEmpty())
@@ -92,10 +92,10 @@ public:
       return {};
     }
     NarrowBand<TSample> band(
-      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrising + laterWork);
+      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrizing + laterWork);
     const std::vector<BinaryIndex> nodes = this->Ranks.refine(band);
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
-    const Execution part = progress.part(count * work::tetrahedrising, count * laterWork);
+    const Execution part = progress.part(count * work::tetrahedrizing, count * laterWork);
     std::optional<CrossingTetrahedraFinder<TSample, TRanks>> finder;
     this->Ranks.together([&]()
       { finder.emplace(part, this->Tree, this->Ranks, this->Means, this->Request.isovalue); });
