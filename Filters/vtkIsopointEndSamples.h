@@ -2,7 +2,7 @@
 #ifndef vtkIsopointEndSamples_h
 #define vtkIsopointEndSamples_h
 
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Isopoint/ExtractionRequest.h"
 #include "vtkIsopointBlock.h"
 
 #include "vtkSmartPointer.h"

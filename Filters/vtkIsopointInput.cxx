@@ -25,57 +25,7 @@
 namespace
 {
 
-/// Coordinates stored as x y z, x y z, ...
-template <class T>
-struct PackedPositions
-{
-  using Coordinate = T;
-  const T* Coordinates;
-
-  template <class TOut>
-  void operator()(std::size_t point, TOut position[3]) const
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      position[axis] = static_cast<TOut>(this->Coordinates[3 * point + axis]);
-    }
-  }
-};
-
-/// All other positions: implicit ones, structures of arrays, integers.
-struct ComputedPositions
-{
-  using Coordinate = double;
-  vtkDataSet* Input;
-
-  void operator()(std::size_t point, double position[3]) const
-  {
-    this->Input->GetPoint(static_cast<vtkIdType>(point), position);
-  }
-};
-
-template <class T>
-struct PackedValues
-{
-  using Value = T;
-  const T* Values;
-
-  T operator()(std::size_t point) const { return this->Values[point]; }
-};
-
-/// Values of any type, converted to T: exactly, except 64-bit integers beyond 2^53.
-template <class T>
-struct ConvertedValues
-{
-  using Value = T;
-  vtkDataArray* Array;
-
-  T operator()(std::size_t point) const
-  {
-    return static_cast<T>(this->Array->GetComponent(static_cast<vtkIdType>(point), 0));
-  }
-};
-
+/// The values of an array that stores them one after the other as T, or null.
 template <class T>
 const T* packedArray(vtkDataArray* array)
 {
@@ -89,49 +39,10 @@ vtkDataArray* coordinatesOf(vtkDataSet* input)
   return pointSet && pointSet->GetPoints() ? pointSet->GetPoints()->GetData() : nullptr;
 }
 
-template <class Action>
-void withPositions(vtkDataSet* input, const Action& action)
-{
-  vtkDataArray* const points = coordinatesOf(input);
-  if (const float* const floats = points ? packedArray<float>(points) : nullptr)
-  {
-    action(PackedPositions<float>{ floats });
-  }
-  else if (const double* const doubles = points ? packedArray<double>(points) : nullptr)
-  {
-    action(PackedPositions<double>{ doubles });
-  }
-  else
-  {
-    action(ComputedPositions{ input });
-  }
-}
-
 /// Whether float holds all values of the array's type exactly.
 bool isExactInFloat(vtkDataArray* scalars)
 {
   return scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
-}
-
-template <class Action>
-void withValues(vtkDataArray* scalars, const Action& action)
-{
-  if (const float* const floats = packedArray<float>(scalars))
-  {
-    action(PackedValues<float>{ floats });
-  }
-  else if (const double* const doubles = packedArray<double>(scalars))
-  {
-    action(PackedValues<double>{ doubles });
-  }
-  else if (isExactInFloat(scalars))
-  {
-    action(ConvertedValues<float>{ scalars });
-  }
-  else
-  {
-    action(ConvertedValues<double>{ scalars });
-  }
 }
 
 /// Ghost bits of items that take no part.
@@ -153,33 +64,46 @@ void loadOrReplace(const isopoint::Execution& execution, std::size_t count, cons
   }
 }
 
-/// Loads a single block, with the types of its arrays known to the compiler.
-void loadBlock(const isopoint::Execution& execution, const vtkIsopointBlock& block,
+/// Reads a block whose arrays are packed, their types known to the compiler, as
+/// IsosurfaceExtractor::load() calls for.
+template <class TCoordinate, class TValue>
+struct PackedReader
+{
+  const TCoordinate* Coordinates;
+  const TValue* Values;
+  const unsigned char* Ghosts;
+
+  template <class TOut, class TOutValue>
+  bool operator()(std::size_t point, TOut* position, TOutValue& value) const
+  {
+    if (this->Ghosts && (this->Ghosts[point] & excluding) != 0)
+    {
+      return false;
+    }
+    std::transform(this->Coordinates + 3 * point, this->Coordinates + 3 * point + 3, position,
+      [](TCoordinate coordinate) { return static_cast<TOut>(coordinate); });
+    value = static_cast<TOutValue>(this->Values[point]);
+    return true;
+  }
+};
+
+/// Loads a block if its arrays are packed and of these types.
+/// @returns whether it did
+template <class TCoordinate, class TValue>
+bool loadPacked(const isopoint::Execution& execution, const vtkIsopointBlock& block,
   isopoint::IsosurfaceExtractor& extractor)
 {
-  const unsigned char* const ghosts = ghostsOf(block);
-  withPositions(block.Positions,
-    [&](const auto& positions)
-    {
-      using Coordinate = typename std::decay_t<decltype(positions)>::Coordinate;
-      withValues(block.Scalars,
-        [&](const auto& values)
-        {
-          using Value = typename std::decay_t<decltype(values)>::Value;
-          const auto read = [&](std::size_t point, auto* position, auto& value)
-          {
-            if (ghosts && (ghosts[point] & excluding) != 0)
-            {
-              return false;
-            }
-            positions(point, position);
-            value = values(point);
-            return true;
-          };
-          loadOrReplace<Coordinate, Value>(
-            execution, static_cast<std::size_t>(block.GetNumberOfSamples()), read, extractor);
-        });
-    });
+  vtkDataArray* const points = coordinatesOf(block.Positions);
+  const TCoordinate* const coordinates = points ? packedArray<TCoordinate>(points) : nullptr;
+  const TValue* const values = packedArray<TValue>(block.Scalars);
+  if (!coordinates || !values)
+  {
+    return false;
+  }
+  loadOrReplace<TCoordinate, TValue>(execution,
+    static_cast<std::size_t>(block.GetNumberOfSamples()),
+    PackedReader<TCoordinate, TValue>{ coordinates, values, ghostsOf(block) }, extractor);
+  return true;
 }
 
 /// Positions of any kind, determined at run time.
@@ -198,15 +122,15 @@ public:
   {
     if (this->Floats)
     {
-      PackedPositions<float>{ this->Floats }(point, position);
+      std::copy_n(this->Floats + 3 * point, 3, position);
     }
     else if (this->Doubles)
     {
-      PackedPositions<double>{ this->Doubles }(point, position);
+      std::copy_n(this->Doubles + 3 * point, 3, position);
     }
-    else
+    else // implicit positions, structures of arrays, integers
     {
-      ComputedPositions{ this->Input }(point, position);
+      this->Input->GetPoint(static_cast<vtkIdType>(point), position);
     }
   }
 
@@ -216,7 +140,7 @@ private:
   const double* Doubles;
 };
 
-/// Values of any type, determined at run time.
+/// Values of any type, determined at run time: exactly, except 64-bit integers beyond 2^53.
 class AnyValues
 {
 public:
@@ -324,20 +248,20 @@ void loadBlocks(const isopoint::Execution& execution, const std::vector<vtkIsopo
                  : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
 }
 
-/// Null unless positions are stored as x y z, x y z, ... of float.
-const float* packedPositions(const vtkIsopointBlock& block)
-{
-  vtkDataArray* const points = coordinatesOf(block.Positions);
-  return points ? packedArray<float>(points) : nullptr;
-}
-
 } // namespace
 
 void vtkLoadIsopointInput(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor)
 {
-  blocks.size() == 1 ? loadBlock(execution, blocks.front(), extractor)
-                     : loadBlocks(execution, blocks, extractor);
+  const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
+  const bool isLoaded = single && (loadPacked<float, float>(execution, *single, extractor) ||
+                                    loadPacked<float, double>(execution, *single, extractor) ||
+                                    loadPacked<double, float>(execution, *single, extractor) ||
+                                    loadPacked<double, double>(execution, *single, extractor));
+  if (!isLoaded)
+  {
+    loadBlocks(execution, blocks, extractor);
+  }
   extractor.setValueError(errorOfValues(haveIntegers(blocks)));
 }
 
@@ -366,27 +290,19 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
     extractor.setValueError(valueError);
   };
   const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
-  const float* const positions = single ? packedPositions(*single) : nullptr;
+  vtkDataArray* const points = single ? coordinatesOf(single->Positions) : nullptr;
+  const float* const coordinates = points ? packedArray<float>(points) : nullptr;
   const float* const values = single ? packedArray<float>(single->Scalars) : nullptr;
-  if (!positions || !values)
+  if (coordinates && values) // the commonest types are known to the compiler
+  {
+    loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
+      PackedReader<float, float>{ coordinates, values, ghostsOf(*single) });
+  }
+  else
   {
     const BlockReader read(blocks);
     loadWith(read.count(), read);
-    return;
   }
-  // The commonest types are known to the compiler.
-  const unsigned char* const ghosts = ghostsOf(*single);
-  loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
-    [=](std::size_t point, auto* position, auto& value)
-    {
-      if (ghosts && (ghosts[point] & excluding) != 0)
-      {
-        return false;
-      }
-      PackedPositions<float>{ positions }(point, position);
-      value = static_cast<std::decay_t<decltype(value)>>(values[point]);
-      return true;
-    });
 }
 
 bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)

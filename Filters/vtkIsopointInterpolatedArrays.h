@@ -2,7 +2,7 @@
 #ifndef vtkIsopointInterpolatedArrays_h
 #define vtkIsopointInterpolatedArrays_h
 
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Isopoint/ExtractionRequest.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointOptions_h
 #define vtkIsopointOptions_h
 
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Isopoint/ExtractionRequest.h"
 #include "vtkIsopointComputedArrays.h"
 
 namespace isopoint

@@ -5,22 +5,17 @@
 #include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
-#include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
-#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/ExtractionRequest.h"
 #include "Isopoint/Ranks/SharedTree.h"
 #include "Isopoint/Ranks/ValueExchange.h"
-#include "Isopoint/Splat/Splat.h"
+#include "Isopoint/SampleCloud.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -33,41 +28,6 @@ template <class TCoordinate, class TValue>
 using SampleFor = std::conditional_t<std::is_same_v<TCoordinate, float>,
   std::conditional_t<std::is_same_v<TValue, float>, FloatSample, FloatSampleOfDouble>,
   std::conditional_t<std::is_same_v<TValue, float>, DoubleSampleOfFloat, WideSample>>;
-
-/// What is to be computed for one isovalue.
-struct ExtractionRequest
-{
-  IsosurfaceRequest isosurface;
-  /// How much of the isosurface thin() drops: 0, which drops nothing, up to 1. Takes effect if
-  /// something is fitted.
-  double minimumSpacing = 0.0;
-  std::optional<SplatOptions> splats = std::nullopt;
-  /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
-  /// Delaunay tetrahedrization of the samples (docs/triangles.md). The angle and the minimum
-  /// spacing then have no effect, and splats have normals alone.
-  bool triangles = false;
-  /// Of a cloud on ranks: how many rings of triangles of other ranks, all with a vertex in the part
-  /// within, are added around those of this one. The same on all ranks.
-  int ghostRings = 0;
-};
-
-/// All that is computed for one isovalue.
-struct ExtractedIsosurface
-{
-  Isosurface surface;
-  std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
-  std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
-  std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
-  /// Whether each isopoint is counted on another rank; empty if none is.
-  std::vector<bool> areElsewhere;
-
-  /// The number of isopoints that are counted on this rank.
-  std::size_t countHere() const
-  {
-    return this->surface.size() - static_cast<std::size_t>(std::count(
-                                    this->areElsewhere.begin(), this->areElsewhere.end(), true));
-  }
-};
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
 /// all types that go through it. The tree and the neighborhoods are kept from one extraction to
@@ -88,11 +48,12 @@ public:
     if (isNarrow(count))
     {
       using TSample = SampleFor<TCoordinate, TValue>;
-      this->Held = Cloud<TSample>{ loadSamples<TSample>(execution, count, read), {}, {} };
+      this->Held = SampleCloud<TSample>{ loadSamples<TSample>(execution, count, read), {}, {} };
     }
     else
     {
-      this->Held = Cloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {}, {} };
+      this->Held =
+        SampleCloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {}, {} };
     }
     this->ItemCount = count;
   }
@@ -192,15 +153,6 @@ public:
     ExtractedIsosurface* ghosts = nullptr);
 
 private:
-  /// The samples, and what has been found out about them.
-  template <class TSample>
-  struct Cloud
-  {
-    SampleTree<TSample> tree;
-    NeighborhoodCache<typename TSample::Id> neighborhoods;
-    std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks
-  };
-
   template <class TSample, class Reader>
   void loadShared(const Execution& execution, Team& team, const std::vector<std::uint64_t>& counts,
     std::uint64_t all, const Reader& read)
@@ -216,13 +168,13 @@ private:
       });
     SharedTree<TSample> shared =
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
-    this->Held = Cloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
+    this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
   }
 
   template <class TSample, class Reader>
   bool replaceSharedValues(const Execution& execution, std::size_t count, const Reader& read)
   {
-    auto* const cloud = std::get_if<Cloud<TSample>>(&this->Held);
+    auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Held);
     if (!cloud || cloud->tree.isEmpty()) // on all ranks
     {
       return false;
@@ -251,28 +203,12 @@ private:
     return true;
   }
 
-  template <class TSample, class TRanks>
-  static ExtractedIsosurface findTriangles(const Execution& execution, Cloud<TSample>& cloud,
-    TRanks& ranks, const ExtractionRequest& request);
-
-  template <class TSample>
-  static ExtractedIsosurface extractTriangles(
-    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
-
-  template <class TSample>
-  ExtractedIsosurface extractTrianglesOnRanks(
-    const Execution& execution, Cloud<TSample>& cloud, const ExtractionRequest& request);
-
-  template <class TSample>
-  ExtractedIsosurface extractOnRanks(const Execution& execution, Cloud<TSample>& cloud,
-    const ExtractionRequest& request, ExtractedIsosurface* ghosts);
-
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
 
   template <class TSample, class Reader>
   bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
   {
-    auto* const cloud = std::get_if<Cloud<TSample>>(&this->Held);
+    auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Held);
     if (!cloud || cloud->tree.isEmpty() || count != this->ItemCount ||
         !holdsPositions(execution, cloud->tree, count, read))
     {
@@ -290,8 +226,8 @@ private:
     return true;
   }
 
-  std::variant<Cloud<FloatSample>, Cloud<FloatSampleOfDouble>, Cloud<DoubleSampleOfFloat>,
-    Cloud<WideSample>>
+  std::variant<SampleCloud<FloatSample>, SampleCloud<FloatSampleOfDouble>,
+    SampleCloud<DoubleSampleOfFloat>, SampleCloud<WideSample>>
     Held;
   std::size_t ItemCount = 0; // of all ranks
   // Of a cloud on ranks:

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Isopoint/ExtractFromCloud.h"
+
+namespace isopoint
+{
+
+template ExtractedIsosurface extractFromCloud<FloatSampleOfDouble>(const Execution& execution,
+  SampleCloud<FloatSampleOfDouble>& cloud, std::size_t itemCount, Team* team,
+  const ExtractionRequest& request, ExtractedIsosurface* ghosts);
+
+} // namespace isopoint

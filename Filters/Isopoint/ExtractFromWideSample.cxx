@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Isopoint/ExtractFromCloud.h"
+
+namespace isopoint
+{
+
+template ExtractedIsosurface extractFromCloud<WideSample>(const Execution& execution,
+  SampleCloud<WideSample>& cloud, std::size_t itemCount, Team* team,
+  const ExtractionRequest& request, ExtractedIsosurface* ghosts);
+
+} // namespace isopoint
