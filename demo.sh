@@ -29,8 +29,9 @@ if (($# != 0 && $# != 3)) || [[ ${1-samples} == '' || ${1-} == -* ]]; then
   exit 2
 fi
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$source_dir/Utilities/steps.sh"
 "$source_dir/Utilities/prepare.sh" release
 # In the environment, since pvbatch interprets arguments that begin with a minus itself.
 export ISOPOINTS_FILTER=$filter ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}
-exec "$source_dir/Utilities/offscreen.sh" pvbatch "$source_dir/Utilities/demo.py" \
-  "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"
+step "Contouring and drawing" "$source_dir/Utilities/offscreen.sh" pvbatch \
+  "$source_dir/Utilities/demo.py" "$source_dir/build/release/lib/ScatteredIsopoints/ScatteredIsopoints.so"

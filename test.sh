@@ -1,17 +1,30 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the project, warnings being errors, and runs its tests.
+# Builds the project, warnings being errors, and runs its tests; see the usage below.
 set -euo pipefail
 
-if [[ ${1-} == --help ]]; then
+usage()
+{
   cat << END
-usage: $0 [OPTION...]
-Builds the project, warnings being errors, and runs all its tests. Options are those of ctest, for
-example --tests-regex '^TestSplats'; ctest --help lists them.
+usage: $0 [--quick] [OPTION...]
+Builds the project in build/release, where demo.sh builds it too, and runs all its tests.
+  --quick   builds and runs only the quick tests: C++ programs that end within seconds
+Other options are those of ctest, for example --tests-regex '^TestSplats' or --label-regex rendering;
+ctest --help lists them.
 END
+}
+
+if [[ ${1-} == --help ]]; then
+  usage
   exit
 fi
-
 cd "$(dirname "${BASH_SOURCE[0]}")"
-Utilities/prepare.sh ci
-exec ctest --preset ci "$@"
+targets=(all tests)
+options=()
+if [[ ${1-} == --quick ]]; then
+  shift
+  targets=(quick_tests)
+  options=(--label-regex '^quick$')
+fi
+Utilities/prepare.sh release "${targets[@]}"
+exec ctest --preset release --parallel "$(nproc)" "${options[@]}" "$@"

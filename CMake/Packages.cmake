@@ -22,14 +22,16 @@ set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 # Libraries add what they are linked with, among it the version of ParaView.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-paraview, python3-numpy")
+# python3-minimal has the py3clean that CMake/prerm calls.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-paraview, python3-numpy, python3-minimal")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev")
 
 set(plugins_folder "${CMAKE_INSTALL_FULL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}")
 configure_file(CMake/DebianPluginList.cmake.in "${CMAKE_BINARY_DIR}/DebianPluginList.cmake" @ONLY)
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_BINARY_DIR}/DebianPluginList.cmake")
 file(WRITE "${CMAKE_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/triggers")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+  "${CMAKE_BINARY_DIR}/triggers" "${CMAKE_CURRENT_SOURCE_DIR}/CMake/prerm")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_PACKAGE_NAME}")

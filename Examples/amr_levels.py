@@ -9,7 +9,9 @@ wavelet = PointDatatoCellData(Input=Wavelet(WholeExtent=[-32, 32, -32, 32, -32, 
 grid = ImageDataToAMR(Input=wavelet, Numberoflevels=3, MaximumNumberofBlocks=60)
 surface = ScatteredIsosurface(Input=grid, ContourBy=["CELLS", "RTData"], Isosurfaces=[190.0])
 
+LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
+view.OrientationAxesVisibility = 0
 view.ViewSize = [600, 400]
 ColorBy(Show(surface), None)
 ResetCamera()

@@ -15,12 +15,18 @@ table = CSVReader(FileName=["boreholes.csv"])
 points = TableToPoints(Input=table, XColumn="x", YColumn="y", ZColumn="z")
 ore = ScatteredIsosurface(Input=points, ContourBy=["POINTS", "grade"], Isosurfaces=[0.5])
 
+LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
+view.OrientationAxesVisibility = 0
 view.ViewSize = [600, 400]
-ColorBy(Show(ore), None)
+display = Show(ore)
+ColorBy(display, None)
+display.DiffuseColor = [0.85, 0.6, 0.3]
 boreholes = Show(points)
 boreholes.SetRepresentationType("Points")
 boreholes.Opacity = 0.3
+boreholes.ColorArrayName = ["POINTS", ""]
+boreholes.AmbientColor = boreholes.DiffuseColor = [0.4, 0.4, 0.5]
 ResetCamera()
 view.CameraPosition = [50, -170, 60]
 SaveScreenshot("csv_table.png", view)

@@ -8,10 +8,12 @@ from paraview.simple import *
 particles = PVTrivialProducer(registrationName="particles")
 surface = ScatteredIsosurface(Input=particles, ContourBy=["POINTS", "density"], Isosurfaces=[0.5])
 
+LoadPalette("WhiteBackground")
 view = CreateView("RenderView")
+view.OrientationAxesVisibility = 0
 view.ViewSize = [400, 300]
 Show(surface, view).ColorArrayName = ["POINTS", ""]
-view.CameraPosition = [0.5, -1.4, 0.8]
+view.CameraPosition = [0.5, -1.1, 0.7]
 view.CameraFocalPoint = [0.5, 0.5, 0.5]
 view.CameraViewUp = [0, 0, 1]
 picture = CreateExtractor("PNG", view, registrationName="picture")

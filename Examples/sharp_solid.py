@@ -19,7 +19,9 @@ part = ScatteredIsopoints(
     Input=samples, ContourBy=["POINTS", "distance"], Isosurfaces=[0.0],
     Projection="Cubic fit with creases", ComputeSplatAxes=1, ComputeSplatClips=1)
 
+LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
+view.OrientationAxesVisibility = 0
 view.ViewSize = [600, 400]
 ColorBy(Show(part), None)
 ResetCamera()

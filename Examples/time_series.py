@@ -25,11 +25,14 @@ output.PointData.append(z - 0.15 * np.sin(9 * x + 2 * time) * np.sin(7 * y - tim
 """
 
 surface = ScatteredIsopoints(Input=sensors, ContourBy=["POINTS", "wave"], Isosurfaces=[0.5])
+LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
+view.OrientationAxesVisibility = 0
 view.ViewSize = [400, 300]
 ColorBy(Show(surface), None)
 ResetCamera()
 GetActiveCamera().Elevation(-60)
+GetActiveCamera().Zoom(1.6)
 animation = GetAnimationScene()
 animation.UpdateAnimationUsingDataTimeSteps()
 for step, time in enumerate(animation.TimeKeeper.TimestepValues):

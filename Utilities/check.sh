@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh [format|lint|documents|fix]...: whether C++ files are formatted (clang-format 14), whether the
-# sources of Filters, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the build of the preset ci), and
+# sources of Filters, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the preset release), and
 # whether links, paths and commands in the documents hold. Without arguments all three. fix formats
 # in place.
 set -euo pipefail
@@ -39,24 +39,23 @@ lint()
 {
   local tool
   tool=$(version_14 clang-tidy)
-  Utilities/prepare.sh ci # generated headers
-  [[ -f build/ci/compile_commands.json ]] || cmake --preset ci > /dev/null
+  Utilities/prepare.sh release # generated headers
   # One entry for each file, the ones that take long first.
-  mkdir -p build/ci/lint
+  mkdir -p build/release/lint
   /usr/bin/python3 - << 'END' |
 import json
 import os
 
 entries = {}
-for entry in json.load(open("build/ci/compile_commands.json")):
+for entry in json.load(open("build/release/compile_commands.json")):
     path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
     if path.startswith(("Filters/", "Plugin/", "RayTracing/", "Rendering/")):
         entries.setdefault(path, entry)
-json.dump(list(entries.values()), open("build/ci/lint/compile_commands.json", "w"))
+json.dump(list(entries.values()), open("build/release/lint/compile_commands.json", "w"))
 for path in sorted(entries, key=lambda path: (not path.startswith("Filters/Isopoint/"), path)):
     print(path, end="\0")
 END
-    xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/ci/lint 2>&1 |
+    xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/release/lint 2>&1 |
     sed -E '/warnings? .*generated\.$/d'
 }
 

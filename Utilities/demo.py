@@ -112,35 +112,36 @@ def show(source, view, representation):
     display.DiffuseColor = display.AmbientColor = [0.85, 0.72, 0.5]
 
 
-def look(view):
-    """Places the camera obliquely above, with everything in view."""
-    simple.ResetCamera(view)
+def look(view, bounds):
+    """Places the camera obliquely above, with these bounds in view: the same for all that is compared."""
+    view.ResetCamera(bounds)
     camera = view.GetActiveCamera()
     camera.Elevation(25)
     camera.Azimuth(35)
     camera.OrthogonalizeViewUp()
-    simple.ResetCamera(view)
+    view.ResetCamera(bounds)
+    camera.Zoom(1.2)
 
 
-def picture(source, representation, path, size):
+def picture(source, representation, path, size, bounds):
     view = simple.CreateView("RenderView")
     view.ViewSize = size
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
     show(source, view, representation)
-    look(view)
+    look(view, bounds)
     simple.SaveScreenshot(path, view, ImageResolution=size)
     simple.Delete(view)
 
 
-def compare(pictures, path):
-    """Writes pictures of pairs (source, representation), side by side."""
+def compare(pictures, bounds, path):
+    """Writes pictures of pairs (source, representation), side by side, all from one camera."""
     parts = []
     with tempfile.TemporaryDirectory() as folder:
         for i, (source, representation) in enumerate(pictures):
             part = os.path.join(folder, "%d.png" % i)
-            picture(source, representation, part, [500, 500])
+            picture(source, representation, part, [500, 500], bounds)
             reader = vtkPNGReader()
             reader.SetFileName(part)
             reader.Update()
@@ -195,21 +196,28 @@ def main(plugin):
 
     name = "triangles.vtp" if is_mesh else "isopoints.vtp"
     simple.SaveData(name, proxy=isopoints, DataMode="Binary")
-    picture(isopoints, "Surface" if is_mesh else "Isopoint Splats", "isosurface.png", [1000, 800])
-    print("wrote %s and isosurface.png" % name)
+    bounds = output.GetBounds()
+    picture(
+        isopoints, "Surface" if is_mesh else "Isopoint Splats", "isosurface.png", [1000, 800], bounds)
+    written = [name, "isosurface.png"]
     if not path and not is_mesh:
+        print(
+            "comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"
+            " resampled to a grid of 100^3 nodes"
+        )
         compare(
             (
                 (isopoints, "Isopoint Splats"),
                 (isopoints, "Point Gaussian"),
                 (on_a_grid(source, array, isovalue), "Surface"),
             ),
+            bounds,
             "comparison.png",
         )
-        print(
-            "wrote comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"
-            " resampled to a grid of 100^3 nodes"
-        )
+        written.append("comparison.png")
+    print("written:")
+    for name in written:
+        print("  " + os.path.abspath(name))
 
 
 if __name__ == "__main__":

@@ -6,9 +6,10 @@ set -euo pipefail
 usage()
 {
   cat << END
-usage: $0 PRESET
-Installs the Debian packages that are missing, for which it needs root, and builds a preset of
-CMakePresets.json. For the preset "check" it installs what Utilities/check.sh needs and builds nothing.
+usage: $0 PRESET [TARGET...]
+Installs the Debian packages that are missing, for which it needs root, and builds targets of a preset of
+CMakePresets.json, warnings being errors: by default all but the tests, whose target is "tests". For
+the preset "check" it installs what Utilities/check.sh needs and builds nothing.
 END
 }
 
@@ -16,13 +17,15 @@ if [[ ${1-} == --help ]]; then
   usage
   exit
 fi
-if (($# != 1)); then
+if (($# == 0)); then
   usage >&2
   exit 2
 fi
 preset=$1
+shift
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_dir"
+source Utilities/steps.sh
 
 if ! command -v dpkg-query > /dev/null; then
   echo "$0: this is not a Debian system. Install the equivalents of the packages that" >&2
@@ -57,6 +60,29 @@ missing_packages()
   done < <(cat "${package_lists[@]}")
 }
 
+# What apt-get prints: the counts and sizes, and every five seconds how far it is.
+shorten_apt_output()
+{
+  awk '
+    /newly installed/ { total = $3 }
+    /newly installed|Need to get|disk space/ { print "  " $0; fflush() }
+    /^Get:/ { downloaded++ }
+    /^Unpacking / { unpacked++ }
+    /^Setting up / { ready++ }
+    total && systime() >= next_time {
+      printf "  of %d packages %d downloaded, %d unpacked, %d ready\n", total, downloaded, unpacked, ready
+      fflush()
+      next_time = systime() + 5
+    }'
+}
+
+install_packages()
+{
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update --quiet=2
+  apt-get install --quiet --yes --no-install-recommends "$@" | shorten_apt_output
+}
+
 mapfile -t missing < <(missing_packages)
 if ((${#missing[@]} > 0)); then
   if ((EUID != 0)); then
@@ -64,10 +90,7 @@ if ((${#missing[@]} > 0)); then
     echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
     exit 1
   fi
-  echo "installing ${#missing[@]} packages" >&2
-  export DEBIAN_FRONTEND=noninteractive
-  apt-get update --quiet=2
-  apt-get install --quiet=2 --yes --no-install-recommends "${missing[@]}" > /dev/null
+  step "Installing ${#missing[@]} packages and what they depend on" install_packages "${missing[@]}"
 fi
 
 # Debian 13's paraview-dev looks for Python modules under other names than python3-paraview gives them.
@@ -81,12 +104,20 @@ fi
 if [[ $preset == check ]]; then
   exit 0
 fi
-if [[ ! -f build/$preset/build.ninja ]]; then
+configure()
+{
+  local log
   log=$(mktemp)
-  trap 'rm -f "$log"' EXIT
-  cmake --preset "$preset" > "$log" 2>&1 || {
+  cmake --preset "$preset" -D SCATTEREDISOPOINTS_WARNINGS_AS_ERRORS=ON > "$log" 2>&1 || {
     cat "$log" >&2
+    rm -f "$log"
     exit 1
   }
+  rm -f "$log"
+}
+
+if [[ ! -f build/$preset/build.ninja ]]; then
+  step "Configuring build/$preset" configure
 fi
-cmake --build --preset "$preset" -- --quiet
+(($# > 0)) || set -- all
+step "Building build/$preset: $*" cmake --build --preset "$preset" --target "$@"

@@ -18,7 +18,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 (($# > 0)) || set -- address thread fuzz
 for preset; do
-  Utilities/prepare.sh "$preset"
+  Utilities/prepare.sh "$preset" tests
   tests=()
   if [[ $preset == fuzz ]]; then
     tests=(--tests-regex '^Fuzz\.')

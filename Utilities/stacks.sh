@@ -37,18 +37,18 @@ test_stack()
 {
   local stack=$1
   local root=$folder/$stack
-  local preset=ci
+  local preset=release
   if [[ $stack == *-vtk ]]; then
-    preset=vtk-ci
+    preset=vtk
   fi
   make_root "${stack%-*}" "$root"
   rm -rf "$root/root/source"
   git clone --quiet "$source_dir" "$root/root/source"
-  run_in_root "$root" "cd /root/source && Utilities/prepare.sh $preset" >> "$root.log" 2>&1 || {
+  run_in_root "$root" "cd /root/source && Utilities/prepare.sh $preset all tests" >> "$root.log" 2>&1 || {
     echo "$stack: does not build; see $root.log"
     return
   }
-  run_in_root "$root" "cd /root/source && ctest --preset $preset" > "$root.tests.log" 2>&1 || true
+  run_in_root "$root" "cd /root/source && ctest --preset $preset --parallel $(nproc)" > "$root.tests.log" 2>&1 || true
   local versions
   versions=$(run_in_root "$root" "cd /root/source && dpkg-query --show --showformat='\${Package} \${Version}, ' \
     libvtk9-dev paraview-dev libcgal-dev libeigen3-dev g++ cmake 2> /dev/null") || true

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes the pictures of the README and of docs/ anew; see the usage below.
+set -euo pipefail
+
+usage()
+{
+  cat << END
+usage: $0 [DATA]
+Builds the plugin if necessary and makes the pictures of README.md and docs/ in place; look at each before
+you commit it. Those of real data need the folder DATA, whose files docs/testing.md names; without it they
+stay as they are.
+END
+}
+
+if [[ ${1-} == --help ]]; then
+  usage
+  exit
+fi
+if (($# > 1)); then
+  usage >&2
+  exit 2
+fi
+data=${1:+$(realpath "$1")}
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source Utilities/steps.sh
+Utilities/prepare.sh release
+
+root=$PWD
+build=$root/build/release
+plugin=$build/lib/ScatteredIsopoints/ScatteredIsopoints.so
+PYTHONPATH=$(echo "$build"/lib/python3*/*-packages)
+export PYTHONPATH
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+# draw INTERPRETER SCRIPT...
+draw()
+{
+  step "${2#"$root/"}" "$root/Utilities/offscreen.sh" "$@"
+}
+
+draw pvbatch "$root/Utilities/demo.py" "$plugin"
+export PV_PLUGIN_PATH=${plugin%/*} # the demo loads the plugin itself
+for name in amr_levels csv_table in_situ_simulation sharp_solid time_series; do
+  draw pvbatch "$root/Examples/$name.py"
+done
+for name in ray_traced_spheres sph_snapshot; do
+  draw /usr/bin/python3 "$root/Examples/$name.py"
+done
+rm isosurface.png
+mv comparison.png "$root/docs/"
+mv ./*.png "$root/docs/examples/"
+if [[ $data ]]; then
+  draw env -u PV_PLUGIN_PATH pvbatch "$root/Testing/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
+  draw /usr/bin/python3 "$root/Testing/Benchmark/ray_traced_engine.py" "$data/volumes/engine_256x256x128_uint8.vti"
+  mv ray_traced_engine.png "$root/docs/examples/"
+fi
+echo "made:"
+git -C "$root" diff --name-only -- '*.png' | sed 's/^/  /'
