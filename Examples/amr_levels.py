@@ -7,7 +7,7 @@ from paraview.simple import *
 # Stands for your data: cells of three sizes.
 wavelet = PointDatatoCellData(Input=Wavelet(WholeExtent=[-32, 32, -32, 32, -32, 32]))
 grid = ImageDataToAMR(Input=wavelet, Numberoflevels=3, MaximumNumberofBlocks=60)
-surface = ScatteredIsosurface(Input=grid, ContourBy=["CELLS", "RTData"], Isosurfaces=[190.0])
+surface = ScatteredIsosurface(Input=grid, ContourBy=["CELLS", "RTData"], Isosurfaces=[180.0])
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
@@ -17,5 +17,5 @@ ColorBy(Show(surface), None)
 ResetCamera()
 GetActiveCamera().Azimuth(35)
 GetActiveCamera().Elevation(25)
-GetActiveCamera().Zoom(1.5)
+GetActiveCamera().Zoom(1.4)
 SaveScreenshot("amr_levels.png", view)
