@@ -160,6 +160,7 @@ def compare(pictures, bounds, path):
 
 
 def main(plugin):
+    sys.stdout.reconfigure(line_buffering=True)
     simple.LoadPlugin(plugin)
     path = os.environ.get("ISOPOINTS_FILE")
     if path:

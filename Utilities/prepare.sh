@@ -120,4 +120,4 @@ if [[ ! -f build/$preset/build.ninja ]]; then
   step "Configuring build/$preset" configure
 fi
 (($# > 0)) || set -- all
-step "Building build/$preset: $*" cmake --build --preset "$preset" --target "$@"
+step "Building build/$preset: $*" cmake --build --preset "$preset" --parallel "$(nproc)" --target "$@"
