@@ -26,6 +26,11 @@ RADIUS = 70.0
 SAMPLE_COUNT = 1_000_000
 
 
+def say(message):
+    """Prints at once, also where the output is not a terminal."""
+    print(message, flush=True)
+
+
 def fail(message):
     sys.exit("demo: " + message)
 
@@ -160,7 +165,6 @@ def compare(pictures, bounds, path):
 
 
 def main(plugin):
-    sys.stdout.reconfigure(line_buffering=True)
     simple.LoadPlugin(plugin)
     path = os.environ.get("ISOPOINTS_FILE")
     if path:
@@ -181,29 +185,30 @@ def main(plugin):
 
     output = isopoints.GetClientSideObject().GetOutput()
     count = output.GetNumberOfPoints()
-    print("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
+    say("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
     if is_mesh:
-        print("triangles         %d" % output.GetNumberOfPolys())
-    print("%s         %d" % ("vertices " if is_mesh else "isopoints", count))
-    print("seconds           %.3f" % seconds)
+        say("triangles         %d" % output.GetNumberOfPolys())
+    say("%s         %d" % ("vertices " if is_mesh else "isopoints", count))
+    say("seconds           %.3f" % seconds)
     if count == 0:
         limits = source.PointData[array].GetRange()
         fail("there are no isopoints: the values of %s range from %g to %g" % (array, *limits))
     if not path:
         positions = vtk_to_numpy(output.GetPoints().GetData()).astype(float)
         deviation = np.abs(np.linalg.norm(positions - 0.5 * SIDE, axis=1) - RADIUS)
-        print("largest deviation %.5f" % deviation.max())
-        print("mean deviation    %.5f" % deviation.mean())
+        say("largest deviation %.5f" % deviation.max())
+        say("mean deviation    %.5f" % deviation.mean())
 
     name = "triangles.vtp" if is_mesh else "isopoints.vtp"
     simple.SaveData(name, proxy=isopoints, DataMode="Binary")
+    say("drawing isosurface.png")
     bounds = output.GetBounds()
     picture(
         isopoints, "Surface" if is_mesh else "Isopoint Splats", "isosurface.png", [1000, 800], bounds)
     written = [name, "isosurface.png"]
     if not path and not is_mesh:
-        print(
-            "comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"
+        say(
+            "drawing comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"
             " resampled to a grid of 100^3 nodes"
         )
         compare(
@@ -216,9 +221,9 @@ def main(plugin):
             "comparison.png",
         )
         written.append("comparison.png")
-    print("written:")
+    say("written:")
     for name in written:
-        print("  " + os.path.abspath(name))
+        say("  " + os.path.abspath(name))
 
 
 if __name__ == "__main__":
