@@ -27,8 +27,8 @@ SAMPLE_COUNT = 1_000_000
 
 
 def say(message):
-    """Prints at once, also where the output is not a terminal."""
-    print(message, flush=True)
+    """Prints at once. pvbatch replaces sys.stdout by a stream that it shows at the end."""
+    print(message, file=sys.__stdout__, flush=True)
 
 
 def fail(message):
@@ -145,6 +145,7 @@ def compare(pictures, bounds, path):
     parts = []
     with tempfile.TemporaryDirectory() as folder:
         for i, (source, representation) in enumerate(pictures):
+            say("  " + source.GetXMLLabel() + ", " + representation)
             part = os.path.join(folder, "%d.png" % i)
             picture(source, representation, part, [500, 500], bounds)
             reader = vtkPNGReader()
