@@ -5,7 +5,8 @@
 Links, anchors, and paths and identifiers in backticks exist; commands in blocks marked bash parse
 and name scripts, presets, targets, options and tests that exist; blocks marked python or pvpython
 compile and, where asked for, run; all code is fenced; words and places that do not belong into a
-document are not there. Prints file:line: message for each defect and exits with 1 if there is any.
+document are not there; values in tables of constants are those of the sources; nothing is left to be
+filled in. Prints file:line: message for each defect and exits with 1 if there is any.
 
 A comment before a block, <!-- setup: FILE.py --> or <!-- setup: code -->, runs before it.
 """
@@ -24,7 +25,6 @@ import tempfile
 from markdown_document import Document, read
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
-README_LINES = 130
 SOURCES = (".h", ".cxx", ".glsl", ".py", ".sh", ".cmake")  # in backticks, these are the tree's
 LANGUAGES = ("bash", "cmake", "pvpython", "python", "text")
 STANDARD_TARGETS = {"all", "clean", "install", "package", "test"}
@@ -39,13 +39,34 @@ LINKS = re.compile(
 )
 IDENTIFIERS = re.compile(r"\b(?:vtk\w+|(?=\w*[a-z])[A-Za-z]\w*[A-Z]\w*)\b")
 UNWANTED = (
-    # words of no field, where it has its own
-    re.compile(r"\b(?:[Tt]ell|[Tt]ells|[Tt]old|[Hh]eaps?|[Ss]lots?)\b"),
     # relative paths that leave the repository
     re.compile(r"\.\./(?:\.\./|[a-z][\w-]*/)"),
     # absolute paths
     re.compile(r"(?<![\w/.:<>*)\]}])/(?!usr/(?:local|bin)\b)[A-Za-z][\w.-]*(?:/[\w.-]+)*"),
 )
+
+
+# What waits to be filled in: names such as RESULTS or TESTS12 that nothing in the tree defines.
+UNFINISHED = re.compile(r"\?\?\?|\b(?:TODO|TBD|FIXME|XXX|TKTK)\b|\b[A-Z]{4,}\d*[A-Z]*\b")
+CAPITALS = {
+    "ARRAY", "BRDF", "DATA", "EPYC", "FILE", "FOLDER", "GLSL", "IEEE", "ISOVALUE", "PSNR", "README", "SIGGRAPH", "VGTC"}  # fmt: skip
+CONSTANT_ROW = re.compile(r"\| `(\w+)` \| (\w+\.(?:h|cxx)) \| ([^|]+?) \|")
+
+PROPERTY_MEMBER = re.compile(r"^  (?:double|int|vtkTypeBool) (\w+) = ([\w.]+);", re.MULTILINE)
+SWITCHES = {"on": "1", "off": "0"}
+
+
+def number_of(expression):
+    """The value of a constant's expression in C++ or in a document, or None."""
+    expression = re.sub(r"std::\w+(?=\s*\{)|\b(?:long )?double(?=\s*\{)", "", expression)
+    expression = re.sub(r"[{}]", lambda brace: "(" if brace.group() == "{" else ")", expression)
+    expression = expression.replace("^", "**").replace("'", "")
+    if not re.fullmatch(r"[\d\s.eE()<>*/+-]+", expression):
+        return None
+    try:
+        return eval(expression)  # pylint: disable=eval-used
+    except (SyntaxError, TypeError, ZeroDivisionError):
+        return None
 
 
 class BuildNames:
@@ -92,6 +113,8 @@ class Checker:
         self.defects, self.documents = [], {}
         self.entries = set(os.listdir(self.root)) - {"build"}
         self.file_names, self.names, self.identifiers = set(), BuildNames(), set(PLACEHOLDERS)
+        self.sources = {}  # paths of C++ files by their names
+        self.defaults = {}  # of properties, as their classes initialize them
         for folder, folders, names in os.walk(self.root):
             folders[:] = [name for name in folders if name != ".git" and not name.startswith("build")]
             self.file_names.update(names)
@@ -107,6 +130,11 @@ class Checker:
         elif name.endswith(WITH_IDENTIFIERS) and name not in OF_THIS_CHECK:
             text = read(path)
             self.identifiers.update(re.findall(r"\w+", text))
+            if name.endswith((".h", ".cxx")):
+                self.sources.setdefault(name, path)
+            if re.match(r"vtk\w+\.h$", name):
+                for member, value in PROPERTY_MEMBER.findall(text):
+                    self.defaults.setdefault(member, set()).add(value)
             if name.endswith((".cmake", "CMakeLists.txt")):
                 self.names.add_cmake(text)
             elif name.endswith(".cxx"):
@@ -130,15 +158,20 @@ class Checker:
         return self.defects
 
     def check(self, name, document):
-        if name == "README.md" and len(document.lines) > README_LINES:
-            self.report(name, len(document.lines), "more than %d lines" % README_LINES)
         for number, line in enumerate(document.lines, 1):
             for word in (word for pattern in UNWANTED for word in pattern.findall(line)):
                 self.report(name, number, '"%s" does not belong into a document' % word)
+            self.check_constant(name, number, line)
+        self.check_defaults(name, document.lines)
         for number, message in document.defects:
             self.report(name, number, message)
         for first, text in document.paragraphs:
             prose = re.sub(r"`[^`]+`", lambda code: re.sub(r"\S", "x", code.group()), text)
+            for match in UNFINISHED.finditer(prose):
+                word = match.group()
+                if word not in CAPITALS and word not in self.identifiers:
+                    number = first + text.count("\n", 0, match.start())
+                    self.report(name, number, "%s is still to be filled in" % word)
             for match in LINKS.finditer(prose):
                 number = first + text.count("\n", 0, match.start(match.lastindex))
                 self.check_link(name, number, match.group(match.lastindex))
@@ -164,6 +197,44 @@ class Checker:
             self.report(name, number, "no file for the link %s" % target)
         elif anchor and anchor not in self.document(full).anchors:
             self.report(name, number, "no heading for the link %s" % target)
+
+    def check_constant(self, name, number, line):
+        """A row of a table of constants: | `name` | file | value | ..."""
+        match = CONSTANT_ROW.match(line)
+        if not match:
+            return
+        constant, file, value = match.groups()
+        text = read(self.sources[file]) if file in self.sources else ""
+        values = re.findall(r"\bconstexpr\b[^;={]*\b%s\s*(?:=\s*([^;]+)|\{([^;]+)\});" % constant, text)
+        values = [number_of(first or second) for first, second in values]
+        if not values:
+            self.report(name, number, "no constant %s in %s" % (constant, file))
+        elif number_of(value) is None or number_of(value) not in values:
+            self.report(name, number, "%s is %s in %s, not %s" % (constant, values[0], file, value))
+
+    def check_defaults(self, name, lines):
+        """The column "default" of tables whose rows begin with a property."""
+        column = 0
+        for number, line in enumerate(lines, 1):
+            cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
+            if not cells:
+                column = 0
+            elif "default" in cells:
+                column = cells.index("default")
+            elif column and len(cells) > column:
+                words = re.match(r"`(\w+)`", cells[0]), re.match(r"`?([\w.]+)", cells[column])
+                if all(words):
+                    self.check_default(name, number, *(word.group(1) for word in words))
+
+    def check_default(self, name, number, member, default):
+        values = self.defaults.get(member, set())
+        default = SWITCHES.get(default, default)
+        is_value = number_of(default) is not None or default in self.identifiers and default.isupper()
+        if not values or not is_value or default in values:
+            return
+        numbers = {number_of(value) for value in values} - {None}
+        if number_of(default) not in numbers:
+            self.report(name, number, "the default of %s is %s" % (member, " or ".join(values)))
 
     def check_path(self, name, number, word):
         """A word in backticks or of a command that looks like a path of the tree."""

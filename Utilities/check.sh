@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.sh [format|lint|documents|fix]...: whether C++ files are formatted (clang-format 14), whether the
+# check.sh [format|lint|documents|spelling|fix]...: whether C++ files are formatted (clang-format 14), whether the
 # sources of Filters, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the preset release), and
-# whether links, paths and commands in the documents hold. Without arguments all three. fix formats
-# in place.
+# whether links, paths, commands and figures in the documents hold, and whether all files are in American
+# spelling (codespell). Without arguments all four. fix formats in place.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -59,15 +59,22 @@ END
     sed -E '/warnings? .*generated\.$/d'
 }
 
-(($# > 0)) || set -- format lint documents
+spelling()
+{
+  command -v codespell > /dev/null || Utilities/prepare.sh check
+  git ls-files -z | xargs -0 codespell
+}
+
+(($# > 0)) || set -- format documents spelling lint
 for check; do
   case $check in
     format) format --dry-run --Werror ;;
     fix) format -i ;;
     lint) lint ;;
     documents) Utilities/check-documents.py ;;
+    spelling) spelling ;;
     *)
-      echo "usage: $0 [format|lint|documents|fix]..." >&2
+      echo "usage: $0 [format|lint|documents|spelling|fix]..." >&2
       exit 2
       ;;
   esac

@@ -102,7 +102,7 @@ public:
         {
           std::unique_lock<std::mutex> lock(this->Mutex);
           if (!this->Wake.wait_for(
-                lock, std::chrono::duration<double>(seconds), [this]() { return this->Cancelled; }))
+                lock, std::chrono::duration<double>(seconds), [this]() { return this->Canceled; }))
           {
             this->Time = now();
             filter->SetAbortExecute(true);
@@ -116,7 +116,7 @@ public:
   {
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Cancelled = true;
+      this->Canceled = true;
     }
     this->Wake.notify_one();
     this->Thread.join();
@@ -126,7 +126,7 @@ public:
 private:
   std::mutex Mutex;
   std::condition_variable Wake;
-  bool Cancelled = false;
+  bool Canceled = false;
   double Time = 0.0;
   std::thread Thread;
 };
