@@ -44,7 +44,7 @@ std::vector<char> vtkWriteIsopointArrayHeaders(const std::vector<vtkIsopointArra
 std::vector<vtkIsopointArrayHeader> vtkReadIsopointArrayHeaders(const std::vector<char>& bytes);
 
 /**
- * A new array of so many tuples. @throws std::bad_alloc
+ * A new array of this many tuples. @throws std::bad_alloc
  */
 vtkSmartPointer<vtkAbstractArray> vtkNewIsopointArray(
   const vtkIsopointArrayHeader& header, vtkIdType tuples);

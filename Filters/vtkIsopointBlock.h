@@ -27,7 +27,7 @@ struct vtkIsopointBlock
   /// vtkDataSetAttributes::DUPLICATEPOINT and HIDDENPOINT.
   vtkSmartPointer<vtkUnsignedCharArray> Ghosts;
 
-  /// The number of ids that stand for no leaf of a hyper tree grid, but for a coarse node or for
+  /// The number of ids that stand for no leaf of a hyper tree grid, except for a coarse node or for
   /// nothing. `Ghosts` excludes them.
   vtkIdType NumberOfUnusedIds = 0;
 

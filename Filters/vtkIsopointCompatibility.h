@@ -41,7 +41,7 @@ inline int vtkGetRequestedSMPThreads()
 }
 
 /**
- * Gives an AMR so many grids in each level.
+ * Gives an AMR this many grids in each level.
  */
 inline void vtkInitializeLevels(vtkUniformGridAMR* amr, const std::vector<unsigned int>& grids)
 {

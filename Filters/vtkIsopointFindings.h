@@ -38,7 +38,7 @@ struct vtkIsopointFindings
   /// Nothing yet, of these isovalues. @throws std::bad_alloc
   void Start(const std::set<double>& isovalues);
 
-  /// Counts the samples of some blocks, of which the extractor left out so many.
+  /// Counts the samples of some blocks, of which the extractor left out this many.
   void CountSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
 };
 

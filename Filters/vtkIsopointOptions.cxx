@@ -154,7 +154,7 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
       {
         throw vtkIsopointUsageError(
           "The filters of the ranks have different options. Set the same on all of them, or"
-          " contour each rank's samples by themselves with SetController(nullptr).");
+          " contour each rank's samples separately with SetController(nullptr).");
       }
     });
 }

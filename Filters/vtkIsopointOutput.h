@@ -49,7 +49,7 @@ void vtkAddIsopointGhosts(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
 
 /**
- * A new, empty output for a composite input whose blocks are contoured by themselves: an object of
+ * A new, empty output for a composite input whose blocks are contoured separately: an object of
  * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
  */
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);

@@ -400,7 +400,7 @@ public:
 
   ///@{
   /**
-   * Whether to contour each block of a composite input by itself. If on, the output is a composite
+   * Whether to contour each block of a composite input separately. If on, the output is a composite
    * of the same structure, with a vtkPolyData for each block that has the contoured array (for an
    * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
    * cloud, and the output is one vtkPolyData. Without effect on other inputs. On several ranks a
@@ -421,7 +421,7 @@ public:
    * samples. If ghost levels are requested of the output, however many, the points within five
    * rings of neighbors around those of a rank follow behind these, with all their arrays, marked in
    * "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. Null, or a controller of
-   * one process: the filter runs by itself. Default: the global controller when the filter is
+   * one process: the filter runs on its own. Default: the global controller when the filter is
    * created (that of MPI in ParaView's servers and in pvbatch).
    */
   virtual void SetController(vtkMultiProcessController* controller);
@@ -507,13 +507,13 @@ private:
 
   void ExtractSafely(vtkDataObject* input, vtkDataObject* output);
   void ExtractInput(vtkDataObject* input, vtkDataObject* output);
-  /// Each leaf of a composite input by itself.
+  /// Each leaf of a composite input separately.
   void ExtractLeaves(vtkDataObject* input, vtkCompositeDataSet* output);
   /// The same on one of several ranks, which all call it. @throws on all of them, if on any
   void ExtractOnRanks(vtkDataObject* input, vtkDataObject* output);
   void CollectOnRanks(
     isopoint::Team& team, const isopoint::Execution& execution, vtkDataObject* input);
-  /// Each leaf of all ranks' inputs together by itself.
+  /// Each leaf of all ranks' inputs together, separately.
   void ExtractLeavesOnRanks(isopoint::Team& team, const isopoint::Execution& execution,
     const vtkIsopointStructure& structure, vtkDataObject* input, vtkDataObject* output);
   /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
@@ -527,7 +527,7 @@ private:
   void ReportFindings();
   void ConnectRanks();
   std::set<double> GetIsovalues();
-  /// The progress after loading so many samples, and after each isovalue.
+  /// The progress after loading this many samples, and after each isovalue.
   std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
   void ExtractBlocks(std::size_t begin, std::size_t end, KeptTree& kept, vtkPolyData* output);
   /// One surface for each isovalue, then, if there are any, its ghosts for each.

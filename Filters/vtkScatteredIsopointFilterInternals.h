@@ -33,7 +33,7 @@ public:
   int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
   vtkIsopointFindings Findings;          // of the current update
-  std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured by themselves, else one
+  std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured separately, else one
 
   void Clear()
   {

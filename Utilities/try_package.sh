@@ -8,7 +8,7 @@ usage()
   cat << END
 usage: $0 FOLDER RELEASE PACKAGE
 Makes a bare root of the Debian RELEASE below FOLDER with debootstrap, unless it is there, and in it
-installs PACKAGE, a .deb, as a user would. ParaView must list its plugin and load it by itself, and
+installs PACKAGE, a .deb, as a user would. ParaView must list its plugin and load it automatically, and
 nothing may be left of it when it is removed. Needs root,
 debootstrap and 3 GiB.
 END

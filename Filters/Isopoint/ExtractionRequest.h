@@ -15,7 +15,7 @@
 namespace isopoint
 {
 
-/// What is to be computed for one isovalue.
+/// What to compute for one isovalue.
 struct ExtractionRequest
 {
   IsosurfaceRequest isosurface;

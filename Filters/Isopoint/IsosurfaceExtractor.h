@@ -132,7 +132,7 @@ public:
   /// The number of items that do not.
   std::size_t skippedCount() const;
 
-  /// What load() and extract() are expected to take for so many items, in nanoseconds of one
+  /// What load() and extract() are expected to take for this many items, in nanoseconds of one
   /// thread: their ratio is good to a factor of about two, to divide progress.
   /// @param isTreeKept whether the cloud has been extracted from before
   static double loadingWork(std::size_t count);

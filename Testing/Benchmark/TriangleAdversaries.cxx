@@ -133,7 +133,7 @@ Cloud latticeOf(std::size_t count)
     distanceToMiddle);
 }
 
-/// Uniform but for an empty ball in the middle, which the surface crosses.
+/// Uniform except for an empty ball in the middle, which the surface crosses.
 Cloud withVoid(std::size_t count)
 {
   Cloud cloud;

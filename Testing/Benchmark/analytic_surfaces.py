@@ -203,7 +203,7 @@ def jittered(count, random):
 
 
 def slices(ratio):
-    """Samples in planes that are so many times as far apart as the samples within them."""
+    """Samples in planes whose distance is a multiple of that of the samples within them."""
 
     def sampling(count, random):
         planes = round((count / ratio**2) ** (1 / 3))

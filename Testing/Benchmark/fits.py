@@ -122,7 +122,7 @@ def judge(draw):
     linear, alone = volumes.extract(
         draw.samples, draw.isovalue, volumes.PROJECTIONS["linear"], is_alone=True)
     fitted, seconds = volumes.extract(draw.samples, draw.isovalue, volumes.PROJECTIONS["cubic fit"])
-    # The points of both stand in the same order.
+    # The points of both are in the same order.
     before, after = volumes.positions_of(linear), volumes.positions_of(fitted)
     measured = draw.measured(before)
     without, _ = draw.feet(before[measured])

@@ -99,7 +99,7 @@ def positions_of(isopoints):
 
 
 def measured(positions, volume, spacing):
-    """Indices away from the volume's border, where samples stand on all sides; at most so many."""
+    """Indices away from the volume's border, where samples stand on all sides; at most this many."""
     bounds = np.array(volume.GetBounds()).reshape(3, 2)
     inside = (positions > bounds[:, 0] + 2 * spacing) & (positions < bounds[:, 1] - 2 * spacing)
     indices = np.flatnonzero(inside.all(axis=1))

@@ -306,7 +306,7 @@ isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
   return extractFrom(extractor, execution, isovalue, angle, gapFactor);
 }
 
-/// Turns a position about two axes: what was on planes and spheres is so but for rounding.
+/// Turns a position about two axes: what was on planes and spheres is so except for rounding.
 inline void turn(double* p)
 {
   const double x = 0.8 * p[0] - 0.6 * p[1];

@@ -16,8 +16,8 @@
 
 /// Fits as docs/algorithm.md defines them in 10.2 to 10.4, written down plainly and independently
 /// of the core: least squares by Householder's QR of the whole design, residuals of samples left
-/// out and effects of values by fitting again. Equal to the core's but for rounding, since sums are
-/// taken in other orders.
+/// out and effects of values by fitting again. Equal to the core's except for rounding, since sums
+/// are taken in other orders.
 namespace fitdefinition
 {
 

@@ -62,7 +62,7 @@ inline LocalFit fitAll(const std::vector<FitSample>& samples, const FitEdge& edg
   return near ? *near : fitter.fit(edge, samples, count);
 }
 
-/// What the samples next to an edge decide by themselves.
+/// What the samples next to an edge decide alone.
 inline std::optional<LocalFit> fitNear(const std::vector<FitSample>& samples, const FitEdge& edge,
   FitOrder highest = FitOrder::Cubic, double isovalue = 0.0)
 {

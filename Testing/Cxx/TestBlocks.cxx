@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Composite data: all blocks as one cloud, or each by itself.
+// Composite data: all blocks as one cloud, or each separately.
 #include "InputTesting.h"
 
 using namespace inputtesting;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fails on one rank ends the work of all; none of them waits for ever, and the next call
+// What fails on one rank ends the work of all; none of them waits forever, and the next call
 // works.
 #include "FailingAllocator.h"
 #include "RankTesting.h"

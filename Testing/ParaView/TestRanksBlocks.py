@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blocks contoured by themselves on several ranks:
+"""Blocks contoured separately on several ranks:
 mpirun -n N pvbatch --symmetric TestRanksBlocks.py FOLDER"""
 
 import unittest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real files of every kind, where a folder with them is at hand: TestRealFiles.py PLUGIN FOLDER
+"""Real files of every kind, where a folder with them is available: TestRealFiles.py PLUGIN FOLDER
 Prints a table; each file must give as many isopoints as its surface lets expect."""
 
 import os

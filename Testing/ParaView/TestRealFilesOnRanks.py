@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real files, where a folder with them is at hand: the ranks yield together, bit for bit, what one
+"""Real files, where a folder with them is available: the ranks yield together, bit for bit, what one
 process does. mpirun -n N pvbatch --symmetric TestRealFilesOnRanks.py FOLDER DATA
 
 Each rank has a consecutive part of the points, or of the boxes of an AMR, so that the order of all

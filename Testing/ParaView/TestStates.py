@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Traces and states: TestStates.py PLUGIN PVBATCH
 
-A trace loads the plugin by itself. States of ParaView load it from PV_PLUGIN_PATH, and in a second
+A trace loads the plugin automatically. States of ParaView load it from PV_PLUGIN_PATH, and in a second
 run nothing is lost: neither what the filters compute nor how it is drawn."""
 
 import os

@@ -25,11 +25,11 @@ inline std::uintptr_t pageSize()
 /// Asks for huge pages behind freshly allocated memory, where the system offers them and there is
 /// so much of it that it was mapped for this allocation alone: the first writes then take far fewer
 /// page faults, and reads in any order fewer page walks. Memory that is never written still takes
-/// no pages, but for the rest of a huge one.
+/// no pages, except for the rest of a huge one.
 inline void preferHugePages(void* memory, std::size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
-  // From this size on, glibc maps each allocation by itself, whatever its settings.
+  // From this size on, glibc maps each allocation separately, whatever its settings.
   constexpr std::size_t alwaysMapped = std::size_t{ 1 } << 25;
   if (bytes > alwaysMapped)
   {
@@ -45,7 +45,7 @@ inline void preferHugePages(void* memory, std::size_t bytes)
 #endif
 }
 
-/// Addresses for so many bytes, most of which will never be written: only pages that are written
+/// Addresses for this many bytes, most of which will never be written: only pages that are written
 /// take memory, and none is set aside. Where the system knows no such thing, plain memory.
 /// @returns null if there are none
 inline void* reserveSpread(std::size_t bytes)

@@ -53,8 +53,8 @@ public:
     }
   }
 
-  /// Makes an empty array one of so many elements of which few will be written: no memory is taken,
-  /// nor set aside, for pages that are not, as far as the system can. Its size stays.
+  /// Makes an empty array one of this many elements of which few will be written: no memory is
+  /// taken, nor set aside, for pages that are not, as far as the system can. Its size stays.
   /// @param first, count the elements that will all be written
   /// @throws std::bad_alloc
   void spread(std::size_t size, std::size_t first, std::size_t count)

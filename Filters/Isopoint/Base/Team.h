@@ -29,7 +29,7 @@ struct FailedElsewhere : std::runtime_error
 /// What a rank has sent and received since its Team was made.
 struct Traffic
 {
-  std::uint64_t sent = 0;     // bytes to other ranks, but for those of sums and maxima
+  std::uint64_t sent = 0;     // bytes to other ranks, except for those of sums and maxima
   std::uint64_t received = 0; // likewise
   std::uint64_t rounds = 0;   // exchanges in which any rank sent anything
 };

@@ -64,7 +64,7 @@ public:
     return std::min(std::exp2(depth), this->Extent * std::exp2(2.0 / 3.0 * depth));
   }
 
-  /// The work of splitting a node of so many samples from a depth down to another.
+  /// The work of splitting a node of this many samples from a depth down to another.
   double splittingWork(double samples, int depth, int bottom) const
   {
     return samples *

@@ -41,7 +41,7 @@ struct FoundEdges
 struct MissingWork
 {
   std::vector<BinaryIndex> leaves;  // whose edges were not found
-  std::vector<MissingNode> missing; // what is to be fetched first
+  std::vector<MissingNode> missing; // what to fetch first
 };
 
 /// Finds the crossing edges of all leaves of this rank below the given nodes.

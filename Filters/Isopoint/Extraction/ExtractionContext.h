@@ -35,7 +35,7 @@ struct ExtractionContext
   {
   }
 
-  /// Boxes of all samples, which searches without lists need, are not at hand on one of several
+  /// Boxes of all samples, which searches without lists need, are not available on one of several
   /// ranks.
   static constexpr std::size_t unlimited = std::size_t{ 1 } << 62;
 

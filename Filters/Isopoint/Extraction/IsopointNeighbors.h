@@ -133,7 +133,7 @@ private:
   /// Leaves that touch, or have, more than that are left out.
   static constexpr std::size_t most = 256;
 
-  /// No leaf is added once so many isopoints are listed.
+  /// No leaf is added once this many isopoints are listed.
   static constexpr std::size_t mostIsopoints = 2048;
 
   /// Lists one after the other in memory.

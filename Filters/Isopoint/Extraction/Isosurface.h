@@ -97,7 +97,7 @@ template <class AttributeAt>
 class CoincidentAttribute
 {
 public:
-  /// @param attributeAt(id) the attribute of a sample by itself, as a double
+  /// @param attributeAt(id) the attribute of one sample, as a double
   CoincidentAttribute(const Isosurface& surface, const AttributeAt& attributeAt)
     : Surface(surface)
     , Own(attributeAt)

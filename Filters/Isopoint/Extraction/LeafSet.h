@@ -14,7 +14,7 @@ template <class TId>
 class LeafSet
 {
 public:
-  /// O(1), but for the first time after the present generation of entries has run out.
+  /// O(1), except for the first time after the present generation of entries has run out.
   void clear()
   {
     this->Count = 0;

@@ -357,7 +357,7 @@ private:
       });
   }
 
-  /// The number of samples in nodes so many levels below the front that are no leaves; counting
+  /// The number of samples in nodes this many levels below the front that are no leaves; counting
   /// ends above a limit.
   std::size_t unfinishedSamples(
     const std::vector<BandNode>& front, int levels, std::size_t limit) const

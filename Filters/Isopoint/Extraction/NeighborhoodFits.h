@@ -79,7 +79,7 @@ private:
   LocalFitter Fitter;
 };
 
-/// Where an edge stands in the order of the tree.
+/// The place of an edge in the order of the tree.
 struct TreePlace
 {
   std::uint64_t lower; // of its ends among the tree's samples

@@ -71,7 +71,7 @@ public:
   }
 
   /// Adds the neighbors of the ends' neighbors across the isovalue, unless there are enough
-  /// samples, as where these stand in lines.
+  /// samples, as where these are in lines.
   void widen()
   {
     constexpr std::size_t enoughSamples = 128;
@@ -231,7 +231,7 @@ private:
     }
   }
 
-  /// Where a leaf stands in the order of the tree.
+  /// The place of a leaf in the order of the tree.
   std::size_t beginOf(Id leaf) const
   {
     return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;

@@ -38,7 +38,7 @@ bool increasesAlong(const Vector& increasing, const Vector& gradient);
 std::optional<PolynomialFit> fitPolynomial(
   const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing, int degree);
 
-/// Whether so many samples determine a polynomial and leave residuals that its error can be
+/// Whether this many samples determine a polynomial and leave residuals that its error can be
 /// estimated from.
 bool areEnough(std::size_t sampleCount, int degree);
 

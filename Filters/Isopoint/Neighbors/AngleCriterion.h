@@ -56,7 +56,7 @@ public:
   }
 
   /// The same in a neighborhood sorted by nearestFirst(). The nearest ones, seen in many
-  /// directions, mostly drop the others: far less than O(count) but for the few that survive.
+  /// directions, mostly drop the others: far less than O(count) except for the few that survive.
   bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
   {
     for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)

@@ -35,7 +35,7 @@ public:
   {
   }
 
-  /// O(1), but for the first time O(samples of the node).
+  /// O(1), except for the first time O(samples of the node).
   /// @throws std::bad_alloc
   SampleBox<TSample> at(std::size_t nodeIndex)
   {
@@ -79,7 +79,7 @@ public:
   bool isEnough() const { return this->extent() >= this->Query.enough; }
 
 private:
-  static constexpr double leastCosine = 0.7071; // of 45 degrees, but for rounding
+  static constexpr double leastCosine = 0.7071; // of 45 degrees, except for rounding
 
   /// @param box the intersection of the search's box and the node's region
   /// @throws MissingNode at a node whose samples another rank holds

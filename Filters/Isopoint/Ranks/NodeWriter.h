@@ -35,7 +35,7 @@ public:
   {
   }
 
-  /// The first of so many pairs side by side. @throws std::bad_alloc, std::length_error
+  /// The first of this many pairs side by side. @throws std::bad_alloc, std::length_error
   std::size_t take(std::size_t count)
   {
     constexpr std::size_t portion = 4096;
@@ -83,7 +83,7 @@ public:
   }
 
 private:
-  /// Nodes of up to so many samples are sent whole: those next to one that is needed mostly are
+  /// Nodes of up to this many samples are sent whole: those next to one that is needed mostly are
   /// needed as well.
   static constexpr std::size_t fewSamples = 32;
 

@@ -66,7 +66,7 @@ public:
   }
 
 private:
-  /// Subtrees are alike in size but for coincident samples: as many as there are ranks, or a few
+  /// Subtrees are alike in size except for coincident samples: as many as there are ranks, or a few
   /// for each where that is no power of two.
   static int topDepth(int ranks)
   {
@@ -400,7 +400,8 @@ private:
     std::size_t length(std::size_t size) const { return this->end(size) - this->begin(size); }
   };
 
-  /// Sends a slice of one subtree's samples to each rank that has so many, and gives up its memory.
+  /// Sends a slice of one subtree's samples to each rank that has this many, and gives up its
+  /// memory.
   void sendParts(const std::vector<std::vector<std::size_t>>& partsOf,
     const std::vector<std::vector<std::uint64_t>>& arriving, std::size_t round, const Slice& slice)
   {
@@ -448,7 +449,7 @@ private:
     }
   }
 
-  /// Coincident samples stand in the order of their ids.
+  /// Coincident samples are in the order of their ids.
   void sortLeaves(const std::vector<std::size_t>& parts)
   {
     SampleTree<TSample>& tree = this->Result.tree;

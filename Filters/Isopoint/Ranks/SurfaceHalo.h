@@ -45,7 +45,7 @@ public:
   {
   }
 
-  /// Gathers so many rings, two or more.
+  /// Gathers this many rings, two or more.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   void gather(int rings)
   {
@@ -168,7 +168,7 @@ private:
     std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
   }
 
-  /// The given leaves and all that touch them, but for leaves that touch too many others: around
+  /// The given leaves and all that touch them, except for leaves that touch too many others: around
   /// those no isopoints are looked for.
   std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
   {

@@ -111,7 +111,7 @@ private:
   CGAL::Bbox_3 Bounds;
 };
 
-/// Parallel where oneTBB is at hand. CGAL's own loops on oneTBB's threads are not used.
+/// Parallel where oneTBB is available. CGAL's own loops on oneTBB's threads are not used.
 using Concurrency = CGAL::Parallel_if_available_tag;
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
@@ -185,7 +185,7 @@ public:
   }
 
 private:
-  /// Several threads insert so many samples quicker than one.
+  /// Several threads insert this many samples quicker than one.
   static constexpr std::size_t manySites = 4096;
 
   /// Of a stream, between two looks at an abort.

@@ -43,7 +43,8 @@ struct CrossingTetrahedron
 class BandTriangulation
 {
 public:
-  /// @param execution must outlive this; large insertions run on its threads, where TBB is at hand
+  /// @param execution must outlive this; large insertions run on its threads, where TBB is
+  /// available
   explicit BandTriangulation(const Execution& execution);
   BandTriangulation(const BandTriangulation&) = delete;
   BandTriangulation& operator=(const BandTriangulation&) = delete;

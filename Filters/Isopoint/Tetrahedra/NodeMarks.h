@@ -14,7 +14,7 @@ namespace isopoint
 class NodeMarks
 {
 public:
-  /// Makes room for so many nodes; new ones have no marks. @throws std::bad_alloc
+  /// Makes room for this many nodes; new ones have no marks. @throws std::bad_alloc
   void grow(std::size_t nodeCount)
   {
     if (nodeCount <= this->Marks.size())

@@ -56,7 +56,7 @@ constexpr bool isUpperChild(const BinaryIndex& node)
   return (node.low & 1) != 0;
 }
 
-/// The ancestor so many levels above a node, 0 to 127; 0 above the root.
+/// The ancestor this many levels above a node, 0 to 127; 0 above the root.
 constexpr BinaryIndex ancestorOf(const BinaryIndex& node, int levels)
 {
   constexpr int bits = 64;
@@ -90,7 +90,7 @@ constexpr int depthOf(const BinaryIndex& node)
   return node.high != 0 ? 64 + highestBit(node.high) : highestBit(node.low);
 }
 
-/// The levels of a tree that halves so many samples exactly: ceil(log2 count), count at least 1.
+/// The levels of a tree that halves this many samples exactly: ceil(log2 count), count at least 1.
 constexpr int levelsToHalve(std::size_t count)
 {
   return count > 1 ? highestBit(count - 1) + 1 : 0;

@@ -147,7 +147,7 @@ SampleTree<TSample> loadSamples(
   return tree;
 }
 
-/// Recomputes the value ranges of a node and of its descendants up to so many levels below: from
+/// Recomputes the value ranges of a node and of its descendants up to this many levels below: from
 /// their children, or from their samples where they are not split.
 template <class TSample>
 void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)

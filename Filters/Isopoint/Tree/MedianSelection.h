@@ -168,8 +168,8 @@ MiddleCoordinates<TCoordinate> selectMiddle(
   const auto range = passes.range();
   TCoordinate lower = range.least;    // the sought ones lie within these two,
   TCoordinate upper = range.greatest; //
-  std::size_t below = 0;              // so many coordinates are less than `lower`,
-  std::size_t upTo = count;           // and so many are not greater than `upper`
+  std::size_t below = 0;              // this many coordinates are less than `lower`,
+  std::size_t upTo = count;           // and this many are not greater than `upper`
   std::size_t next = 0;
   for (int pass = 0; pass < mostPasses; ++pass)
   {

@@ -17,7 +17,7 @@ namespace isopoint
 
 /// The bounding boxes of the samples of each split node, which can be far smaller than its region.
 /// They exist once compute() was called and take six coordinates for each split node. The tree must
-/// not change while they are in use, but for being split further where ranks share it.
+/// not change while they are in use, except for being split further where ranks share it.
 template <class TSample>
 class SampleBounds
 {

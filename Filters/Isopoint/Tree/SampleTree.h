@@ -42,7 +42,7 @@ struct Node
 };
 
 /// Thrown by a search for samples that this rank does not hold, or not in the form that is needed:
-/// nobody guesses. Once they have been fetched, the search is to be repeated.
+/// nobody guesses. Once they have been fetched, the search must be repeated.
 struct MissingNode : std::exception
 {
   MissingNode(std::size_t node, const Region& needed)

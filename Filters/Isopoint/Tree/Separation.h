@@ -19,7 +19,7 @@ template <class TSample>
 class SampleList
 {
 public:
-  /// Where the next ones go, of which there may be up to so many.
+  /// Where the next ones go, of which there may be up to this many.
   TSample** makeRoom(std::size_t count)
   {
     if (this->Samples.size() < this->Count + count)

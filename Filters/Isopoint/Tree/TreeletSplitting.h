@@ -49,7 +49,7 @@ public:
   /// The splitter's next treelet goes there.
   void moveTo(std::size_t firstPair) { this->NextPair = firstPair; }
 
-  /// Splits a node and what is below it, so many levels deep, in the calling thread, and computes
+  /// Splits a node and what is below it, this many levels deep, in the calling thread, and computes
   /// the value ranges of all new nodes.
   void split(Node<TSample>& node, const Region& region, int levels)
   {
