@@ -78,6 +78,7 @@ ExtractedIsosurface partOnRank(
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
+  result.droppedTetrahedra = rank == 0 ? all.droppedTetrahedra : 0;
   return result;
 }
 
@@ -194,6 +195,7 @@ ExtractedIsosurface IsosurfaceExtractor::findTriangles(const Execution& executio
       throwIfAborted(execution);
       result.surface = std::move(found.vertices);
       result.triangles = std::move(found.triangles);
+      result.droppedTetrahedra = found.droppedTetrahedra;
       if (request.splats)
       {
         const Isosurface& surface = result.surface;
