@@ -119,9 +119,9 @@ std::string describeEmptyIsovalues(
          join(empty, digitsFor(findings, empty)) + (empty.size() > 1 ? " have" : " has") +
          " no points, although samples are on both sides: " +
          (findings.AreTriangles
-             ? "the gap factor drops all, or the samples are all in one plane. Set a larger gap"
-               " factor or 0; of samples in a plane extract points instead of triangles."
-             : "the gap factor drops all. Set a larger one, or 0.");
+             ? "all of the surface is in gaps, or the samples are all in one plane. Turn DropGaps"
+               " off; of samples in a plane extract points instead of triangles."
+             : "all of them are in gaps. Turn DropGaps off.");
 }
 
 std::vector<std::string> describeIsovalues(const vtkIsopointFindings& findings)

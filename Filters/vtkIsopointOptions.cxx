@@ -95,15 +95,6 @@ void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter)
             << " degrees, which is out of range. Set one within 0 and 180 with SetAngle().";
     throw vtkIsopointUsageError(message.str());
   }
-  const double gapFactor = filter->GetGapFactor();
-  if (!(gapFactor >= 0.0) || std::isinf(gapFactor))
-  {
-    std::ostringstream message;
-    message << "The gap factor is " << gapFactor
-            << ", which is negative or not finite. Set 0, which drops nothing, or a positive number"
-               " with SetGapFactor().";
-    throw vtkIsopointUsageError(message.str());
-  }
   if (std::isnan(filter->GetMinimumSpacing()))
   {
     throw vtkIsopointUsageError(
@@ -125,16 +116,16 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
   {
     add(filter->GetValue(i) + 0.0); // 0 and -0 are the same
   }
-  for (const double number :
-    { filter->GetAngle(), filter->GetGapFactor(), filter->GetMinimumSpacing() })
+  for (const double number : { filter->GetAngle(), filter->GetMinimumSpacing() })
   {
     add(number);
   }
-  for (const int number : { filter->GetProjection(), filter->GetNormalMethod(),
-         filter->GetNumberOfNeighbors(), filter->GetComputeNormals(), filter->GetComputeRadii(),
-         filter->GetComputeScalars(), filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(),
-         filter->GetComputeGradients(), filter->GetComputeProjectionOrders(),
-         filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
+  for (const int number :
+    { filter->GetDropGaps(), filter->GetProjection(), filter->GetNormalMethod(),
+      filter->GetNumberOfNeighbors(), filter->GetComputeNormals(), filter->GetComputeRadii(),
+      filter->GetComputeScalars(), filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(),
+      filter->GetComputeGradients(), filter->GetComputeProjectionOrders(),
+      filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
   {
     add(number);
   }
@@ -178,7 +169,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   const vtkIsopointComputedArrays::Choice arrays = vtkChooseIsopointArrays(filter);
   isopoint::ExtractionRequest request;
   request.isosurface.angle = filter->GetAngle();
-  request.isosurface.gapFactor = filter->GetGapFactor();
+  request.isosurface.dropsGaps = filter->GetDropGaps() != 0;
   request.isosurface.fit = fitRequestOf(filter, arrays);
   request.minimumSpacing = filter->GetMinimumSpacing();
   request.triangles = filter->ExtractsTriangles();

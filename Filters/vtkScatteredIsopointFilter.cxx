@@ -182,6 +182,7 @@ int vtkScatteredIsopointFilter::RequestData(
 {
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
+  this->NumberOfDroppedTetrahedra = 0;
   vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   this->Kept->GhostLevels = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
@@ -420,6 +421,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
       kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
         hasGhosts ? &ghosts[i] : nullptr));
     this->Kept->Findings.Points[i] += surfaces.back().countHere();
+    this->NumberOfDroppedTetrahedra += static_cast<vtkIdType>(surfaces.back().droppedTetrahedra);
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);
@@ -489,7 +491,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Contour values:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Angle: " << this->Angle << "\n";
-  os << indent << "GapFactor: " << this->GapFactor << "\n";
+  os << indent << "DropGaps: " << (this->DropGaps ? "On" : "Off") << "\n";
   os << indent << "MinimumSpacing: " << this->MinimumSpacing << "\n";
   os << indent << "ComputeNormals: " << onOff(this->ComputeNormals) << "\n";
   os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";

@@ -26,7 +26,7 @@
  * a simpler one. Values of an array of an integer type count as rounded: steps of 1 between them
  * are taken for no detail. What is fitted depends on samples next to the isopoint alone: in the
  * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning
- * (see SetMinimumSpacing()) and the gap criterion (see SetGapFactor()) have no counterpart in
+ * (see SetMinimumSpacing()) and the gap criterion (see SetDropGaps()) have no counterpart in
  * [RL06]. docs/algorithm.md in the source distribution defines the result exactly.
  *
  * The filter guarantees:
@@ -76,7 +76,7 @@
  * @warning
  * The regions fill the bounding box of the samples. Samples on both sides of a void are therefore
  * neighbors, as in a Delaunay tetrahedralization, and can give isopoints in the void. See
- * SetGapFactor().
+ * SetDropGaps().
  *
  * @warning
  * 64-bit integer values beyond 2^53 are rounded to double.
@@ -288,22 +288,19 @@ public:
 
   ///@{
   /**
-   * The factor of the gap criterion, which drops isopoints in gaps of the cloud, as at a free
-   * surface or between groups of boreholes. An edge is dropped if it is longer than GapFactor times
-   * the larger of the sample spacings behind its ends. The sample spacing behind the end x of an
-   * edge {x, y} is the distance from x to the second nearest sample position within 54.7356 degrees
-   * (whose cosine is 1 / sqrt(3)) of the direction from y to x; it is infinite if there are fewer
-   * than two. Edges between a dense and a sparse region, to an isolated sample, and between lines
-   * or slices of samples therefore remain; edges between lines do not if their samples scatter
-   * sideways as far as they are apart along the line.
-   *
-   * 4 is a sensible value: it drops the edges across voids of ten sample spacings and more, none in
-   * uniform clouds, lattices or the leaves of adaptive grids, and up to a tenth in clouds of
-   * slices, boreholes or ship casts. Smaller values drop more. 0 switches the criterion off. Range:
-   * 0 or more, finite; other values are an error in the next update. Default: 0.
+   * Whether to drop isopoints in gaps of the cloud, as beyond a free surface or between groups of
+   * boreholes. The spacing of samples behind the end x of an edge {x, y} is the distance from x to
+   * the third nearest sample position within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
+   * direction from y to x; it is infinite if there are fewer than three. An isopoint is dropped if
+   * its edge is longer than four times the larger of the spacings behind its ends. Edges between a
+   * dense and a sparse region, to an isolated sample, and between lines or slices of samples
+   * therefore remain; edges between lines do not if their samples scatter sideways as far as they
+   * are apart along the line. For triangles see vtkScatteredIsosurfaceFilter, where the default is
+   * on. Default: off.
    */
-  vtkSetMacro(GapFactor, double);
-  vtkGetMacro(GapFactor, double);
+  vtkSetMacro(DropGaps, vtkTypeBool);
+  vtkGetMacro(DropGaps, vtkTypeBool);
+  vtkBooleanMacro(DropGaps, vtkTypeBool);
   ///@}
 
   ///@{
@@ -479,10 +476,10 @@ protected:
 
   vtkNew<vtkContourValues> ContourValues;
   double Angle;
-  double GapFactor = 0.0;
   double MinimumSpacing = 0.0;
   int Projection = CUBIC_FIT;
   int NormalMethod = AUTOMATIC_NORMALS;
+  vtkTypeBool DropGaps = 0;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;
   vtkTypeBool ComputeSplatAxes = 0;
@@ -497,6 +494,7 @@ protected:
   vtkTypeBool UseAllCores = 1;
   vtkIdType NumberOfSkippedSamples = 0;
   vtkIdType NumberOfUnprojectedPoints = 0;
+  vtkIdType NumberOfDroppedTetrahedra = 0; // of triangles
 
 private:
   vtkScatteredIsopointFilter(const vtkScatteredIsopointFilter&) = delete;

@@ -20,15 +20,19 @@
  * 2. triangles are ordered by isovalue, then by their points, the lowest first. Their right-hand
  *    normals point to decreasing values, as those of vtkContourFilter do. All coordinates and
  *    triangles depend on the input and the options alone, to the last bit.
- * 3. the surface has no border but where it meets the convex hull of the samples (or a gap; see
- *    SetGapFactor()). Each other edge has two triangles, or four where the surface touches itself
- * in samples that have the isovalue.
+ * 3. the surface has no border but where it meets a gap or the outside of the cloud; with
+ *    DropGapsOff(), where it meets the convex hull of the samples. Each other edge has two
+ *    triangles, or four where the surface touches itself in samples that have the isovalue.
  *
  * Projection moves points as it does isopoints, except where that would turn a triangle over: then
  * its points stay and are counted (see GetNumberOfUnprojectedPoints()). Normals are those of the
  * field (NORMALS_FROM_FIELD), or the means of the normals of the triangles around (with
- * NORMALS_FROM_PLANES, and where the samples yield no gradient). GapFactor drops the triangles of
- * tetrahedra with an edge that the gap criterion drops.
+ * NORMALS_FROM_PLANES, and where the samples yield no gradient).
+ *
+ * DropGaps, on by default, leaves out the triangles where the samples end: those of tetrahedra with
+ * edges longer than twice the spacing of the samples behind both ends, if they hang together with
+ * the outside of the samples' convex hull or with edges longer than four times that. A closed
+ * surface amid samples stays closed. docs/triangles.md has the rule.
  *
  * Angle, MinimumSpacing, NumberOfNeighbors, ComputeRadii, ComputeSplatAxes and ComputeSplatClips
  * have no effect.
@@ -66,6 +70,12 @@ public:
    * True.
    */
   bool ExtractsTriangles() const override { return true; }
+
+  /**
+   * The number of tetrahedra across isosurfaces whose triangles the last update left out since they
+   * lie in gaps or outside of the cloud. See SetDropGaps().
+   */
+  vtkGetMacro(NumberOfDroppedTetrahedra, vtkIdType);
 
 protected:
   vtkScatteredIsosurfaceFilter();

@@ -77,6 +77,7 @@ ExtractedIsosurface partOnRank(
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
+  result.droppedTetrahedra = rank == 0 ? all.droppedTetrahedra : 0;
   return result;
 }
 
@@ -95,6 +96,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
       throwIfAborted(execution);
       result.surface = std::move(found.vertices);
       result.triangles = std::move(found.triangles);
+      result.droppedTetrahedra = found.droppedTetrahedra;
       if (request.splats)
       {
         const Isosurface& surface = result.surface;

@@ -96,7 +96,7 @@ def contour(
         Further arrays of the samples by name, shapes (n,) or (n, components), which are interpolated.
         Not of a data set, which has its own.
     options
-        Properties of the filter in snake case, as `gap_factor=4.0`, `projection="CREASE_FIT"`,
+        Properties of the filter in snake case, as `drop_gaps=False`, `projection="CREASE_FIT"`,
         `compute_gradients=True`. docs/properties.md lists them. On several ranks each process
         contours its own samples, unless `controller` is given: then all ranks have to call this
         together, and an error is raised on the first one alone.

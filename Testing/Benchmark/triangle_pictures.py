@@ -18,12 +18,12 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 SIZE = [420, 420]
 COLOR = [0.85, 0.72, 0.5]
 
-# file, array, isovalue, GapFactor; the camera's direction, its view up, and how large things are drawn
+# file, array, isovalue; the camera's direction, its view up, and how large things are drawn
 ROWS = [
-    ("multiblock/bluntfin.vts", "Density", 1.0, 3.0, (0.3, 1.0, -0.5), (0, 0, 1), 0.95),
-    ("unstructured/disk_out_ref.vtu", "Temp", 400.0, 0.0, (1.0, 0.5, -0.4), (0, 0, 1), 1.25),
-    ("unstructured/fea_bracket_kiefer.vtu", "von_Mises_psi", 5.0, 3.0, (0, 0, -1), (0, 1, 0), 1.3),
-    ("scattered/sph_water_jet.vtp", "speed", 33.0, 3.0, (0.5, 1.0, -0.4), (0, 0, 1), 1.25),
+    ("multiblock/bluntfin.vts", "Density", 1.0, (0.3, 1.0, -0.5), (0, 0, 1), 0.95),
+    ("unstructured/disk_out_ref.vtu", "Temp", 400.0, (1.0, 0.5, -0.4), (0, 0, 1), 1.25),
+    ("unstructured/fea_bracket_kiefer.vtu", "von_Mises_psi", 5.0, (0, 0, -1), (0, 1, 0), 1.3),
+    ("scattered/sph_water_jet.vtp", "speed", 33.0, (0.5, 1.0, -0.4), (0, 0, 1), 1.25),
 ]
 
 
@@ -34,7 +34,7 @@ def contoured(make, source, array, isovalue):
     return surface
 
 
-def surfaces_of(folder, name, array, isovalue, gap_factor):
+def surfaces_of(folder, name, array, isovalue):
     """The surface of each column, with its representation; None where there is no mesh."""
     mesh = simple.OpenDataFile(os.path.join(folder, name))
     mesh.UpdatePipeline()
@@ -49,7 +49,7 @@ def surfaces_of(folder, name, array, isovalue, gap_factor):
         (simple.ScatteredIsosurface, "Surface"),
     ):
         surface = contoured(make, samples, array, isovalue)
-        surface.GapFactor = gap_factor
+        surface.DropGaps = 1
         columns.append((surface, representation))
     has_mesh = mesh.GetDataInformation().GetNumberOfCells() > 0 and not name.endswith(".vtp")
     columns.append((contoured(simple.Contour, mesh, array, isovalue), "Surface") if has_mesh else None)
@@ -98,8 +98,8 @@ def main(plugin, folder, picture):
     simple.LoadPlugin(plugin)
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
-        for name, array, isovalue, gap_factor, *camera in ROWS:
-            columns = surfaces_of(folder, name, array, isovalue, gap_factor)
+        for name, array, isovalue, *camera in ROWS:
+            columns = surfaces_of(folder, name, array, isovalue)
             # All columns are seen alike: triangles may have outliers, and splats be huge.
             framed = columns[2] or columns[0]
             framed[0].UpdatePipeline()

@@ -273,29 +273,26 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
 }
 
 /// Section 6: whether the end x of the edge {x, y} is crowded. It is if among all samples,
-/// coincident ones once, at least two lie in the cone behind x, nearer than the edge's length over
-/// the gap factor.
-/// @param gapFactor g, above 0
-inline bool isCrowded(
-  const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
+/// coincident ones once, at least so many lie in the cone behind x, nearer than the edge's length
+/// over the factor.
+inline bool isCrowded(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double factor,
+  std::ptrdiff_t wanted)
 {
   constexpr double cosine = 1.0 / 1.7320508075688772; // C, of 54.7356 degrees
   const Vector u = difference(cells[y].position, cells[x].position);
   const auto counts = [&](const Cell& z)
   {
     const Vector w = difference(z.position, cells[x].position);
-    return gapFactor * lengthOf(w) < lengthOf(u) &&
-           -dot(w, u) > cosine * (lengthOf(w) * lengthOf(u));
+    return factor * lengthOf(w) < lengthOf(u) && -dot(w, u) > cosine * (lengthOf(w) * lengthOf(u));
   };
-  return std::count_if(cells.begin(), cells.end(), counts) >= 2;
+  return std::count_if(cells.begin(), cells.end(), counts) >= wanted;
 }
 
-/// Section 6: the gap criterion drops an edge if both its ends are crowded; at 0 nothing is
-/// dropped.
-inline bool isDroppedByGap(
-  const std::vector<Cell>& cells, std::size_t x, std::size_t y, double gapFactor)
+/// Section 6: the gap criterion drops an edge if both its ends are crowded.
+inline bool isDroppedByGap(const std::vector<Cell>& cells, std::size_t x, std::size_t y,
+  double factor, std::ptrdiff_t wanted)
 {
-  return gapFactor > 0.0 && isCrowded(cells, x, y, gapFactor) && isCrowded(cells, y, x, gapFactor);
+  return isCrowded(cells, x, y, factor, wanted) && isCrowded(cells, y, x, factor, wanted);
 }
 
 /// Section 7: the parameter of the isopoint on the edge from i, the end of the lower id, to j.
@@ -308,9 +305,9 @@ inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
 
 /// Section 7: the isopoints of one isovalue, one on each edge, ordered by (i, j).
 /// @param angle of section 5, in degrees, 0 to 180
-/// @param gapFactor of section 6, 0 or more
+/// @param dropsGaps by the strong criterion of section 6
 inline std::vector<Isopoint> extract(
-  const clouds::Cloud& cloud, double isovalue, double angle, double gapFactor = 0.0)
+  const clouds::Cloud& cloud, double isovalue, double angle, bool dropsGaps = false)
 {
   const Tree tree(cloud);
   const std::vector<Cell>& cells = tree.cells;
@@ -323,7 +320,7 @@ inline std::vector<Isopoint> extract(
     for (const std::size_t y : neighbors[x])
     {
       if (isBelow(x) != isBelow(y) && survives(cells, neighbors[x], x, y, angle) &&
-          !isDroppedByGap(cells, x, y, gapFactor))
+          !(dropsGaps && isDroppedByGap(cells, x, y, 4.0, 3)))
       {
         const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
         const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];

@@ -288,22 +288,22 @@ inline auto readerOf(const Cloud& cloud)
 /// The isosurface of a loaded cloud.
 template <class TExtractor>
 isopoint::Isosurface extractFrom(TExtractor&& extractor, const isopoint::Execution& execution,
-  double isovalue, double angle = isopoint::defaultAngle, double gapFactor = 0.0,
+  double isovalue, double angle = isopoint::defaultAngle, bool dropsGaps = false,
   std::optional<isopoint::FitRequest> fit = std::nullopt)
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { isovalue, angle, gapFactor, fit };
+  request.isosurface = { isovalue, angle, dropsGaps, fit };
   return extractor.extract(execution, request).surface;
 }
 
 template <class TCoordinate = double, class TValue = double>
 isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
-  std::size_t threads = 1, double gapFactor = 0.0)
+  std::size_t threads = 1, bool dropsGaps = false)
 {
   const isopoint::Execution execution = executionOn(threads);
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
-  return extractFrom(extractor, execution, isovalue, angle, gapFactor);
+  return extractFrom(extractor, execution, isovalue, angle, dropsGaps);
 }
 
 /// Turns a position about two axes: what was on planes and spheres is so except for rounding.

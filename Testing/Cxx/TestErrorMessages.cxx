@@ -91,13 +91,6 @@ TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
     expectError("within 0 and 180");
   }
   filter->SetAngle(54.7);
-  for (const double factor :
-    { -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
-  {
-    filter->SetGapFactor(factor);
-    expectError("gap factor");
-  }
-  filter->SetGapFactor(0.0);
   filter->SetMinimumSpacing(std::numeric_limits<double>::quiet_NaN());
   expectError("minimum spacing");
   filter->SetMinimumSpacing(0.0);

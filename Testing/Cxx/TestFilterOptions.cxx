@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options of the filter that move or drop points: projection, gap factor, minimum spacing.
+// Options of the filter that move or drop points: projection, gaps, minimum spacing.
 #include "FilterTesting.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ TEST(FilterOptions, ProjectionMovesPointsAndTheirAttributes)
   EXPECT_LT(deviations[2], 0.1 * deviations[0]);
 }
 
-TEST(FilterOptions, GapFactorDropsPointsInVoids)
+TEST(FilterOptions, DropGapsDropsPointsInVoids)
 {
   const auto cloud = newCloud(20000);
   // Divided at x = 0, with a gap five times as wide as the cloud was.
@@ -74,17 +74,17 @@ TEST(FilterOptions, GapFactorDropsPointsInVoids)
   }
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(cloud);
-  const auto count = [&filter](const char* array, double isovalue, double gapFactor)
+  const auto count = [&filter](const char* array, double isovalue, bool dropsGaps)
   {
     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array);
     filter->SetValue(0, isovalue);
-    filter->SetGapFactor(gapFactor);
+    filter->SetDropGaps(dropsGaps);
     filter->Update();
     return static_cast<double>(filter->GetOutput()->GetNumberOfPoints());
   };
-  EXPECT_GT(count("x", 0.0, 0.0), 0.0); // all of them in the gap
-  EXPECT_EQ(count("x", 0.0, 4.0), 0.0);
-  EXPECT_GT(count("distance", 0.7, 4.0), 0.95 * count("distance", 0.7, 0.0));
+  EXPECT_GT(count("x", 0.0, false), 0.0); // all of them in the gap
+  EXPECT_EQ(count("x", 0.0, true), 0.0);
+  EXPECT_GT(count("distance", 0.7, true), 0.95 * count("distance", 0.7, false));
 }
 
 TEST(FilterOptions, ThinnedPointsAreASubsetOfAll)

@@ -5,11 +5,17 @@
 #include "IsopointTesting.h"
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Neighbors/GapCriterion.h"
+#include "Isopoint/Tetrahedra/TreeRefinement.h"
+#include "Isopoint/Tree/Loading.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 
 namespace
 {
@@ -18,7 +24,6 @@ using isopoint::defaultAngle;
 using isopointtesting::expectSameIsopoints;
 
 constexpr double isovalue = 0.3;
-constexpr double sensibleFactor = 4.0; // recommended by the filter's documentation
 
 /// The samples of a cloud for whose positions a condition does not hold.
 template <class Condition>
@@ -41,22 +46,56 @@ bool isInSlab(const double* p)
   return p[0] > 0.3 && p[0] < 0.7;
 }
 
-/// @returns the number of isopoints that the smallest factor drops
-std::size_t expectTheDefinition(const clouds::Cloud& cloud, double value, double angle)
+/// Compares the criterion with the definition, on all pairs of samples.
+/// @returns the number of edges that are dropped with the smallest factor
+std::size_t expectTheDefinition(const clouds::Cloud& cloud)
 {
-  const std::size_t all = bruteforce::extract(cloud, value, angle).size();
-  EXPECT_EQ(clouds::extract(cloud, value, angle).edges.size(), all);
-  std::size_t kept = all;
+  const bruteforce::Tree expected(cloud);
+  auto tree =
+    isopoint::loadSamples<isopoint::WideSample>({}, cloud.size(), clouds::readerOf(cloud));
+  isopoint::splitCompletely({}, tree);
+  std::map<std::uint64_t, std::size_t> leafOf; // by id
+  isopoint::Path path = isopoint::pathToRoot(tree);
+  isopoint::forEachBelow(tree, path, isopoint::maximumDepth,
+    [&](const isopoint::Path& leaf)
+    { leafOf[tree.samples[tree.nodes[leaf.nodeIndex()].begin].id] = leaf.nodeIndex(); });
+  const auto sampleOf = [&](std::size_t leaf) -> const isopoint::WideSample&
+  { return tree.samples[tree.nodes[leaf].begin]; };
+  std::size_t dropped = 0;
   for (const double factor : { 5.0, 2.0, 1.3, 1.0, 0.7, 0.1 })
   {
-    SCOPED_TRACE(testing::Message() << "factor " << factor << ", angle " << angle);
-    const auto expected = bruteforce::extract(cloud, value, angle, factor);
-    const auto found = clouds::extract(cloud, value, angle, 2, factor).edges;
-    expectSameIsopoints(expected, found);
-    EXPECT_LE(found.size(), kept);
-    kept = found.size();
+    dropped = 0;
+    for (std::size_t x = 0; x < expected.cells.size(); ++x)
+    {
+      const std::size_t leaf = leafOf.at(expected.cells[x].id);
+      const isopoint::Path at = isopoint::pathToLeaf(tree, leaf);
+      for (std::size_t y = x + 1; y < expected.cells.size(); y += 1 + x % 7)
+      {
+        const std::size_t wanted = 1 + (x + y) % 3;
+        const isopoint::GapCriterion criterion(factor, wanted);
+        const isopoint::WideSample& other = sampleOf(leafOf.at(expected.cells[y].id));
+        const bool isDropped = criterion.drops(tree, at, sampleOf(leaf), other);
+        EXPECT_EQ(isDropped, bruteforce::isDroppedByGap(
+                               expected.cells, x, y, factor, static_cast<std::ptrdiff_t>(wanted)));
+        if (isDropped)
+        {
+          const isopoint::Offset edge =
+            isopoint::offsetBetween(positionOf(sampleOf(leaf)), positionOf(other));
+          EXPECT_TRUE(criterion.mayDrop(tree, at, sampleOf(leaf), edge.length));
+        }
+        dropped += isDropped ? 1 : 0;
+      }
+    }
   }
-  return all - kept;
+  return dropped;
+}
+
+/// @returns the number of isopoints that are dropped
+std::size_t expectDroppedIsopoints(const clouds::Cloud& cloud, double value, double angle)
+{
+  const auto expected = bruteforce::extract(cloud, value, angle, true);
+  expectSameIsopoints(expected, clouds::extract(cloud, value, angle, 2, true).edges);
+  return clouds::extract(cloud, value, angle).edges.size() - expected.size();
 }
 
 /// Isopoints on edges across the slab, and all isopoints.
@@ -66,11 +105,11 @@ struct Count
   std::size_t all = 0;
 };
 
-Count countAcross(const clouds::Cloud& cloud, double factor)
+Count countAcross(const clouds::Cloud& cloud, bool dropsGaps)
 {
   Count count;
   for (const isopoint::IsopointEdge& edge :
-    clouds::extract(cloud, isovalue, defaultAngle, 2, factor).edges)
+    clouds::extract(cloud, isovalue, defaultAngle, 2, dropsGaps).edges)
   {
     const bool isFirstBeyond = cloud.positions[3 * edge.first] > 0.5;
     const bool isSecondBeyond = cloud.positions[3 * edge.second] > 0.5;
@@ -84,21 +123,28 @@ Count countAcross(const clouds::Cloud& cloud, double factor)
 
 TEST(Gaps, DropWhatTheDefinitionDrops)
 {
+  EXPECT_GT(expectTheDefinition(clouds::uniform(300, 21)), 0u);
+  EXPECT_GT(expectTheDefinition(without(clouds::uniform(500, 22), isInSlab)), 0u);
+  EXPECT_GT(expectTheDefinition(clouds::clustered(300, 23)), 0u);
+  EXPECT_GT(expectTheDefinition(clouds::lattice(6, 7, 7)), 0u);
+  EXPECT_GT(expectTheDefinition(clouds::coarse(300, 5, 24)), 0u);
+  EXPECT_GT(expectTheDefinition(clouds::coincident(clouds::uniform(250, 25), 0.6)), 0u);
+  EXPECT_GT(expectTheDefinition(clouds::flattened(clouds::uniform(300, 26), 2)), 0u);
+  for (std::size_t count = 1; count <= 9; ++count)
+  {
+    expectTheDefinition(clouds::uniform(count, count));
+  }
+}
+
+TEST(Gaps, DropIsopointsOnEdgesOverTheStrongCriterion)
+{
   for (const double angle : { 0.0, defaultAngle, 90.0 })
   {
-    EXPECT_GT(expectTheDefinition(clouds::uniform(900, 21), isovalue, angle), 0u);
     EXPECT_GT(
-      expectTheDefinition(without(clouds::uniform(1500, 22), isInSlab), isovalue, angle), 0u);
-    EXPECT_GT(expectTheDefinition(clouds::clustered(900, 23), -4.0, angle), 0u);
-    EXPECT_GT(expectTheDefinition(clouds::lattice(9, 10, 11), 2.0, angle), 0u);
-    EXPECT_GT(expectTheDefinition(clouds::coarse(600, 5, 24), 4.5, angle), 0u);
-    EXPECT_GT(
-      expectTheDefinition(clouds::coincident(clouds::uniform(500, 25), 0.6), isovalue, angle), 0u);
-    EXPECT_GT(expectTheDefinition(clouds::flattened(clouds::uniform(500, 26), 2), 0.4, angle), 0u);
-  }
-  for (std::size_t count = 0; count <= 9; ++count)
-  {
-    expectTheDefinition(clouds::uniform(count, count), 0.5, defaultAngle);
+      expectDroppedIsopoints(without(clouds::uniform(3000, 22), isInSlab), isovalue, angle), 0u);
+    expectDroppedIsopoints(clouds::clustered(900, 23), -4.0, angle);
+    expectDroppedIsopoints(clouds::lattice(9, 10, 11), 2.0, angle);
+    expectDroppedIsopoints(clouds::coincident(clouds::uniform(500, 25), 0.6), isovalue, angle);
   }
 }
 
@@ -107,8 +153,8 @@ TEST(Gaps, DropEdgesAcrossAVoidAndFewOthers)
   for (const std::size_t count : { 20000, 100000 })
   {
     const clouds::Cloud cloud = without(clouds::uniform(count, 27), isInSlab);
-    const Count all = countAcross(cloud, 0.0);
-    const Count kept = countAcross(cloud, sensibleFactor);
+    const Count all = countAcross(cloud, false);
+    const Count kept = countAcross(cloud, true);
     EXPECT_GT(all.across, 20u);
     EXPECT_EQ(kept.across, 0u);
     EXPECT_GT(static_cast<double>(kept.all), 0.99 * static_cast<double>(all.all - all.across));
@@ -121,8 +167,7 @@ TEST(Gaps, DropNextToNothingWhereThereIsNoVoid)
   {
     const std::size_t all = clouds::extract(cloud, value, defaultAngle).edges.size();
     EXPECT_GT(all, 100u);
-    return static_cast<double>(
-             clouds::extract(cloud, value, defaultAngle, 1, sensibleFactor).edges.size()) /
+    return static_cast<double>(clouds::extract(cloud, value, defaultAngle, 1, true).edges.size()) /
            static_cast<double>(all);
   };
   EXPECT_EQ(keptShare(clouds::uniform(20000, 28), isovalue), 1.0);
@@ -173,7 +218,7 @@ TEST(Gaps, DropNothingWhereCoarseCellsMeetFineOnes)
   fill(0.5, 1.0, 32);
   const std::size_t all = clouds::extract(cloud, isovalue, defaultAngle).edges.size();
   EXPECT_GT(all, 1000u);
-  EXPECT_EQ(clouds::extract(cloud, isovalue, defaultAngle, 1, sensibleFactor).edges.size(), all);
+  EXPECT_EQ(clouds::extract(cloud, isovalue, defaultAngle, 1, true).edges.size(), all);
 }
 
 // Edges are dropped only if both their ends are crowded, and nothing is behind a single far sample.
@@ -181,12 +226,12 @@ TEST(Gaps, KeepTheEdgesOfASingleFarSample)
 {
   clouds::Cloud cloud = clouds::uniform(2000, 30);
   cloud.add(8.0, 0.5, 0.5, 100.0);
-  const auto countEdges = [&cloud](double factor)
+  const auto countEdges = [&cloud](bool dropsGaps)
   {
-    const auto edges = clouds::extract(cloud, 50.0, defaultAngle, 1, factor).edges;
+    const auto edges = clouds::extract(cloud, 50.0, defaultAngle, 1, dropsGaps).edges;
     return std::count_if(edges.begin(), edges.end(),
       [&cloud](const isopoint::IsopointEdge& edge) { return edge.second == cloud.size() - 1; });
   };
-  EXPECT_GT(countEdges(0.0), 0);
-  EXPECT_EQ(countEdges(sensibleFactor), countEdges(0.0));
+  EXPECT_GT(countEdges(false), 0);
+  EXPECT_EQ(countEdges(true), countEdges(false));
 }

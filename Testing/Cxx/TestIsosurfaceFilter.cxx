@@ -338,11 +338,11 @@ TEST(IsosurfaceFilter, ReportsErrors)
 {
   const auto filter = newFilter(newCloud(100), 0.7);
   const auto errors = watchErrors(filter);
-  filter->SetGapFactor(-1.0);
+  filter->SetAngle(-1.0);
   filter->Update();
   EXPECT_EQ(errors->Count, 1);
   filtertesting::expectEmpty(filter->GetOutput());
-  filter->SetGapFactor(0.0);
+  filter->SetAngle(54.7);
   filter->SetValue(0, std::nan(""));
   filter->Update();
   EXPECT_EQ(errors->Count, 2);
@@ -392,10 +392,14 @@ TEST(IsosurfaceFilter, DropsTrianglesAcrossGaps)
     cloud->GetPoints()->SetPoint(i, p);
   }
   const auto filter = newFilter(cloud, 0.1);
+  EXPECT_TRUE(filter->GetDropGaps());
+  filter->DropGapsOff();
   filter->Update();
   const vtkIdType all = filter->GetOutput()->GetNumberOfPolys();
-  filter->SetGapFactor(4.0);
+  EXPECT_EQ(filter->GetNumberOfDroppedTetrahedra(), 0);
+  filter->DropGapsOn();
   filter->Update();
+  EXPECT_GT(filter->GetNumberOfDroppedTetrahedra(), 0);
   EXPECT_LT(filter->GetOutput()->GetNumberOfPolys(), all);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 4);
 }
@@ -405,5 +409,5 @@ TEST(IsosurfaceFilter, PrintsItself)
   std::ostringstream text;
   newFilter(newCloud(10), 0.5)->Print(text);
   EXPECT_NE(text.str().find("vtkScatteredIsosurfaceFilter"), std::string::npos);
-  EXPECT_NE(text.str().find("GapFactor"), std::string::npos);
+  EXPECT_NE(text.str().find("DropGaps"), std::string::npos);
 }

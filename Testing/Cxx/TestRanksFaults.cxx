@@ -203,7 +203,7 @@ bool extractionFailsAt(long n, const std::vector<clouds::Cloud>& pieces)
         isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
       isopoint::ExtractionRequest request;
       request.isosurface.isovalue = 0.3;
-      request.isosurface.gapFactor = 4.0;
+      request.isosurface.dropsGaps = true;
       request.triangles = true;
       request.ghostRings = 1;
       const isopoint::Execution execution;

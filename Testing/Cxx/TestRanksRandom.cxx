@@ -20,11 +20,10 @@ isopoint::ExtractionRequest randomRequest(Dice& dice)
 {
   using isopoint::FitOrder;
   constexpr double angles[] = { 54.7, 54.7, 54.7, 0.0, 30.0, 120.0, 180.0 };
-  constexpr double gaps[] = { 0.0, 0.0, 1.0, 2.0, 4.0 };
   isopoint::ExtractionRequest request;
   request.isosurface.isovalue = 3.0 * dice.real() - 1.0;
   request.isosurface.angle = angles[dice(7)];
-  request.isosurface.gapFactor = gaps[dice(5)];
+  request.isosurface.dropsGaps = dice(2) == 0;
   const std::size_t order = dice(7);
   if (order > 0)
   {

@@ -20,11 +20,11 @@ using clouds::Cloud;
 using isopoint::ExtractedIsosurface;
 using isopoint::ExtractionRequest;
 
-ExtractionRequest requestOf(double isovalue, double gapFactor = 0.0)
+ExtractionRequest requestOf(double isovalue, bool dropsGaps = false)
 {
   ExtractionRequest request;
   request.isosurface.isovalue = isovalue;
-  request.isosurface.gapFactor = gapFactor;
+  request.isosurface.dropsGaps = dropsGaps;
   request.splats = isopoint::SplatOptions();
   request.triangles = true;
   return request;
@@ -110,7 +110,7 @@ void expectSameTriangles(const Cloud& cloud, std::size_t size, ranks::Deal deal,
 
 TEST(RanksTriangles, AreThoseOfOneProcess)
 {
-  const std::vector<ExtractionRequest> requests{ requestOf(0.3), requestOf(-0.4, 3.0),
+  const std::vector<ExtractionRequest> requests{ requestOf(0.3), requestOf(-0.4, true),
     fitted(requestOf(0.5)), requestOf(99.0) };
   for (const Cloud& cloud : ranks::variousClouds())
   {
@@ -128,7 +128,7 @@ TEST(RanksTriangles, DoNotDependOnHowSamplesAreDealtOut)
   {
     SCOPED_TRACE(static_cast<int>(deal));
     expectSameTriangles(
-      clouds::uniform(4000, 12), 3, deal, { requestOf(0.3), fitted(requestOf(-0.2, 4.0)) });
+      clouds::uniform(4000, 12), 3, deal, { requestOf(0.3), fitted(requestOf(-0.2, true)) });
   }
 }
 
@@ -152,7 +152,7 @@ TEST(RanksTriangles, OfAnyCloud)
     const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
     const std::size_t size = 2 + dice(4);
     expectSameTriangles(cloud, size, ranks::Deal::RoundRobin,
-      { fitted(requestOf(isovalue)), requestOf(isovalue, dice(2) == 0 ? 0.0 : 2.0) });
+      { fitted(requestOf(isovalue)), requestOf(isovalue, dice(2) == 0) });
   }
 }
 

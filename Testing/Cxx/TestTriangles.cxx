@@ -20,11 +20,11 @@ using isopoint::Vector;
 using DirectedEdge = std::pair<std::size_t, std::size_t>;
 
 isopoint::ExtractionRequest requestOf(
-  double isovalue, std::optional<isopoint::FitOrder> order = std::nullopt, double gapFactor = 0.0)
+  double isovalue, std::optional<isopoint::FitOrder> order = std::nullopt, bool dropsGaps = false)
 {
   isopoint::ExtractionRequest request;
   request.isosurface.isovalue = isovalue;
-  request.isosurface.gapFactor = gapFactor;
+  request.isosurface.dropsGaps = dropsGaps;
   if (order)
   {
     request.isosurface.fit = isopoint::FitRequest{ *order, true };
@@ -366,7 +366,7 @@ TEST(Triangles, DropWhatSpansGaps)
   };
   const ExtractedIsosurface whole = trianglesOf(cloud, requestOf(0.5));
   EXPECT_GT(countBetween(whole), 50);
-  const ExtractedIsosurface cut = trianglesOf(cloud, requestOf(0.5, std::nullopt, 4.0));
+  const ExtractedIsosurface cut = trianglesOf(cloud, requestOf(0.5, std::nullopt, true));
   // Behind samples at corners of the hull there are not two others: their edges stay.
   EXPECT_LT(countBetween(cut), countBetween(whole) / 10);
   EXPECT_GT(cut.triangles.size(), 500u);

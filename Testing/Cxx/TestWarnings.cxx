@@ -100,7 +100,7 @@ TEST(Warnings, FiguresThatDifferLookDifferent)
   expectWarning(filter, { "above the former and up to the latter" });
 }
 
-TEST(Warnings, AVoidThatTheGapFactorLeavesWithoutPointsIsExplained)
+TEST(Warnings, AVoidThatIsLeftWithoutPointsIsExplained)
 {
   const auto cloud = newCloud(2000);
   auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
@@ -113,8 +113,8 @@ TEST(Warnings, AVoidThatTheGapFactorLeavesWithoutPointsIsExplained)
   }
   const auto filter = newFilterOf(cloud);
   filter->SetValue(0, 50.0);
-  filter->SetGapFactor(4.0);
-  expectWarning(filter, { "50 has no points", "on both sides", "the gap factor drops all" });
+  filter->DropGapsOn();
+  expectWarning(filter, { "50 has no points", "on both sides", "all of them are in gaps" });
 }
 
 TEST(Warnings, APlaneWithoutTrianglesIsExplained)

@@ -92,10 +92,9 @@ def input_matters_rather_than_the_active_source():
 
 def panel():
     for create in filters():
-        isopoints = create(Input=simple.Wavelet())
-        gap_factor = isopoints.SMProxy.GetProperty("GapFactor")
-        check(gap_factor.GetPanelVisibility() == "default", "GapFactor")
-        check("Set 4 where" in gap_factor.GetDocumentation().GetDescription(), "when to set it")
+        drop_gaps = create(Input=simple.Wavelet()).SMProxy.GetProperty("DropGaps")
+        check(drop_gaps.GetPanelVisibility() == "default", "DropGaps")
+        check(drop_gaps.GetElement(0) == (create is simple.ScatteredIsosurface), "gaps of triangles are dropped")
 
 
 def creases_are_clipped():

@@ -218,7 +218,7 @@ class RanksTest(RanksTestCase):
         points = cloud("uniform", 3000, 3)
         for options in (
                 POINTS_ALONE, dict(Projection=0), dict(Projection=1), dict(Projection=2),
-                dict(Projection=4, **ALL_ARRAYS), dict(NormalMethod=1), dict(GapFactor=2.0),
+                dict(Projection=4, **ALL_ARRAYS), dict(NormalMethod=1), dict(DropGaps=1),
                 dict(MinimumSpacing=0.5), dict(Angle=20.0), dict(values=(0.1, -0.5, 1.1)),
                 dict(OutputPointsPrecision=1), dict(ComputeScalars=0), dict(KeepTree=0)):
             with self.subTest(options=options):

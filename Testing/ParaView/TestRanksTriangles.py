@@ -69,7 +69,7 @@ class RanksTrianglesTest(RanksTestCase):
 
     def test_clouds_and_options(self):
         for kind in ("lattice", "duplicates", "clusters", "lines"):
-            for options in (dict(Projection=0), dict(GapFactor=3.0, **ARRAYS),
+            for options in (dict(Projection=0), dict(DropGaps=0, **ARRAYS),
                             dict(NormalMethod=1), dict(values=(0.1, -0.5, 1.1))):
                 with self.subTest(kind=kind, options=options):
                     self.check(cloud(kind, 2000, 2), "round robin", **options)

@@ -36,7 +36,7 @@ def build():
     wavelet.UpdatePipeline()
     # A trace of a script has what properties are as filters are created.
     isopoints = simple.ScatteredIsopoints(
-        Input=wavelet, Isosurfaces=[200.0], Projection="Cubic fit with creases", GapFactor=4)
+        Input=wavelet, Isosurfaces=[200.0], Projection="Cubic fit with creases", DropGaps=1)
     isopoints.UpdatePipeline()
     view = simple.CreateView("RenderView")
     simple.Show(isopoints, view)

@@ -108,7 +108,7 @@ def rows_follow_others(plugin, paraview):
     counters = ("NumberOfSkippedSamples", "NumberOfUnprojectedPoints")
     for name in ("Scattered Isopoints", "Scattered Isosurface"):
         events = [choose(name), *(expect(counter, "enabled", "false") for counter in counters)]
-        events += [expect("GapFactor", "visible", "true"), ADVANCED,
+        events += [expect("DropGaps", "visible", "true"), ADVANCED,
                    expect("KeepTree", "visible", "true"), expect("ContourBlocks", "visible", "false"),
                    expect("NormalMethod", "enabled", "true")]
         points = name == "Scattered Isopoints"

@@ -89,12 +89,12 @@ class ContourTest(unittest.TestCase):
 
     def test_options_are_properties(self):
         positions, values = samples()
-        result = contour(positions, values, 0.3, projection="quadratic_fit", gap_factor=2.0,
+        result = contour(positions, values, 0.3, projection="quadratic_fit", drop_gaps=True,
                          compute_gradients=True, compute_normals=False)
-        self.same(result, filtered(as_data(positions, values), [0.3], Projection=2, GapFactor=2.0,
+        self.same(result, filtered(as_data(positions, values), [0.3], Projection=2, DropGaps=True,
                                    ComputeGradients=1, ComputeNormals=0))
         self.assertIsNone(result.normals)
-        with self.assertRaisesRegex(TypeError, "unknown option gap; there are .*gap_factor"):
+        with self.assertRaisesRegex(TypeError, "unknown option gap; there are .*drop_gaps"):
             contour(positions, values, 0.3, gap=2)
         with self.assertRaisesRegex(ValueError, "projection cannot be 'cubes'"):
             contour(positions, values, 0.3, projection="cubes")

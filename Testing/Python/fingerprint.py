@@ -159,7 +159,7 @@ def configured(number):
     isopoints.SetAngle(choose(random, 54.7, 54.7, 20.0, 0.0, 90.0))
     isopoints.SetProjection(choose(random, 3, 3, 4, 4, 2, 1, 0))
     isopoints.SetNormalMethod(int(random.integers(2)))
-    isopoints.SetGapFactor(choose(random, 0.0, 0.0, 4.0, 1.5))
+    isopoints.SetDropGaps(choose(random, 0, 0, 1, 1))
     isopoints.SetMinimumSpacing(choose(random, 0.0, 0.0, 0.5, 1.0))
     isopoints.SetNumberOfNeighbors(int(random.integers(3, 20)))
     isopoints.SetOutputPointsPrecision(int(random.integers(3)))

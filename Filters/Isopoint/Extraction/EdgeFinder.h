@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -29,7 +30,7 @@ public:
   using Id = typename TSample::Id;
 
   EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion,
-    const GapCriterion& gapCriterion)
+    const std::optional<GapCriterion>& gapCriterion)
     : Context(context)
     , Tree(context.tree)
     , Isovalue(context.isovalue)
@@ -208,7 +209,7 @@ private:
   {
     const TSample& sample = this->sampleAt(leaf.nodeIndex());
     const TSample& otherSample = this->sampleAt(otherLeaf);
-    if (this->Gaps.drops(this->Tree, leaf, sample, otherSample))
+    if (this->Gaps && this->Gaps->drops(this->Tree, leaf, sample, otherSample))
     {
       return;
     }
@@ -246,7 +247,7 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
-  const GapCriterion& Gaps;
+  const std::optional<GapCriterion>& Gaps;
   ImplicitNeighborhood<TSample> Implicit;
   NodeList<Id> Neighbors;
   std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,8 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
   FoundEdges<TSample>& result)
 {
   const AngleCriterion criterion(request.angle);
-  const GapCriterion gapCriterion(request.gapFactor);
+  const std::optional<GapCriterion> gaps =
+    request.dropsGaps ? std::optional(GapCriterion::strong()) : std::nullopt;
   MissingWork left;
   std::mutex mutex;
   constexpr std::size_t grain = 256;
@@ -61,7 +63,7 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
     execution, nodes.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(context, criterion, gapCriterion);
+      EdgeFinder<TSample> finder(context, criterion, gaps);
       const auto findAt = [&](const Path& leaf)
       {
         if (!context.tree.hasOwn(context.tree.nodes[leaf.nodeIndex()]))

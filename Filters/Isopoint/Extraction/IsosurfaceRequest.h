@@ -15,7 +15,7 @@ struct IsosurfaceRequest
 {
   double isovalue;             // any; there are isopoints where samples lie on either side of it
   double angle = defaultAngle; // of the angle criterion, in degrees, 0 up to 180
-  double gapFactor = 0.0;      // of the gap criterion: 0, which drops nothing, or positive
+  bool dropsGaps = false;      // whether what lies in gaps of the cloud is left out
   std::optional<FitRequest> fit = std::nullopt;
 };
 

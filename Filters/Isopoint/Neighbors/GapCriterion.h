@@ -25,11 +25,19 @@ namespace isopoint
 class GapCriterion
 {
 public:
-  /// @param factor 0: nothing is dropped; otherwise positive
-  explicit GapCriterion(double factor)
+  /// @param factor positive
+  /// @param count of samples behind an end, the farthest of which has the spacing: 1 to 3
+  GapCriterion(double factor, std::size_t count)
     : Factor(factor)
+    , WantedCount(count)
   {
   }
+
+  /// What hangs together with a gap is in it if it is over this one.
+  static GapCriterion weak() { return { 2.0, 2 }; }
+
+  /// What is over this one is in a gap. Next to no edge of random samples without a gap is.
+  static GapCriterion strong() { return { 4.0, 3 }; }
 
   /// Whether the edge between the positions of two samples is dropped, one of them a leaf's.
   /// Symmetric in them, and the same whatever part of the tree is built.
@@ -38,10 +46,6 @@ public:
   bool drops(const SampleTree<TSample>& tree, const Path& leaf, const TSample& own,
     const TSample& other) const
   {
-    if (this->Factor <= 0.0)
-    {
-      return false;
-    }
     const auto aroundLeaf = [&](const Region& box, const auto& visit)
     { return visitAround(tree, leaf, box, visit); };
     const auto fromRoot = [&](const Region& box, const auto& visit)
@@ -54,15 +58,31 @@ public:
            this->isCrowdedBehind(tree, other, own, fromRoot);
   }
 
+  /// Whether edges at the sample of a leaf may be dropped that are no longer than this: a quick
+  /// look, whatever their direction. False without any.
+  template <class TSample>
+  bool mayDrop(
+    const SampleTree<TSample>& tree, const Path& leaf, const TSample& own, double length) const
+  {
+    const auto isNear = [&](const TSample& sample)
+    {
+      return this->Factor * offsetBetween(positionOf(own), positionOf(sample)).length < length &&
+             !haveOnePosition(own, sample);
+    };
+    return this->finds(tree, isNear,
+      [&](const auto& visit)
+      { return visitAround(tree, leaf, this->boxAround(positionOf(own), length), visit); });
+  }
+
 private:
-  static constexpr std::size_t wantedCount = 2;
+  static constexpr std::size_t mostWanted = 3;
   static constexpr double cosine = 1.0 / 1.7320508075688772; // 1 / sqrt 3
 
   /// The positions found so far behind an end, each once.
   template <class TSample>
   struct Found
   {
-    std::array<const TSample*, wantedCount> samples;
+    std::array<const TSample*, mostWanted> samples;
     std::size_t count = 0;
 
     void add(const TSample& sample)
@@ -92,20 +112,29 @@ private:
       return this->Factor * offset.length < edge.length &&
              -dot(offset.vector, edge.vector) > cosine * (offset.length * edge.length);
     };
+    return this->finds(tree, isBehind,
+      [&](const auto& visit) { return search(this->boxAround(center, edge.length), visit); });
+  }
+
+  /// Whether there are enough positions of samples of some kind.
+  /// @param search(visit) visits the nodes that hold these
+  template <class TSample, class Kind, class Search>
+  bool finds(const SampleTree<TSample>& tree, const Kind& isWanted, const Search& search) const
+  {
     Found<TSample> found;
-    return search(this->boxAround(center, edge.length),
+    return search(
       [&](std::size_t nodeIndex)
       {
         const Node<TSample>& node = tree.nodes[nodeIndex];
         const std::size_t nodeEnd = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
-        for (std::size_t i = node.begin; i < nodeEnd && found.count < wantedCount; ++i)
+        for (std::size_t i = node.begin; i < nodeEnd && found.count < this->WantedCount; ++i)
         {
-          if (isBehind(tree.samples[i]))
+          if (isWanted(tree.samples[i]))
           {
             found.add(tree.samples[i]);
           }
         }
-        return found.count == wantedCount;
+        return found.count == this->WantedCount;
       });
   }
 
@@ -124,6 +153,7 @@ private:
   }
 
   double Factor;
+  std::size_t WantedCount;
 };
 
 } // namespace isopoint

@@ -84,6 +84,21 @@ public:
     return hasBelow && hasOther;
   }
 
+  /// Whether a tetrahedron has a neighbor beyond the hull that is crossing, as the facet between
+  /// is.
+  bool isCrossingAtHull(Cell cell) const
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const Cell neighbor = cell->neighbor(i);
+      if (this->Cells.is_infinite(neighbor) && this->isCrossing(neighbor))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// The index of the infinite vertex, or -1.
   int infiniteIndexOf(Cell cell) const
   {
@@ -234,8 +249,10 @@ void BandTriangulation::visitCrossing(
   {
     if (this->Inside->isCrossing(cell))
     {
-      visit(bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
-        cell->vertex(3)->info() }));
+      CrossingTetrahedron<std::uint64_t> tetrahedron = bySides({ cell->vertex(0)->info(),
+        cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
+      tetrahedron.isAtHull = this->Inside->isCrossingAtHull(cell);
+      visit(tetrahedron);
     }
   }
 }

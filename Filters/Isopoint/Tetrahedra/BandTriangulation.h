@@ -31,6 +31,7 @@ struct CrossingTetrahedron
   /// The node indices of the leaves at its corners, those below first; the orientation is positive.
   std::array<TId, 4> corners;
   std::uint8_t belowCount; // 1 to 3
+  bool isAtHull;           // whether it has a crossing facet on the convex hull
 };
 
 /// The Delaunay tetrahedrization of some of the samples, which grows. It is that of CGAL, whose

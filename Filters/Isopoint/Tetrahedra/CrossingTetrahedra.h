@@ -99,7 +99,7 @@ private:
     this->Band.visitCrossing(
       [&result](const CrossingTetrahedron<std::uint64_t>& tetrahedron)
       {
-        CrossingTetrahedron<Id> narrow{ {}, tetrahedron.belowCount };
+        CrossingTetrahedron<Id> narrow{ {}, tetrahedron.belowCount, tetrahedron.isAtHull };
         std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(),
           narrow.corners.begin(), [](std::uint64_t leaf) { return static_cast<Id>(leaf); });
         result.push_back(narrow);

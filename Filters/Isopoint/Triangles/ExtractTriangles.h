@@ -11,8 +11,8 @@
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
-#include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
+#include "Isopoint/Triangles/GapTetrahedra.h"
 #include "Isopoint/Triangles/MarchingTetrahedra.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
@@ -30,6 +30,7 @@ struct TriangleSurface
 {
   Isosurface vertices; // of crossing Delaunay edges
   std::vector<SurfaceTriangle> triangles;
+  std::size_t droppedTetrahedra = 0; // those that lie in gaps
 };
 
 /// Extracts triangles; see docs/triangles.md. For one isovalue. Where several ranks share the tree,
@@ -111,7 +112,7 @@ private:
   EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
   {
     std::vector<CrossingTetrahedron<Id>> found = this->tetrahedra(progress, laterWork);
-    if (this->Request.gapFactor > 0.0)
+    if (this->Request.dropsGaps)
     {
       this->dropGaps(found);
     }
@@ -126,26 +127,12 @@ private:
     return mesh;
   }
 
-  /// Drops tetrahedra with an edge that the gap criterion drops.
+  /// Drops tetrahedra in gaps of the cloud.
   void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
   {
-    std::vector<char> isDropped;
-    this->Ranks.together(
-      [&]()
-      {
-        this->Ranks.order(found);
-        isDropped.resize(found.size(), 0);
-      });
-    this->Ranks.forEach(
-      this->Run, found.size(), []() { return 0; },
-      [&](int, std::size_t i)
-      {
-        if (this->Ranks.isHome(this->firstLeafOf(found[i])))
-        {
-          isDropped[i] = this->isAcrossGap(found[i]) ? 1 : 0;
-        }
-      });
-    this->Ranks.unite(isDropped);
+    this->Ranks.together([&]() { this->Ranks.order(found); });
+    const std::vector<char> isDropped =
+      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
     {
@@ -154,34 +141,8 @@ private:
         found[kept++] = found[i];
       }
     }
+    this->Dropped = found.size() - kept;
     found.resize(kept);
-  }
-
-  /// The corner that comes first in the order of the tree.
-  std::size_t firstLeafOf(const CrossingTetrahedron<Id>& tetrahedron) const
-  {
-    return static_cast<std::size_t>(
-      *std::min_element(tetrahedron.corners.begin(), tetrahedron.corners.end(),
-        [this](Id a, Id b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; }));
-  }
-
-  bool isAcrossGap(const CrossingTetrahedron<Id>& tetrahedron) const
-  {
-    const GapCriterion criterion(this->Request.gapFactor);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const auto leaf = static_cast<std::size_t>(tetrahedron.corners[i]);
-      const Path path = pathToLeaf(this->Tree, leaf);
-      for (std::size_t j = i + 1; j < 4; ++j)
-      {
-        if (criterion.drops(this->Tree, path, this->sampleOf(leaf),
-              this->sampleOf(static_cast<std::size_t>(tetrahedron.corners[j]))))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
   }
 
   /// The surface of triangles whose vertices the fits move where no triangle turns over.
@@ -196,6 +157,7 @@ private:
     TriangleSurface surface;
     surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
+    surface.droppedTetrahedra = this->Dropped;
     std::vector<std::size_t> ends = leavesOf(mesh.edges);
     const auto isSingle = [this](std::size_t leaf) { return this->Tree.nodes[leaf].count() == 1; };
     ends.erase(std::remove_if(ends.begin(), ends.end(), isSingle), ends.end());
@@ -228,6 +190,7 @@ private:
   const IsosurfaceRequest& Request;
   SharedLeafMeans<TSample> Means;
   TetrahedraCounts Counts;
+  std::size_t Dropped = 0;
 };
 
 } // namespace isopoint
