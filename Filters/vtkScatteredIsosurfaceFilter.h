@@ -30,7 +30,7 @@
  * NORMALS_FROM_PLANES, and where the samples yield no gradient).
  *
  * DropGaps, on by default, leaves out the triangles where the samples end: those of tetrahedra with
- * edges longer than twice the spacing of the samples behind both ends, if they hang together with
+ * edges longer than twice the spacing of the samples behind both ends, if they are connected with
  * the outside of the samples' convex hull or with edges longer than four times that. A closed
  * surface amid samples stays closed. docs/triangles.md has the rule.
  *

@@ -359,7 +359,7 @@ private:
         stream.left.push_back(stream.next);
       }
     }
-    // By now others have moved on.
+    // Retry once: other threads may have released their locks.
     const auto isInserted = [&](std::size_t place) { return this->tryInsert(place, stream.hint); };
     stream.left.erase(
       std::remove_if(stream.left.begin(), stream.left.end(), isInserted), stream.left.end());
