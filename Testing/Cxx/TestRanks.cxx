@@ -51,7 +51,7 @@ TEST(Ranks, GapsAndAnglesAndFurtherIsovalues)
   for (const Cloud& cloud : variousClouds())
   {
     std::vector<isopoint::ExtractionRequest> requests(3);
-    requests[0].isosurface = { 0.1, false, false, std::nullopt };
+    requests[0].isosurface = { 0.1, 0.0, false, std::nullopt };
     requests[1].isosurface = { 0.9, 54.7, true, std::nullopt };
     requests[2].isosurface = { -0.4, 120.0, true, std::nullopt };
     for (const int size : { 2, 5 })
