@@ -64,11 +64,11 @@ TEST(Ranks, GapsAndAnglesAndFurtherIsovalues)
 TEST(Ranks, YieldTheFitsOfOneProcess)
 {
   std::vector<isopoint::ExtractionRequest> requests(3);
-  requests[0].isosurface = { 0.3, 54.7, 0.0,
+  requests[0].isosurface = { 0.3, 54.7, false,
     isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, 3.0,
+  requests[1].isosurface = { -0.2, 54.7, true,
     isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
-  requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
+  requests[2].isosurface = { 0.5, 54.7, false, isopoint::FitRequest{ std::nullopt, false } };
   for (const Cloud& cloud : variousClouds())
   {
     for (const int size : { 2, 7 })
@@ -81,13 +81,13 @@ TEST(Ranks, YieldTheFitsOfOneProcess)
 TEST(Ranks, YieldTheSplatsOfOneProcess)
 {
   std::vector<isopoint::ExtractionRequest> requests(4);
-  requests[0].isosurface = { 0.3, 54.7, 0.0,
+  requests[0].isosurface = { 0.3, 54.7, false,
     isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, 3.0,
+  requests[1].isosurface = { -0.2, 54.7, true,
     isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
   requests[1].minimumSpacing = 0.5;
-  requests[2].isosurface = { 0.5, 54.7, 0.0, isopoint::FitRequest{ std::nullopt, false } };
-  requests[3].isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  requests[2].isosurface = { 0.5, 54.7, false, isopoint::FitRequest{ std::nullopt, false } };
+  requests[3].isosurface = { 0.3, 54.7, false, std::nullopt };
   for (isopoint::ExtractionRequest& request : requests)
   {
     request.splats = isopoint::SplatOptions();
@@ -157,12 +157,12 @@ std::size_t expectGhostsOfOthers(
 TEST(Ranks, GhostsAreKnownAsWellAsOnTheRanksThatHaveThem)
 {
   std::vector<isopoint::ExtractionRequest> requests(5);
-  requests[0].isosurface = { 0.3, 54.7, 0.0, std::nullopt };
-  requests[1].isosurface = { 0.3, 54.7, 0.0,
+  requests[0].isosurface = { 0.3, 54.7, false, std::nullopt };
+  requests[1].isosurface = { 0.3, 54.7, false,
     isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   requests[2] = requests[1];
   requests[2].splats = isopoint::SplatOptions();
-  requests[3].isosurface = { -0.2, 54.7, 3.0,
+  requests[3].isosurface = { -0.2, 54.7, true,
     isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
   requests[3].minimumSpacing = 0.5;
   requests[3].splats = isopoint::SplatOptions();
@@ -183,7 +183,8 @@ TEST(Ranks, GhostsAreKnownAsWellAsOnTheRanksThatHaveThem)
 TEST(Ranks, SplatsThatOverlapThoseOfARankAreItsGhosts)
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.isosurface = { 0.3, 54.7, false,
+    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   request.splats = isopoint::SplatOptions();
   const std::vector<Cloud> pieces = ranks::dealOut(clouds::uniform(6000, 21), 5, ranks::Deal::Even);
   const std::vector<ranks::RankPoints> all = ranks::extractWithGhosts(pieces, request);
@@ -222,7 +223,8 @@ TEST(Ranks, SplatsThatOverlapThoseOfARankAreItsGhosts)
 TEST(Ranks, NewValuesAtTheSamePositionsKeepTheTree)
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, 0.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.isosurface = { 0.3, 54.7, false,
+    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   request.splats = isopoint::SplatOptions();
   isopoint::ExtractionRequest another = request;
   another.isosurface.isovalue = 0.7;
@@ -279,7 +281,7 @@ TEST(Ranks, NewValuesAreFewerBytesThanSamples)
 TEST(Ranks, ManySamplesAreSentInSlices)
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, 0.0, std::nullopt };
+  request.isosurface = { 0.3, 54.7, false, std::nullopt };
   ranks::expectSameAsOneProcess<float, float>(
     clouds::uniform(1 << 20, 41), 2, ranks::Deal::RoundRobin, { request });
 }

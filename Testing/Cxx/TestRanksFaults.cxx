@@ -15,7 +15,7 @@ namespace
 isopoint::ExtractionRequest everythingOfPoints()
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, 2.0, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
+  request.isosurface = { 0.3, 54.7, true, isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
   request.minimumSpacing = 0.3;
   request.splats = isopoint::SplatOptions();
   return request;

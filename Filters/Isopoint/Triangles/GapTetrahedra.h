@@ -240,6 +240,7 @@ private:
           }
         });
     }
+    std::sort(found.begin(), found.end()); // neighbors stand in another order on each rank
     return found;
   }
 
