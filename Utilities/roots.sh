@@ -10,6 +10,8 @@ make_root()
     mv "$2.part" "$2"
   fi
   cp /etc/resolv.conf "$2/etc/"
+  # sid's release files expire within a week, and mirrors may lag behind.
+  echo 'Acquire::Check-Valid-Until "false";' > "$2/etc/apt/apt.conf.d/check-valid-until"
 }
 
 # run_in_root ROOT COMMAND: with /proc and /dev, which are unmounted with its end.
