@@ -60,17 +60,17 @@ missing_packages()
   done < <(cat "${package_lists[@]}")
 }
 
-# What apt-get prints: the counts and sizes, and every five seconds how far it is.
+# What apt-get prints: the counts and sizes, which its versions word differently, and every five seconds
+# how far it is.
 shorten_apt_output()
 {
   awk '
-    /newly installed/ { total = $3 }
-    /newly installed|Need to get|disk space/ { print "  " $0; fflush() }
+    /newly installed|Need to get|disk space|Installing: |Download size|Space needed/ { print "  " $0; fflush() }
     /^Get:/ { downloaded++ }
     /^Unpacking / { unpacked++ }
     /^Setting up / { ready++ }
-    total && systime() >= next_time {
-      printf "  of %d packages %d downloaded, %d unpacked, %d ready\n", total, downloaded, unpacked, ready
+    downloaded && systime() >= next_time {
+      printf "  packages: %d downloaded, %d unpacked, %d ready\n", downloaded, unpacked, ready
       fflush()
       next_time = systime() + 5
     }'
