@@ -18,10 +18,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 (($# > 0)) || set -- address thread fuzz
 for preset; do
-  Utilities/prepare.sh "$preset" tests
+  targets=(tests)
   tests=()
   if [[ $preset == fuzz ]]; then
+    targets=(FuzzCore FuzzFilter)
     tests=(--tests-regex '^Fuzz\.')
   fi
+  Utilities/prepare.sh "$preset" "${targets[@]}"
   ctest --preset "$preset" --parallel "$(nproc)" "${tests[@]}"
 done
