@@ -7,7 +7,7 @@ from paraview.simple import *
 # Stands for your data: cells of three sizes.
 wavelet = PointDatatoCellData(Input=Wavelet(WholeExtent=[-32, 32, -32, 32, -32, 32]))
 grid = ImageDataToAMR(Input=wavelet, Numberoflevels=3, MaximumNumberofBlocks=60)
-surface = ScatteredIsosurface(Input=grid, ContourBy=["CELLS", "RTData"], Isosurfaces=[180.0])
+surface = ScatteredIsosurface(Input=grid, ContourBy=["CELLS", "RTData"], Isosurfaces=[220.0])
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
