@@ -30,7 +30,7 @@
  * NORMALS_FROM_PLANES, and where the samples yield no gradient). GapFactor drops the triangles of
  * tetrahedra with an edge that the gap criterion drops.
  *
- * Angle, MinimumSpacing, NumberOfNeighbors, ComputeRadii, ComputeSplatAxes and ComputeSplatClips
+ * Angle, MinimumSpacing, NumberOfNeighbors and ComputeSplats
  * have no effect.
  *
  * Samples that are all coplanar have no tetrahedra: the output is then empty.

@@ -17,6 +17,7 @@ struct NearbyPoint
 {
   double squaredDistance; // in a unit of length
   std::size_t point;
+  bool isInFirstRing;
 };
 
 /// The points around each point, nearest first. Those at one position count as one, the first. For
@@ -39,17 +40,20 @@ public:
   void find(std::size_t point, int rings, double unit,
     double squaredLimit = std::numeric_limits<double>::max())
   {
-    this->Finder.find(point, rings, this->Found);
+    const std::size_t firstRing = this->Finder.find(point, rings, this->Found);
     const Vector& position = this->Positions[point];
     const double scale = 1.0 / unit;
     // Which ones are within the limit is unpredictable: all are written, and those are kept.
     this->Nearby.resize(this->Found.size());
     std::size_t count = 0;
-    for (const std::size_t other : this->Found)
+    this->IsFirstHere = true;
+    for (std::size_t i = 0; i < this->Found.size(); ++i)
     {
+      const std::size_t other = this->Found[i];
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
-      this->Nearby[count] = { squaredDistance, other };
+      this->Nearby[count] = { squaredDistance, other, i < firstRing };
+      this->IsFirstHere &= (squaredDistance != 0.0) | (other >= point);
       count += ((squaredDistance > 0.0) & (squaredDistance <= squaredLimit)) ? 1 : 0;
     }
     this->Nearby.resize(count);
@@ -57,7 +61,8 @@ public:
       [](const NearbyPoint& a, const NearbyPoint& b)
       {
         return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-                                                      : a.point < b.point;
+          : a.point != b.point                        ? a.point < b.point
+                                                      : a.isInFirstRing > b.isInFirstRing;
       });
     this->dropCoincident();
   }
@@ -75,6 +80,9 @@ public:
       found.push_back(this->Nearby[i].point);
     }
   }
+
+  /// Whether no earlier point found is at the same position.
+  bool isFirstHere() const { return this->IsFirstHere; }
 
   auto begin() const { return this->Nearby.begin(); }
   auto end() const { return this->Nearby.end(); }
@@ -104,6 +112,7 @@ private:
   typename TNeighbors::Finder Finder;
   std::vector<std::size_t> Found;
   std::vector<NearbyPoint> Nearby;
+  bool IsFirstHere = true;
 };
 
 } // namespace isopoint
