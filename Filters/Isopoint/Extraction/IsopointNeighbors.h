@@ -86,19 +86,16 @@ public:
     /// @param rings 1, or 2 with those around the ones found. All samples that determine which
     /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
     /// than 2 rings - 1 touching leaves.
-    /// @returns how many of those listed, the first ones, are in the first ring
-    std::size_t find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
+    void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
       this->Ends.clear();
       this->Visited.clear();
       this->addAround(isopoint, found);
-      const std::size_t firstRing = found.size();
-      for (std::size_t i = 0; rings > 1 && i < firstRing; ++i)
+      for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
       {
         this->addAround(found[i], found);
       }
-      return firstRing;
     }
 
   private:

@@ -115,11 +115,11 @@ private:
     }
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
-    this->Nearby.find(point, 1, unit, 4.0 * near);
+    this->Nearby.find(point, 2, unit, 4.0 * near);
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
     {
-      this->Nearby.find(point, 2, unit, 4.0 * cell.squaredReach());
+      this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
       this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
@@ -158,8 +158,7 @@ private:
     }
     const double distance =
       this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
-    const std::size_t side = other.isInFirstRing ? other.point : TangentCell::plane;
-    cell.cut(a, b, 0.5 * distance, side);
+    cell.cut(a, b, 0.5 * distance, other.point);
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own

@@ -17,7 +17,6 @@ struct NearbyPoint
 {
   double squaredDistance; // in a unit of length
   std::size_t point;
-  bool isInFirstRing;
 };
 
 /// The points around each point, nearest first. Those at one position count as one, the first. For
@@ -40,19 +39,24 @@ public:
   void find(std::size_t point, int rings, double unit,
     double squaredLimit = std::numeric_limits<double>::max())
   {
-    const std::size_t firstRing = this->Finder.find(point, rings, this->Found);
+    this->Finder.find(point, rings, this->Found);
+    this->keepWithin(point, unit, squaredLimit);
+  }
+
+  /// Lists those found around the point within another limit.
+  void keepWithin(std::size_t point, double unit, double squaredLimit)
+  {
     const Vector& position = this->Positions[point];
     const double scale = 1.0 / unit;
     // Which ones are within the limit is unpredictable: all are written, and those are kept.
     this->Nearby.resize(this->Found.size());
     std::size_t count = 0;
     this->IsFirstHere = true;
-    for (std::size_t i = 0; i < this->Found.size(); ++i)
+    for (const std::size_t other : this->Found)
     {
-      const std::size_t other = this->Found[i];
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
-      this->Nearby[count] = { squaredDistance, other, i < firstRing };
+      this->Nearby[count] = { squaredDistance, other };
       this->IsFirstHere &= (squaredDistance != 0.0) | (other >= point);
       count += ((squaredDistance > 0.0) & (squaredDistance <= squaredLimit)) ? 1 : 0;
     }
@@ -61,8 +65,7 @@ public:
       [](const NearbyPoint& a, const NearbyPoint& b)
       {
         return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-          : a.point != b.point                        ? a.point < b.point
-                                                      : a.isInFirstRing > b.isInFirstRing;
+                                                      : a.point < b.point;
       });
     this->dropCoincident();
   }

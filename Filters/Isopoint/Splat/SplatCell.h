@@ -21,8 +21,7 @@ struct SplatCell
   {
     double x;
     double y;
-    /// The point beyond the side that begins here, if this is a cut halfway to a point of the first
-    /// ring; otherwise none.
+    /// The point beyond the side that begins here, if this is a cut halfway to one; otherwise none.
     std::size_t beyond;
   };
 

@@ -14,8 +14,12 @@
 namespace isopoint
 {
 
-/// How far apart the points may be whose cells share a corner, in rings (see IsopointNeighbors).
-constexpr int fanRings = 5;
+/// How many corners of cells are brought together, at most.
+constexpr std::size_t mostMeeting = 5;
+
+/// How far apart their points are then, at most, in rings (see IsopointNeighbors): each cell is in
+/// the second ring of the next.
+constexpr int fanRings = 2 * static_cast<int>(mostMeeting - 1);
 
 /// Makes splats of cells: lowers their corners onto the surface, and brings those together that
 /// meet; see docs/algorithm.md, section 12.6.
@@ -55,7 +59,7 @@ private:
   /// The corners of cells that meet, each once, in the order of points and numbers.
   struct Meeting
   {
-    std::array<Place, static_cast<std::size_t>(fanRings) + 1> places{};
+    std::array<Place, mostMeeting> places{};
     std::size_t count = 0;
     bool isTooLarge = false; // then they are not brought together
 
