@@ -94,8 +94,8 @@ void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
     auto* next = polygon.data();
     for (const isopoint::SplatCorner& corner : splat.corners)
     {
-      for (const float number : { corner.along, corner.across, corner.height, corner.slopeAlong,
-             corner.slopeAcross })
+      for (const float number :
+        { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
       {
         *next++ = number;
       }
@@ -116,10 +116,9 @@ void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCou
 std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const
 {
   std::vector<std::string> replaced;
-  for (vtkDataArray* const array :
-    { this->Normals.Get(), this->Radius.Get(), this->SplatAxis.Get(),
-      static_cast<vtkDataArray*>(this->SplatPolygon.Get()), this->Gradients.Get(),
-      this->ProjectionOrder.Get() })
+  for (vtkDataArray* const array : { this->Normals.Get(), this->Radius.Get(), this->SplatAxis.Get(),
+         static_cast<vtkDataArray*>(this->SplatPolygon.Get()), this->Gradients.Get(),
+         this->ProjectionOrder.Get() })
   {
     if (!array)
     {

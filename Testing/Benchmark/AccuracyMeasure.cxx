@@ -100,8 +100,7 @@ double rimDistance(const std::vector<Splat>& splats, const Surface& surface, dou
   {
     if (isWithin(splat.center, halfSide))
     {
-      const std::array<Vector, 4> ofSplat = splat.ends();
-      ends.insert(ends.end(), ofSplat.begin(), ofSplat.end());
+      ends.insert(ends.end(), splat.corners.begin(), splat.corners.end());
     }
   }
   std::vector<double> distances(ends.size());

@@ -6,7 +6,6 @@
 
 #include "vtkType.h"
 
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -17,30 +16,22 @@ class vtkPolyData;
 namespace accuracy
 {
 
-/// An ellipse in space, or the part of it on one side of a clip plane.
+/// A fan of triangles in space: between its center and each two consecutive corners.
 struct Splat
 {
   analytic::Vector center;
-  analytic::Vector normal; // of length 1
-  analytic::Vector axis1;  // half-axes, perpendicular to the normal
-  analytic::Vector axis2;
-  /// a, b, c, d, e: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
-  std::array<double, 5> clip{};
+  analytic::Vector normal;               // of length 1
+  std::vector<analytic::Vector> corners; // counterclockwise seen from the tip of the normal
 
-  double radius() const; // of the longer half-axis
-
-  bool isClippedAt(const analytic::Vector& offset) const; // from the center
-
-  /// The ends of both axes, or where these meet the clip plane.
-  std::array<analytic::Vector, 4> ends() const;
+  double radius() const; // the distance of the farthest corner
 };
 
 /// An array's tuple of three components.
 analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
-/// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
-/// "SplatAxis2", clipped by the planes in the array "SplatClip" if there is one. Empty without
-/// normals, or without radii and axes.
+/// The splats of a point cloud with normals and the arrays "SplatAxis" and "SplatPolygon", or
+/// "Radius": then polygons of sixteen corners on a circle. Empty without normals, or without all of
+/// these arrays.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Determines whether splats cover places.
@@ -48,7 +39,8 @@ class Coverage
 {
 public:
   /// @param leastTolerance a splat covers places up to this distance from its plane, or up to half
-  /// its radius if that is more
+  /// its radius if that is more, and beside it up to a hundredth of its radius, since places are
+  /// seen along the normal of each splat
   Coverage(const std::vector<Splat>& splats, double leastTolerance);
 
   /// Complexity: linear in the number of splats around the place.

@@ -40,8 +40,7 @@ public:
   SplatCell cut(std::size_t point)
   {
     const double unit = this->unitAt(point);
-    TangentCell cell(
-      this->Splats[point].normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
+    TangentCell cell(this->Splats[point].normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
     this->cutOut(point, unit, cell);
     PlaneForm curvature;
     if (this->isSmooth(point))

@@ -54,7 +54,8 @@ bool SplatFans::areClose(const Place& a, const Place& b) const
 {
   constexpr double mostShare = 0.5;
   return dot(this->Splats[a.corner.point].normal, this->Splats[b.corner.point].normal) > 0.0 &&
-         lengthOf(difference(a.position, b.position)) <= mostShare * 0.5 * (a.distance + b.distance);
+         lengthOf(difference(a.position, b.position)) <=
+           mostShare * 0.5 * (a.distance + b.distance);
 }
 
 void SplatFans::Meeting::add(const Place& place)
