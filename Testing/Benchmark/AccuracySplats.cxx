@@ -147,27 +147,31 @@ Coverage::Coverage(const std::vector<Splat>& splats, double leastTolerance)
   }
 }
 
-bool Coverage::isCoveredBy(const Splat& splat, const Vector& place) const
+bool Coverage::isCoveredBy(const Splat& splat, const Vector& place, const Vector& normal) const
 {
-  const Vector way = difference(place, splat.center);
-  const double height = std::abs(dot(way, splat.normal));
-  if (height > std::max(this->LeastTolerance, 0.5 * splat.radius()))
+  const Vector center = difference(splat.center, place);
+  const double radius = splat.radius();
+  if (std::abs(dot(center, splat.normal)) > std::max(this->LeastTolerance, 0.5 * radius))
   {
     return false;
   }
-  constexpr double margin = 0.01; // of the radius
-  bool isInside = splat.corners.size() > 2;
-  for (std::size_t i = 0; isInside && i < splat.corners.size(); ++i)
+  const double tolerance = 1e-6 * radius * radius; // corners are rounded
+  for (std::size_t i = 0; i < splat.corners.size(); ++i)
   {
-    const Vector& corner = splat.corners[i];
-    const Vector side = difference(splat.corners[(i + 1) % splat.corners.size()], corner);
-    const Vector inward = analytic::directionOf(cross(splat.normal, side));
-    isInside = dot(inward, difference(place, corner)) >= -margin * splat.radius();
+    const Vector a = difference(splat.corners[i], place);
+    const Vector b = difference(splat.corners[(i + 1) % splat.corners.size()], place);
+    const std::array<double, 3> sides{ dot(cross(center, a), normal), dot(cross(a, b), normal),
+      dot(cross(b, center), normal) };
+    const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+    if ((*least >= -tolerance || *most <= tolerance) && *most - *least > tolerance)
+    {
+      return true;
+    }
   }
-  return isInside;
+  return false;
 }
 
-bool Coverage::covers(const Vector& place) const
+bool Coverage::covers(const Vector& place, const Vector& normal) const
 {
   for (const Level& level : this->Levels)
   {
@@ -182,7 +186,8 @@ bool Coverage::covers(const Vector& place) const
         level.cells.find(keyOf(lowest[0] + i % 3, lowest[1] + i / 3 % 3, lowest[2] + i / 9));
       if (found != level.cells.end() &&
           std::any_of(found->second.begin(), found->second.end(),
-            [&](std::size_t splat) { return this->isCoveredBy(this->Splats[splat], place); }))
+            [&](std::size_t splat)
+            { return this->isCoveredBy(this->Splats[splat], place, normal); }))
       {
         return true;
       }

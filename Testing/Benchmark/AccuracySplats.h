@@ -39,12 +39,12 @@ class Coverage
 {
 public:
   /// @param leastTolerance a splat covers places up to this distance from its plane, or up to half
-  /// its radius if that is more, and beside it up to a hundredth of its radius, since places are
-  /// seen along the normal of each splat
+  /// its radius if that is more
   Coverage(const std::vector<Splat>& splats, double leastTolerance);
 
   /// Complexity: linear in the number of splats around the place.
-  bool covers(const analytic::Vector& place) const;
+  /// @param normal of the surface there: the place is seen along it
+  bool covers(const analytic::Vector& place, const analytic::Vector& normal) const;
 
 private:
   /// Splats of similar size, by the cell of their center. Cells are at least as wide as the
@@ -55,7 +55,8 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
   };
 
-  bool isCoveredBy(const Splat& splat, const analytic::Vector& place) const;
+  bool isCoveredBy(
+    const Splat& splat, const analytic::Vector& place, const analytic::Vector& normal) const;
 
   const std::vector<Splat>& Splats;
   double LeastTolerance;
