@@ -50,9 +50,9 @@ UNWANTED = (
 UNFINISHED = re.compile(r"\?\?\?|\b(?:TODO|TBD|FIXME|XXX|TKTK)\b|\b[A-Z]{4,}\d*[A-Z]*\b")
 CAPITALS = {
     "ARRAY", "BRDF", "DATA", "EPYC", "FILE", "FOLDER", "GLSL", "IEEE", "ISOVALUE", "PSNR", "README", "SIGGRAPH", "VGTC"}  # fmt: skip
-CONSTANT_ROW = re.compile(r"\| `(\w+)` \| (\w+\.(?:h|cxx)) \| ([^|]+?) \|")
 
 PROPERTY_MEMBER = re.compile(r"^  (?:double|int|vtkTypeBool) (\w+) = ([\w.]+);", re.MULTILINE)
+PROPERTY_ELEMENT = re.compile(r"<\w+VectorProperty\b[^>]*>")
 SWITCHES = {"on": "1", "off": "0"}
 
 
@@ -114,7 +114,8 @@ class Checker:
         self.entries = set(os.listdir(self.root)) - {"build"}
         self.file_names, self.names, self.identifiers = set(), BuildNames(), set(PLACEHOLDERS)
         self.sources = {}  # paths of C++ files by their names
-        self.defaults = {}  # of properties, as their classes initialize them
+        self.defaults = {}  # of properties, as the headers of their classes initialize them
+        self.plugin_defaults = {}  # of properties, as the plugin's XML has them
         for folder, folders, names in os.walk(self.root):
             folders[:] = [name for name in folders if name != ".git" and not name.startswith("build")]
             self.file_names.update(names)
@@ -135,6 +136,13 @@ class Checker:
             if re.match(r"vtk\w+\.h$", name):
                 for member, value in PROPERTY_MEMBER.findall(text):
                     self.defaults.setdefault(member, set()).add(value)
+            if name.endswith(".xml"):
+                for element in PROPERTY_ELEMENT.findall(text):
+                    attributes = dict(re.findall(r'(\w+)="([^"]*)"', element))
+                    member = re.fullmatch(r"Set(\w+)", attributes.get("command", ""))
+                    if member and "default_values" in attributes:
+                        values = self.plugin_defaults.setdefault(member.group(1), set())
+                        values.add(attributes["default_values"])
             if name.endswith((".cmake", "CMakeLists.txt")):
                 self.names.add_cmake(text)
             elif name.endswith(".cxx"):
@@ -161,8 +169,7 @@ class Checker:
         for number, line in enumerate(document.lines, 1):
             for word in (word for pattern in UNWANTED for word in pattern.findall(line)):
                 self.report(name, number, '"%s" does not belong into a document' % word)
-            self.check_constant(name, number, line)
-        self.check_defaults(name, document.lines)
+        self.check_tables(name, document.lines)
         for number, message in document.defects:
             self.report(name, number, message)
         for first, text in document.paragraphs:
@@ -198,12 +205,26 @@ class Checker:
         elif anchor and anchor not in self.document(full).anchors:
             self.report(name, number, "no heading for the link %s" % target)
 
-    def check_constant(self, name, number, line):
-        """A row of a table of constants: | `name` | file | value | ..."""
-        match = CONSTANT_ROW.match(line)
-        if not match:
+    def check_tables(self, name, lines):
+        """Tables of constants, whose rows begin with name, file and value, and of properties' defaults."""
+        header = []
+        for number, line in enumerate(lines, 1):
+            cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
+            if not cells or not header:
+                header = cells
+            elif len(cells) < len(header) or set(line) <= set("|-: "):
+                continue
+            elif header[:3] == ["constant", "file", "value"]:
+                self.check_constant(name, number, *cells[:3])
+            elif "default" in header and re.match(r"`\w+`", cells[0]):
+                member = re.match(r"\w+", cells[0][1:]).group()
+                self.check_default(name, number, member, cells[header.index("default")])
+
+    def check_constant(self, name, number, constant, file, value):
+        if not re.fullmatch(r"`\w+`", constant):
+            self.report(name, number, "%s is no constant's name in backticks" % constant)
             return
-        constant, file, value = match.groups()
+        constant = constant.strip("`")
         text = read(self.sources[file]) if file in self.sources else ""
         values = re.findall(r"\bconstexpr\b[^;={]*\b%s\s*(?:=\s*([^;]+)|\{([^;]+)\});" % constant, text)
         values = [number_of(first or second) for first, second in values]
@@ -212,29 +233,20 @@ class Checker:
         elif number_of(value) is None or number_of(value) not in values:
             self.report(name, number, "%s is %s in %s, not %s" % (constant, values[0], file, value))
 
-    def check_defaults(self, name, lines):
-        """The column "default" of tables whose rows begin with a property."""
-        column = 0
-        for number, line in enumerate(lines, 1):
-            cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
-            if not cells:
-                column = 0
-            elif "default" in cells:
-                column = cells.index("default")
-            elif column and len(cells) > column:
-                words = re.match(r"`(\w+)`", cells[0]), re.match(r"`?([\w.]+)", cells[column])
-                if all(words):
-                    self.check_default(name, number, *(word.group(1) for word in words))
-
-    def check_default(self, name, number, member, default):
-        values = self.defaults.get(member, set())
-        default = SWITCHES.get(default, default)
-        is_value = number_of(default) is not None or default in self.identifiers and default.isupper()
-        if not values or not is_value or default in values:
-            return
-        numbers = {number_of(value) for value in values} - {None}
-        if number_of(default) not in numbers:
-            self.report(name, number, "the default of %s is %s" % (member, " or ".join(values)))
+    def check_default(self, name, number, member, cell):
+        """A default that begins with a number, on, off, or (the beginning of) the name of a constant."""
+        default = re.match(r"`?([\w.+-]*)", cell).group(1)
+        wanted = number_of(SWITCHES.get(default, default))
+        values = self.defaults.get(member) or self.plugin_defaults.get(member, set())
+        if wanted is not None:
+            agrees = wanted in {number_of(value) for value in values}
+        else:
+            agrees = not values or any(value.lower().startswith(default.lower()) for value in values)
+        if not values and not agrees:
+            self.report(name, number, "no default of %s in the sources" % member)
+        elif not agrees or not default:
+            self.report(name, number, "the default of %s is %s, not %s"
+                        % (member, " or ".join(sorted(values)), cell))  # fmt: skip
 
     def check_path(self, name, number, word):
         """A word in backticks or of a command that looks like a path of the tree."""

@@ -179,23 +179,36 @@ class CheckDocuments(unittest.TestCase):
 
     def test_constants(self):
         self.write("Core.h", "constexpr double share = 0.5;\n  static constexpr std::size_t most{ 1024 };\n"
-                   "constexpr std::size_t batch = std::size_t{ 1 } << 16;\n")
-        self.expect_clean("| `share` | Core.h | 1 / 2 | 1 |\n| `most` | Core.h | 2^10 | 1 |\n"
-                          "| `batch` | Core.h | 65536 | 1 |\n| shares | Core.h | 7 | 1 |\n")
-        self.expect("\n| `share` | Core.h | 0.6 | 1 |\n", 2, "share is 0.5 in Core.h, not 0.6")
-        self.expect("| `batch` | Core.h | 2^15 | 1 |\n", 1, "batch is 65536 in Core.h, not 2^15")
-        self.expect("| `other` | Core.h | 1 | 1 |\n", 1, "no constant other in Core.h")
-        self.expect("| `share` | Base.h | 1 | 1 |\n", 1, "no constant share in Base.h")
+                   "constexpr std::size_t batch = std::size_t{ 1 } << 16;\nconstexpr double least = 1e-10;\n")
+        head = "| constant | file | value | unit |\n|---|---|---|---|\n"
+        self.expect_clean(head + "| `share` | Core.h | 1 / 2 | 1 |\n| `most` | Core.h | 2^10 | 1 |\n"
+                          "| `batch` | Core.h | 65536 | 1 |\n| `least` | Core.h | 1e-10 | 1 |\n")
+        self.expect_clean("| constant | value |\n|---|---|\n| share | 7 |\n")
+        self.expect(head + "| `share` | Core.h | 0.6 | 1 |\n", 3, "share is 0.5 in Core.h, not 0.6")
+        self.expect(head + "| `share` | Core.h | half | 1 |\n", 3, "share is 0.5 in Core.h, not half")
+        self.expect(head + "| `batch` | Core.h | 2^15 | 1 |\n", 3, "batch is 65536 in Core.h, not 2^15")
+        self.expect(head + "| `least` | Core.h | 1e-9 | 1 |\n", 3, "least is 1e-10 in Core.h, not 1e-9")
+        self.expect(head + "| `other` | Core.h | 1 | 1 |\n", 3, "no constant other in Core.h")
+        self.expect(head + "| `share` | Base.h | 1 | 1 |\n", 3, "no constant share in Base.h")
+        self.expect(head + "| share | Core.h | 0.5 | 1 |\n", 3, "share is no constant's name in backticks")
 
     def test_defaults(self):
         self.write("vtkThing.h", "  double Size = 1.5;\n  vtkTypeBool Runs = 1;\n  int Kind = ROUND;\n"
-                   "  enum { ROUND, FLAT };\n")
+                   "  int Source = AUTOMATIC_SOURCE;\n  double Angle;\n  bool Name();\n")
+        self.write("thing.xml", '<IntVectorProperty default_values="7"\n command="SetSize" />\n'
+                   '<DoubleVectorProperty command="SetAngle"\n default_values="54.7" />\n')
         head = "| property | default |\n|---|---|\n"
         self.expect_clean(head + "| `Size` | 1.5 (m) |\n| `Runs` | on |\n| `Kind` | `ROUND` |\n")
+        self.expect_clean(head + "| `Angle` | 54.7 |\n| `Source` | automatic |\n| `Name` | none |\n| Other | 1 |\n")
         self.expect_clean("| property | range |\n|---|---|\n| `Size` | 2 |\n")
-        self.expect(head + "| `Size` | 1.6 |\n", 3, "the default of Size is 1.5")
+        self.expect(head + "| `Size` | 1.6 |\n", 3, "the default of Size is 1.5, not 1.6")
+        self.expect(head + "| `Size` | 7 |\n", 3, "the default of Size is 1.5, not 7")
+        self.expect(head + "| `Size` | |\n", 3, "the default of Size is 1.5")
         self.expect(head + "| `Runs` | off |\n", 3, "the default of Runs is 1")
         self.expect(head + "| `Kind` | `FLAT` |\n", 3, "the default of Kind is ROUND")
+        self.expect(head + "| `Source` | field |\n", 3, "the default of Source is AUTOMATIC_SOURCE")
+        self.expect(head + "| `Angle` | 55 |\n", 3, "the default of Angle is 54.7, not 55")
+        self.expect(head + "| `Name` | 3 |\n", 3, "no default of Name in the sources")
 
     def test_documents_in_folders(self):
         self.write("docs/a/b/page.md", "`Missing.cxx`\n")
