@@ -65,8 +65,6 @@ def isopoints(field, low, high, count, seed=1, creases=False):
     contour.SetValue(0, 0.0)
     if creases:
         contour.SetProjection(vtkScatteredIsopointFilter.CREASE_FIT)
-        contour.ComputeSplatAxesOn()
-        contour.ComputeSplatClipsOn()
     contour.Update()
     return contour.GetOutput()
 

@@ -120,6 +120,13 @@ public:
     }
   }
 
+  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
+  std::size_t find(const IsopointEdge& edge) const
+  {
+    const std::size_t index = this->indexOf(edge);
+    return index < this->All.size() && this->All.edges[index] == edge ? index : this->All.size();
+  }
+
 private:
   struct OwnEnd
   {

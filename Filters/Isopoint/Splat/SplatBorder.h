@@ -66,7 +66,7 @@ public:
       }
       if (this->IsBorder[i])
       {
-        cell.cut(directions[i], this->Extent[i] + sampleReach, true);
+        cell.cut(directions[i], this->Extent[i] + sampleReach, TangentCell::limit);
       }
     }
   }

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatShaper_h
-#define isopoint_SplatShaper_h
+#ifndef isopoint_CellCutter_h
+#define isopoint_CellCutter_h
 
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Splat/Curvature.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatBorder.h"
-#include "Isopoint/Splat/SplatShape.h"
+#include "Isopoint/Splat/SplatCell.h"
 #include "Isopoint/Splat/TangentCell.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace isopoint
 {
 
-/// Determines the shapes of splats whose normals are known, one at a time. For one thread.
+/// Cuts out the cells of points whose normals are known, one at a time. For one thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 /// @tparam TExtents see SplatBorder
 template <class TNeighbors, class TExtents>
-class SplatShaper
+class CellCutter
 {
 public:
   /// @param splats of which normals are set
-  SplatShaper(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
+  CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
     const std::vector<Splat>& splats)
     : Points(points)
     , Splats(splats)
@@ -37,35 +37,30 @@ public:
   {
   }
 
-  /// Sets all of a splat but its normal.
-  void shape(std::size_t point, Splat& splat)
+  SplatCell cut(std::size_t point)
   {
     const double unit = this->unitAt(point);
-    TangentCell cell(splat.normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
+    TangentCell cell(this->Splats[point].normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
     this->cutOut(point, unit, cell);
-    const bool isBent = this->isSmooth(point);
-    std::array<PrincipalDirection, 2> curvatures{};
-    if (isBent)
+    PlaneForm curvature;
+    if (this->isSmooth(point))
     {
       const LocalFit& fit = this->Points.fits[point];
-      curvatures = principalDirections(curvatureOf(cell, fit.hessian, fit.gradient, unit));
-      cutWhereSurfaceTurns(curvatures, cell);
+      curvature = curvatureOf(cell.frame(), fit.hessian, fit.gradient, unit);
+      cutWhereSurfaceTurns(curvature, cell);
     }
-    const Ellipse ellipse = ellipseAround(cell, isBent ? &curvatures : nullptr);
-    const double size = unit * (isBent ? overlapAt(curvatures, cell) : mostOverlap);
-    const Vector along = sum(scaled(ellipse.x, cell.first()), ellipse.y, cell.second());
-    splat.radius = size * ellipse.major;
-    splat.axis1 = scaled(splat.radius, along);
-    splat.axis2 = scaled(size * ellipse.minor, cross(splat.normal, along));
-    splat.clip = this->clipOf(point, splat, creaseOverlap * unit);
+    cell.reduceTo(mostCorners);
+    SplatCell result{ {}, 0, unit, curvature, this->Nearby.isFirstHere() };
+    for (const TangentCell::Corner& corner : cell)
+    {
+      const bool isPoint = corner.side != TangentCell::limit && corner.side != TangentCell::plane;
+      result.corners[result.count++] = { corner.x, corner.y,
+        isPoint ? corner.side : SplatCell::none };
+    }
+    return result;
   }
 
 private:
-  /// The ratio of a splat's size to its cell's, since the surface bends where the cell is flat: the
-  /// least and the greatest, which also holds where no fit determines the curvature.
-  static constexpr double leastOverlap = 1.1;
-  static constexpr double mostOverlap = 1.2;
-
   /// How far a cell may reach, in spacings, where no point bounds it; twice as far where points do
   /// but no fit determines a smooth surface, and four times where one does, as between samples in
   /// lines.
@@ -74,10 +69,6 @@ private:
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
   static constexpr double creaseTolerance = 0.1;
-
-  /// How far splats reach over their creases, in spacings, so that those of both sides leave no
-  /// slit where their planes are not exactly the same.
-  static constexpr double creaseOverlap = 0.001;
 
   /// Whether a fit held that describes a smooth surface.
   bool isSmooth(std::size_t point) const
@@ -95,25 +86,16 @@ private:
              : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
   }
 
-  static double overlapAt(
-    const std::array<PrincipalDirection, 2>& curvatures, const TangentCell& cell)
-  {
-    // One over the cosine of the angle by which the surface turns within the cell, about.
-    const double squaredTurn = curvatures[1].value * curvatures[1].value * cell.squaredReach();
-    return std::min(mostOverlap, leastOverlap + 0.5 * squaredTurn);
-  }
-
   /// Cuts off what is farther than the surface's radius of curvature.
-  static void cutWhereSurfaceTurns(
-    const std::array<PrincipalDirection, 2>& curvatures, TangentCell& cell)
+  static void cutWhereSurfaceTurns(const PlaneForm& form, TangentCell& cell)
   {
-    for (const PrincipalDirection& curvature : curvatures)
+    for (const PrincipalDirection& curvature : principalDirections(form))
     {
       const double radius = 1.0 / std::abs(curvature.value);
       if (radius * radius < cell.squaredReach())
       {
-        cell.cut(curvature.x, curvature.y, radius);
-        cell.cut(-curvature.x, -curvature.y, radius);
+        cell.cut(curvature.x, curvature.y, radius, TangentCell::plane);
+        cell.cut(-curvature.x, -curvature.y, radius, TangentCell::plane);
       }
     }
   }
@@ -127,22 +109,22 @@ private:
     {
       for (const CreasePlane& crease : this->Points.fits[point].creases)
       {
-        cell.cut(scaled(-1.0, crease.inward), crease.distance / unit);
+        cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
       }
     }
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
-    this->Nearby.find(point, 1, unit, 4.0 * near);
+    this->Nearby.find(point, 2, unit, 4.0 * near);
     this->cutTowardsNearby(point, unit, cell);
     if (cell.squaredReach() > near)
     {
-      this->Nearby.find(point, 2, unit, 4.0 * cell.squaredReach());
+      this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
       this->cutTowardsNearby(point, unit, cell);
       this->Border.cut(cell);
     }
     if (cell.isOpen())
     {
-      cell.limit(openReach);
+      cell.limitTo(openReach);
     }
   }
 
@@ -163,8 +145,8 @@ private:
   {
     const Vector offset = scaled(
       1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
-    const double a = dot(offset, cell.first());
-    const double b = dot(offset, cell.second());
+    const double a = dot(offset, cell.frame().first);
+    const double b = dot(offset, cell.frame().second);
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
     if (!cell.reachesBeyond(a, b, 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
@@ -175,7 +157,7 @@ private:
     }
     const double distance =
       this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
-    cell.cut(a, b, 0.5 * distance);
+    cell.cut(a, b, 0.5 * distance, other.point);
   }
 
   /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
@@ -213,7 +195,7 @@ private:
       if (this->isOnPiece(point, other, crease) && height > -tolerance &&
           crease.distance / unit - dot(crease.inward, offset) < tolerance)
       {
-        cell.cut(outward, std::max(0.0, height));
+        cell.cut(outward, std::max(0.0, height), TangentCell::plane);
         return true;
       }
     }
@@ -226,47 +208,6 @@ private:
   {
     const Vector& normal = this->Splats[point].normal;
     return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
-  }
-
-  /// The plane of the nearest crease, a little farther off, if it cuts the ellipse: of the point's
-  /// own or, without one, of a crease point nearby on the same piece.
-  std::optional<CreasePlane> clipOf(std::size_t point, const Splat& splat, double overlap) const
-  {
-    if (this->Points.fits.empty())
-    {
-      return std::nullopt;
-    }
-    if (!this->Points.fits[point].creases.empty())
-    {
-      return cutting(this->Points.fits[point].creases.front(), splat, overlap);
-    }
-    for (const NearbyPoint& other : this->Nearby)
-    {
-      const LocalFit& fit = this->Points.fits[other.point];
-      if (!fit.creases.empty() &&
-          dot(splat.normal, this->Splats[other.point].normal) > mostCreaseCosine)
-      {
-        CreasePlane crease = fit.creases.front();
-        crease.distance += dot(crease.inward,
-          difference(this->Points.positions[point], this->Points.positions[other.point]));
-        const std::optional<CreasePlane> clip = cutting(crease, splat, overlap);
-        if (clip && crease.distance >= 0.0)
-        {
-          return clip;
-        }
-      }
-    }
-    return std::nullopt;
-  }
-
-  /// A crease plane, a little farther off, if it cuts the ellipse.
-  static std::optional<CreasePlane> cutting(CreasePlane crease, const Splat& splat, double overlap)
-  {
-    crease.distance += overlap;
-    const double a = dot(crease.inward, splat.axis1);
-    const double b = dot(crease.inward, splat.axis2);
-    return crease.distance < std::sqrt(a * a + b * b) ? std::optional<CreasePlane>(crease)
-                                                      : std::nullopt;
   }
 
   /// Whether the surface bends from a point to another, as a sphere would, so that half the
