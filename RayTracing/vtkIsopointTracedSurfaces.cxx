@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointTracedActor.h"
 
-#include "vtkIsopointSplatBlocks.h"
-#include "vtkIsopointTracedCompatibility.h"
+#include "vtkIsopointTracedBlocks.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
-#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkIdList.h"
 #include "vtkMapper.h"
 #include "vtkNew.h"
@@ -95,7 +93,7 @@ private:
   vtkNew<vtkPoints> CornerPoints;
 };
 
-void setColors(raytracing::Triangles& surface, const Triangulation& triangulation,
+void setColors(raytracing::Surface& surface, const Triangulation& triangulation,
   vtkUnsignedCharArray* colors, int cellFlag)
 {
   const auto colorAt = [colors](vtkIdType tuple)
@@ -122,17 +120,17 @@ void setColors(raytracing::Triangles& surface, const Triangulation& triangulatio
   }
 }
 
-std::shared_ptr<raytracing::Triangles> surfaceOf(
-  vtkActor* actor, const vtkIsopointSplatLeaf& leaf, const vtkIsopointTracedPlacement& placement)
+std::shared_ptr<raytracing::Surface> surfaceOf(
+  vtkActor* actor, const vtkIsopointTracedBlock& block, const vtkIsopointTracedPlacement& placement)
 {
-  const auto surface = std::make_shared<raytracing::Triangles>();
-  Triangulation triangulation(leaf.Data);
+  const auto surface = std::make_shared<raytracing::Surface>();
+  Triangulation triangulation(block.Data);
   if (triangulation.Triangles.empty())
   {
     return nullptr;
   }
-  const vtkIdType count = leaf.Data->GetNumberOfPoints();
-  vtkDataArray* normals = leaf.Data->GetPointData()->GetNormals();
+  const vtkIdType count = block.Data->GetNumberOfPoints();
+  vtkDataArray* normals = block.Data->GetPointData()->GetNormals();
   const bool isFlat = actor->GetProperty()->GetInterpolation() == VTK_FLAT;
   if (isFlat || (normals && normals->GetNumberOfTuples() < count))
   {
@@ -141,7 +139,7 @@ std::shared_ptr<raytracing::Triangles> surfaceOf(
   for (vtkIdType i = 0; i < count; ++i)
   {
     double values[3];
-    leaf.Data->GetPoint(i, values);
+    block.Data->GetPoint(i, values);
     const std::array<double, 3> place = placement.Point(values);
     surface->vertices.push_back(vtkIsopointTracedVector(place.data()));
     if (normals)
@@ -152,11 +150,11 @@ std::shared_ptr<raytracing::Triangles> surfaceOf(
         raytracing::directionOf(vtkIsopointTracedVector(normal.data()), { 0.0f, 0.0f, 0.0f }));
     }
   }
-  surface->color = vtkIsopointTracedColor(actor, leaf);
+  surface->color = vtkIsopointTracedColor(actor, block);
   int cellFlag = 0;
-  if (!leaf.HasColor)
+  if (!block.HasColor)
   {
-    if (const auto colors = vtkIsopointTracedColors(actor->GetMapper(), leaf.Data, cellFlag))
+    if (const auto colors = vtkIsopointTracedColors(actor->GetMapper(), block.Data, cellFlag))
     {
       setColors(*surface, triangulation, colors, cellFlag);
     }
@@ -169,23 +167,21 @@ std::shared_ptr<raytracing::Triangles> surfaceOf(
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<std::shared_ptr<raytracing::Triangles>> vtkIsopointTracedTriangles(
-  vtkActor* actor, const vtkIsopointTracedSettings& settings, const vtkIsopointTracedFrame& frame)
+std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
+  vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {
-  std::vector<std::shared_ptr<raytracing::Triangles>> surfaces;
+  std::vector<std::shared_ptr<raytracing::Surface>> surfaces;
   const vtkIsopointTracedPlacement placement(actor->GetMatrix(), frame);
   if (placement.GetIsSingular())
   {
     return surfaces;
   }
-  vtkMapper* const mapper = actor->GetMapper();
-  for (const vtkIsopointSplatLeaf& leaf : vtkIsopointSplatLeaves(
-         mapper->GetInputDataObject(0, 0), vtkIsopointTracedBlockAttributes(mapper)))
+  for (const vtkIsopointTracedBlock& block : vtkIsopointTracedBlocks(actor->GetMapper()))
   {
-    const auto surface = leaf.Visible ? surfaceOf(actor, leaf, placement) : nullptr;
+    const auto surface = block.Visible ? surfaceOf(actor, block, placement) : nullptr;
     if (surface)
     {
-      surface->material = vtkIsopointTracedMaterial(actor, settings, frame);
+      surface->material = vtkIsopointTracedMaterial(actor, absorptionDistance, frame);
       surfaces.push_back(surface);
     }
   }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSplatShapes_h
+#define vtkIsopointSplatShapes_h
+
+#include "vtkVector.h"
+
+#include <array>
+#include <string>
+
+class vtkDataArray;
+class vtkDataSet;
+class vtkUnsignedCharArray;
+
+/// Where the fan of a splat has its vertices. The first one is the splat's point.
+struct vtkIsopointSplatFan
+{
+  static constexpr int MaximumVertices = 9;
+  static constexpr int MaximumTriangles = 8;
+
+  int Vertices = 0;  // 0: nothing is drawn
+  int Triangles = 0; // 8 for the octahedron of a point without a normal, otherwise one a corner
+  std::array<vtkVector3d, MaximumVertices> Places;
+  std::array<vtkVector3d, MaximumVertices> Normals;
+};
+
+/// The vertex of an octahedron's or a fan's triangle, 0 to Vertices - 1.
+int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner);
+
+/// The shapes of the splats of a data set, from its arrays. Reading is thread-safe.
+class vtkIsopointSplatShapes
+{
+public:
+  /// @param radius of points without an array of radii; 0: suits the number of points
+  /// @param scale factor on all sizes
+  vtkIsopointSplatShapes(
+    vtkDataSet* data, const char* radiusArrayName, double radius, double scale);
+
+  /// What is wrong with the arrays of shapes, for a warning; empty if nothing is.
+  std::string Problem() const;
+
+  vtkIsopointSplatFan Fan(vtkIdType point) const;
+
+private:
+  vtkDataArray* Usable(vtkDataArray* array, int components) const;
+  bool IsGhost(vtkIdType point) const;
+  bool SetPolygon(vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
+  void SetOctagon(const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const;
+  void SetOctahedron(double radius, vtkIsopointSplatFan& fan) const;
+
+  vtkDataSet* Data;
+  vtkDataArray* Normals;
+  vtkDataArray* Radii;
+  vtkDataArray* Axes;
+  vtkDataArray* Polygons;
+  vtkUnsignedCharArray* Ghosts;
+  double Radius;
+  double Scale;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkIsopointSplatShapes.h
