@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatPolygons.h"
 
+#include "vtkIsopointSplatMesh.h"
 #include "vtkIsopointSplatShapes.h"
 
 #include "vtkCellArray.h"
@@ -37,58 +38,22 @@ vtkStandardNewMacro(vtkIsopointSplatPolygons);
 namespace
 {
 
-/// How many vertices and triangles lie before those of each point; one more entry at the end.
-struct Offsets
-{
-  std::vector<vtkIdType> Vertices;
-  std::vector<vtkIdType> Triangles;
-};
-
-Offsets offsetsOf(const vtkIsopointSplatShapes& shapes, vtkIdType count)
-{
-  Offsets offsets;
-  offsets.Vertices.resize(static_cast<std::size_t>(count) + 1, 0);
-  offsets.Triangles.resize(static_cast<std::size_t>(count) + 1, 0);
-  vtkSMPTools::For(0, count,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType point = begin; point < end; ++point)
-      {
-        const vtkIsopointSplatFan fan = shapes.Fan(point);
-        offsets.Vertices[static_cast<std::size_t>(point) + 1] = fan.Vertices;
-        offsets.Triangles[static_cast<std::size_t>(point) + 1] = fan.Triangles;
-      }
-    });
-  for (std::size_t i = 1; i < offsets.Vertices.size(); ++i)
-  {
-    offsets.Vertices[i] += offsets.Vertices[i - 1];
-    offsets.Triangles[i] += offsets.Triangles[i - 1];
-  }
-  return offsets;
-}
-
-void setGeometry(const vtkIsopointSplatShapes& shapes, const Offsets& offsets, int pointType,
-  vtkPolyData* output)
+void setGeometry(const vtkIsopointSplatMesh& mesh, int pointType, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataType(pointType);
-  points->SetNumberOfPoints(offsets.Vertices.back());
+  points->SetNumberOfPoints(mesh.NumberOfVertices());
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(offsets.Vertices.back());
-  vtkSMPTools::For(0, static_cast<vtkIdType>(offsets.Vertices.size()) - 1,
+  normals->SetNumberOfTuples(mesh.NumberOfVertices());
+  vtkSMPTools::For(0, mesh.NumberOfVertices(),
     [&](vtkIdType begin, vtkIdType end)
     {
-      for (vtkIdType point = begin; point < end; ++point)
+      for (vtkIdType i = begin; i < end; ++i)
       {
-        const vtkIsopointSplatFan fan = shapes.Fan(point);
-        const vtkIdType first = offsets.Vertices[static_cast<std::size_t>(point)];
-        for (int i = 0; i < fan.Vertices; ++i)
-        {
-          points->SetPoint(first + i, fan.Places[static_cast<std::size_t>(i)].GetData());
-          normals->SetTuple(first + i, fan.Normals[static_cast<std::size_t>(i)].GetData());
-        }
+        points->SetPoint(i, mesh.Places[static_cast<std::size_t>(i)].GetData());
+        normals->SetTypedTuple(i, mesh.Normals[static_cast<std::size_t>(i)].GetData());
       }
     });
   output->SetPoints(points);
@@ -97,92 +62,138 @@ void setGeometry(const vtkIsopointSplatShapes& shapes, const Offsets& offsets, i
 
 /// @tparam TArray of 32 bits where these suffice: half of the memory
 template <class TArray>
-void setTriangles(
-  const vtkIsopointSplatShapes& shapes, const Offsets& offsets, vtkPolyData* output)
+void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
 {
   using Value = typename TArray::ValueType;
-  const vtkIdType count = offsets.Triangles.back();
+  const vtkIdType count = mesh.NumberOfTriangles();
   vtkNew<TArray> ends;
   ends->SetNumberOfValues(count + 1);
   vtkNew<TArray> corners;
   corners->SetNumberOfValues(3 * count);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(offsets.Vertices.size()) - 1,
+  vtkSMPTools::For(0, 3 * count,
     [&](vtkIdType begin, vtkIdType end)
     {
-      for (vtkIdType point = begin; point < end; ++point)
+      for (vtkIdType i = begin; i < end; ++i)
       {
-        const vtkIsopointSplatFan fan = shapes.Fan(point);
-        const vtkIdType firstVertex = offsets.Vertices[static_cast<std::size_t>(point)];
-        const vtkIdType firstTriangle = offsets.Triangles[static_cast<std::size_t>(point)];
-        for (int i = 0; i < fan.Triangles; ++i)
-        {
-          ends->SetValue(firstTriangle + i, static_cast<Value>(3 * (firstTriangle + i)));
-          for (int corner = 0; corner < 3; ++corner)
-          {
-            corners->SetValue(3 * (firstTriangle + i) + corner,
-              static_cast<Value>(firstVertex + vtkIsopointSplatCorner(fan, i, corner)));
-          }
-        }
+        corners->SetValue(i, static_cast<Value>(mesh.Corners[static_cast<std::size_t>(i)]));
       }
     });
-  ends->SetValue(count, static_cast<Value>(3 * count));
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    ends->SetValue(i, static_cast<Value>(3 * i));
+  }
   vtkNew<vtkCellArray> triangles;
   triangles->SetData(ends, corners);
   output->SetPolys(triangles);
 }
 
-/// A copy of an array, in which a tuple is repeated from one offset to the next.
-/// @param sources the tuples; null: 0, 1, 2, ...
-vtkSmartPointer<vtkAbstractArray> repeated(vtkAbstractArray* array,
-  const std::vector<vtkIdType>& offsets, const std::vector<vtkIdType>* sources)
+/// Calls of(begin, end) for ranges that make up all tuples of an array.
+template <class Function>
+void forTuples(vtkAbstractArray* array, vtkIdType tuples, const Function& of)
+{
+  if (vtkDataArray::SafeDownCast(array))
+  {
+    vtkSMPTools::For(0, tuples, of);
+  }
+  else
+  {
+    of(0, tuples); // strings change a state of their array
+  }
+}
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType tuples)
 {
   const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
   copy->SetName(array->GetName());
   copy->SetNumberOfComponents(array->GetNumberOfComponents());
   copy->CopyComponentNames(array);
-  copy->SetNumberOfTuples(offsets.back());
-  const auto fill = [&](vtkIdType begin, vtkIdType end)
-  {
-    for (vtkIdType point = begin; point < end; ++point)
-    {
-      const auto i = static_cast<std::size_t>(point);
-      for (vtkIdType tuple = offsets[i]; tuple < offsets[i + 1]; ++tuple)
-      {
-        copy->SetTuple(tuple, sources ? (*sources)[i] : point, array);
-      }
-    }
-  };
-  const auto count = static_cast<vtkIdType>(offsets.size()) - 1;
-  if (vtkDataArray::SafeDownCast(array))
-  {
-    vtkSMPTools::For(0, count, fill);
-  }
-  else
-  {
-    fill(0, count); // strings change a state of their array
-  }
+  copy->SetNumberOfTuples(tuples);
   return copy;
 }
 
-void setIds(vtkDataSetAttributes* attributes, const char* name,
-  const std::vector<vtkIdType>& offsets, const std::vector<vtkIdType>* sources)
+/// An array of points at the vertices: real numbers are the mean of those of the points that meet
+/// there, others those of the first point.
+vtkSmartPointer<vtkAbstractArray> atVertices(
+  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh)
 {
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName(name);
-  ids->SetNumberOfValues(offsets.back());
-  vtkSMPTools::For(0, static_cast<vtkIdType>(offsets.size()) - 1,
+  const vtkIdType count = mesh.NumberOfVertices();
+  const auto copy = emptyLike(array, count);
+  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  vtkDataArray* const from = isReal ? vtkDataArray::SafeDownCast(array) : nullptr;
+  vtkDataArray* const to = vtkDataArray::SafeDownCast(copy);
+  forTuples(array, count,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType vertex = begin; vertex < end; ++vertex)
+      {
+        const auto i = static_cast<std::size_t>(vertex);
+        const vtkIdType meeting = mesh.FirstMeeting[i + 1] - mesh.FirstMeeting[i];
+        const vtkIdType* const points =
+          mesh.MeetingPoints.data() + static_cast<std::size_t>(mesh.FirstMeeting[i]);
+        copy->SetTuple(vertex, points[0], array);
+        for (int component = 0; from && meeting > 1 && component < from->GetNumberOfComponents();
+             ++component)
+        {
+          double sum = 0.0;
+          for (vtkIdType k = 0; k < meeting; ++k)
+          {
+            sum += from->GetComponent(points[k], component);
+          }
+          to->SetComponent(vertex, component, sum / static_cast<double>(meeting));
+        }
+      }
+    });
+  return copy;
+}
+
+/// An array of cells at the triangles.
+/// @param cells of the points
+vtkSmartPointer<vtkAbstractArray> atTriangles(
+  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh, const std::vector<vtkIdType>& cells)
+{
+  const auto copy = emptyLike(array, mesh.NumberOfTriangles());
+  forTuples(array, static_cast<vtkIdType>(cells.size()),
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType point = begin; point < end; ++point)
       {
         const auto i = static_cast<std::size_t>(point);
-        for (vtkIdType tuple = offsets[i]; tuple < offsets[i + 1]; ++tuple)
+        for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
         {
-          ids->SetValue(tuple, sources ? (*sources)[i] : point);
+          copy->SetTuple(k, cells[i], array);
         }
       }
     });
-  attributes->AddArray(ids);
+  return copy;
+}
+
+vtkSmartPointer<vtkIdTypeArray> pointIds(const vtkIsopointSplatMesh& mesh)
+{
+  const auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+  ids->SetName("vtkOriginalPointIds");
+  ids->SetNumberOfValues(mesh.NumberOfVertices());
+  for (vtkIdType i = 0; i < mesh.NumberOfVertices(); ++i)
+  {
+    const vtkIdType first = mesh.FirstMeeting[static_cast<std::size_t>(i)];
+    ids->SetValue(i, mesh.MeetingPoints[static_cast<std::size_t>(first)]);
+  }
+  return ids;
+}
+
+vtkSmartPointer<vtkIdTypeArray> cellIds(
+  const vtkIsopointSplatMesh& mesh, const std::vector<vtkIdType>& cells)
+{
+  const auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+  ids->SetName("vtkOriginalCellIds");
+  ids->SetNumberOfValues(mesh.NumberOfTriangles());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
+    {
+      ids->SetValue(k, cells[i]);
+    }
+  }
+  return ids;
 }
 
 /// Whether an array says how a splat is drawn, and nothing about its point.
@@ -194,8 +205,9 @@ bool isOfSplat(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
          name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
 }
 
-void repeatArrays(vtkDataSetAttributes* from, const std::vector<vtkIdType>& offsets,
-  const std::vector<vtkIdType>* sources, vtkDataSetAttributes* to)
+/// @param copied(array) the array at vertices or triangles
+template <class Copied>
+void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copied& copied)
 {
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
@@ -204,7 +216,7 @@ void repeatArrays(vtkDataSetAttributes* from, const std::vector<vtkIdType>& offs
     {
       continue;
     }
-    const int added = to->AddArray(repeated(array, offsets, sources));
+    const int added = to->AddArray(copied(array));
     // Ids that are to be unique are no longer.
     const int attribute = from->IsArrayAnAttribute(i);
     if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS &&
@@ -216,7 +228,7 @@ void repeatArrays(vtkDataSetAttributes* from, const std::vector<vtkIdType>& offs
 }
 
 /// The first vertex cell of each point, or nothing if a drawn point has none.
-std::vector<vtkIdType> vertexCells(vtkDataSet* data, const Offsets& offsets)
+std::vector<vtkIdType> vertexCells(vtkDataSet* data, const vtkIsopointSplatMesh& mesh)
 {
   std::vector<vtkIdType> cells(static_cast<std::size_t>(data->GetNumberOfPoints()), -1);
   vtkNew<vtkIdList> points;
@@ -236,7 +248,7 @@ std::vector<vtkIdType> vertexCells(vtkDataSet* data, const Offsets& offsets)
   }
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    if (cells[i] < 0 && offsets.Triangles[i] < offsets.Triangles[i + 1])
+    if (cells[i] < 0 && mesh.FirstTriangles[i] < mesh.FirstTriangles[i + 1])
     {
       return {};
     }
@@ -356,24 +368,26 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   double first[3];
   input->GetPoint(0, first); // fills what data sets compute at the first call
-  const Offsets offsets = offsetsOf(shapes, count);
-  setGeometry(shapes, offsets, typeOfPoints(input), output);
-  if (std::max(3 * offsets.Triangles.back(), offsets.Vertices.back()) <
+  const vtkIsopointSplatMesh mesh(shapes, count);
+  setGeometry(mesh, typeOfPoints(input), output);
+  if (std::max(3 * mesh.NumberOfTriangles(), mesh.NumberOfVertices()) <
       std::numeric_limits<vtkTypeInt32>::max())
   {
-    setTriangles<vtkTypeInt32Array>(shapes, offsets, output);
+    setTriangles<vtkTypeInt32Array>(mesh, output);
   }
   else
   {
-    setTriangles<vtkTypeInt64Array>(shapes, offsets, output);
+    setTriangles<vtkTypeInt64Array>(mesh, output);
   }
-  repeatArrays(input->GetPointData(), offsets.Vertices, nullptr, output->GetPointData());
-  setIds(output->GetPointData(), "vtkOriginalPointIds", offsets.Vertices, nullptr);
-  const std::vector<vtkIdType> cells = vertexCells(input, offsets);
+  copyArrays(input->GetPointData(), output->GetPointData(),
+    [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
+  output->GetPointData()->AddArray(pointIds(mesh));
+  const std::vector<vtkIdType> cells = vertexCells(input, mesh);
   if (!cells.empty())
   {
-    repeatArrays(input->GetCellData(), offsets.Triangles, &cells, output->GetCellData());
-    setIds(output->GetCellData(), "vtkOriginalCellIds", offsets.Triangles, &cells);
+    copyArrays(input->GetCellData(), output->GetCellData(),
+      [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
+    output->GetCellData()->AddArray(cellIds(mesh, cells));
   }
 }
 

@@ -7,10 +7,14 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVectorOperators.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
@@ -51,20 +55,20 @@ double automaticRadius(vtkDataSet* data)
 } // namespace
 
 //------------------------------------------------------------------------------
-int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner)
+int vtkIsopointSplatCorner(int vertices, int triangles, int triangle, int corner)
 {
-  const bool isOctahedron = fan.Vertices < fan.Triangles;
-  if (isOctahedron)
+  const bool isOctahedron = vertices < triangles;
+  if (!isOctahedron)
   {
-    // Four triangles around the upper tip, vertex 0, and four around the lower one, vertex 5.
-    const int side = triangle % 4;
-    const bool isUpper = triangle < 4;
-    const int next = 1 + (side + 1) % 4;
-    const std::array<int, 3> corners = isUpper ? std::array<int, 3>{ 0, 1 + side, next }
-                                               : std::array<int, 3>{ 5, next, 1 + side };
-    return corners[static_cast<std::size_t>(corner)];
+    return corner == 2 ? 0 : 1 + (triangle + corner) % triangles;
   }
-  return corner == 0 ? 0 : 1 + (triangle + corner - 1) % fan.Triangles;
+  // Four triangles around the upper tip, vertex 0, and four around the lower one, vertex 5.
+  const bool isUpper = triangle < 4;
+  if (corner == 2)
+  {
+    return isUpper ? 0 : 5;
+  }
+  return 1 + (triangle + (isUpper ? corner : 1 - corner)) % 4;
 }
 
 //------------------------------------------------------------------------------
@@ -81,6 +85,11 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(
   this->Axes = this->Usable(arrays->GetArray("SplatAxis"), 3);
   this->Polygons = this->Usable(arrays->GetArray("SplatPolygon"), numbersOfPolygon);
   this->Ghosts = data->GetPointGhostArray();
+  const auto points = vtkPointSet::SafeDownCast(data);
+  const bool isFloat =
+    points && points->GetPoints() && points->GetPoints()->GetDataType() == VTK_FLOAT;
+  this->PositionError = 2.0 * (isFloat ? std::numeric_limits<float>::epsilon()
+                                       : std::numeric_limits<double>::epsilon());
   const bool hasPolygons = this->Normals && this->Axes && this->Polygons;
   if (!hasPolygons && !this->Radii && !(radius > 0.0))
   {
@@ -178,6 +187,18 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
 }
 
 //------------------------------------------------------------------------------
+float vtkIsopointSplatShapes::ToleranceAt(vtkIdType point, double radius) const
+{
+  // Corners are sums of a few numbers of float: those of the shape, and perhaps the position.
+  constexpr double ofShape = 16.0 * std::numeric_limits<float>::epsilon();
+  vtkVector3d position;
+  this->Data->GetPoint(point, position.GetData());
+  const double largest =
+    std::max({ std::abs(position[0]), std::abs(position[1]), std::abs(position[2]) });
+  return static_cast<float>(ofShape * radius + this->PositionError * largest);
+}
+
+//------------------------------------------------------------------------------
 bool vtkIsopointSplatShapes::SetPolygon(
   vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const
 {
@@ -215,6 +236,7 @@ bool vtkIsopointSplatShapes::SetPolygon(
     ++fan.Vertices;
   }
   fan.Triangles = fan.Vertices - 1;
+  fan.Tolerance = this->ToleranceAt(point, radius);
   return fan.Triangles >= 3;
 }
 

@@ -17,14 +17,16 @@ struct vtkIsopointSplatFan
   static constexpr int MaximumVertices = 9;
   static constexpr int MaximumTriangles = 8;
 
-  int Vertices = 0;  // 0: nothing is drawn
-  int Triangles = 0; // 8 for the octahedron of a point without a normal, otherwise one a corner
+  int Vertices = 0;       // 0: nothing is drawn
+  int Triangles = 0;      // 8 for the octahedron of a point without a normal, otherwise one a corner
+  float Tolerance = 0.0f; // how far corners that are shared with other splats may be apart; 0: none
   std::array<vtkVector3d, MaximumVertices> Places;
   std::array<vtkVector3d, MaximumVertices> Normals;
 };
 
-/// The vertex of an octahedron's or a fan's triangle, 0 to Vertices - 1.
-int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner);
+/// The vertex of a fan or an octahedron that is the corner 0, 1 or 2 of one of its triangles. Corner
+/// 2 is in the middle of the fan, or a tip of the octahedron.
+int vtkIsopointSplatCorner(int vertices, int triangles, int triangle, int corner);
 
 /// The shapes of the splats of a data set, from its arrays. Reading is thread-safe.
 class vtkIsopointSplatShapes
@@ -43,6 +45,7 @@ public:
 private:
   vtkDataArray* Usable(vtkDataArray* array, int components) const;
   bool IsGhost(vtkIdType point) const;
+  float ToleranceAt(vtkIdType point, double radius) const;
   bool SetPolygon(vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
   void SetOctagon(const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const;
   void SetOctahedron(double radius, vtkIsopointSplatFan& fan) const;
@@ -55,6 +58,7 @@ private:
   vtkUnsignedCharArray* Ghosts;
   double Radius;
   double Scale;
+  double PositionError; // relative
 };
 
 #endif
