@@ -2,37 +2,33 @@
 #ifndef vtkIsopointSplatMesh_h
 #define vtkIsopointSplatMesh_h
 
+#include "vtkIsopointMeetingCorners.h"
 #include "vtkIsopointSplatShapes.h"
 
 #include "vtkType.h"
-#include "vtkVector.h"
 
 #include <vector>
 
-/**
- * The triangles of all splats, in the order of the points. Each splat has vertices of its own, but
- * for corners where it meets others with the same normal: these are one vertex. The last corner of
- * each triangle is a vertex that no other splat has, so that OpenGL's provoking vertex names the
- * splat.
- */
+/// The triangles of all splats, in the order of the points. Each splat has vertices of its own.
 struct vtkIsopointSplatMesh
 {
   /// O(n log n) in the number of points.
   /// @throws std::bad_alloc
   vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes, vtkIdType points);
 
-  vtkIdType NumberOfVertices() const { return static_cast<vtkIdType>(this->Places.size()); }
+  vtkIdType NumberOfVertices() const { return this->FirstVertices.back(); }
   vtkIdType NumberOfTriangles() const { return this->FirstTriangles.back(); }
 
-  std::vector<vtkVector3d> Places;  // of the vertices
-  std::vector<vtkVector3f> Normals; // of unit length
-  std::vector<vtkIdType> Corners;   // three vertices of each triangle
-
-  /// The first triangle of each point, and the number of all.
+  /// The first vertex and triangle of each point, and the numbers of all.
+  std::vector<vtkIdType> FirstVertices;
   std::vector<vtkIdType> FirstTriangles;
 
-  /// The points whose splats have a vertex, in ascending order: MeetingPoints from FirstMeeting of
-  /// the vertex up to that of the next one.
+  std::vector<vtkIsopointCorner> Vertices;
+  std::vector<vtkIdType> Corners; // three vertices of each triangle
+
+  /// The points whose splats have a vertex at the same place: MeetingPoints from FirstMeeting of the
+  /// vertex MeetsAt[i] up to that of the next one.
+  std::vector<vtkIdType> MeetsAt;
   std::vector<vtkIdType> FirstMeeting;
   std::vector<vtkIdType> MeetingPoints;
 };

@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,8 @@ void setGeometry(const vtkIsopointSplatMesh& mesh, int pointType, vtkPolyData* o
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
-        points->SetPoint(i, mesh.Places[static_cast<std::size_t>(i)].GetData());
-        normals->SetTypedTuple(i, mesh.Normals[static_cast<std::size_t>(i)].GetData());
+        points->SetPoint(i, mesh.Vertices[static_cast<std::size_t>(i)].Place.GetData());
+        normals->SetTypedTuple(i, mesh.Vertices[static_cast<std::size_t>(i)].Normal.GetData());
       }
     });
   output->SetPoints(points);
@@ -126,7 +127,7 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
     {
       for (vtkIdType vertex = begin; vertex < end; ++vertex)
       {
-        const auto i = static_cast<std::size_t>(vertex);
+        const auto i = static_cast<std::size_t>(mesh.MeetsAt[static_cast<std::size_t>(vertex)]);
         const vtkIdType meeting = mesh.FirstMeeting[i + 1] - mesh.FirstMeeting[i];
         const vtkIdType* const points =
           mesh.MeetingPoints.data() + static_cast<std::size_t>(mesh.FirstMeeting[i]);
@@ -167,33 +168,21 @@ vtkSmartPointer<vtkAbstractArray> atTriangles(
   return copy;
 }
 
-vtkSmartPointer<vtkIdTypeArray> pointIds(const vtkIsopointSplatMesh& mesh)
+/// An array of ids, each repeated from one offset to the next.
+vtkSmartPointer<vtkIdTypeArray> repeatedIds(
+  const char* name, const std::vector<vtkIdType>& offsets, const std::vector<vtkIdType>& ids)
 {
-  const auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-  ids->SetName("vtkOriginalPointIds");
-  ids->SetNumberOfValues(mesh.NumberOfVertices());
-  for (vtkIdType i = 0; i < mesh.NumberOfVertices(); ++i)
+  const auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(offsets.back());
+  for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    const vtkIdType first = mesh.FirstMeeting[static_cast<std::size_t>(i)];
-    ids->SetValue(i, mesh.MeetingPoints[static_cast<std::size_t>(first)]);
-  }
-  return ids;
-}
-
-vtkSmartPointer<vtkIdTypeArray> cellIds(
-  const vtkIsopointSplatMesh& mesh, const std::vector<vtkIdType>& cells)
-{
-  const auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-  ids->SetName("vtkOriginalCellIds");
-  ids->SetNumberOfValues(mesh.NumberOfTriangles());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
+    for (vtkIdType k = offsets[i]; k < offsets[i + 1]; ++k)
     {
-      ids->SetValue(k, cells[i]);
+      array->SetValue(k, ids[i]);
     }
   }
-  return ids;
+  return array;
 }
 
 /// Whether an array says how a splat is drawn, and nothing about its point.
@@ -381,13 +370,15 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
-  output->GetPointData()->AddArray(pointIds(mesh));
+  std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
+  std::iota(ids.begin(), ids.end(), 0);
+  output->GetPointData()->AddArray(repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, ids));
   const std::vector<vtkIdType> cells = vertexCells(input, mesh);
   if (!cells.empty())
   {
     copyArrays(input->GetCellData(), output->GetCellData(),
       [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
-    output->GetCellData()->AddArray(cellIds(mesh, cells));
+    output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles, cells));
   }
 }
 

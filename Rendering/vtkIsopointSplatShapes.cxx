@@ -55,20 +55,23 @@ double automaticRadius(vtkDataSet* data)
 } // namespace
 
 //------------------------------------------------------------------------------
-int vtkIsopointSplatCorner(int vertices, int triangles, int triangle, int corner)
+int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner)
 {
-  const bool isOctahedron = vertices < triangles;
-  if (!isOctahedron)
+  if (fan.Triangles == fan.Vertices - 1) // around the point
   {
-    return corner == 2 ? 0 : 1 + (triangle + corner) % triangles;
+    return corner == 0 ? 0 : 1 + (triangle + corner - 1) % fan.Triangles;
   }
-  // Four triangles around the upper tip, vertex 0, and four around the lower one, vertex 5.
+  if (fan.Triangles == fan.Vertices - 2) // around the first corner
+  {
+    return corner == 0 ? 0 : triangle + corner;
+  }
+  // An octahedron: four triangles around the upper tip, vertex 0, and four around the lower one.
   const bool isUpper = triangle < 4;
-  if (corner == 2)
+  if (corner == 0)
   {
     return isUpper ? 0 : 5;
   }
-  return 1 + (triangle + (isUpper ? corner : 1 - corner)) % 4;
+  return 1 + (triangle + (isUpper ? corner - 1 : 2 - corner)) % 4;
 }
 
 //------------------------------------------------------------------------------
@@ -211,33 +214,47 @@ bool vtkIsopointSplatShapes::SetPolygon(
   {
     return false;
   }
-  fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
-  fan.Normals[0] = normal;
-  fan.Vertices = 1;
+  // Around such a fan's point the surface is flat to a hundredth of the splat's size: the point as
+  // a vertex would be seen at no zoom, but take a third of the triangles.
+  constexpr double slightSlope = 0.03;
+  double steepest = 0.0;
+  for (int i = 0; i < mostCorners; ++i)
+  {
+    const double* const corner = numbers.data() + numbersOfCorner * i;
+    steepest = std::max({ steepest, std::hypot(corner[3], corner[4]), std::abs(corner[2]) });
+  }
+  if (!(this->Scale * steepest < slightSlope))
+  {
+    fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
+    fan.Normals[0] = normal;
+    fan.Vertices = 1;
+  }
+  const auto firstCorner = static_cast<std::size_t>(fan.Vertices);
   for (int i = 0; i < mostCorners; ++i)
   {
     const double* const corner = numbers.data() + numbersOfCorner * i;
     const auto next = static_cast<std::size_t>(fan.Vertices);
-    const vtkVector3d place =
-      (corner[0] * this->Scale) * along + (corner[1] * this->Scale) * across +
-      (corner[2] * this->Scale * this->Scale * radius) * normal;
+    const vtkVector3d place = (corner[0] * this->Scale) * along +
+                              (corner[1] * this->Scale) * across +
+                              (corner[2] * this->Scale * this->Scale * radius) * normal;
     if (!isFinite(place))
     {
       return false;
     }
-    if (i > 0 && place == fan.Places[next - 1])
+    if (next > firstCorner && place == fan.Places[next - 1])
     {
       continue; // fewer corners repeat the last one
     }
     fan.Places[next] = place;
-    fan.Normals[next] =
-      normal + (this->Scale * corner[3] / radius) * along + (this->Scale * corner[4] / radius) * across;
+    fan.Normals[next] = normal + (this->Scale * corner[3] / radius) * along +
+                        (this->Scale * corner[4] / radius) * across;
     fan.Normals[next].Normalize();
     ++fan.Vertices;
   }
-  fan.Triangles = fan.Vertices - 1;
+  const int corners = fan.Vertices - static_cast<int>(firstCorner);
+  fan.Triangles = firstCorner == 0 ? corners - 2 : corners;
   fan.Tolerance = this->ToleranceAt(point, radius);
-  return fan.Triangles >= 3;
+  return corners >= 3;
 }
 
 //------------------------------------------------------------------------------

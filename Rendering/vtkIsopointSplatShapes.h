@@ -11,22 +11,22 @@ class vtkDataArray;
 class vtkDataSet;
 class vtkUnsignedCharArray;
 
-/// Where the fan of a splat has its vertices. The first one is the splat's point.
+/// Where the fan of a splat has its vertices: its corners, and before these, unless the fan is
+/// nearly flat, its point.
 struct vtkIsopointSplatFan
 {
   static constexpr int MaximumVertices = 9;
   static constexpr int MaximumTriangles = 8;
 
   int Vertices = 0;       // 0: nothing is drawn
-  int Triangles = 0;      // 8 for the octahedron of a point without a normal, otherwise one a corner
+  int Triangles = 0;
   float Tolerance = 0.0f; // how far corners that are shared with other splats may be apart; 0: none
   std::array<vtkVector3d, MaximumVertices> Places;
   std::array<vtkVector3d, MaximumVertices> Normals;
 };
 
-/// The vertex of a fan or an octahedron that is the corner 0, 1 or 2 of one of its triangles. Corner
-/// 2 is in the middle of the fan, or a tip of the octahedron.
-int vtkIsopointSplatCorner(int vertices, int triangles, int triangle, int corner);
+/// The vertex that is the corner 0, 1 or 2 of one of a fan's triangles.
+int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner);
 
 /// The shapes of the splats of a data set, from its arrays. Reading is thread-safe.
 class vtkIsopointSplatShapes
