@@ -87,6 +87,18 @@ def parts(splats):
     )
 
 
+def subset(data, chosen):
+    """Some of the isopoints with all their arrays."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    arrays = {}
+    for i in range(data.GetPointData().GetNumberOfArrays()):
+        array = data.GetPointData().GetArray(i)
+        if array.GetName() != "Normals":
+            arrays[array.GetName()] = vtk_to_numpy(array)[chosen]
+    normals = vtk_to_numpy(data.GetPointData().GetNormals())
+    return polydata(points[chosen], normals[chosen], **arrays)
+
+
 def grid_mesh(points, normals):
     """A mesh over a rectangular array of points; its last rows and columns meet the first."""
     rows, columns = points.shape[:2]
