@@ -12,16 +12,20 @@
  *   normals: up to eight corners, each with its own height and normal;
  * - otherwise the array RadiusArrayName, or Radius, and the active normals: a regular octagon in
  *   the plane orthogonal to the normal, whose corners are a radius away from the point;
- * - without normals: an octahedron of that radius.
+ * - where there is no normal, or none of a length: an octahedron of that radius.
  *
  * Output is a vtkPolyData of triangles, or a vtkMultiBlockDataSet of these with the structure of
  * the input (a vtkPartitionedDataSetCollection stays one from VTK 9.3 on). The vertices have the
- * point arrays of their isopoint but for those of its shape, "Normals", and the isopoint's id in
+ * point arrays of their isopoint except for those of its shape, "Normals", and the isopoint's id in
  * "vtkOriginalPointIds". If each drawn point has a vertex cell, the triangles have the cell arrays
  * of that cell and its id in "vtkOriginalCellIds". Cells of other kinds are ignored.
  *
- * No splat is made of points that are hidden or duplicate ghosts, of points whose position, normal
- * or shape is not finite, and of points with a radius of 0 or less. Time: O(points).
+ * Each splat has vertices of its own. Where corners of several are one, real-valued arrays have the
+ * mean of their points, so that colors are interpolated as on a mesh. Splats that are nearly flat
+ * have no vertex in the middle.
+ *
+ * No splat is made of points that are hidden or duplicate ghosts, of points whose position or shape
+ * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of points.
  *
  * @warning Filters that rotate or scale points leave the arrays of shapes as they were: rotate or
  * scale the actor instead. Filters that translate points do no harm.

@@ -152,12 +152,10 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
   if (this->Normals)
   {
     normal = tupleOf(this->Normals, point);
-    if (!(normal.Normalize() > 0.0) || !isFinite(normal))
-    {
-      return fan;
-    }
+    normal.Normalize();
   }
-  if (this->Normals && this->Axes && this->Polygons)
+  const bool hasNormal = normal.SquaredNorm() > 0.5;
+  if (hasNormal && this->Axes && this->Polygons)
   {
     if (!this->SetPolygon(point, normal, fan))
     {
@@ -172,7 +170,7 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
     {
       return fan;
     }
-    if (this->Normals)
+    if (hasNormal)
     {
       this->SetOctagon(normal, radius, fan);
     }

@@ -6,7 +6,7 @@ leave uncovered, and how far their normals are off.
 
 Prints a Markdown table of analytic fields among random samples, or of files (VTK's XML formats; the array of
 points or cells). The reference is the exact surface of a field; of a file, the contour of its cells or, without
-cells or with values of cells, the triangles of vtkScatteredIsosurfaceFilter with GapFactor 3. S is the median
+cells or with values of cells, the triangles of vtkScatteredIsosurfaceFilter. S is the median
 distance of a place to the 12 nearest samples.
 
 - stray: the area of splats farther than S / 2 from the reference, over the area of that;
@@ -21,7 +21,11 @@ Needs SciPy.
 import sys
 
 import numpy as np
-from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from scatteredisopoints import (
+    vtkIsopointSplatPolygons,
+    vtkScatteredIsopointFilter,
+    vtkScatteredIsosurfaceFilter,
+)
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -34,7 +38,6 @@ from vtkmodules.vtkFiltersCore import (
 )
 from vtkmodules.vtkIOXML import vtkXMLGenericDataObjectReader
 
-CORNERS, NUMBERS = 8, 5
 PLACES = 300_000  # on splats, and on the reference
 RANDOM = np.random.default_rng(1)
 
@@ -66,20 +69,14 @@ def on_triangles(triangles, normals, count):
 
 def fans_of(points):
     """The triangles of all splats (n, 3, 3), and the normals of their corners."""
-    def array(name):
-        return vtk_to_numpy(points.GetPointData().GetArray(name)).astype(float)
-
-    centers = vtk_to_numpy(points.GetPoints().GetData()).astype(float)[:, None]
-    normals, axes = array("Normals")[:, None], array("SplatAxis")[:, None]
-    numbers = array("SplatPolygon").reshape(-1, CORNERS, NUMBERS)
-    a, b, h, u, v = (numbers[:, :, i, None] for i in range(NUMBERS))
-    across, radii = np.cross(normals, axes), length(axes)
-    corners = centers + a * axes + b * across + h * radii * normals
-    bent = normals + (u * axes + v * across) / radii
-    bent /= length(bent)
-    triangles = np.stack([0 * corners + centers, corners, np.roll(corners, -1, 1)], axis=2)
-    directions = np.stack([0 * bent + normals, bent, np.roll(bent, -1, 1)], axis=2)
-    return triangles.reshape(-1, 3, 3), directions.reshape(-1, 3, 3)
+    polygons = vtkIsopointSplatPolygons()
+    polygons.SetInputData(points)
+    polygons.Update()
+    fans = polygons.GetOutput()
+    corners = vtk_to_numpy(fans.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    places = vtk_to_numpy(fans.GetPoints().GetData()).astype(float)
+    normals = vtk_to_numpy(fans.GetPointData().GetNormals()).astype(float)
+    return places[corners], normals[corners]
 
 
 def random_samples(count, field):
@@ -178,7 +175,6 @@ def reference_of(data, array, isovalue):
     if has_cells and first.GetPointData().HasArray(array):
         return contour_of(data, array, isovalue)
     triangles = vtkScatteredIsosurfaceFilter()
-    triangles.SetGapFactor(3)
     return configured(triangles, data, array, isovalue)
 
 

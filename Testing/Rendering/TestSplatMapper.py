@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splat mapper with valid and invalid input of each kind."""
 
-import ctypes
-import gc
-
 import numpy as np
 from scatteredisopoints import vtkIsopointSplatMapper
 from scenes import (
@@ -14,12 +11,7 @@ from scenes import (
     check,
     color_by,
     differs,
-    parts,
     polydata,
-    psnr,
-    shrunk,
-    torus_mesh,
-    torus_splats,
 )
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkCommand, vtkLookupTable, vtkUnsignedCharArray
@@ -241,58 +233,6 @@ def follows_changes():
     check(area(scene.image()) > 0, "and back")
 
 
-def one_mapper_in_two_windows():
-    data = torus_splats(50_000)
-    first, actor = Scene(actor_of(data)), actor_of(data)
-    reference = first.image()
-    one, other = Scene(actor), Scene(actor)
-    for _ in range(2):
-        check(np.array_equal(one.image(), reference), "the one window")
-        check(np.array_equal(other.image(), reference), "the other")
-    one.renderer.RemoveActor(actor)
-    check(np.array_equal(other.image(), reference), "removed from the one")
-    del one
-    gc.collect()
-    check(np.array_equal(other.image(), reference), "the one is gone")
-    mapper = actor.GetMapper()
-    del other, actor
-    gc.collect()
-    mapper.ReleaseGraphicsResources(None)
-    del mapper
-    gc.collect()
-    check(np.array_equal(first.image(), reference), "the first window")
-
-
-def a_mapper_that_outlives_its_window():
-    """The window deletes its buffers: later, their handles may be those of another window."""
-    source = vtkSphereSource()
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(source.GetOutputPort())
-    ball = vtkActor()
-    ball.SetMapper(mapper)
-    other = Scene(ball)
-    reference = other.image()
-    for draws_again in (False, True):
-        actor = actor_of(torus_splats(50_000))
-        splats = actor.GetMapper()
-        scene = Scene(actor)
-        scene.image()
-        actor.SetMapper(vtkPolyDataMapper())
-        del scene, actor
-        gc.collect()
-        if draws_again:
-            again = vtkActor()
-            again.SetMapper(splats)
-            other.renderer.AddActor(again)
-            check(not np.array_equal(other.image(), reference), "drawn in the other window")
-            other.renderer.RemoveActor(again)
-            del again
-        del splats
-        gc.collect()
-        ball.Modified()
-        check(np.array_equal(other.image(), reference), "the other window's sphere")
-
-
 def normals_of_any_length():
     reference = Scene(actor_of(disk())).image()
     for length in (1e-30, 1e-3, 1e3, 1e30):
@@ -352,26 +292,34 @@ def defaults_and_ranges():
 
 
 def bounds():
+    """Of the triangles, without what is not finite."""
+
+    def are(expected):
+        return np.allclose(mapper.GetBounds(), expected, atol=0.03)
+
     mapper = vtkIsopointSplatMapper()
-    mapper.SetInputDataObject(blocks_of(disk((-1, 0, 0)), None, disk((2, 3, 4))))
-    check(np.allclose(mapper.GetBounds(), [-1.3, 2.3, -0.3, 3.3, -0.3, 4.3]), "bounds of blocks")
+    high = [0.0, 0.0, 1.0]
+    mapper.SetInputDataObject(
+        blocks_of(disk((-1, 0, 0), normal=high), None, disk((2, 3, 4), normal=high))
+    )
+    check(are([-1.3, 2.3, -0.3, 3.3, 0, 4]), "bounds of blocks")
     mapper.SetRadiusScale(2.0)
-    check(np.allclose(mapper.GetBounds()[:2], [-1.6, 2.6]), "bounds of larger splats")
+    check(are([-1.6, 2.6, -0.6, 3.6, 0, 4]), "bounds of larger splats")
     mapper.SetRadiusScale(1.0)
     for bad in (np.nan, np.inf, -np.inf):
         points = [(-1, 0, 1), (bad, 7, 7), (1, 2, 3), (8, bad, 8), (9, 9, bad)]
-        data = polydata(points, [UP] * 5, Radius=np.ones(5))
+        data = polydata(points, [high] * 5, Radius=np.ones(5))
         mapper.SetInputDataObject(data)
-        check(list(mapper.GetBounds()) == [-2, 2, -1, 3, 0, 4], f"bounds beside {bad}")
+        check(are([-2, 2, -1, 3, 1, 3]), f"bounds beside {bad}")
         data.GetPoints().SetPoint(1, 4, 4, 4)
         data.GetPoints().Modified()
-        check(list(mapper.GetBounds()) == [-2, 5, -1, 5, 0, 5], f"changed points beside {bad}")
+        check(are([-2, 5, -1, 5, 1, 4]), f"changed points beside {bad}")
         mapper.SetInputDataObject(disk((bad, 0, 0)))
-        low, high = mapper.GetBounds()[:2]
-        check(low > high, f"no bounds of {bad} alone")
+        low, high_x = mapper.GetBounds()[:2]
+        check(low > high_x, f"no bounds of {bad} alone")
     mapper.SetInputDataObject(vtkPolyData())
-    low, high = mapper.GetBounds()[:2]
-    check(low > high, "no bounds without points")
+    low, high_x = mapper.GetBounds()[:2]
+    check(low > high_x, "no bounds without points")
 
 
 if __name__ == "__main__":
@@ -385,8 +333,6 @@ if __name__ == "__main__":
         colors_of_every_kind,
         blocks_with_and_without_the_array,
         follows_changes,
-        one_mapper_in_two_windows,
-        a_mapper_that_outlives_its_window,
         normals_of_any_length,
         the_near_plane_cuts,
         does_not_disturb_other_actors,

@@ -31,6 +31,15 @@ std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool is
   return std::nullopt;
 }
 
+/// Whether both sides at a corner are cuts halfway to other points.
+bool SplatFans::isBetweenPoints(const Corner& corner) const
+{
+  const SplatCell& cell = this->Cells[corner.point];
+  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
+  return cell.corners[corner.number].beyond != SplatCell::none &&
+         cell.corners[before].beyond != SplatCell::none;
+}
+
 /// A corner on the paraboloid of its point.
 SplatFans::Place SplatFans::placeOf(const Corner& corner) const
 {
@@ -117,8 +126,12 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   {
     this->follow(place, false, meeting);
   }
-  if (meeting.isTooLarge)
+  if (meeting.isTooLarge || (meeting.count < 3 && this->isBetweenPoints(corner)))
   {
+    // Where cells do not agree, those around overlap, so that nothing gapes.
+    constexpr double overlap = 0.1;
+    place.position =
+      sum(place.position, overlap, difference(place.position, this->Positions[corner.point]));
     return place;
   }
   const Vector& origin = meeting.places.front().position;

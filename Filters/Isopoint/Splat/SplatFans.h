@@ -67,6 +67,7 @@ private:
   };
 
   std::optional<Corner> across(const Corner& corner, bool isOnward) const;
+  bool isBetweenPoints(const Corner& corner) const;
   Place placeOf(const Corner& corner) const;
   bool areClose(const Place& a, const Place& b) const;
   bool follow(const Place& first, bool isOnward, Meeting& meeting) const;
