@@ -9,13 +9,14 @@
 namespace isopoint
 {
 
-/// The corner at which a neighboring cell begins or ends the side that the two share: beyond the
-/// side that begins at a corner or, backward, the one that ends there.
+/// The corner of a neighboring cell at the same place, beyond the side that begins at a corner or,
+/// backward, the one that ends there. If the neighbor has no such side, this one is as good as a
+/// point: its other end.
 std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool isOnward) const
 {
   const SplatCell& cell = this->Cells[corner.point];
-  const std::size_t side = isOnward ? corner.number : (corner.number + cell.count - 1) % cell.count;
-  const std::size_t beyond = cell.corners[side].beyond;
+  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
+  const std::size_t beyond = cell.corners[isOnward ? corner.number : before].beyond;
   if (beyond == SplatCell::none)
   {
     return std::nullopt;
@@ -28,7 +29,7 @@ std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool is
       return Corner{ beyond, isOnward ? (i + 1) % other.count : i };
     }
   }
-  return std::nullopt;
+  return Corner{ corner.point, isOnward ? (corner.number + 1) % cell.count : before };
 }
 
 /// Whether both sides at a corner are cuts halfway to other points.
@@ -61,7 +62,7 @@ SplatFans::Place SplatFans::placeOf(const Corner& corner) const
 /// apart than half as far as they are from their points.
 bool SplatFans::areClose(const Place& a, const Place& b) const
 {
-  constexpr double mostShare = 0.5;
+  constexpr double mostShare = 0.8;
   return dot(this->Splats[a.corner.point].normal, this->Splats[b.corner.point].normal) > 0.0 &&
          lengthOf(difference(a.position, b.position)) <=
            mostShare * 0.5 * (a.distance + b.distance);
@@ -69,13 +70,18 @@ bool SplatFans::areClose(const Place& a, const Place& b) const
 
 void SplatFans::Meeting::add(const Place& place)
 {
-  this->isTooLarge = this->count == this->places.size();
+  const Corner& corner = place.corner;
+  const auto end = this->places.begin() + static_cast<std::ptrdiff_t>(this->count);
+  this->cells += std::none_of(this->places.begin(), end,
+                   [&corner](const Place& other) { return other.corner.point == corner.point; })
+                   ? 1
+                   : 0;
+  this->isTooLarge = this->count == this->places.size() || this->cells > mostMeeting;
   if (this->isTooLarge)
   {
     return;
   }
   std::size_t i = this->count++;
-  const Corner& corner = place.corner;
   for (; i > 0; --i)
   {
     const Corner& before = this->places[i - 1].corner;
@@ -126,7 +132,7 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   {
     this->follow(place, false, meeting);
   }
-  if (meeting.isTooLarge || (meeting.count < 3 && this->isBetweenPoints(corner)))
+  if (meeting.isTooLarge || (meeting.cells < 3 && this->isBetweenPoints(corner)))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
     constexpr double overlap = 0.1;

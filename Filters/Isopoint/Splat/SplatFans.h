@@ -14,8 +14,8 @@
 namespace isopoint
 {
 
-/// How many corners of cells are brought together, at most.
-constexpr std::size_t mostMeeting = 5;
+/// Of how many cells corners are brought together, at most.
+constexpr std::size_t mostMeeting = 6;
 
 /// How far apart their points are then, at most, in rings (see IsopointNeighbors): each cell is in
 /// the second ring of the next.
@@ -59,8 +59,9 @@ private:
   /// The corners of cells that meet, each once, in the order of points and numbers.
   struct Meeting
   {
-    std::array<Place, mostMeeting> places{};
+    std::array<Place, 2 * mostMeeting> places{};
     std::size_t count = 0;
+    std::size_t cells = 0;
     bool isTooLarge = false; // then they are not brought together
 
     void add(const Place& place);
