@@ -11,6 +11,7 @@
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Splat/CellCutter.h"
+#include "Isopoint/Splat/MutualSides.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatCell.h"
@@ -187,10 +188,15 @@ private:
   void shape(const SurfaceHalo<TSample>& halo, const std::vector<SplatCell>& cells,
     const std::vector<bool>& isShaped, std::vector<Splat>& splats)
   {
-    const SplatFans fans(halo.surface().positions, splats, cells);
+    std::vector<SplatCell> mutual;
+    const SplatFans fans(halo.surface().positions, splats, mutual);
     this->Exchange.together(
       [&]()
       {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+        {
+          mutual.push_back(withMutualSides(cells, i));
+        }
         constexpr std::size_t batch = 8192;
         constexpr std::size_t grain = 512;
         forBatches(this->Run, isShaped.size(), batch, grain,

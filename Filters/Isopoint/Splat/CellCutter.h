@@ -120,6 +120,9 @@ private:
     {
       this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
       this->cutTowardsNearby(point, unit, cell);
+    }
+    if (cell.isOpen() || cell.squaredReach() > near)
+    {
       this->Border.cut(cell);
     }
     if (cell.isOpen())

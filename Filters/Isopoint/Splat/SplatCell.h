@@ -16,12 +16,14 @@ namespace isopoint
 struct SplatCell
 {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t overlapping = static_cast<std::size_t>(-2);
 
   struct Corner
   {
     double x;
     double y;
-    /// The point beyond the side that begins here, if this is a cut halfway to one; otherwise none.
+    /// The point beyond the side that begins here, if this is a cut halfway to one; otherwise none,
+    /// or overlapping if the cell of that point reaches over the side.
     std::size_t beyond;
   };
 

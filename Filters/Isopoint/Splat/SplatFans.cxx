@@ -17,7 +17,7 @@ std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool is
   const SplatCell& cell = this->Cells[corner.point];
   const std::size_t before = (corner.number + cell.count - 1) % cell.count;
   const std::size_t beyond = cell.corners[isOnward ? corner.number : before].beyond;
-  if (beyond == SplatCell::none)
+  if (beyond == SplatCell::none || beyond == SplatCell::overlapping)
   {
     return std::nullopt;
   }
@@ -30,6 +30,13 @@ std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool is
     }
   }
   return Corner{ corner.point, isOnward ? (corner.number + 1) % cell.count : before };
+}
+
+bool SplatFans::endsAtOverlap(const Corner& corner, bool isOnward) const
+{
+  const SplatCell& cell = this->Cells[corner.point];
+  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
+  return cell.corners[isOnward ? corner.number : before].beyond == SplatCell::overlapping;
 }
 
 /// Whether both sides at a corner are cuts halfway to other points.
@@ -62,7 +69,7 @@ SplatFans::Place SplatFans::placeOf(const Corner& corner) const
 /// apart than half as far as they are from their points.
 bool SplatFans::areClose(const Place& a, const Place& b) const
 {
-  constexpr double mostShare = 0.8;
+  constexpr double mostShare = 1.6;
   return dot(this->Splats[a.corner.point].normal, this->Splats[b.corner.point].normal) > 0.0 &&
          lengthOf(difference(a.position, b.position)) <=
            mostShare * 0.5 * (a.distance + b.distance);
@@ -105,6 +112,7 @@ bool SplatFans::follow(const Place& first, bool isOnward, Meeting& meeting) cons
     const std::optional<Corner> next = this->across(last.corner, isOnward);
     if (!next)
     {
+      meeting.isOverlapping |= this->endsAtOverlap(last.corner, isOnward);
       return false;
     }
     if (next->point == first.corner.point && next->number == first.corner.number)
@@ -132,10 +140,11 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   {
     this->follow(place, false, meeting);
   }
-  if (meeting.isTooLarge || (meeting.cells < 3 && this->isBetweenPoints(corner)))
+  if (meeting.isTooLarge || meeting.isOverlapping ||
+      (meeting.cells < 3 && this->isBetweenPoints(corner)))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
-    constexpr double overlap = 0.1;
+    constexpr double overlap = 0.05;
     place.position =
       sum(place.position, overlap, difference(place.position, this->Positions[corner.point]));
     return place;

@@ -17,9 +17,9 @@ namespace isopoint
 /// Of how many cells corners are brought together, at most.
 constexpr std::size_t mostMeeting = 6;
 
-/// How far apart their points are then, at most, in rings (see IsopointNeighbors): each cell is in
-/// the second ring of the next.
-constexpr int fanRings = 2 * static_cast<int>(mostMeeting - 1);
+/// How far away points matter for a splat, in rings (see IsopointNeighbors): of cells that meet each
+/// is in the second ring of the next, and so are those that share their sides.
+constexpr int fanRings = 2 * static_cast<int>(mostMeeting);
 
 /// Makes splats of cells: lowers their corners onto the surface, and brings those together that
 /// meet; see docs/algorithm.md, section 12.6.
@@ -27,7 +27,8 @@ class SplatFans
 {
 public:
   /// @param splats of which normals are set
-  /// @param cells of all points within fanRings of those that are shaped
+  /// @param cells withMutualSides() of all points within fanRings of those that are shaped; may be
+  /// filled later
   SplatFans(const std::vector<Vector>& positions, const std::vector<Splat>& splats,
     const std::vector<SplatCell>& cells)
     : Positions(positions)
@@ -63,11 +64,13 @@ private:
     std::size_t count = 0;
     std::size_t cells = 0;
     bool isTooLarge = false; // then they are not brought together
+    bool isOverlapping = false;
 
     void add(const Place& place);
   };
 
   std::optional<Corner> across(const Corner& corner, bool isOnward) const;
+  bool endsAtOverlap(const Corner& corner, bool isOnward) const;
   bool isBetweenPoints(const Corner& corner) const;
   Place placeOf(const Corner& corner) const;
   bool areClose(const Place& a, const Place& b) const;

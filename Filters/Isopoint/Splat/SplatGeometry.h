@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Splat/CellCutter.h"
+#include "Isopoint/Splat/MutualSides.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatCell.h"
@@ -65,7 +66,16 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       }
     },
     [&](double share) { execution.progress(normalsShare + cellsShare * share); });
-  const SplatFans fans(points.positions, splats, cells);
+  std::vector<SplatCell> mutual(splats.size());
+  forBatches(execution, splats.size(), batch, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        mutual[i] = withMutualSides(cells, i);
+      }
+    });
+  const SplatFans fans(points.positions, splats, mutual);
   const double fansBegin = normalsShare + cellsShare;
   forBatches(
     execution, splats.size(), batch, grain,
