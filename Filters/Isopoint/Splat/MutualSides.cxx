@@ -69,7 +69,7 @@ SplatCell withMutualSides(const std::vector<SplatCell>& cells, std::size_t point
   for (std::size_t side = 0; side < cell.count;)
   {
     const std::size_t beyond = cell.corners[side].beyond;
-    if (beyond == SplatCell::none || hasSideTowards(cells[beyond], point))
+    if (!SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point))
     {
       ++side;
       continue;

@@ -22,7 +22,8 @@ constexpr double borderReach = 0.3;
 
 /// Cuts off the parts of cells that reach out of the samples: where the surface ends, a cell may be
 /// bounded only by points along its border, far outside. In each of extentDirections() a cell may
-/// reach `borderReach` farther than samples stand ahead of its point. Extents are requested only where a cell reaches out, each once. For one thread.
+/// reach `borderReach` farther than samples stand ahead of its point. Extents are requested only
+/// where a cell reaches out, each once. For one thread.
 /// @tparam TExtents SampleExtents, or another class with its at()
 template <class TExtents>
 class SplatBorder

@@ -18,6 +18,9 @@ struct SplatCell
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   static constexpr std::size_t overlapping = static_cast<std::size_t>(-2);
 
+  /// Whether what is beyond a side is a point.
+  static bool isPoint(std::size_t beyond) { return beyond < overlapping; }
+
   struct Corner
   {
     double x;

@@ -9,15 +9,26 @@
 namespace isopoint
 {
 
-/// The corner of a neighboring cell at the same place, beyond the side that begins at a corner or,
-/// backward, the one that ends there. If the neighbor has no such side, this one is as good as a
-/// point: its other end.
-std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool isOnward) const
+/// What is beyond the side that begins at a corner or, backward, the one that ends there.
+std::size_t SplatFans::beyond(const Corner& corner, bool isOnward) const
 {
   const SplatCell& cell = this->Cells[corner.point];
   const std::size_t before = (corner.number + cell.count - 1) % cell.count;
-  const std::size_t beyond = cell.corners[isOnward ? corner.number : before].beyond;
-  if (beyond == SplatCell::none || beyond == SplatCell::overlapping)
+  return cell.corners[isOnward ? corner.number : before].beyond;
+}
+
+/// Whether both sides at a corner are cuts halfway to other points.
+bool SplatFans::isBetweenPoints(const Corner& corner) const
+{
+  return SplatCell::isPoint(this->beyond(corner, true)) &&
+         SplatCell::isPoint(this->beyond(corner, false));
+}
+
+/// The corner of the cell across a side that is at the same place.
+std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool isOnward) const
+{
+  const std::size_t beyond = this->beyond(corner, isOnward);
+  if (!SplatCell::isPoint(beyond))
   {
     return std::nullopt;
   }
@@ -29,23 +40,7 @@ std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool is
       return Corner{ beyond, isOnward ? (i + 1) % other.count : i };
     }
   }
-  return Corner{ corner.point, isOnward ? (corner.number + 1) % cell.count : before };
-}
-
-bool SplatFans::endsAtOverlap(const Corner& corner, bool isOnward) const
-{
-  const SplatCell& cell = this->Cells[corner.point];
-  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
-  return cell.corners[isOnward ? corner.number : before].beyond == SplatCell::overlapping;
-}
-
-/// Whether both sides at a corner are cuts halfway to other points.
-bool SplatFans::isBetweenPoints(const Corner& corner) const
-{
-  const SplatCell& cell = this->Cells[corner.point];
-  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
-  return cell.corners[corner.number].beyond != SplatCell::none &&
-         cell.corners[before].beyond != SplatCell::none;
+  return std::nullopt;
 }
 
 /// A corner on the paraboloid of its point.
@@ -66,7 +61,7 @@ SplatFans::Place SplatFans::placeOf(const Corner& corner) const
 }
 
 /// Whether two corners may be one place: the normals do not oppose, and the two are no farther
-/// apart than half as far as they are from their points.
+/// apart than 1.6 times as far as they are from their points.
 bool SplatFans::areClose(const Place& a, const Place& b) const
 {
   constexpr double mostShare = 1.6;
@@ -77,17 +72,12 @@ bool SplatFans::areClose(const Place& a, const Place& b) const
 
 void SplatFans::Meeting::add(const Place& place)
 {
-  const Corner& corner = place.corner;
-  const auto end = this->places.begin() + static_cast<std::ptrdiff_t>(this->count);
-  this->cells += std::none_of(this->places.begin(), end,
-                   [&corner](const Place& other) { return other.corner.point == corner.point; })
-                   ? 1
-                   : 0;
-  this->isTooLarge = this->count == this->places.size() || this->cells > mostMeeting;
+  this->isTooLarge = this->count == this->places.size();
   if (this->isTooLarge)
   {
     return;
   }
+  const Corner& corner = place.corner;
   std::size_t i = this->count++;
   for (; i > 0; --i)
   {
@@ -112,7 +102,7 @@ bool SplatFans::follow(const Place& first, bool isOnward, Meeting& meeting) cons
     const std::optional<Corner> next = this->across(last.corner, isOnward);
     if (!next)
     {
-      meeting.isOverlapping |= this->endsAtOverlap(last.corner, isOnward);
+      meeting.isOverlapping |= this->beyond(last.corner, isOnward) == SplatCell::overlapping;
       return false;
     }
     if (next->point == first.corner.point && next->number == first.corner.number)
@@ -141,7 +131,7 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
     this->follow(place, false, meeting);
   }
   if (meeting.isTooLarge || meeting.isOverlapping ||
-      (meeting.cells < 3 && this->isBetweenPoints(corner)))
+      (meeting.count < 3 && this->isBetweenPoints(corner)))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
     constexpr double overlap = 0.05;

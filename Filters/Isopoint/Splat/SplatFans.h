@@ -14,7 +14,7 @@
 namespace isopoint
 {
 
-/// Of how many cells corners are brought together, at most.
+/// How many corners of cells are brought together, at most.
 constexpr std::size_t mostMeeting = 6;
 
 /// How far away points matter for a splat, in rings (see IsopointNeighbors): of cells that meet each
@@ -60,17 +60,16 @@ private:
   /// The corners of cells that meet, each once, in the order of points and numbers.
   struct Meeting
   {
-    std::array<Place, 2 * mostMeeting> places{};
+    std::array<Place, mostMeeting> places{};
     std::size_t count = 0;
-    std::size_t cells = 0;
     bool isTooLarge = false; // then they are not brought together
-    bool isOverlapping = false;
+    bool isOverlapping = false; // so are they not; see SplatCell::overlapping
 
     void add(const Place& place);
   };
 
   std::optional<Corner> across(const Corner& corner, bool isOnward) const;
-  bool endsAtOverlap(const Corner& corner, bool isOnward) const;
+  std::size_t beyond(const Corner& corner, bool isOnward) const;
   bool isBetweenPoints(const Corner& corner) const;
   Place placeOf(const Corner& corner) const;
   bool areClose(const Place& a, const Place& b) const;
