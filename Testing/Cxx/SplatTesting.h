@@ -97,14 +97,15 @@ inline bool isWithin(const Splat& splat, const Vector& offset, double tolerance 
   const std::vector<isopoint::SplatCorner> corners = cornersOf(splat);
   const double x = dot(offset, splat.axis) / (splat.radius * splat.radius);
   const double y = dot(offset, cross(splat.normal, splat.axis)) / (splat.radius * splat.radius);
-  bool isInside = corners.size() > 2;
+  bool isInside = false; // a triangle of the fan
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     const isopoint::SplatCorner& a = corners[i];
     const isopoint::SplatCorner& b = corners[(i + 1) % corners.size()];
     isInside =
-      isInside &&
-      (b.along - a.along) * (y - a.across) - (b.across - a.across) * (x - a.along) >= -tolerance;
+      isInside ||
+      (a.along * y - a.across * x >= -tolerance && x * b.across - y * b.along >= -tolerance &&
+        (b.along - a.along) * (y - a.across) - (b.across - a.across) * (x - a.along) >= -tolerance);
   }
   return isInside;
 }

@@ -79,8 +79,7 @@ TEST(Splats, CoverTheSurface)
   }
 }
 
-// Seen along the normal, all triangles turn the same way, but for slivers where noise moves
-// corners.
+// Seen along the normal, all triangles turn the same way.
 TEST(Splats, SurroundTheirPoints)
 {
   const Sphere sphere(800, 1.0, 0.0);
@@ -93,7 +92,7 @@ TEST(Splats, SurroundTheirPoints)
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
       const isopoint::SplatCorner& next = corners[(i + 1) % corners.size()];
-      ASSERT_GT(corners[i].along * next.across - corners[i].across * next.along, -0.2);
+      ASSERT_GT(corners[i].along * next.across - corners[i].across * next.along, -1e-6);
       farthest = std::max(farthest, lengthOf(offsetOf(splat, corners[i])));
     }
     ASSERT_NEAR(farthest, splat.radius, 1e-6 * splat.radius);
@@ -359,8 +358,8 @@ TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
   const std::vector<Splat> splats = splatsOf(positions, edges);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    ASSERT_GT(splats[i].radius, 0.5 * expected[i / 30].radius);
-    ASSERT_LT(splats[i].radius, 1.5 * expected[i / 30].radius);
+    ASSERT_GT(splats[i].radius, 0.4 * expected[i / 30].radius);
+    ASSERT_LT(splats[i].radius, 1.6 * expected[i / 30].radius);
     ASSERT_NEAR(areaOf(splats[i]), i % 30 == 0 ? areaOf(expected[i / 30]) : 0.0, 1e-12);
     ASSERT_GT(dot(splats[i].normal, expected[i / 30].normal), 1.0 - 1e-9);
   }

@@ -21,12 +21,11 @@ double squaredDistance(const SplatCell::Corner& corner)
   return corner.x * corner.x + corner.y * corner.y;
 }
 
-/// The corner that takes the place of a side: where the sides before and after it meet or, of a
-/// short side, its middle; nothing if the former is far away.
+/// The corner that takes the place of a side: where the sides before and after it meet; nothing if
+/// that is far away.
 std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
 {
   constexpr double mostReach = 1.5; // of the distance of the side's farther end
-  constexpr double mostLength = 0.2;
   const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
   const SplatCell::Corner& begin = cell.corners[side];
   const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
@@ -42,12 +41,6 @@ std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_
   if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
   {
     return meeting;
-  }
-  const double x = end.x - begin.x;
-  const double y = end.y - begin.y;
-  if (x * x + y * y <= mostLength * mostLength * farthest)
-  {
-    return SplatCell::Corner{ 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
   }
   return std::nullopt;
 }

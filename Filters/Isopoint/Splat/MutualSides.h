@@ -11,8 +11,8 @@ namespace isopoint
 {
 
 /// A point's cell with its sides towards points whose cells have none towards it replaced by the
-/// corner where the sides before and after meet or, if that is far away, by its middle if it is
-/// short; others are no longer sides towards points. See docs/algorithm.md, section 12.6. O(1)
+/// corner where the sides before and after meet or, if that is far away, marked as overlapping. See
+/// docs/algorithm.md, section 12.6. O(1)
 SplatCell withMutualSides(const std::vector<SplatCell>& cells, std::size_t point);
 
 } // namespace isopoint

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace isopoint
 {
@@ -61,10 +62,10 @@ SplatFans::Place SplatFans::placeOf(const Corner& corner) const
 }
 
 /// Whether two corners may be one place: the normals do not oppose, and the two are no farther
-/// apart than 1.6 times as far as they are from their points.
+/// apart than 1.2 times as far as they are from their points.
 bool SplatFans::areClose(const Place& a, const Place& b) const
 {
-  constexpr double mostShare = 1.6;
+  constexpr double mostShare = 1.2;
   return dot(this->Splats[a.corner.point].normal, this->Splats[b.corner.point].normal) > 0.0 &&
          lengthOf(difference(a.position, b.position)) <=
            mostShare * 0.5 * (a.distance + b.distance);
@@ -152,6 +153,30 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   return place;
 }
 
+/// Swaps corners until they follow each other counterclockwise: brought together with others, two
+/// may have passed each other.
+void SplatFans::turnOneWay(const TangentFrame& frame, std::size_t count,
+  std::array<Vector, mostCorners>& offsets, std::array<Vector, mostCorners>& normals)
+{
+  const auto turn = [&](std::size_t i, std::size_t next)
+  {
+    return dot(offsets[i], frame.first) * dot(offsets[next], frame.second) -
+           dot(offsets[i], frame.second) * dot(offsets[next], frame.first);
+  };
+  for (std::size_t pass = 0; pass < count; ++pass)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t next = (i + 1) % count;
+      if (turn(i, next) < 0.0)
+      {
+        std::swap(offsets[i], offsets[next]);
+        std::swap(normals[i], normals[next]);
+      }
+    }
+  }
+}
+
 void SplatFans::shape(std::size_t point, Splat& splat) const
 {
   const SplatCell& cell = this->Cells[point];
@@ -167,6 +192,7 @@ void SplatFans::shape(std::size_t point, Splat& splat) const
     splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
   }
   splat.axis = scaled(splat.radius, frame.first);
+  turnOneWay(frame, cell.count, offsets, normals);
   splat.corners = {};
   if (!cell.isFirstHere || !(splat.radius > 0.0) || !std::isfinite(splat.radius))
   {

@@ -2,6 +2,7 @@
 #ifndef isopoint_SplatFans_h
 #define isopoint_SplatFans_h
 
+#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatCell.h"
@@ -75,6 +76,8 @@ private:
   bool areClose(const Place& a, const Place& b) const;
   bool follow(const Place& first, bool isOnward, Meeting& meeting) const;
   Place joined(const Corner& corner) const;
+  static void turnOneWay(const TangentFrame& frame, std::size_t count,
+    std::array<Vector, mostCorners>& offsets, std::array<Vector, mostCorners>& normals);
 
   const std::vector<Vector>& Positions;
   const std::vector<Splat>& Splats;
