@@ -111,12 +111,11 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
   {
     add(number);
   }
-  for (const int number :
-    { filter->GetDropGaps(), filter->GetProjection(), filter->GetNormalMethod(),
-      filter->GetNumberOfNeighbors(), filter->GetComputeNormals(), filter->GetComputeSplats(),
-      filter->GetComputeScalars(),
-      filter->GetComputeGradients(), filter->GetComputeProjectionOrders(),
-      filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
+  for (const int number : { filter->GetDropGaps(), filter->GetProjection(),
+         filter->GetNormalMethod(), filter->GetNumberOfNeighbors(), filter->GetComputeNormals(),
+         filter->GetComputeSplats(), filter->GetComputeScalars(), filter->GetComputeGradients(),
+         filter->GetComputeProjectionOrders(), filter->GetOutputPointsPrecision(),
+         filter->GetContourBlocks() })
   {
     add(number);
   }

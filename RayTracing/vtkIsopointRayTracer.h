@@ -6,9 +6,10 @@
  * A render pass (vtkRenderer::SetPass) that traces what the renderer's actors show, and a picture
  * without a window (RenderToImage). Actors with polygons or triangle strips that are shown as
  * surfaces are traced, those with a vtkIsopointSplatMapper among them, with interpolated normals,
- * scalar colors, blocks and transforms as the mapper draws them. What else the renderer shows (lines, points, text, volumes, annotations) is drawn by
- * VTK over the picture, hidden where traced surfaces are in front of it; RenderToImage() leaves it
- * out. All actors are drawn by VTK for a hardware selection.
+ * scalar colors, blocks and transforms as the mapper draws them. What else the renderer shows
+ * (lines, points, text, volumes, annotations) is drawn by VTK over the picture, hidden where traced
+ * surfaces are in front of it; RenderToImage() leaves it out. All actors are drawn by VTK for a
+ * hardware selection.
  *
  * Lights are the renderer's, with shadows. The background is the renderer's color, gradient
  * or texture; what is reflected and refracted sees it as a panorama around the camera, or the

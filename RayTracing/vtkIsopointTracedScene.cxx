@@ -77,8 +77,8 @@ bool vtkIsopointIsTraced(vtkProp* prop)
     return false;
   }
   vtkMapper* const mapper = actor->GetMapper();
-  const bool isPolyData = vtkPolyDataMapper::SafeDownCast(mapper) ||
-                          vtkIsopointCompositeMapper::SafeDownCast(mapper);
+  const bool isPolyData =
+    vtkPolyDataMapper::SafeDownCast(mapper) || vtkIsopointCompositeMapper::SafeDownCast(mapper);
   if (!isPolyData)
   {
     return false;
@@ -98,8 +98,7 @@ bool vtkIsopointIsTraced(vtkProp* prop)
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsopointTracedScene::Update(
-  const std::vector<vtkActor*>& actors, double absorptionDistance)
+bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double absorptionDistance)
 {
   std::ostringstream state;
   state << std::hexfloat << absorptionDistance << '\n';

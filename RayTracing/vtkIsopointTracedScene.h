@@ -11,7 +11,8 @@
 
 class vtkProp;
 
-/// Whether a prop is visible and can be traced: an actor with triangles that are drawn as a surface.
+/// Whether a prop is visible and can be traced: an actor with triangles that are drawn as a
+/// surface.
 bool vtkIsopointIsTraced(vtkProp* prop);
 
 /// The traced surfaces of a renderer's actors, kept as long as these stay the same.

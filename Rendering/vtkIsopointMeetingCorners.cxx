@@ -187,8 +187,7 @@ std::vector<vtkIdType> vtkIsopointMeetingCorners(const std::vector<vtkIsopointCo
   {
     if (corners[i].Tolerance > 0.0f)
     {
-      located.push_back(
-        { Grid::CellOf(grid.Coordinates(corners[i])), static_cast<vtkIdType>(i) });
+      located.push_back({ Grid::CellOf(grid.Coordinates(corners[i])), static_cast<vtkIdType>(i) });
     }
   }
   vtkSMPTools::Sort(located.begin(), located.end());

@@ -77,7 +77,8 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
   {
     ++this->FirstMeeting[indexOf(vertex) + 1];
   }
-  std::partial_sum(this->FirstMeeting.begin(), this->FirstMeeting.end(), this->FirstMeeting.begin());
+  std::partial_sum(
+    this->FirstMeeting.begin(), this->FirstMeeting.end(), this->FirstMeeting.begin());
   this->MeetingPoints.resize(this->MeetsAt.size());
   std::vector<vtkIdType> next(this->FirstMeeting.begin(), this->FirstMeeting.end() - 1);
   for (std::size_t i = 0; i < this->MeetsAt.size(); ++i)

@@ -26,8 +26,8 @@ struct vtkIsopointSplatMesh
   std::vector<vtkIsopointCorner> Vertices;
   std::vector<vtkIdType> Corners; // three vertices of each triangle
 
-  /// The points whose splats have a vertex at the same place: MeetingPoints from FirstMeeting of the
-  /// vertex MeetsAt[i] up to that of the next one.
+  /// The points whose splats have a vertex at the same place: MeetingPoints from FirstMeeting of
+  /// the vertex MeetsAt[i] up to that of the next one.
   std::vector<vtkIdType> MeetsAt;
   std::vector<vtkIdType> FirstMeeting;
   std::vector<vtkIdType> MeetingPoints;

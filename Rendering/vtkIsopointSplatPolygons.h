@@ -25,7 +25,8 @@
  * have no vertex in the middle.
  *
  * No splat is made of points that are hidden or duplicate ghosts, of points whose position or shape
- * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of points.
+ * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of
+ * points.
  *
  * @warning Filters that rotate or scale points leave the arrays of shapes as they were: rotate or
  * scale the actor instead. Filters that translate points do no harm.

@@ -18,7 +18,7 @@ struct vtkIsopointSplatFan
   static constexpr int MaximumVertices = 9;
   static constexpr int MaximumTriangles = 8;
 
-  int Vertices = 0;       // 0: nothing is drawn
+  int Vertices = 0; // 0: nothing is drawn
   int Triangles = 0;
   float Tolerance = 0.0f; // how far corners that are shared with other splats may be apart; 0: none
   std::array<vtkVector3d, MaximumVertices> Places;

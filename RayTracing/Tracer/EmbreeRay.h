@@ -21,10 +21,9 @@ constexpr unsigned int all = opaque | transparent;
 
 inline unsigned int maskOf(const Surface& surface)
 {
-  const bool isOpaque =
-    surface.material.transmission() <= 0.0f &&
-    std::all_of(surface.colors.begin(), surface.colors.end(),
-      [](const ColorBytes& c) { return c[3] == 255; });
+  const bool isOpaque = surface.material.transmission() <= 0.0f &&
+                        std::all_of(surface.colors.begin(), surface.colors.end(),
+                          [](const ColorBytes& c) { return c[3] == 255; });
   return surface.isVisible ? (isOpaque ? masks::opaque : masks::transparent) : 0;
 }
 

@@ -163,7 +163,8 @@ Color Scene::transmittance(const Ray& ray) const
   constexpr int mostSurfaces = 32;
   constexpr float least = 1.0f / 512.0f; // half of a step of the picture
   Ray rest = ray;
-  for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least; ++i)
+  for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
+       ++i)
   {
     const Hit hit = this->closest(rest, embree::masks::transparent);
     if (!hit.surface)

@@ -27,11 +27,10 @@ float orientationOf(const Surface& surface)
     const Vector area = cross(b - a, c - a);
     const bool isTurned =
       !surface.normals.empty() && dot(area, surface.normals[triangle[0]]) < 0.0f;
-    volume +=
-      (isTurned ? -1.0 : 1.0) *
-      tripleProduct((1.0f / 3.0f) * ((a - surface.vertices[0]) + (b - surface.vertices[0]) +
-                                      (c - surface.vertices[0])),
-        area);
+    volume += (isTurned ? -1.0 : 1.0) *
+              tripleProduct((1.0f / 3.0f) * ((a - surface.vertices[0]) + (b - surface.vertices[0]) +
+                                              (c - surface.vertices[0])),
+                area);
   }
   return volume < 0.0 ? -1.0f : 1.0f;
 }

@@ -139,7 +139,8 @@ TEST(Scene, RaysLeaveTheirSurfaceAndMeetItAgain)
 TEST(Scene, ColorsOfVerticesAndOfTriangles)
 {
   const auto square = squareOf(1.0f, 0.0f);
-  square->colors = { { 255, 0, 0, 255 }, { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 255, 0, 255 } };
+  square->colors = { { 255, 0, 0, 255 }, { 255, 0, 0, 255 }, { 0, 255, 0, 255 },
+    { 0, 255, 0, 255 } };
   const Ray middle{ { 0.2f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } };
   const Hit interpolated = sceneOf(square).closest(middle);
   EXPECT_NEAR(interpolated.color.x, 0.5f, 1e-6f);

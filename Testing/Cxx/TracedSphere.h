@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <memory>
 
-/// The triangles of a sphere around the origin, with its normals: rows from pole to pole of twice as
-/// many columns.
+/// The triangles of a sphere around the origin, with its normals: rows from pole to pole of twice
+/// as many columns.
 inline std::shared_ptr<raytracing::Surface> tracedSphere(std::uint32_t rows, float radius)
 {
   auto sphere = std::make_shared<raytracing::Surface>();

@@ -18,8 +18,8 @@ namespace isopoint
 /// How many corners of cells are brought together, at most.
 constexpr std::size_t mostMeeting = 6;
 
-/// How far away points matter for a splat, in rings (see IsopointNeighbors): of cells that meet each
-/// is in the second ring of the next, and so are those that share their sides.
+/// How far away points matter for a splat, in rings (see IsopointNeighbors): of cells that meet
+/// each is in the second ring of the next, and so are those that share their sides.
 constexpr int fanRings = 2 * static_cast<int>(mostMeeting);
 
 /// Makes splats of cells: lowers their corners onto the surface, and brings those together that
@@ -63,7 +63,7 @@ private:
   {
     std::array<Place, mostMeeting> places{};
     std::size_t count = 0;
-    bool isTooLarge = false; // then they are not brought together
+    bool isTooLarge = false;    // then they are not brought together
     bool isOverlapping = false; // so are they not; see SplatCell::overlapping
 
     void add(const Place& place);
