@@ -112,6 +112,7 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
       }
     }
+    this->HasPassed = false;
     // Points at more than twice a distance cut nothing off within it.
     constexpr double near = sampleReach * sampleReach;
     this->Nearby.find(point, 2, unit, 4.0 * near);
@@ -121,11 +122,17 @@ private:
       this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
       this->cutTowardsNearby(point, unit, cell);
     }
+    if (cell.squaredReach() > 2.0 * near)
+    {
+      // It may be large because points beyond are in no ring nearer.
+      this->Nearby.find(point, 3, unit, 4.0 * cell.squaredReach());
+      this->cutTowardsNearby(point, unit, cell);
+    }
     if (cell.isOpen() || cell.squaredReach() > near)
     {
       this->Border.cut(cell);
     }
-    if (cell.isOpen())
+    if (cell.isOpen() || this->HasPassed)
     {
       cell.limitTo(openReach);
     }
@@ -153,7 +160,7 @@ private:
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
     if (!cell.reachesBeyond(a, b, 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
-        this->isUnfittedBeside(point, other) ||
+        this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
     {
       return;
@@ -228,17 +235,20 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
-  /// Whether a smooth fit held at a point but not at another very close to it.
-  bool isUnfittedBeside(std::size_t point, const NearbyPoint& other) const
+  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in mind.
+  bool passesUnfitted(std::size_t point, const NearbyPoint& other)
   {
-    return other.squaredDistance < sampleReach * sampleReach && this->isSmooth(point) &&
-           !this->isSmooth(other.point);
+    const bool passes = other.squaredDistance < sampleReach * sampleReach &&
+                        this->isSmooth(point) && !this->isSmooth(other.point);
+    this->HasPassed = this->HasPassed || passes;
+    return passes;
   }
 
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
   NearbyPoints<TNeighbors> Nearby;
   SplatBorder<TExtents> Border;
+  bool HasPassed = false; // points without a fit, over which the cell may reach
 };
 
 } // namespace isopoint

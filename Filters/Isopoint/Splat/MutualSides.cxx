@@ -25,7 +25,7 @@ double squaredDistance(const SplatCell::Corner& corner)
 /// that is far away.
 std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
 {
-  constexpr double mostReach = 1.5; // of the distance of the side's farther end
+  constexpr double mostReach = 1.1; // of the distance of the side's farther end
   const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
   const SplatCell::Corner& begin = cell.corners[side];
   const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
