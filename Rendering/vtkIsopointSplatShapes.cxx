@@ -10,7 +10,11 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+
+// Later versions of VTK have the operators in vtkVector.h.
+#if __has_include("vtkVectorOperators.h")
 #include "vtkVectorOperators.h"
+#endif
 
 #include <algorithm>
 #include <cmath>

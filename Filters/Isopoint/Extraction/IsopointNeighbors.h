@@ -83,9 +83,9 @@ public:
     }
 
     /// Lists the isopoints around one, itself among them, each once or twice.
-    /// @param rings 1 or more: each one adds those around the ones found before. All samples that determine which
-    /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
-    /// than 2 rings - 1 touching leaves.
+    /// @param rings 1 or more: each one adds those around the ones found before. All samples that
+    /// determine which these are lie in leaves that are connected to the ends of the isopoint's
+    /// edge by no more than 2 rings - 1 touching leaves.
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();

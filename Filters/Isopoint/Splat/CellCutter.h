@@ -235,7 +235,8 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
-  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in mind.
+  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in
+  /// mind.
   bool passesUnfitted(std::size_t point, const NearbyPoint& other)
   {
     const bool passes = other.squaredDistance < sampleReach * sampleReach &&

@@ -135,7 +135,7 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
       (meeting.count < 3 && this->isBetweenPoints(corner)))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
-    constexpr double overlap = 0.03;
+    constexpr double overlap = 0.1;
     place.position =
       sum(place.position, overlap, difference(place.position, this->Positions[corner.point]));
     return place;

@@ -19,8 +19,8 @@ namespace isopoint
 constexpr std::size_t mostMeeting = 6;
 
 /// How far away points matter for a splat, in rings (see IsopointNeighbors): of cells that meet
-/// each is in the second ring of the next, and so are those that share their sides.
-constexpr int fanRings = 2 * static_cast<int>(mostMeeting);
+/// each is in the third ring of the next, and so are those that share their sides.
+constexpr int fanRings = 3 * static_cast<int>(mostMeeting);
 
 /// Makes splats of cells: lowers their corners onto the surface, and brings those together that
 /// meet; see docs/algorithm.md, section 12.6.
