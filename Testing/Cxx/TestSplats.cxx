@@ -39,7 +39,7 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
     for (const isopoint::SplatCorner& corner : cornersOf(splats[i]))
     {
       const Vector place = isopoint::sum(points.positions[i], 1.0, offsetOf(splats[i], corner));
-      ASSERT_NEAR(lengthOf(place), 1.0, 0.001);
+      ASSERT_NEAR(lengthOf(place), 1.0, 0.002);
       ASSERT_GT(dot(normalAt(splats[i], corner), place), 0.9995);
       heights = std::max(heights, std::abs(static_cast<double>(corner.height)));
       corners.push_back(place);
@@ -262,7 +262,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   }
   EXPECT_NEAR(alone, 1.0, 1e-6);
   EXPECT_GT(areaOfMiddle(), alone - 1e-6);
-  EXPECT_LT(areaOfMiddle(), alone + 0.1);
+  EXPECT_LT(areaOfMiddle(), 1.1 * 1.1 * alone + 1e-6); // where cells overlap
 }
 
 // In a lattice the planes halfway to diagonal neighbors pass through the corners that the others

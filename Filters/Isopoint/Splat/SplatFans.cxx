@@ -18,11 +18,11 @@ std::size_t SplatFans::beyond(const Corner& corner, bool isOnward) const
   return cell.corners[isOnward ? corner.number : before].beyond;
 }
 
-/// Whether both sides at a corner are cuts halfway to other points.
+/// Whether both sides at a corner are cuts halfway to other points: the surface goes on there.
 bool SplatFans::isBetweenPoints(const Corner& corner) const
 {
-  return SplatCell::isPoint(this->beyond(corner, true)) &&
-         SplatCell::isPoint(this->beyond(corner, false));
+  return this->beyond(corner, true) != SplatCell::none &&
+         this->beyond(corner, false) != SplatCell::none;
 }
 
 /// The corner of the cell across a side that is at the same place.
@@ -131,11 +131,11 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   {
     this->follow(place, false, meeting);
   }
-  if (meeting.isTooLarge || meeting.isOverlapping ||
-      (meeting.count < 3 && this->isBetweenPoints(corner)))
+  const bool isInside = this->isBetweenPoints(corner);
+  if (meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
-    constexpr double overlap = 0.1;
+    const double overlap = isInside ? 0.1 : 0.0;
     place.position =
       sum(place.position, overlap, difference(place.position, this->Positions[corner.point]));
     return place;
