@@ -135,9 +135,9 @@ SplatFans::Place SplatFans::joined(const Corner& corner) const
   if (meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside))
   {
     // Where cells do not agree, those around overlap, so that nothing gapes.
-    const double overlap = isInside ? 0.1 : 0.0;
-    place.position =
-      sum(place.position, overlap, difference(place.position, this->Positions[corner.point]));
+    constexpr double overlap = 0.1;
+    const Vector outward = difference(place.position, this->Positions[corner.point]);
+    place.position = sum(place.position, isInside ? overlap : 0.0, outward);
     return place;
   }
   const Vector& origin = meeting.places.front().position;
