@@ -17,7 +17,7 @@ output.PointData.append(np.maximum(block, bore), "distance")
 
 part = ScatteredIsopoints(
     Input=samples, ContourBy=["POINTS", "distance"], Isosurfaces=[0.0],
-    Projection="Cubic fit with creases", ComputeSplatAxes=1, ComputeSplatClips=1)
+    Projection="Cubic fit with creases")
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")

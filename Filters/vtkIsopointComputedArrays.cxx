@@ -17,9 +17,11 @@
 namespace
 {
 
+constexpr int polygonNumbers = 5 * static_cast<int>(isopoint::mostCorners);
+
 /// A new array, or null if it is not to be computed.
 template <class TArray>
-vtkSmartPointer<vtkDataArray> newArray(
+vtkSmartPointer<TArray> newArray(
   bool isComputed, const char* name, int components, vtkIdType tuples)
 {
   if (!isComputed)
@@ -54,10 +56,9 @@ void set(vtkDataArray* array, vtkIdType tuple, const double* values)
 vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& choice, vtkIdType count)
   : Chosen(choice)
   , Normals(newArray<vtkFloatArray>(choice.Normals, "Normals", 3, count))
-  , Radius(newArray<vtkFloatArray>(choice.Radius, "Radius", 1, count))
-  , SplatAxis1(newArray<vtkFloatArray>(choice.SplatAxes, "SplatAxis1", 3, count))
-  , SplatAxis2(newArray<vtkFloatArray>(choice.SplatAxes, "SplatAxis2", 3, count))
-  , SplatClip(newArray<vtkFloatArray>(choice.SplatClip, "SplatClip", 5, count))
+  , Radius(newArray<vtkFloatArray>(choice.Splats, "Radius", 1, count))
+  , SplatAxis(newArray<vtkFloatArray>(choice.Splats, "SplatAxis", 3, count))
+  , SplatPolygon(newArray<vtkFloatArray>(choice.Splats, "SplatPolygon", polygonNumbers, count))
   , Gradients(newArray<vtkFloatArray>(choice.Gradients, "Gradients", 3, count))
   , ProjectionOrder(
       newArray<vtkUnsignedCharArray>(choice.ProjectionOrder, "ProjectionOrder", 1, count))
@@ -84,17 +85,23 @@ void vtkIsopointComputedArrays::Append(const isopoint::ExtractedIsosurface& extr
 void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
 {
   const double radius = asFloatRadius(splat.radius);
-  std::array<double, 5> clip{};
-  if (splat.clip)
-  {
-    const isopoint::Vector& inward = splat.clip->inward;
-    clip = { inward[0], inward[1], inward[2], splat.clip->distance, splat.clip->turn };
-  }
   set(this->Normals, this->Next, splat.normal.data());
   set(this->Radius, this->Next, &radius);
-  set(this->SplatAxis1, this->Next, splat.axis1.data());
-  set(this->SplatAxis2, this->Next, splat.axis2.data());
-  set(this->SplatClip, this->Next, clip.data());
+  set(this->SplatAxis, this->Next, splat.axis.data());
+  if (this->SplatPolygon)
+  {
+    std::array<float, polygonNumbers> polygon{};
+    auto* next = polygon.data();
+    for (const isopoint::SplatCorner& corner : splat.corners)
+    {
+      for (const float number :
+        { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
+      {
+        *next++ = number;
+      }
+    }
+    this->SplatPolygon->SetTypedTuple(this->Next, polygon.data());
+  }
 }
 
 void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCounted)
@@ -109,9 +116,9 @@ void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCou
 std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const
 {
   std::vector<std::string> replaced;
-  for (vtkDataArray* const array :
-    { this->Normals.Get(), this->Radius.Get(), this->SplatAxis1.Get(), this->SplatAxis2.Get(),
-      this->SplatClip.Get(), this->Gradients.Get(), this->ProjectionOrder.Get() })
+  for (vtkDataArray* const array : { this->Normals.Get(), this->Radius.Get(), this->SplatAxis.Get(),
+         static_cast<vtkDataArray*>(this->SplatPolygon.Get()), this->Gradients.Get(),
+         this->ProjectionOrder.Get() })
   {
     if (!array)
     {

@@ -11,6 +11,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkFloatArray;
 class vtkPointData;
 
 /**
@@ -23,16 +24,13 @@ public:
   struct Choice
   {
     bool Normals = false;
-    bool Radius = false;
-    bool SplatAxes = false;
-    bool SplatClip = false;
+    bool Splats = false;
     bool Gradients = false;
     bool ProjectionOrder = false;
     bool IsProjected = false; // whether fits move the isopoints
 
-    /// Whether any array describes splats, and whether any describes more than their normals.
-    bool NeedsSplats() const { return this->Normals || this->NeedsShapes(); }
-    bool NeedsShapes() const { return this->Radius || this->SplatAxes || this->SplatClip; }
+    /// Whether any array describes splats or their normals.
+    bool NeedsSplats() const { return this->Normals || this->Splats; }
   };
 
   /**
@@ -70,9 +68,8 @@ private:
   vtkIdType WithoutFit = 0;
   vtkSmartPointer<vtkDataArray> Normals;
   vtkSmartPointer<vtkDataArray> Radius;
-  vtkSmartPointer<vtkDataArray> SplatAxis1;
-  vtkSmartPointer<vtkDataArray> SplatAxis2;
-  vtkSmartPointer<vtkDataArray> SplatClip;
+  vtkSmartPointer<vtkDataArray> SplatAxis;
+  vtkSmartPointer<vtkFloatArray> SplatPolygon;
   vtkSmartPointer<vtkDataArray> Gradients;
   vtkSmartPointer<vtkDataArray> ProjectionOrder;
 };

@@ -36,15 +36,6 @@ bool hasNormalsFromField(vtkScatteredIsopointFilter* filter)
   return filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
 }
 
-bool hasSplatClips(vtkScatteredIsopointFilter* filter)
-{
-  if (filter->GetComputeSplatClips() == vtkScatteredIsopointFilter::AUTOMATIC_SPLAT_CLIPS)
-  {
-    return filter->GetProjection() == vtkScatteredIsopointFilter::CREASE_FIT;
-  }
-  return filter->GetComputeSplatClips() == vtkScatteredIsopointFilter::SPLAT_CLIPS;
-}
-
 /// The fit that the projection or an output requires, if any: thinning and normals from the field
 /// require polynomials, other splats and fit orders at least the sample spacing.
 std::optional<isopoint::FitRequest> fitRequestOf(
@@ -120,12 +111,11 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
   {
     add(number);
   }
-  for (const int number :
-    { filter->GetDropGaps(), filter->GetProjection(), filter->GetNormalMethod(),
-      filter->GetNumberOfNeighbors(), filter->GetComputeNormals(), filter->GetComputeRadii(),
-      filter->GetComputeScalars(), filter->GetComputeSplatAxes(), filter->GetComputeSplatClips(),
-      filter->GetComputeGradients(), filter->GetComputeProjectionOrders(),
-      filter->GetOutputPointsPrecision(), filter->GetContourBlocks() })
+  for (const int number : { filter->GetDropGaps(), filter->GetProjection(),
+         filter->GetNormalMethod(), filter->GetNumberOfNeighbors(), filter->GetComputeNormals(),
+         filter->GetComputeSplats(), filter->GetComputeScalars(), filter->GetComputeGradients(),
+         filter->GetComputeProjectionOrders(), filter->GetOutputPointsPrecision(),
+         filter->GetContourBlocks() })
   {
     add(number);
   }
@@ -155,9 +145,7 @@ vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFi
   const bool hasSplats = !filter->ExtractsTriangles();
   vtkIsopointComputedArrays::Choice choice;
   choice.Normals = filter->GetComputeNormals() != 0;
-  choice.Radius = hasSplats && filter->GetComputeRadii() != 0;
-  choice.SplatAxes = hasSplats && filter->GetComputeSplatAxes() != 0;
-  choice.SplatClip = hasSplats && hasSplatClips(filter);
+  choice.Splats = hasSplats && filter->GetComputeSplats() != 0;
   choice.Gradients = filter->GetComputeGradients() != 0;
   choice.ProjectionOrder = filter->GetComputeProjectionOrders() != 0;
   choice.IsProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
@@ -176,7 +164,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   if (arrays.NeedsSplats())
   {
     request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),
-      hasNormalsFromField(filter), arrays.NeedsShapes() };
+      hasNormalsFromField(filter), arrays.Splats };
   }
   return request;
 }

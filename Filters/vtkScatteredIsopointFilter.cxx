@@ -494,14 +494,12 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DropGaps: " << (this->DropGaps ? "On" : "Off") << "\n";
   os << indent << "MinimumSpacing: " << this->MinimumSpacing << "\n";
   os << indent << "ComputeNormals: " << onOff(this->ComputeNormals) << "\n";
-  os << indent << "ComputeRadii: " << onOff(this->ComputeRadii) << "\n";
+  os << indent << "ComputeSplats: " << onOff(this->ComputeSplats) << "\n";
   os << indent << "ComputeScalars: " << onOff(this->ComputeScalars) << "\n";
   os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
   os << indent << "Projection: " << this->Projection << "\n";
   os << indent << "NormalMethod: " << this->NormalMethod << "\n";
   os << indent << "ComputeGradients: " << onOff(this->ComputeGradients) << "\n";
-  os << indent << "ComputeSplatAxes: " << onOff(this->ComputeSplatAxes) << "\n";
-  os << indent << "ComputeSplatClips: " << this->ComputeSplatClips << "\n";
   os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
   os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

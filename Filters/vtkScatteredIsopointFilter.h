@@ -251,43 +251,6 @@ public:
 
   ///@{
   /**
-   * Whether to compute the arrays "SplatAxis1" and "SplatAxis2" (three floats each, in units of the
-   * coordinates): the half-axes of an elliptical splat, long where the surface is flat and short
-   * where it is curved. SplatAxis1 is the longer one, of length Radius; SplatAxis1 x SplatAxis2
-   * points along the normal. Default: off.
-   */
-  vtkSetMacro(ComputeSplatAxes, vtkTypeBool);
-  vtkGetMacro(ComputeSplatAxes, vtkTypeBool);
-  vtkBooleanMacro(ComputeSplatAxes, vtkTypeBool);
-  ///@}
-
-  enum SplatClipChoices
-  {
-    AUTOMATIC_SPLAT_CLIPS = -1,
-    NO_SPLAT_CLIPS = 0,
-    SPLAT_CLIPS = 1
-  };
-
-  ///@{
-  /**
-   * Whether to compute the array "SplatClip" (five floats a, b, c, d, e): the plane at which a
-   * splat beside a crease ends. Of the splat at the isopoint q, only positions p with
-   *
-   *     (a, b, c) . (p - q) + d >= 0
-   *
-   * belong to the surface. (a, b, c) is a unit vector; d >= 0 is the distance of q from the plane,
-   * in units of the coordinates. At the plane the surface turns towards the normal (e = 1), as in a
-   * groove, or away from it (e = -1), as at an edge. All five are 0 for a splat that is not
-   * clipped. Values outside the enumeration are clamped. Default: AUTOMATIC_SPLAT_CLIPS, which
-   * computes it with CREASE_FIT.
-   */
-  vtkSetClampMacro(ComputeSplatClips, int, AUTOMATIC_SPLAT_CLIPS, SPLAT_CLIPS);
-  vtkGetMacro(ComputeSplatClips, int);
-  vtkBooleanMacro(ComputeSplatClips, int);
-  ///@}
-
-  ///@{
-  /**
    * Whether to drop isopoints in gaps of the cloud, as beyond a free surface or between groups of
    * boreholes. The spacing of samples behind the end x of an edge {x, y} is the distance from x to
    * the third nearest sample position within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
@@ -343,14 +306,23 @@ public:
 
   ///@{
   /**
-   * Whether to compute the array "Radius" (one float, positive, in units of the coordinates): half
-   * the longer axis of a splat that covers the part of the surface nearer to this isopoint than to
-   * others. Where no other isopoints bound that part, as at a border or around an isolated
-   * isopoint, the radius is about the sample spacing. Default: on.
+   * Whether to compute splats, which cover the surface: the splat of an isopoint is the fan of
+   * triangles between it and each two consecutive corners of the part of the surface that is nearer
+   * to it than to others. Splats bend as the surface does, end where it ends or has a crease, and
+   * share most corners with their neighbors. Default: on.
+   *
+   * - "Radius" (one float, positive, in units of the coordinates) is the distance of the farthest
+   *   corner, the size of a disk for mappers that draw such.
+   * - "SplatAxis" (three floats, in units of the coordinates) is a tangential vector t1 as long as
+   *   the radius; t2 is normal x t1.
+   * - "SplatPolygon" (40 floats, five for each of eight corners, counterclockwise seen from the tip
+   *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
+   *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
+   *   repeat the last one. All are 0 at an isopoint at whose position there is an earlier one.
    */
-  vtkSetMacro(ComputeRadii, vtkTypeBool);
-  vtkGetMacro(ComputeRadii, vtkTypeBool);
-  vtkBooleanMacro(ComputeRadii, vtkTypeBool);
+  vtkSetMacro(ComputeSplats, vtkTypeBool);
+  vtkGetMacro(ComputeSplats, vtkTypeBool);
+  vtkBooleanMacro(ComputeSplats, vtkTypeBool);
   ///@}
 
   ///@{
@@ -482,10 +454,8 @@ protected:
   vtkTypeBool DropGaps = 0;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;
-  vtkTypeBool ComputeSplatAxes = 0;
-  int ComputeSplatClips = AUTOMATIC_SPLAT_CLIPS;
   vtkTypeBool ComputeNormals = 1;
-  vtkTypeBool ComputeRadii = 1;
+  vtkTypeBool ComputeSplats = 1;
   vtkTypeBool ComputeScalars = 1;
   int NumberOfNeighbors;
   int OutputPointsPrecision = DEFAULT_PRECISION;

@@ -34,7 +34,7 @@
  * the outside of the samples' convex hull or with edges longer than four times that. A closed
  * surface amid samples stays closed. docs/triangles.md has the rule.
  *
- * Angle, MinimumSpacing, NumberOfNeighbors, ComputeRadii, ComputeSplatAxes and ComputeSplatClips
+ * Angle, MinimumSpacing, NumberOfNeighbors and ComputeSplats
  * have no effect.
  *
  * Samples that are all coplanar have no tetrahedra: the output is then empty.

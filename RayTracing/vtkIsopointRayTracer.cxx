@@ -159,8 +159,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   const std::vector<vtkActor*>& actors, const int* size, int samples)
 {
   self->AbortExecute = 0;
-  const bool isNewScene = this->Scene.Update(
-    actors, self->AbsorptionDistance, renderer->GetActiveCamera()->GetPosition());
+  const bool isNewScene = this->Scene.Update(actors, self->AbsorptionDistance);
   const double aspect = static_cast<double>(size[0]) / size[1];
   this->View = std::make_unique<vtkIsopointTracedView>(
     renderer, aspect, self->LightAngle, this->Scene.GetFrame());

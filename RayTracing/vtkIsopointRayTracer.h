@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkIsopointRayTracer
- * @brief   traces rays to splats and triangles
+ * @brief   traces rays to surfaces
  *
  * A render pass (vtkRenderer::SetPass) that traces what the renderer's actors show, and a picture
- * without a window (RenderToImage). Actors with a vtkIsopointSplatMapper are traced as surfaces of
- * overlapping splats, which are blended with the weights that the mapper blends them with: disks
- * and ellipses with their clips, radii, scalar colors, blocks and transforms are those of the
- * mapper. Actors with polygons or triangle strips that are shown as surfaces are traced as
- * triangles. What else the renderer shows (lines, points, text, volumes, annotations) is drawn by
- * VTK over the picture, hidden where traced surfaces are in front of it; RenderToImage() leaves it
- * out. All actors are drawn by VTK for a hardware selection.
+ * without a window (RenderToImage). Actors with polygons or triangle strips that are shown as
+ * surfaces are traced, those with a vtkIsopointSplatMapper among them, with interpolated normals,
+ * scalar colors, blocks and transforms as the mapper draws them. What else the renderer shows
+ * (lines, points, text, volumes, annotations) is drawn by VTK over the picture, hidden where traced
+ * surfaces are in front of it; RenderToImage() leaves it out. All actors are drawn by VTK for a
+ * hardware selection.
  *
  * Lights are the renderer's, with shadows. The background is the renderer's color, gradient
  * or texture; what is reflected and refracted sees it as a panorama around the camera, or the
@@ -30,8 +29,7 @@
  * picture is the same to the last bit for any number of threads.
  *
  * @warning Textures of actors, interpolation of scalars before mapping, mappers' clipping planes,
- * face culling, back face properties, ghost points marked as DUPLICATEPOINT, assemblies and Stride
- * are not considered.
+ * face culling, back face properties, and assemblies are not considered.
  * @warning Positions are resolved to 1e-7 of the diagonal of all that is traced: leave out a floor
  * that is many thousand times as large as the splats' surface.
  *

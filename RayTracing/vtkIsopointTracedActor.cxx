@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointTracedActor.h"
 
-#include "vtkIsopointSplatBlocks.h"
+#include "vtkIsopointTracedBlocks.h"
 
 #include "vtkActor.h"
 #include "vtkMapper.h"
@@ -15,7 +15,7 @@
 
 //------------------------------------------------------------------------------
 raytracing::Material vtkIsopointTracedMaterial(
-  vtkActor* actor, const vtkIsopointTracedSettings& settings, const vtkIsopointTracedFrame& frame)
+  vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {
   vtkProperty* const property = actor->GetProperty();
   raytracing::Material material;
@@ -30,21 +30,17 @@ raytracing::Material vtkIsopointTracedMaterial(
   material.metallic = static_cast<float>(property->GetMetallic());
   material.roughness = static_cast<float>(property->GetRoughness());
   material.refractiveIndex = static_cast<float>(property->GetBaseIOR());
-  double distance = settings.AbsorptionDistance;
-  if (!(distance > 0.0))
-  {
-    distance = actor->GetLength();
-  }
+  const double distance = absorptionDistance > 0.0 ? absorptionDistance : actor->GetLength();
   constexpr double least = 1e-6;
   material.absorptionDistance = static_cast<float>(std::max(distance / frame.Length, least));
   return material;
 }
 
 //------------------------------------------------------------------------------
-raytracing::Color vtkIsopointTracedColor(vtkActor* actor, const vtkIsopointSplatLeaf& leaf)
+raytracing::Color vtkIsopointTracedColor(vtkActor* actor, const vtkIsopointTracedBlock& block)
 {
   return vtkIsopointTracedVector(
-    leaf.HasColor ? leaf.Color.data() : actor->GetProperty()->GetDiffuseColor());
+    block.HasColor ? block.Color.data() : actor->GetProperty()->GetDiffuseColor());
 }
 
 //------------------------------------------------------------------------------

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointTracedScene.h"
 
-#include "vtkIsopointSplatBlocks.h"
-#include "vtkIsopointSplatMapper.h"
-#include "vtkIsopointTracedCompatibility.h"
+#include "vtkIsopointCompositeMapper.h"
+#include "vtkIsopointTracedBlocks.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkMapper.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -20,14 +18,6 @@
 
 namespace
 {
-
-std::vector<vtkIsopointSplatLeaf> leavesOf(vtkMapper* mapper)
-{
-  const auto splats = vtkIsopointSplatMapper::SafeDownCast(mapper);
-  return vtkIsopointSplatLeaves(
-    mapper->GetInputDataObject(0, 0), splats ? splats->GetCompositeDataDisplayAttributes()
-                                             : vtkIsopointTracedBlockAttributes(mapper));
-}
 
 /// Differs after each change of an actor that changes its traced surfaces.
 void describe(vtkActor* actor, std::ostream& state)
@@ -43,11 +33,11 @@ void describe(vtkActor* actor, std::ostream& state)
       state << ' ' << actor->GetMatrix()->GetElement(row, column);
     }
   }
-  for (const vtkIsopointSplatLeaf& leaf : leavesOf(mapper))
+  for (const vtkIsopointTracedBlock& block : vtkIsopointTracedBlocks(mapper))
   {
     state << '\n'
-          << leaf.Data << ' ' << leaf.Data->GetMTime() << ' ' << leaf.Visible << leaf.HasColor
-          << leaf.Color[0] << ' ' << leaf.Color[1] << ' ' << leaf.Color[2];
+          << block.Data << ' ' << block.Data->GetMTime() << ' ' << block.Visible << block.HasColor
+          << block.Color[0] << ' ' << block.Color[1] << ' ' << block.Color[2];
   }
   state << '\n';
 }
@@ -87,8 +77,8 @@ bool vtkIsopointIsTraced(vtkProp* prop)
     return false;
   }
   vtkMapper* const mapper = actor->GetMapper();
-  const bool isPolyData = vtkPolyDataMapper::SafeDownCast(mapper) ||
-                          vtkIsopointTracedCompositeMapper::SafeDownCast(mapper);
+  const bool isPolyData =
+    vtkPolyDataMapper::SafeDownCast(mapper) || vtkIsopointCompositeMapper::SafeDownCast(mapper);
   if (!isPolyData)
   {
     return false;
@@ -97,38 +87,24 @@ bool vtkIsopointIsTraced(vtkProp* prop)
   {
     mapper->GetInputAlgorithm()->Update();
   }
-  if (vtkIsopointSplatMapper::SafeDownCast(mapper))
-  {
-    return true;
-  }
   if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
   {
     return false;
   }
-  const std::vector<vtkIsopointSplatLeaf> leaves = leavesOf(mapper);
-  return std::any_of(leaves.begin(), leaves.end(),
-    [](const vtkIsopointSplatLeaf& leaf)
-    { return leaf.Data->GetNumberOfPolys() + leaf.Data->GetNumberOfStrips() > 0; });
+  const std::vector<vtkIsopointTracedBlock> blocks = vtkIsopointTracedBlocks(mapper);
+  return std::any_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointTracedBlock& block)
+    { return block.Data->GetNumberOfPolys() + block.Data->GetNumberOfStrips() > 0; });
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsopointTracedScene::Update(
-  const std::vector<vtkActor*>& actors, double absorptionDistance, const double* cameraPosition)
+bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double absorptionDistance)
 {
   std::ostringstream state;
   state << std::hexfloat << absorptionDistance << '\n';
-  bool facesCamera = false;
   for (vtkActor* const actor : actors)
   {
     describe(actor, state);
-    for (const vtkIsopointSplatLeaf& leaf : leavesOf(actor->GetMapper()))
-    {
-      facesCamera = facesCamera || !leaf.Data->GetPointData()->GetNormals();
-    }
-  }
-  if (facesCamera)
-  {
-    state << cameraPosition[0] << ' ' << cameraPosition[1] << ' ' << cameraPosition[2];
   }
   if (this->Scene && state.str() == this->State)
   {
@@ -136,27 +112,15 @@ bool vtkIsopointTracedScene::Update(
   }
   this->Clear();
   this->Frame = frameOf(actors);
-  vtkIsopointTracedSettings settings;
-  settings.AbsorptionDistance = absorptionDistance;
-  settings.CameraPosition = this->Frame.ToScene(cameraPosition);
-  std::vector<std::shared_ptr<const raytracing::Splats>> splats;
-  std::vector<std::shared_ptr<const raytracing::Triangles>> triangles;
+  std::vector<std::shared_ptr<const raytracing::Surface>> surfaces;
   for (vtkActor* const actor : actors)
   {
-    if (const auto mapper = vtkIsopointSplatMapper::SafeDownCast(actor->GetMapper()))
+    for (auto& surface : vtkIsopointTracedSurfaces(actor, absorptionDistance, this->Frame))
     {
-      if (auto surface = vtkIsopointTracedSplats(actor, mapper, settings, this->Frame))
-      {
-        splats.push_back(std::move(surface));
-      }
-      continue;
-    }
-    for (auto& surface : vtkIsopointTracedTriangles(actor, settings, this->Frame))
-    {
-      triangles.push_back(std::move(surface));
+      surfaces.push_back(std::move(surface));
     }
   }
-  this->Scene = std::make_unique<raytracing::Scene>(std::move(splats), std::move(triangles));
+  this->Scene = std::make_unique<raytracing::Scene>(std::move(surfaces));
   this->State = state.str();
   return true;
 }

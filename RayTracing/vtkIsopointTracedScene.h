@@ -11,8 +11,8 @@
 
 class vtkProp;
 
-/// Whether a prop is visible and can be traced: an actor with splats, or with triangles that are
-/// drawn as a surface.
+/// Whether a prop is visible and can be traced: an actor with triangles that are drawn as a
+/// surface.
 bool vtkIsopointIsTraced(vtkProp* prop);
 
 /// The traced surfaces of a renderer's actors, kept as long as these stay the same.
@@ -22,8 +22,7 @@ public:
   /// Brings the surfaces up to date.
   /// @returns whether they changed
   /// @throws std::bad_alloc, std::runtime_error
-  bool Update(
-    const std::vector<vtkActor*>& actors, double absorptionDistance, const double* cameraPosition);
+  bool Update(const std::vector<vtkActor*>& actors, double absorptionDistance);
 
   /// Forgets the surfaces.
   void Clear();

@@ -14,11 +14,14 @@
 #include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Ranks/TriangleRanks.h"
 #include "Isopoint/SampleCloud.h"
+#include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatGeometry.h"
 #include "Isopoint/Tetrahedra/SingleRank.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 #include "Isopoint/Triangles/SurfacePart.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
+
+#include <algorithm>
 
 namespace isopoint
 {
@@ -149,7 +152,8 @@ ExtractedIsosurface extractOnRanks(const Execution& execution, SampleCloud<TSamp
   const bool hasHalo = (ghosts || request.splats) && !cloud.tree.isEmpty();
   if (hasHalo)
   {
-    halo.gather(ghosts ? ghostRings : 2);
+    const bool hasShapes = request.splats && request.splats->shapes;
+    halo.gather(std::max(ghosts ? ghostRings : 2, hasShapes ? fanRings : 2));
   }
   const Isosurface& all = hasHalo ? halo.surface() : surface;
   std::vector<bool> isShaped;

@@ -261,7 +261,6 @@ def _options_of(isopoints: vtkScatteredIsopointFilter) -> dict[str, str]:
 _CONSTANTS = {
     "projection": r"NO_PROJECTION|[A-Z]+_FIT",
     "normal_method": r"[A-Z]+_NORMALS|NORMALS_FROM_[A-Z]+",
-    "compute_splat_clips": r"([A-Z]+_)?SPLAT_CLIPS",
 }
 
 

@@ -4,10 +4,9 @@
 
 #include "Tracer/Embree.h"
 #include "Tracer/Hit.h"
-#include "Tracer/Surfaces.h"
+#include "Tracer/Surface.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace raytracing::embree
 {
@@ -20,11 +19,11 @@ constexpr unsigned int transparent = 2;
 constexpr unsigned int all = opaque | transparent;
 } // namespace masks
 
-inline unsigned int maskOf(const Surface& surface, const std::vector<ColorBytes>& colors)
+inline unsigned int maskOf(const Surface& surface)
 {
-  const bool isOpaque =
-    surface.material.transmission() <= 0.0f &&
-    std::all_of(colors.begin(), colors.end(), [](const ColorBytes& c) { return c[3] == 255; });
+  const bool isOpaque = surface.material.transmission() <= 0.0f &&
+                        std::all_of(surface.colors.begin(), surface.colors.end(),
+                          [](const ColorBytes& c) { return c[3] == 255; });
   return surface.isVisible ? (isOpaque ? masks::opaque : masks::transparent) : 0;
 }
 

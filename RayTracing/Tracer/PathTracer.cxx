@@ -49,7 +49,6 @@ Vector reflectedAt(const Vector& normal, const Vector& direction)
 struct PathTracer::Path
 {
   Ray ray;
-  Departure departure;
   const Sampler* sampler;
   std::uint32_t name = 1; // which of the paths of a sample this is: chooses its random numbers
   int bounces = 0;
@@ -69,7 +68,6 @@ struct PathTracer::Path
     next.ray.origin = this->ray.at(hit.distance);
     next.ray.direction = direction;
     next.ray.nearest = nearestDistance;
-    next.departure = Departure(hit);
     next.name = hashOf(this->name, 1000u + branch);
     next.bounces = this->bounces + 1;
     next.importance = this->importance * itsImportance;
@@ -106,7 +104,7 @@ Radiance PathTracer::follow(const Path& path) const
   {
     return {}; // nothing arrives
   }
-  const Hit hit = this->Surfaces.closest(path.ray, path.departure);
+  const Hit hit = this->Surfaces.closest(path.ray);
   if (!hit.surface)
   {
     return { path.isStraight ? Color{} : this->Light.environment.towards(path.ray.direction),
@@ -164,7 +162,7 @@ Color PathTracer::direct(const Shading& shading, const Reflect& reflect) const
     if (this->Light.hasShadows)
     {
       const Ray ray{ shading.position, arriving.towards, nearestDistance, arriving.distance };
-      passed = this->Surfaces.transmittance(ray, Departure(shading.hit));
+      passed = this->Surfaces.transmittance(ray);
     }
     sum += arriving.strength * passed * reflect(light, arriving.towards, cosine);
   }
@@ -194,7 +192,7 @@ Color PathTracer::ambient(const Shading& shading) const
                              .toWorld({ radius * std::cos(angle), radius * std::sin(angle),
                                std::sqrt(1.0f - place.first) });
   const Ray ray{ shading.position, direction, nearestDistance, light.distance };
-  return this->Surfaces.transmittance(ray, Departure(shading.hit)) * color * shading.hit.color;
+  return this->Surfaces.transmittance(ray) * color * shading.hit.color;
 }
 
 //------------------------------------------------------------------------------

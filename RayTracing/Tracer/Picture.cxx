@@ -180,7 +180,7 @@ void Picture::findDistances(const Camera& camera, const Scene& scene, std::size_
       float skipped = 0.0f;
       const Ray ray = camera.through(
         (x + half) / this->Width, (static_cast<double>(y) + half) / this->Height, skipped);
-      const Hit hit = scene.closest(ray, Departure());
+      const Hit hit = scene.closest(ray);
       this->Distances[y * this->Width + x] = skipped + hit.distance;
     }
   };

@@ -3,10 +3,9 @@
 
 #include "Tracer/Absorption.h"
 #include "Tracer/EmbreeRay.h"
-#include "Tracer/SplatScene.h"
-#include "Tracer/TriangleScene.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace raytracing
@@ -14,29 +13,68 @@ namespace raytracing
 
 struct Scene::Parts
 {
-  Parts(std::vector<std::shared_ptr<const Splats>> splats,
-    std::vector<std::shared_ptr<const Triangles>> triangles)
+  explicit Parts(std::vector<std::shared_ptr<const Surface>> given)
     : device(rtcNewDevice(nullptr))
-    , splatScene(device.get(), std::move(splats))
-    , triangleScene(device.get(), std::move(triangles))
+    , scene(rtcNewScene(device.get()))
   {
+    rtcSetSceneFlags(this->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::shared_ptr<const Surface>& surface : given)
+    {
+      if (surface->triangles.empty())
+      {
+        continue;
+      }
+      const embree::Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+      // Embree reads 16 bytes at a time: its own buffers are padded, as ours are not.
+      auto* const vertices = static_cast<Vector*>(rtcSetNewGeometryBuffer(geometry.get(),
+        RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vector), surface->vertices.size()));
+      embree::check(device.get());
+      std::copy(surface->vertices.begin(), surface->vertices.end(), vertices);
+      rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+        surface->triangles.data(), 0, 3 * sizeof(std::uint32_t), surface->triangles.size());
+      rtcSetGeometryMask(geometry.get(), embree::maskOf(*surface));
+      rtcCommitGeometry(geometry.get());
+      rtcAttachGeometryByID(
+        this->scene.get(), geometry.get(), static_cast<unsigned int>(this->surfaces.size()));
+      this->surfaces.push_back(std::move(surface));
+    }
+    rtcCommitScene(this->scene.get());
+    embree::check(device.get());
   }
 
   embree::Device device;
-  SplatScene splatScene;
-  TriangleScene triangleScene;
+  embree::SceneOwner scene;
+  std::vector<std::shared_ptr<const Surface>> surfaces; // by Embree's ids
   bool hasTransparent = false;
 };
 
 namespace
 {
 
-template <class TSurface>
-bool isAnyTransparent(const std::vector<std::shared_ptr<const TSurface>>& surfaces)
+/// Attributes of the three vertices, at a place in the triangle.
+template <class T, class Convert>
+auto interpolated(const std::vector<T>& ofVertices, const std::array<std::uint32_t, 3>& triangle,
+  float u, float v, const Convert& convert)
 {
-  return std::any_of(surfaces.begin(), surfaces.end(),
-    [](const auto& surface)
-    { return embree::maskOf(*surface, surface->colors) == embree::masks::transparent; });
+  return (1.0f - u - v) * convert(ofVertices[triangle[0]]) + u * convert(ofVertices[triangle[1]]) +
+         v * convert(ofVertices[triangle[2]]);
+}
+
+void setColor(Hit& hit, const Surface& surface, const RTCHit& place)
+{
+  const auto& corners = surface.triangles[place.primID];
+  hit.color = surface.color;
+  if (surface.colorsOfTriangles)
+  {
+    const ColorBytes& bytes = surface.colors[place.primID];
+    hit.color = colorOf(bytes);
+    hit.opacity = opacityOf(bytes);
+  }
+  else if (!surface.colors.empty())
+  {
+    hit.color = interpolated(surface.colors, corners, place.u, place.v, colorOf);
+    hit.opacity = interpolated(surface.colors, corners, place.u, place.v, opacityOf);
+  }
 }
 
 /// What a surface lets through to the light behind it.
@@ -58,53 +96,66 @@ Color passing(const Hit& hit, const Ray& ray)
 } // namespace
 
 //------------------------------------------------------------------------------
-Scene::Scene(std::vector<std::shared_ptr<const Splats>> splats,
-  std::vector<std::shared_ptr<const Triangles>> triangles)
+Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 {
-  const bool hasTransparent = isAnyTransparent(splats) || isAnyTransparent(triangles);
-  this->Content = std::make_unique<Parts>(std::move(splats), std::move(triangles));
+  const bool hasTransparent = std::any_of(surfaces.begin(), surfaces.end(),
+    [](const auto& surface) { return embree::maskOf(*surface) == embree::masks::transparent; });
+  this->Content = std::make_unique<Parts>(std::move(surfaces));
   this->Content->hasTransparent = hasTransparent;
 }
 
 Scene::~Scene() = default;
 
 //------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray, const Departure& departure) const
+Hit Scene::closest(const Ray& ray) const
 {
-  return this->closest(ray, departure, embree::masks::all);
+  return this->closest(ray, embree::masks::all);
 }
 
 //------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray, const Departure& departure, unsigned int mask) const
+Hit Scene::closest(const Ray& ray, unsigned int mask) const
 {
-  const Parts& parts = *this->Content;
+  embree::Context context;
+  embree::initialize(context);
+  RTCRayHit embree{};
+  embree.ray = embree::rayOf(ray, mask);
+  embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  embree::intersect(this->Content->scene.get(), context, embree);
   Hit hit;
-  if (!parts.splatScene.isEmpty())
+  if (embree.hit.geomID == RTC_INVALID_GEOMETRY_ID)
   {
-    hit = parts.splatScene.closest(ray, departure, mask);
+    return hit;
   }
-  if (!parts.triangleScene.isEmpty())
+  const Surface& surface = *this->Content->surfaces[embree.hit.geomID];
+  hit.surface = &surface;
+  hit.distance = embree.ray.tfar;
+  const Vector geometric{ embree.hit.Ng_x, embree.hit.Ng_y, embree.hit.Ng_z };
+  hit.normal = directionOf(geometric, -ray.direction);
+  if (!surface.normals.empty())
   {
-    Ray rest = ray;
-    rest.farthest = std::min(rest.farthest, hit.distance);
-    const Hit triangle = parts.triangleScene.closest(rest, mask);
-    hit = triangle.surface ? triangle : hit;
+    const auto same = [](const Vector& normal) { return normal; };
+    hit.normal = directionOf(interpolated(surface.normals, surface.triangles[embree.hit.primID],
+                               embree.hit.u, embree.hit.v, same),
+      hit.normal);
   }
-  if (hit.distance > ray.farthest)
-  {
-    return {};
-  }
+  setColor(hit, surface, embree.hit);
   return hit;
 }
 
 //------------------------------------------------------------------------------
-Color Scene::transmittance(const Ray& ray, const Departure& departure) const
+bool Scene::isOccluded(const Ray& ray) const
 {
-  const Parts& parts = *this->Content;
-  if ((!parts.triangleScene.isEmpty() &&
-        parts.triangleScene.isOccluded(ray, embree::masks::opaque)) ||
-      (!parts.splatScene.isEmpty() &&
-        parts.splatScene.isOccluded(ray, departure, embree::masks::opaque)))
+  embree::Context context;
+  embree::initialize(context);
+  RTCRay embree = embree::rayOf(ray, embree::masks::opaque);
+  embree::occlude(this->Content->scene.get(), context, embree);
+  return embree.tfar < 0.0f;
+}
+
+//------------------------------------------------------------------------------
+Color Scene::transmittance(const Ray& ray) const
+{
+  if (this->isOccluded(ray))
   {
     return {};
   }
@@ -112,10 +163,10 @@ Color Scene::transmittance(const Ray& ray, const Departure& departure) const
   constexpr int mostSurfaces = 32;
   constexpr float least = 1.0f / 512.0f; // half of a step of the picture
   Ray rest = ray;
-  Departure from = departure;
-  for (int i = 0; parts.hasTransparent && i < mostSurfaces && largestOf(passed) > least; ++i)
+  for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
+       ++i)
   {
-    const Hit hit = this->closest(rest, from, embree::masks::transparent);
+    const Hit hit = this->closest(rest, embree::masks::transparent);
     if (!hit.surface)
     {
       break;
@@ -124,7 +175,6 @@ Color Scene::transmittance(const Ray& ray, const Departure& departure) const
     rest.origin = rest.at(hit.distance);
     rest.farthest -= hit.distance;
     rest.nearest = nearestDistance;
-    from = Departure(hit);
   }
   return passed;
 }

@@ -3,7 +3,7 @@
 #define raytracing_Scene_h
 
 #include "Tracer/Hit.h"
-#include "Tracer/Surfaces.h"
+#include "Tracer/Surface.h"
 
 #include <memory>
 #include <vector>
@@ -13,29 +13,30 @@ namespace raytracing
 
 /**
  * All surfaces, in coordinates in which they together are of about unit size around the origin, so
- * that single precision resolves them.
+ * that single precision resolves them. Normals and colors are interpolated in the triangles.
  */
 class Scene
 {
 public:
+  /// Builds Embree's hierarchy; the surfaces are kept. Those without triangles are allowed.
   /// @throws std::bad_alloc, std::runtime_error
-  Scene(std::vector<std::shared_ptr<const Splats>> splats,
-    std::vector<std::shared_ptr<const Triangles>> triangles);
+  explicit Scene(std::vector<std::shared_ptr<const Surface>> surfaces);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
   /// The nearest surface along a ray; from any thread.
-  Hit closest(const Ray& ray, const Departure& departure) const;
+  Hit closest(const Ray& ray) const;
 
   /// The share of light in each color that passes along a ray: not through opaque surfaces,
   /// straight through transparent ones, without what these reflect and absorb.
-  Color transmittance(const Ray& ray, const Departure& departure) const;
+  Color transmittance(const Ray& ray) const;
 
 private:
   struct Parts;
 
-  Hit closest(const Ray& ray, const Departure& departure, unsigned int mask) const;
+  Hit closest(const Ray& ray, unsigned int mask) const;
+  bool isOccluded(const Ray& ray) const;
 
   std::unique_ptr<Parts> Content;
 };

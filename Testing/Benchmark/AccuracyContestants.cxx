@@ -95,14 +95,9 @@ std::vector<Contestant> scatteredContestants()
         filter->SetProjection(Filter::NO_PROJECTION);
         filter->SetNormalMethod(Filter::NORMALS_FROM_PLANES);
       }),
-    ours("isopoints", [](Filter* filter) { filter->ComputeSplatAxesOn(); }),
-    ours("isopoints, with creases",
-      [](Filter* filter)
-      {
-        filter->SetProjection(Filter::CREASE_FIT);
-        filter->ComputeSplatAxesOn();
-        filter->ComputeSplatClipsOn();
-      }),
+    ours("isopoints", [](Filter*) {}),
+    ours(
+      "isopoints, with creases", [](Filter* filter) { filter->SetProjection(Filter::CREASE_FIT); }),
     { "CGAL Delaunay + marching tetrahedra", marchingTetrahedra },
     { "VTK resampling (8 closest) + Flying Edges", resample },
   };

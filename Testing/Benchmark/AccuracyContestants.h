@@ -19,8 +19,7 @@ struct Contestant
 
   /// @param samples a cloud with the scalars "value"; for gridContestant() the nodes of the grid, x
   /// fastest
-  /// @returns points with active normals; if they are splats, with the array "Radius" or, if these
-  /// are elliptical, with "SplatAxis1" and "SplatAxis2" as well
+  /// @returns points with active normals; if they are splats, with the arrays of these
   std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData* samples, double isovalue)> extract;
 };
 

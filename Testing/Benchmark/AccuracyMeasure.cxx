@@ -63,13 +63,17 @@ double angleOf(const Vector& normal, const Foot& foot)
 }
 
 /// The share of the places that no splat covers.
-double uncoveredShare(
-  const std::vector<Splat>& splats, const std::vector<Vector>& places, double meanSpacing)
+double uncoveredShare(const std::vector<Splat>& splats, const Surface& surface,
+  const std::vector<Vector>& places, double meanSpacing)
 {
   const Coverage coverage(splats, 0.5 * meanSpacing);
   std::vector<double> misses(places.size());
-  forEach(
-    places.size(), [&](std::size_t i) { misses[i] = coverage.covers(places[i]) ? 0.0 : 1.0; });
+  forEach(places.size(),
+    [&](std::size_t i)
+    {
+      const Vector normal = surface.footOf(places[i]).normals.front();
+      misses[i] = coverage.covers(places[i], normal) ? 0.0 : 1.0;
+    });
   return meanOf(misses);
 }
 
@@ -100,8 +104,7 @@ double rimDistance(const std::vector<Splat>& splats, const Surface& surface, dou
   {
     if (isWithin(splat.center, halfSide))
     {
-      const std::array<Vector, 4> ofSplat = splat.ends();
-      ends.insert(ends.end(), ofSplat.begin(), ofSplat.end());
+      ends.insert(ends.end(), splat.corners.begin(), splat.corners.end());
     }
   }
   std::vector<double> distances(ends.size());
@@ -119,7 +122,7 @@ Measurement measureAccuracy(vtkPolyData* extracted, const Surface& surface,
   const std::vector<Splat> splats = splatsOf(extracted);
   if (!splats.empty())
   {
-    result.uncovered = uncoveredShare(splats, truePoints, meanSpacing);
+    result.uncovered = uncoveredShare(splats, surface, truePoints, meanSpacing);
     result.rimDistance = rimDistance(splats, surface, halfSide) / meanSpacing;
   }
   const std::vector<vtkIdType> inner = pointsWithin(extracted, halfSide);

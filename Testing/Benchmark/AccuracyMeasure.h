@@ -28,7 +28,7 @@ struct Measurement
 
 /// Measures a surface as Contestant::extract returns it, within a cube around the origin inside
 /// which there are samples on all sides. A splat covers a true point whose projection along its
-/// normal lies within its disk or ellipse, if the distance from its plane is at most half a mean
+/// normal lies within its polygon, if the distance from its plane is at most half a mean
 /// spacing or half its radius, whichever is more.
 /// @param truePoints random points of the true surface within that cube
 /// @param halfSide half the side of the cube

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "AccuracySplats.h"
 
+#include "AnalyticFields.h"
+
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -20,15 +22,53 @@ using analytic::dot;
 using analytic::length;
 using analytic::Vector;
 
-/// Two axes of a length, perpendicular to a normal and to each other.
-std::array<Vector, 2> axesAcross(const Vector& normal, double radius)
+/// Two unit vectors perpendicular to a normal and to each other.
+std::array<Vector, 2> axesAcross(const Vector& normal)
 {
   const auto least = std::min_element(
     normal.begin(), normal.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   Vector helper{ 0.0, 0.0, 0.0 };
   helper[static_cast<std::size_t>(least - normal.begin())] = 1.0;
-  const Vector first = analytic::scaled(analytic::directionOf(cross(normal, helper)), radius);
+  const Vector first = analytic::directionOf(cross(normal, helper));
   return { first, cross(normal, first) };
+}
+
+/// The corners on a circle.
+std::vector<Vector> circleAround(const Vector& center, const Vector& normal, double radius)
+{
+  constexpr int count = 16;
+  const auto [first, second] = axesAcross(normal);
+  std::vector<Vector> corners;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * analytic::pi * i / count;
+    corners.push_back(
+      analytic::sum(analytic::sum(center, analytic::scaled(first, radius * std::cos(angle))),
+        analytic::scaled(second, radius * std::sin(angle))));
+  }
+  return corners;
+}
+
+/// The corners that a tuple of "SplatPolygon" describes.
+std::vector<Vector> cornersOf(const Vector& center, const Vector& normal, const Vector& axis,
+  vtkDataArray* polygons, vtkIdType i)
+{
+  const Vector across = cross(normal, axis);
+  const double radius = length(axis);
+  std::vector<Vector> corners;
+  for (int k = 0; k < polygons->GetNumberOfComponents(); k += 5)
+  {
+    const auto number = [&](int j) { return polygons->GetComponent(i, k + j); };
+    const Vector inPlane =
+      analytic::sum(analytic::scaled(axis, number(0)), analytic::scaled(across, number(1)));
+    const Vector corner =
+      analytic::sum(center, analytic::sum(inPlane, analytic::scaled(normal, radius * number(2))));
+    if (corners.empty() || corner != corners.back())
+    {
+      corners.push_back(corner);
+    }
+  }
+  return corners;
 }
 
 std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
@@ -47,25 +87,12 @@ Vector tupleOf(vtkDataArray* array, vtkIdType i)
 
 double Splat::radius() const
 {
-  return std::max(length(this->axis1), length(this->axis2));
-}
-
-bool Splat::isClippedAt(const Vector& offset) const
-{
-  return dot({ this->clip[0], this->clip[1], this->clip[2] }, offset) + this->clip[3] < 0.0;
-}
-
-std::array<Vector, 4> Splat::ends() const
-{
-  std::array<Vector, 4> result{ this->axis1, analytic::scaled(this->axis1, -1.0), this->axis2,
-    analytic::scaled(this->axis2, -1.0) };
-  for (Vector& end : result)
+  double farthest = 0.0;
+  for (const Vector& corner : this->corners)
   {
-    const double towardsPlane = -dot({ this->clip[0], this->clip[1], this->clip[2] }, end);
-    const double share = this->isClippedAt(end) ? this->clip[3] / towardsPlane : 1.0;
-    end = analytic::sum(this->center, analytic::scaled(end, share));
+    farthest = std::max(farthest, length(difference(corner, this->center)));
   }
-  return result;
+  return farthest;
 }
 
 std::vector<Splat> splatsOf(vtkPolyData* points)
@@ -73,11 +100,10 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
   vtkPointData* const data = points->GetPointData();
   vtkDataArray* const normals = data->GetNormals();
   vtkDataArray* const radii = data->GetArray("Radius");
-  vtkDataArray* const axes1 = data->GetArray("SplatAxis1");
-  vtkDataArray* const axes2 = data->GetArray("SplatAxis2");
-  vtkDataArray* const clips = data->GetArray("SplatClip");
+  vtkDataArray* const axes = data->GetArray("SplatAxis");
+  vtkDataArray* const polygons = data->GetArray("SplatPolygon");
   std::vector<Splat> splats;
-  if (!normals || !(radii || (axes1 && axes2)))
+  if (!normals || !(radii || (axes && polygons)))
   {
     return splats;
   }
@@ -86,15 +112,9 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
     Splat splat;
     points->GetPoint(i, splat.center.data());
     splat.normal = tupleOf(normals, i);
-    const std::array<Vector, 2> axes =
-      axes1 && axes2 ? std::array<Vector, 2>{ tupleOf(axes1, i), tupleOf(axes2, i) }
-                     : axesAcross(splat.normal, radii->GetComponent(i, 0));
-    splat.axis1 = axes[0];
-    splat.axis2 = axes[1];
-    if (clips)
-    {
-      clips->GetTuple(i, splat.clip.data());
-    }
+    splat.corners = axes && polygons
+                      ? cornersOf(splat.center, splat.normal, tupleOf(axes, i), polygons, i)
+                      : circleAround(splat.center, splat.normal, radii->GetComponent(i, 0));
     splats.push_back(splat);
   }
   return splats;
@@ -127,20 +147,31 @@ Coverage::Coverage(const std::vector<Splat>& splats, double leastTolerance)
   }
 }
 
-bool Coverage::isCoveredBy(const Splat& splat, const Vector& place) const
+bool Coverage::isCoveredBy(const Splat& splat, const Vector& place, const Vector& normal) const
 {
-  const Vector way = difference(place, splat.center);
-  const double height = std::abs(dot(way, splat.normal));
-  if (height > std::max(this->LeastTolerance, 0.5 * splat.radius()) || splat.isClippedAt(way))
+  const Vector center = difference(splat.center, place);
+  const double radius = splat.radius();
+  if (std::abs(dot(center, splat.normal)) > std::max(this->LeastTolerance, 0.5 * radius))
   {
     return false;
   }
-  const double a = dot(way, splat.axis1) / dot(splat.axis1, splat.axis1);
-  const double b = dot(way, splat.axis2) / dot(splat.axis2, splat.axis2);
-  return a * a + b * b <= 1.0;
+  const double tolerance = 1e-6 * radius * radius; // corners are rounded
+  for (std::size_t i = 0; i < splat.corners.size(); ++i)
+  {
+    const Vector a = difference(splat.corners[i], place);
+    const Vector b = difference(splat.corners[(i + 1) % splat.corners.size()], place);
+    const std::array<double, 3> sides{ dot(cross(center, a), normal), dot(cross(a, b), normal),
+      dot(cross(b, center), normal) };
+    const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+    if ((*least >= -tolerance || *most <= tolerance) && *most - *least > tolerance)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
-bool Coverage::covers(const Vector& place) const
+bool Coverage::covers(const Vector& place, const Vector& normal) const
 {
   for (const Level& level : this->Levels)
   {
@@ -155,7 +186,8 @@ bool Coverage::covers(const Vector& place) const
         level.cells.find(keyOf(lowest[0] + i % 3, lowest[1] + i / 3 % 3, lowest[2] + i / 9));
       if (found != level.cells.end() &&
           std::any_of(found->second.begin(), found->second.end(),
-            [&](std::size_t splat) { return this->isCoveredBy(this->Splats[splat], place); }))
+            [&](std::size_t splat)
+            { return this->isCoveredBy(this->Splats[splat], place, normal); }))
       {
         return true;
       }

@@ -6,7 +6,6 @@
 
 #include "vtkType.h"
 
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -17,30 +16,22 @@ class vtkPolyData;
 namespace accuracy
 {
 
-/// An ellipse in space, or the part of it on one side of a clip plane.
+/// A fan of triangles in space: between its center and each two consecutive corners.
 struct Splat
 {
   analytic::Vector center;
-  analytic::Vector normal; // of length 1
-  analytic::Vector axis1;  // half-axes, perpendicular to the normal
-  analytic::Vector axis2;
-  /// a, b, c, d, e: of places p, only those with (a, b, c) . (p - center) + d >= 0 belong to it
-  std::array<double, 5> clip{};
+  analytic::Vector normal;               // of length 1
+  std::vector<analytic::Vector> corners; // counterclockwise seen from the tip of the normal
 
-  double radius() const; // of the longer half-axis
-
-  bool isClippedAt(const analytic::Vector& offset) const; // from the center
-
-  /// The ends of both axes, or where these meet the clip plane.
-  std::array<analytic::Vector, 4> ends() const;
+  double radius() const; // the distance of the farthest corner
 };
 
 /// An array's tuple of three components.
 analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
 
-/// The splats of a point cloud with normals and the array "Radius" or the arrays "SplatAxis1" and
-/// "SplatAxis2", clipped by the planes in the array "SplatClip" if there is one. Empty without
-/// normals, or without radii and axes.
+/// The splats of a point cloud with normals and the arrays "SplatAxis" and "SplatPolygon", or
+/// "Radius": then polygons of sixteen corners on a circle. Empty without normals, or without all of
+/// these arrays.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Determines whether splats cover places.
@@ -52,7 +43,8 @@ public:
   Coverage(const std::vector<Splat>& splats, double leastTolerance);
 
   /// Complexity: linear in the number of splats around the place.
-  bool covers(const analytic::Vector& place) const;
+  /// @param normal of the surface there: the place is seen along it
+  bool covers(const analytic::Vector& place, const analytic::Vector& normal) const;
 
 private:
   /// Splats of similar size, by the cell of their center. Cells are at least as wide as the
@@ -63,7 +55,8 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
   };
 
-  bool isCoveredBy(const Splat& splat, const analytic::Vector& place) const;
+  bool isCoveredBy(
+    const Splat& splat, const analytic::Vector& place, const analytic::Vector& normal) const;
 
   const std::vector<Splat>& Splats;
   double LeastTolerance;

@@ -201,7 +201,7 @@ void repeatPaper(const Options& options)
       filter->SetValue(0, 70.0);
       filter->SetProjection(projection);
       filter->ComputeNormalsOff();
-      filter->ComputeRadiiOff();
+      filter->ComputeSplatsOff();
       Row row;
       row = measure(row, [&]() { filter->Update(); });
       measureSphere(row, filter->GetOutput(), 70.0);

@@ -152,7 +152,7 @@ vtkSmartPointer<WatchedFilter> makeFilter(vtkImageData* volume, bool pointsAlone
   {
     filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
     filter->ComputeNormalsOff();
-    filter->ComputeRadiiOff();
+    filter->ComputeSplatsOff();
   }
   return filter;
 }

@@ -67,7 +67,7 @@ vtkNew<TFilter> newFilter(const Task& task, Extras extras)
   vtkNew<TFilter> filter;
   filter->SetInputData(task.samples);
   filter->SetComputeNormals(extras == Extras::All);
-  filter->SetComputeRadii(extras == Extras::All);
+  filter->SetComputeSplats(extras == Extras::All);
   filter->SetComputeGradients(extras == Extras::Projection);
   if (extras == Extras::None)
   {

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times a frame of splats and one of VTK's Point Gaussian mapper with plain disks, for the same points
-and radii, in windows of the same size, in one run.
+"""Times a frame of splats and one of VTK's Point Gaussian mapper with plain disks, for the same
+isopoints, in windows of the same size, in one run. The disks have a radius within which 12 other
+isopoints are expected, which covers the surface.
 
     PYTHONPATH=... Utilities/offscreen.sh /usr/bin/python3 Testing/Benchmark/splats.py [--samples SAMPLES] [COUNT...]
 
-Prints a Markdown table for COUNT splats of a torus that fills most of a window of 600 x 600 pixels:
-milliseconds per frame (the median of nine, with a moving camera) and splats per second. SAMPLES is that
-of vtkRenderWindow::SetMultiSamples; drivers may give fewer.
+Prints a Markdown table for about COUNT isopoints of a torus that fills most of a window of 600 x 600
+pixels: milliseconds per frame (the median of nine, with a moving camera), splats per second, and the
+memory of the triangles. SAMPLES is that of vtkRenderWindow::SetMultiSamples; drivers may give fewer.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import time
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
-from scatteredisopoints import vtkIsopointSplatMapper
+from scatteredisopoints import vtkIsopointSplatMapper, vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -35,33 +36,37 @@ if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0)
 
 
 def torus(count):
-    """Random splats of constant density, with a radius within which 12 others are expected."""
+    """About so many isopoints of random samples near the torus."""
     random = np.random.default_rng(1)
-    u, v = random.uniform(0, 2 * np.pi, (2, 3 * count))
-    kept = random.uniform(0, RING + TUBE, 3 * count) < RING + TUBE * np.cos(v)
-    u, v = u[kept][:count], v[kept][:count]
-    normals = np.column_stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)])
-    positions = RING * np.column_stack([np.cos(u), np.sin(u), 0 * u]) + TUBE * normals
-    radius = np.sqrt(12 * 4 * np.pi * RING * TUBE / count)
-    data = vtkPolyData()
+    area = 4 * np.pi**2 * RING * TUBE
+    spacing = np.sqrt(1.5 * area / count)  # found by trial
+    reach = min(4 * spacing, 0.9 * TUBE)
+    number = int(area * 2 * reach / spacing**3)
+    u, v = random.uniform(0, 2 * np.pi, (2, 2 * number))
+    tube = np.sqrt(random.uniform((TUBE - reach) ** 2, (TUBE + reach) ** 2, 2 * number))
+    kept = random.uniform(0, RING + TUBE + reach, 2 * number) < RING + tube * np.cos(v)
+    u, v, tube = u[kept][:number], v[kept][:number], tube[kept][:number]
+    ring = RING + tube * np.cos(v)
+    positions = np.column_stack([ring * np.cos(u), ring * np.sin(u), tube * np.sin(v)])
+    samples = vtkPolyData()
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions.astype(np.float32), deep=True))
-    data.SetPoints(points)
-    data.GetPointData().SetNormals(numpy_to_vtk(normals.astype(np.float32), deep=True))
-    radii = numpy_to_vtk(np.full(count, radius, np.float32), deep=True)
-    radii.SetName("Radius")
-    data.GetPointData().AddArray(radii)
-    return data
+    points.SetData(numpy_to_vtk(positions, deep=True))
+    samples.SetPoints(points)
+    samples.GetPointData().SetScalars(numpy_to_vtk(TUBE - tube, deep=True))
+    contour = vtkScatteredIsopointFilter()
+    contour.SetInputData(samples)
+    contour.SetValue(0, 0.0)
+    contour.Update()
+    return contour.GetOutput()
 
 
 def splats():
     return vtkIsopointSplatMapper()
 
 
-def point_gaussian():
+def point_gaussian(count):
     mapper = vtkPointGaussianMapper()
-    mapper.SetScaleArray("Radius")
-    mapper.SetScaleFactor(1.0)
+    mapper.SetScaleFactor(np.sqrt(12 * 4 * np.pi * RING * TUBE / count))
     mapper.EmissiveOff()
     mapper.SetSplatShaderCode(DISK)
     mapper.SetTriangleScale(1.0)
@@ -97,15 +102,22 @@ def seconds_per_frame(mapper, data, samples):
 
 def main(counts, samples):
     report = None
-    print("| number | Point Gaussian, ms | splats, ms | ratio | million splats per second |")
-    print("|---|---|---|---|---|")
+    print("| isopoints | Point Gaussian, ms | splats, ms | ratio | million splats per second | triangles, MB |")
+    print("|---|---|---|---|---|---|")
     for count in counts:
         data = torus(count)
-        stock, report = seconds_per_frame(point_gaussian(), data, samples)
-        ours, report = seconds_per_frame(splats(), data, samples)
+        stock, report = seconds_per_frame(
+            point_gaussian(data.GetNumberOfPoints()), data, samples
+        )
+        mapper = splats()
+        ours, report = seconds_per_frame(mapper, data, samples)
+        triangles = mapper.GetInput()
+        # On the card: a position and a normal for each vertex, three indices for each triangle.
+        size = 24 * triangles.GetNumberOfPoints() + 12 * triangles.GetNumberOfPolys()
+        number = data.GetNumberOfPoints()
         print(
-            f"| {count:,} | {1e3 * stock:.0f} | {1e3 * ours:.0f} | {ours / stock:.2f}"
-            f" | {count / ours / 1e6:.1f} |"
+            f"| {number:,} | {1e3 * stock:.0f} | {1e3 * ours:.0f} | {ours / stock:.2f}"
+            f" | {number / ours / 1e6:.1f} | {size / 1e6:.0f} |"
         )
     print(next(line for line in report.splitlines() if "renderer string" in line))
 

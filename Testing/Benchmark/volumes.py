@@ -88,7 +88,7 @@ def extract(samples, isovalue, projection, is_alone=False):
     isopoints.SetValue(0, isovalue)
     isopoints.SetProjection(projection)
     isopoints.SetComputeNormals(not is_alone)
-    isopoints.SetComputeRadii(not is_alone)
+    isopoints.SetComputeSplats(not is_alone)
     begin = time.process_time()
     isopoints.Update()
     return isopoints.GetOutput(), time.process_time() - begin

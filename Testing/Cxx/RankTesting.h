@@ -135,12 +135,8 @@ inline std::string described(const isopoint::ExtractedIsosurface& extracted, std
     const isopoint::Splat& splat = extracted.splats[i];
     put(splat.normal);
     put(splat.radius);
-    put(splat.axis1);
-    put(splat.axis2);
-    if (splat.clip)
-    {
-      putPlane(*splat.clip);
-    }
+    put(splat.axis);
+    put(splat.corners);
   }
   for (const std::uint64_t id : { surface.edges[i].first, surface.edges[i].second })
   {

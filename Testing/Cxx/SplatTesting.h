@@ -47,12 +47,67 @@ struct Points
   std::vector<isopoint::LocalFit> fits;
 };
 
-/// a, b, c, d, e as in the array SplatClip.
-inline std::array<double, 5> clipOf(const Splat& splat)
+/// The corners of a splat, each once: those that repeat the last one are left out.
+inline std::vector<isopoint::SplatCorner> cornersOf(const Splat& splat)
 {
-  return splat.clip ? std::array<double, 5>{ splat.clip->inward[0], splat.clip->inward[1],
-    splat.clip->inward[2], splat.clip->distance, splat.clip->turn }
-                    : std::array<double, 5>{};
+  const auto areSame = [](const isopoint::SplatCorner& a, const isopoint::SplatCorner& b)
+  { return a.along == b.along && a.across == b.across && a.height == b.height; };
+  std::size_t count = splat.corners.size();
+  while (count > 1 && areSame(splat.corners[count - 1], splat.corners[count - 2]))
+  {
+    --count;
+  }
+  return { splat.corners.begin(), splat.corners.begin() + static_cast<std::ptrdiff_t>(count) };
+}
+
+/// The offset of a corner from its splat's point.
+inline Vector offsetOf(const Splat& splat, const isopoint::SplatCorner& corner)
+{
+  const Vector across = cross(splat.normal, splat.axis);
+  const Vector inPlane =
+    isopoint::sum(isopoint::scaled(corner.along, splat.axis), corner.across, across);
+  return isopoint::sum(inPlane, corner.height * splat.radius, splat.normal);
+}
+
+/// The surface's normal at a corner, of length 1.
+inline Vector normalAt(const Splat& splat, const isopoint::SplatCorner& corner)
+{
+  const Vector along = isopoint::scaled(1.0 / splat.radius, splat.axis);
+  const Vector tilted = isopoint::sum(splat.normal, corner.slopeAlong, along);
+  return isopoint::directionOf(
+    isopoint::sum(tilted, corner.slopeAcross, cross(splat.normal, along)));
+}
+
+/// The area of a splat's triangles.
+inline double areaOf(const Splat& splat)
+{
+  const std::vector<isopoint::SplatCorner> corners = cornersOf(splat);
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    area += 0.5 * lengthOf(cross(offsetOf(splat, corners[i]),
+                    offsetOf(splat, corners[(i + 1) % corners.size()])));
+  }
+  return area;
+}
+
+/// Whether a place lies within a splat, seen along its normal.
+inline bool isWithin(const Splat& splat, const Vector& offset, double tolerance = 1e-6)
+{
+  const std::vector<isopoint::SplatCorner> corners = cornersOf(splat);
+  const double x = dot(offset, splat.axis) / (splat.radius * splat.radius);
+  const double y = dot(offset, cross(splat.normal, splat.axis)) / (splat.radius * splat.radius);
+  bool isInside = false; // a triangle of the fan
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const isopoint::SplatCorner& a = corners[i];
+    const isopoint::SplatCorner& b = corners[(i + 1) % corners.size()];
+    isInside =
+      isInside ||
+      (a.along * y - a.across * x >= -tolerance && x * b.across - y * b.along >= -tolerance &&
+        (b.along - a.along) * (y - a.across) - (b.across - a.across) * (x - a.along) >= -tolerance);
+  }
+  return isInside;
 }
 
 /// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.

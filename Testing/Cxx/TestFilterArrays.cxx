@@ -21,7 +21,7 @@ TEST(FilterArrays, OutputsCanBeSwitchedOff)
   filter->SetInputData(newCloud(3000));
   filter->SetValue(0, 0.7);
   filter->ComputeNormalsOff();
-  filter->ComputeRadiiOff();
+  filter->ComputeSplatsOff();
   filter->ComputeScalarsOff();
   filter->Update();
   vtkPointData* const data = filter->GetOutput()->GetPointData();
@@ -196,7 +196,7 @@ TEST(FilterArrays, AComputedArrayThatReplacesAnInputArrayIsWarnedOf)
   filter->SetValue(0, 0.7);
   filter->Update();
   EXPECT_EQ(warnings->Count, 1);
-  filter->ComputeRadiiOff();
+  filter->ComputeSplatsOff();
   filter->Update();
   EXPECT_EQ(warnings->Count, 1);
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Radius")->GetComponent(0, 0), 0.7);

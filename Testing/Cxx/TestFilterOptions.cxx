@@ -145,7 +145,7 @@ TEST(FilterOptions, ThinningNeedsNoOtherOutput)
   filter->SetValue(0, 0.7);
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
   filter->ComputeNormalsOff();
-  filter->ComputeRadiiOff();
+  filter->ComputeSplatsOff();
   filter->Update();
   const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
   filter->SetMinimumSpacing(0.5);

@@ -33,22 +33,10 @@ vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
   return cloud;
 }
 
-/// Whether the clip plane of a splat is the plane of one of the cube's faces, a thousandth of the
-/// spacing of about 1 farther off, to the side of the cube.
-bool isClippedAtAFace(const double* point, const std::array<double, 3>& center, const double* clip)
+/// The number of an isopoint's array at a corner of its splat.
+double cornerNumber(vtkPointData* data, vtkIdType point, int corner, int number)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    constexpr double tolerance = 1e-4;
-    const double side = clip[axis] < 0.0 ? 1.0 : -1.0;
-    const double inside = 12.0 - side * (point[axis] - center[axis]);
-    if (std::abs(clip[axis]) > 1.0 - tolerance && clip[3] > inside - tolerance &&
-        clip[3] < inside + 0.02)
-    {
-      return true;
-    }
-  }
-  return false;
+  return data->GetArray("SplatPolygon")->GetComponent(point, 5 * corner + number);
 }
 
 } // namespace
@@ -58,35 +46,42 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(newCloud(5000));
   filter->SetValue(0, 0.7);
-  filter->Update();
-  for (const char* const name : { "SplatAxis1", "SplatAxis2", "SplatClip", "Gradients" })
-  {
-    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
-  }
-  filter->ComputeSplatAxesOn();
-  filter->ComputeSplatClipsOn();
+  const char* const names[] = { "Radius", "SplatAxis", "SplatPolygon" };
   for (const int method : { vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
          vtkScatteredIsopointFilter::NORMALS_FROM_PLANES })
   {
     filter->SetNormalMethod(method);
     filter->Update();
     vtkPointData* const data = filter->GetOutput()->GetPointData();
-    ASSERT_TRUE(data->HasArray("SplatClip"));
     ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+    EXPECT_FALSE(data->HasArray("Gradients"));
+    EXPECT_EQ(data->GetArray("SplatPolygon")->GetNumberOfComponents(), 40);
     for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
     {
-      double a[3];
-      double b[3];
-      double p[3];
-      data->GetArray("SplatAxis1")->GetTuple(i, a);
-      data->GetArray("SplatAxis2")->GetTuple(i, b);
-      filter->GetOutput()->GetPoint(i, p);
-      ASSERT_NEAR(std::hypot(a[0], a[1], a[2]), data->GetArray("Radius")->GetComponent(i, 0), 1e-6);
-      const double outwards = (a[1] * b[2] - a[2] * b[1]) * p[0] +
-                              (a[2] * b[0] - a[0] * b[2]) * p[1] +
-                              (a[0] * b[1] - a[1] * b[0]) * p[2];
-      ASSERT_LT(outwards, 0.0); // distances decrease inwards
+      double axis[3];
+      double normal[3];
+      data->GetArray("SplatAxis")->GetTuple(i, axis);
+      data->GetNormals()->GetTuple(i, normal);
+      const double radius = data->GetArray("Radius")->GetComponent(i, 0);
+      ASSERT_NEAR(std::hypot(axis[0], axis[1], axis[2]), radius, 1e-6);
+      ASSERT_NEAR(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2], 0.0, 1e-6);
+      double farthest = 0.0;
+      double doubleArea = 0.0; // of the fan, in its plane
+      for (int k = 0; k < 8; ++k)
+      {
+        const auto number = [&](int corner, int j) { return cornerNumber(data, i, corner % 8, j); };
+        farthest = std::max(farthest, std::hypot(number(k, 0), number(k, 1), number(k, 2)));
+        doubleArea += number(k, 0) * number(k + 1, 1) - number(k, 1) * number(k + 1, 0);
+      }
+      ASSERT_NEAR(farthest, 1.0, 1e-6);
+      ASSERT_GT(doubleArea, 0.1);
     }
+  }
+  filter->ComputeSplatsOff();
+  filter->Update();
+  for (const char* const name : names)
+  {
+    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
   }
 }
 
@@ -125,29 +120,10 @@ TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
   expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
 }
 
-TEST(FilterSplats, ClipsComeWithTheFitForCreases)
-{
-  using Filter = vtkScatteredIsopointFilter;
-  vtkNew<Filter> filter;
-  filter->SetInputData(newCubeCloud({ 0.0, 0.0, 0.0 }));
-  filter->SetValue(0, 0.0);
-  const auto hasClips = [&filter]()
-  {
-    filter->Update();
-    return filter->GetOutput()->GetPointData()->HasArray("SplatClip") != 0;
-  };
-  EXPECT_FALSE(hasClips());
-  filter->SetProjection(Filter::CREASE_FIT);
-  EXPECT_TRUE(hasClips());
-  filter->ComputeSplatClipsOff();
-  EXPECT_FALSE(hasClips());
-  filter->SetProjection(Filter::CUBIC_FIT);
-  filter->ComputeSplatClipsOn();
-  EXPECT_TRUE(hasClips());
-}
-
-// Far from the origin, coordinates in single precision have errors of several sample spacings.
-TEST(FilterSplats, ClipPlanesAreRelativeToThePoints)
+// Far from the origin, coordinates in single precision have errors of several sample spacings;
+// those of splats are relative to their points. All corners lie on the cube, or nearly so at its
+// edges.
+TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
 {
   for (const std::array<double, 3> center :
     { std::array<double, 3>{ 0.0, 0.0, 0.0 }, std::array<double, 3>{ 1e8, 2e8, -1e8 } })
@@ -156,30 +132,36 @@ TEST(FilterSplats, ClipPlanesAreRelativeToThePoints)
     filter->SetInputData(newCubeCloud(center));
     filter->SetValue(0, 0.0);
     filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
-    filter->ComputeSplatClipsOn();
     filter->Update();
-    vtkDataArray* const clips = filter->GetOutput()->GetPointData()->GetArray("SplatClip");
-    int clipped = 0;
-    int wrong = 0;
-    for (vtkIdType i = 0; i < clips->GetNumberOfTuples(); ++i)
+    vtkPointData* const data = filter->GetOutput()->GetPointData();
+    int corners = 0;
+    int astray = 0;
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
     {
-      double clip[5];
-      clips->GetTuple(i, clip);
-      ASSERT_GE(clip[3], 0.0);
-      if (clip[0] != 0.0 || clip[1] != 0.0 || clip[2] != 0.0)
+      double axis[3];
+      double normal[3];
+      double point[3];
+      data->GetArray("SplatAxis")->GetTuple(i, axis);
+      data->GetNormals()->GetTuple(i, normal);
+      filter->GetOutput()->GetPoint(i, point);
+      const double across[3]{ normal[1] * axis[2] - normal[2] * axis[1],
+        normal[2] * axis[0] - normal[0] * axis[2], normal[0] * axis[1] - normal[1] * axis[0] };
+      const double radius = data->GetArray("Radius")->GetComponent(i, 0);
+      for (int k = 0; k < 8; ++k)
       {
-        ASSERT_NEAR(std::hypot(clip[0], clip[1], clip[2]), 1.0, 1e-6);
-        ASSERT_EQ(clip[4], -1.0); // a convex edge
-        wrong += isClippedAtAFace(filter->GetOutput()->GetPoint(i), center, clip) ? 0 : 1;
-        clipped += clip[3] > 0.0 ? 1 : 0;
-      }
-      else
-      {
-        ASSERT_EQ(clip[3], 0.0);
-        ASSERT_EQ(clip[4], 0.0);
+        double largest = 0.0;
+        for (int j = 0; j < 3; ++j)
+        {
+          const double offset = cornerNumber(data, i, k, 0) * axis[j] +
+                                cornerNumber(data, i, k, 1) * across[j] +
+                                cornerNumber(data, i, k, 2) * radius * normal[j];
+          largest = std::max(largest, std::abs(point[j] - center[j] + offset));
+        }
+        astray += std::abs(largest - 12.0) > 0.05 ? 1 : 0;
+        ++corners;
       }
     }
-    EXPECT_GT(clipped, 500);
-    EXPECT_LT(wrong, clipped / 20); // fits at corners may be off
+    EXPECT_GT(corners, 10000);
+    EXPECT_LT(astray, corners / 50); // fits at corners may be off
   }
 }

@@ -47,12 +47,11 @@ std::vector<double> numbersOf(const isopoint::Splat& splat)
 {
   std::vector<double> numbers{ splat.radius };
   numbers.insert(numbers.end(), splat.normal.begin(), splat.normal.end());
-  numbers.insert(numbers.end(), splat.axis1.begin(), splat.axis1.end());
-  numbers.insert(numbers.end(), splat.axis2.begin(), splat.axis2.end());
-  if (splat.clip)
+  numbers.insert(numbers.end(), splat.axis.begin(), splat.axis.end());
+  for (const isopoint::SplatCorner& corner : splat.corners)
   {
-    numbers.insert(numbers.end(), splat.clip->inward.begin(), splat.clip->inward.end());
-    numbers.insert(numbers.end(), { splat.clip->distance, splat.clip->turn });
+    numbers.insert(numbers.end(),
+      { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross });
   }
   return numbers;
 }

@@ -217,8 +217,6 @@ TEST(IsosurfaceFilter, ComputesArrays)
   filter->ComputeScalarsOff();
   filter->ComputeGradientsOn();
   filter->ComputeProjectionOrdersOn();
-  filter->ComputeSplatAxesOn();
-  filter->ComputeSplatClipsOn();
   filter->SetMinimumSpacing(0.5);
   filter->SetAngle(10.0);
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);

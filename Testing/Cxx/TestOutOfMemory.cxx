@@ -121,7 +121,7 @@ TEST(OutOfMemory, ThinnedPoints)
       setUp(filter, cloud);
       filter->SetMinimumSpacing(0.5);
       filter->ComputeNormalsOff();
-      filter->ComputeRadiiOff();
+      filter->ComputeSplatsOff();
     });
 }
 

@@ -180,46 +180,6 @@ TEST(Ranks, GhostsAreKnownAsWellAsOnTheRanksThatHaveThem)
   EXPECT_EQ(expectGhostsOfOthers(clouds::uniform(0, 1), 3, requests[2]), 0u);
 }
 
-TEST(Ranks, SplatsThatOverlapThoseOfARankAreItsGhosts)
-{
-  isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, false,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  request.splats = isopoint::SplatOptions();
-  const std::vector<Cloud> pieces = ranks::dealOut(clouds::uniform(6000, 21), 5, ranks::Deal::Even);
-  const std::vector<ranks::RankPoints> all = ranks::extractWithGhosts(pieces, request);
-  std::size_t overlaps = 0;
-  std::size_t missing = 0;
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    std::set<Ends> ghosts;
-    for (const isopoint::IsopointEdge& edge : all[rank].ghosts.surface.edges)
-    {
-      ghosts.insert(endsOf(edge));
-    }
-    const isopoint::ExtractedIsosurface& own = all[rank].own;
-    for (std::size_t other = 0; other < all.size(); ++other)
-    {
-      const isopoint::ExtractedIsosurface& others = all[other].own;
-      for (std::size_t j = 0; other != rank && j < others.surface.size(); ++j)
-      {
-        bool isOverlapping = false;
-        for (std::size_t i = 0; i < own.surface.size(); ++i)
-        {
-          const double distance = isopoint::lengthOf(
-            isopoint::difference(own.surface.positions[i], others.surface.positions[j]));
-          isOverlapping =
-            isOverlapping || distance < own.splats[i].radius + others.splats[j].radius;
-        }
-        overlaps += isOverlapping ? 1 : 0;
-        missing += isOverlapping && ghosts.count(endsOf(others.surface.edges[j])) == 0 ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(overlaps, 500u);
-  EXPECT_EQ(missing, 0u);
-}
-
 TEST(Ranks, NewValuesAtTheSamePositionsKeepTheTree)
 {
   isopoint::ExtractionRequest request;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ray tracer without VTK: random numbers, materials, where rays meet splats, and pictures.
-#include "SplatSphere.h"
+// The ray tracer without VTK: random numbers, materials, where rays meet surfaces, and pictures.
+#include "TracedSphere.h"
 
 #include "Tracer/Absorption.h"
 #include "Tracer/Picture.h"
@@ -14,9 +14,20 @@ using namespace raytracing;
 namespace
 {
 
-Scene sceneOf(const std::shared_ptr<const Splats>& splats)
+Scene sceneOf(const std::shared_ptr<const Surface>& surface)
 {
-  return Scene({ splats }, {});
+  return Scene({ surface });
+}
+
+/// A square around the origin, which faces along z.
+std::shared_ptr<Surface> squareOf(float side, float height)
+{
+  auto square = std::make_shared<Surface>();
+  const float half = 0.5f * side;
+  square->vertices = { { -half, -half, height }, { half, -half, height }, { half, half, height },
+    { -half, half, height } };
+  square->triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  return square;
 }
 
 /// A camera that looks along -z at a square of this width.
@@ -92,107 +103,85 @@ TEST(Material, FacetsAreSeenAsTheirDensitySays)
   }
 }
 
-TEST(SplatScene, MeetsTheSphere)
+TEST(Scene, MeetsTheSphere)
 {
-  const auto splats = splatSphere(20000, 0.5f);
-  const Scene scene = sceneOf(splats);
+  const auto sphere = tracedSphere(100, 0.5f);
+  const Scene scene = sceneOf(sphere);
   for (int i = 0; i < 200; ++i)
   {
     const auto t = static_cast<float>(i);
     const Vector side = directionOf({ std::sin(t), std::cos(1.7f * t), std::sin(2.3f * t + 1.0f) });
-    const Ray ray{ 2.0f * side, -side };
-    const Hit hit = scene.closest(ray, Departure());
-    ASSERT_EQ(hit.surface, splats.get());
+    const Hit hit = scene.closest({ 2.0f * side, -side });
+    ASSERT_EQ(hit.surface, sphere.get());
     EXPECT_NEAR(hit.distance, 1.5f, 3e-4f);
     EXPECT_GT(dot(hit.normal, side), 1.0f - 1e-6f);
   }
-  EXPECT_EQ(
-    scene.closest({ { 2.0f, 0.6f, 0.0f }, { -1.0f, 0.0f, 0.0f } }, Departure()).surface, nullptr);
+  EXPECT_EQ(scene.closest({ { 2.0f, 0.6f, 0.0f }, { -1.0f, 0.0f, 0.0f } }).surface, nullptr);
 }
 
-TEST(SplatScene, RaysLeaveTheirSurfaceAndMeetItAgain)
+TEST(Scene, RaysLeaveTheirSurfaceAndMeetItAgain)
 {
-  const auto splats = splatSphere(20000, 0.5f);
-  const Scene scene = sceneOf(splats);
-  const Hit first = scene.closest({ { 0.0f, 0.0f, 2.0f }, { 0.0f, 0.0f, -1.0f } }, Departure());
-  const Vector place{ 0.0f, 0.0f, 2.0f - first.distance };
-  for (const float slant : { 0.001f, 0.1f, 1.0f, 10.0f })
-  {
-    const Vector out = directionOf({ 1.0f, 0.3f, slant });
-    EXPECT_EQ(scene.closest({ place, out, nearestDistance }, Departure(first)).surface, nullptr)
-      << "outwards, " << slant;
-  }
+  const Scene scene = sceneOf(tracedSphere(100, 0.5f));
+  const Hit first = scene.closest({ { 0.01f, 0.02f, 2.0f }, { 0.0f, 0.0f, -1.0f } });
+  const Vector place{ 0.01f, 0.02f, 2.0f - first.distance };
   for (const float slant : { 0.1f, 1.0f, 10.0f })
   {
+    const Vector out = directionOf({ 1.0f, 0.3f, slant });
+    EXPECT_EQ(scene.closest({ place, out, nearestDistance }).surface, nullptr)
+      << "outwards, " << slant;
     const Vector in = directionOf({ 1.0f, 0.3f, -slant });
-    const Hit second = scene.closest({ place, in, nearestDistance }, Departure(first));
+    const Hit second = scene.closest({ place, in, nearestDistance });
     ASSERT_NE(second.surface, nullptr) << "inwards, " << slant;
-    EXPECT_NEAR(second.distance, -2.0f * 0.5f * in.z, 2e-3f) << "inwards, " << slant;
+    EXPECT_NEAR(second.distance, -2.0f * dot(place, in), 2e-3f) << "inwards, " << slant;
   }
 }
 
-TEST(SplatScene, ShowsItsOutsideBeyondTheHorizon)
+TEST(Scene, ColorsOfVerticesAndOfTriangles)
 {
-  const auto splats = splatSphere(20000, 0.5f);
-  const Scene scene = sceneOf(splats);
-  int met = 0;
-  for (int i = 0; i < 2000; ++i)
+  const auto square = squareOf(1.0f, 0.0f);
+  square->colors = { { 255, 0, 0, 255 }, { 255, 0, 0, 255 }, { 0, 255, 0, 255 },
+    { 0, 255, 0, 255 } };
+  const Ray middle{ { 0.2f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } };
+  const Hit interpolated = sceneOf(square).closest(middle);
+  EXPECT_NEAR(interpolated.color.x, 0.5f, 1e-6f);
+  EXPECT_NEAR(interpolated.color.y, 0.5f, 1e-6f);
+  square->colors = { { 255, 0, 0, 255 }, { 0, 0, 255, 51 } };
+  square->colorsOfTriangles = true;
+  const Hit upper = sceneOf(square).closest({ { -0.2f, 0.2f, 1.0f }, { 0.0f, 0.0f, -1.0f } });
+  EXPECT_EQ(upper.color.z, 1.0f);
+  EXPECT_NEAR(upper.opacity, 0.2f, 1e-6f);
+}
+
+TEST(Scene, LightPassesTransparentSurfaces)
+{
+  const auto near = squareOf(1.0f, 0.5f);
+  near->material.opacity = 0.25f;
+  const auto far = squareOf(1.0f, -0.5f);
+  far->material.opacity = 0.5f;
+  const Ray ray{ { 0.1f, 0.2f, 1.0f }, { 0.0f, 0.0f, -1.0f } };
+  EXPECT_NEAR(Scene({ near, far }).transmittance(ray).x, 0.375f, 1e-6f);
+  far->material.opacity = 1.0f;
+  EXPECT_EQ(Scene({ near, far }).transmittance(ray).x, 0.0f);
+}
+
+TEST(Surface, OrientationOfClosedSurfaces)
+{
+  const auto sphere = tracedSphere(10, 0.3f);
+  for (Vector& vertex : sphere->vertices)
   {
-    const auto turn = static_cast<float>(i);
-    const float height = 0.4997f + 0.0003f * static_cast<float>(i) / 1000.0f;
-    const Ray ray{ { height * std::cos(turn), height * std::sin(turn), 2.0f },
-      { 0.0f, 0.0f, -1.0f } };
-    const Hit hit = scene.closest(ray, Departure());
-    met += hit.surface && height > 0.5f ? 1 : 0;
-    EXPECT_LE(hit.surface ? dot(hit.normal, ray.direction) : 0.0f, 0.0f) << "height " << height;
+    vertex += { 5.0f, 0.0f, 0.0f };
   }
-  EXPECT_GT(met, 100); // where rims of splats stand out
-}
-
-TEST(SplatScene, KeepsTheSidesOfAThinWallApart)
-{
-  const auto splats = std::make_shared<Splats>();
-  splats->discs = { { { 0.0f, 0.0f, 0.005f }, 0.1f }, { { 0.0f, 0.0f, -0.005f }, 0.1f } };
-  splats->planes = { { 0.0f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } };
-  const Hit hit =
-    sceneOf(splats).closest({ { 0.0f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } }, Departure());
-  EXPECT_NEAR(hit.distance, 0.995f, 1e-6f);
-  EXPECT_NEAR(hit.normal.z, 1.0f, 1e-6f);
-}
-
-TEST(SplatScene, BlendsSplatsWithinTheBlendDepth)
-{
-  const auto splats = std::make_shared<Splats>();
-  splats->discs = { { { 0.0f, 0.0f, 0.0f }, 0.1f }, { { 0.0f, 0.0f, -0.05f }, 0.1f },
-    { { 0.0f, 0.0f, -0.15f }, 0.1f } };
-  splats->planes.assign(3, { 0.0f, 0.0f, 1.0f });
-  splats->colors = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } };
-  const Hit hit =
-    sceneOf(splats).closest({ { 0.0f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } }, Departure());
-  EXPECT_NEAR(hit.distance, 1.025f, 1e-6f);
-  EXPECT_NEAR(hit.color.x, 0.5f, 1e-6f);
-  EXPECT_NEAR(hit.color.y, 0.5f, 1e-6f);
-  EXPECT_EQ(hit.color.z, 0.0f);
-}
-
-TEST(Surfaces, OrientationOfClosedSurfaces)
-{
-  auto splats = splatSphere(100, 0.3f);
-  for (Disc& disc : splats->discs)
+  EXPECT_EQ(orientationOf(*sphere), 1.0f);
+  for (Vector& normal : sphere->normals)
   {
-    disc.center += { 5.0f, 0.0f, 0.0f };
+    normal = -normal;
   }
-  EXPECT_EQ(orientationOf(*splats), 1.0f);
-  for (Vector& plane : splats->planes)
-  {
-    plane = -plane;
-  }
-  EXPECT_EQ(orientationOf(*splats), -1.0f);
+  EXPECT_EQ(orientationOf(*sphere), -1.0f);
 }
 
 TEST(Absorption, IsThatOfBeerAndLambert)
 {
-  Splats glass;
+  Surface glass;
   glass.material.isPhysical = true;
   glass.material.opacity = 0.0f;
   glass.material.absorptionDistance = 2.0f;
@@ -214,11 +203,11 @@ TEST(PathTracer, WhiteSurroundingsStayWhite)
   illuminants.mostBounces = 40;
   for (const float metallic : { 0.0f, 1.0f })
   {
-    const auto splats = splatSphere(5000, 0.5f);
-    splats->material.isPhysical = true;
-    splats->material.metallic = metallic;
-    splats->material.opacity = 0.0f;
-    const Scene scene = sceneOf(splats);
+    const auto sphere = tracedSphere(60, 0.5f);
+    sphere->material.isPhysical = true;
+    sphere->material.metallic = metallic;
+    sphere->material.opacity = 0.0f;
+    const Scene scene = sceneOf(sphere);
     Picture picture(16, 16, 64);
     EXPECT_TRUE(picture.addSamples(
       cameraOf(0.6), PathTracer(scene, illuminants), 64, 2, [](double) { return true; }));
@@ -235,10 +224,10 @@ TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
   Illuminants illuminants;
   illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
   illuminants.mostBounces = 0;
-  const auto splats = splatSphere(2000, 0.5f);
-  splats->material.isPhysical = true;
-  splats->material.metallic = 1.0f;
-  const Scene scene = sceneOf(splats);
+  const auto sphere = tracedSphere(40, 0.5f);
+  sphere->material.isPhysical = true;
+  sphere->material.metallic = 1.0f;
+  const Scene scene = sceneOf(sphere);
   const Sampler sampler(0, 0, 1);
   const Ray ray{ { 0.0f, 0.0f, 2.0f }, { 0.0f, 0.0f, -1.0f } };
   EXPECT_EQ(PathTracer(scene, illuminants).along(ray, sampler).color.x, 0.0f);
@@ -249,10 +238,7 @@ TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
 TEST(Picture, NoSampleOutshinesTheOthers)
 {
   // Half of the pixel shows a surface a hundred times as bright as white.
-  const auto splats = std::make_shared<Splats>();
-  splats->discs = { { { 0.0f, 0.0f, 0.0f }, 0.1f } };
-  splats->planes = { { 0.0f, 0.0f, 1.0f } };
-  const Scene scene = sceneOf(splats);
+  const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
   Illuminants illuminants;
   illuminants.lights.emplace_back();
   illuminants.lights[0].diffuse = { 100.0f, 100.0f, 100.0f };
@@ -265,8 +251,8 @@ TEST(Picture, NoSampleOutshinesTheOthers)
 
 TEST(Picture, EndsAndGoesOn)
 {
-  const auto splats = splatSphere(2000, 0.5f);
-  const Scene scene = sceneOf(splats);
+  const auto sphere = tracedSphere(40, 0.5f);
+  const Scene scene = sceneOf(sphere);
   Illuminants illuminants;
   illuminants.lights.emplace_back();
   const PathTracer tracer(scene, illuminants);

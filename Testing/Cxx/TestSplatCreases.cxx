@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Splats beside creases: clip planes, coverage, sides.
+// Splats beside creases: where they end, coverage, sides.
 #include "SplatTesting.h"
 
 using namespace splattesting;
 
 namespace
 {
-
-/// By how much splats reach over creases, at a spacing of 1.
-constexpr double overlap = 0.001;
 
 /// Two planes that meet at the y axis at a right angle, with fits of one order on each.
 Points wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)
@@ -25,23 +22,30 @@ Points wedge(isopoint::FitOrder topOrder, isopoint::FitOrder sideOrder)
   return points;
 }
 
-/// Whether a place lies within a splat, seen along its normal.
+/// Whether a place lies within one of the splats, seen along its normal.
 /// @param step of every how many splats only one is looked at, from the first one on
 bool isCovered(
   const Vector& place, const Points& points, const std::vector<Splat>& splats, std::size_t step)
 {
   for (std::size_t i = 0; i < splats.size(); i += step)
   {
-    const Vector offset = difference(place, points.positions[i]);
-    const auto alongAxis = [&](const Vector& axis) { return dot(offset, axis) / dot(axis, axis); };
-    const std::array<double, 5> clip = clipOf(splats[i]);
-    if (std::hypot(alongAxis(splats[i].axis1), alongAxis(splats[i].axis2)) <= 1.0 &&
-        dot({ clip[0], clip[1], clip[2] }, offset) + clip[3] >= -1e-9)
+    if (isWithin(splats[i], difference(place, points.positions[i])))
     {
       return true;
     }
   }
   return false;
+}
+
+/// How far the corners of a splat reach along an axis.
+double reachAlong(const Splat& splat, std::size_t axis)
+{
+  double farthest = -1e9;
+  for (const isopoint::SplatCorner& corner : cornersOf(splat))
+  {
+    farthest = std::max(farthest, offsetOf(splat, corner)[axis]);
+  }
+  return farthest;
 }
 
 } // namespace
@@ -60,26 +64,19 @@ TEST(SplatCreases, EndAtTheOtherSide)
     addOnWedge(points, i % 2 == 0, along, off, isopoint::FitOrder::Crease, { 0.0, 0.0, 0.0 });
   }
   const std::vector<Splat> splats = splatsOf(points);
-  int clipped = 0;
+  int ending = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t across = i % 2 == 0 ? 0 : 2;
-    const double toCrease = overlap - points.positions[i][across];
-    const bool reaches = toCrease < std::hypot(splats[i].axis1[across], splats[i].axis2[across]);
-    ASSERT_EQ(splats[i].clip.has_value(), reaches) << i;
-    if (reaches)
-    {
-      ++clipped;
-      std::array<double, 5> expected{ 0.0, 0.0, 0.0, toCrease, -1.0 };
-      expected[across] = -1.0;
-      ASSERT_EQ(clipOf(splats[i]), expected) << i;
-    }
+    const double beyond = points.positions[i][across] + reachAlong(splats[i], across);
+    ASSERT_LT(beyond, 1e-6) << i;
+    ending += beyond > -1e-6 ? 1 : 0;
   }
-  EXPECT_GT(clipped, 50);
+  EXPECT_GT(ending, 50);
 }
 
-// At a corner the cell is cut at both creases, and the nearer one clips.
-TEST(SplatCreases, OfOnePointAreTheNearest)
+// At a corner the splat ends at both creases.
+TEST(SplatCreases, OfOnePointAllCount)
 {
   Points points;
   clouds::Random random(4);
@@ -88,32 +85,21 @@ TEST(SplatCreases, OfOnePointAreTheNearest)
     addFitted(points, { -3.0 * random(), -3.0 * random(), 0.0 }, isopoint::FitOrder::Crease,
       { 0.0, 0.0, -1.0 });
     const Vector& position = points.positions.back();
-    std::vector<isopoint::CreasePlane>& creases = points.fits.back().creases;
-    creases = { { { -1.0, 0.0, 0.0 }, -position[0], -1.0 },
+    points.fits.back().creases = { { { -1.0, 0.0, 0.0 }, -position[0], -1.0 },
       { { 0.0, -1.0, 0.0 }, -position[1], -1.0 } };
-    if (creases[1].distance < creases[0].distance)
-    {
-      std::swap(creases[0], creases[1]);
-    }
   }
   const std::vector<Splat> splats = splatsOf(points);
-  int clipped = 0;
+  int ending = 0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    const isopoint::CreasePlane& nearest = points.fits[i].creases[0];
-    const std::size_t axis = nearest.inward[0] < 0.0 ? 0 : 1;
-    const double reach = std::hypot(splats[i].axis1[axis], splats[i].axis2[axis]);
-    ASSERT_EQ(splats[i].clip.has_value(), nearest.distance + overlap < reach);
-    if (splats[i].clip)
+    for (const std::size_t axis : { 0, 1 })
     {
-      EXPECT_EQ(splats[i].clip->inward, nearest.inward);
-      ++clipped;
+      const double beyond = points.positions[i][axis] + reachAlong(splats[i], axis);
+      ASSERT_LT(beyond, 1e-6);
+      ending += beyond > -1e-6 ? 1 : 0;
     }
-    // Neither cell extends over a crease: overlaps and ellipses alone do.
-    const bool isInside = points.positions[i][0] > -2.0 && points.positions[i][1] > -2.0;
-    EXPECT_LT(splats[i].radius, isInside ? 1.0 : 3.0);
   }
-  EXPECT_GT(clipped, 50);
+  EXPECT_GT(ending, 40);
 }
 
 // Also if there are crease fits on one side only.
@@ -152,10 +138,7 @@ TEST(SplatCreases, OfPointsOnACreaseCoverTheirOwnSide)
     for (std::size_t i = 0; i < 40; ++i)
     {
       EXPECT_GT(splats[i].radius, 0.1) << i;
-      const Vector inward = i % 2 == 0 ? Vector{ -1.0, 0.0, 0.0 } : Vector{ 0.0, 0.0, -1.0 };
-      EXPECT_EQ(clipOf(splats[i]),
-        (std::array<double, 5>{ inward[0], inward[1], inward[2], overlap, -sign }))
-        << i;
+      EXPECT_NEAR(reachAlong(splats[i], i % 2 == 0 ? 0 : 2), 0.0, 1e-6) << i;
     }
   }
 }
@@ -180,16 +163,12 @@ TEST(SplatCreases, OfTheNegatedFieldHaveTheSameShape)
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     ASSERT_EQ(turned[i].normal, isopoint::scaled(-1.0, splats[i].normal));
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      ASSERT_NEAR(clipOf(turned[i])[k], clipOf(splats[i])[k], 1e-9) << i;
-    }
-    ASSERT_EQ(clipOf(turned[i])[4], -clipOf(splats[i])[4]) << i;
     ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
+    ASSERT_NEAR(areaOf(turned[i]), areaOf(splats[i]), 1e-6) << i;
   }
 }
 
-// A single wrong crease fit in a plane neither clips the splats around it nor leaves a hole there.
+// A single wrong crease fit in a plane leaves no hole there.
 TEST(SplatCreases, OfASingleWrongFitHarmNoOthers)
 {
   Points points;
@@ -202,8 +181,6 @@ TEST(SplatCreases, OfASingleWrongFitHarmNoOthers)
       isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
   }
   const std::vector<Splat> splats = splatsOf(points);
-  EXPECT_TRUE(std::none_of(
-    splats.begin() + 1, splats.end(), [](const Splat& splat) { return splat.clip.has_value(); }));
   for (int k = 0; k < 4000; ++k)
   {
     const Vector place{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 0.0 };

@@ -299,7 +299,7 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetValue(0, isovalue);
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->SetComputeNormals(bytes.below(4) != 0);
-  filter->SetComputeRadii(bytes.below(4) != 0);
+  filter->SetComputeSplats(bytes.below(4) != 0);
   filter->SetComputeScalars(bytes.below(4) != 0);
   filter->SetKeepTree(bytes.below(4) != 0);
   filter->SetUseAllCores(bytes.below(8) == 0);
@@ -309,8 +309,6 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetNormalMethod(bytes.below(2));
   filter->SetComputeGradients(bytes.below(2) != 0);
   filter->SetComputeProjectionOrders(bytes.below(2) != 0);
-  filter->SetComputeSplatAxes(bytes.below(2) != 0);
-  filter->SetComputeSplatClips(bytes.below(2) != 0);
   errors->Count = 0;
   filter->Update();
   check(dataSets, input, ofCells, errors->Count, filter);

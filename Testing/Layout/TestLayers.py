@@ -36,7 +36,9 @@ FOLDERS = {
     TRACER: [TRACER + "/*.h"],
     "Plugin/Window": ["Plugin/Window/*.h"],
     "Plugin/Exporter": ["Plugin/Exporter/*.h", "RayTracing/vtkIsopointRayTracer.h"],
-    "Plugin/Representation": ["Plugin/Representation/*.h", "Rendering/vtkIsopointSplatMapper.h"],
+    "Plugin/Representation": [
+        "Plugin/Representation/*.h", "Rendering/vtkIsopointPolygonMapper.h",
+        "Rendering/vtkIsopointSplatPolygons.h"],
 }
 
 # The folders that alone may include a library.

@@ -97,26 +97,12 @@ def panel():
         check(drop_gaps.GetElement(0) == (create is simple.ScatteredIsosurface), "gaps of triangles are dropped")
 
 
-def creases_are_clipped():
-    cube = lattice("POINTS", size=lambda places: np.abs(places - 5.6).max(axis=1))
-    isopoints = simple.ScatteredIsopoints(Input=produced(cube), Isosurfaces=[3.7])
-    for projection, choice, has_clips in (
-            ("Cubic fit", "Automatic", False), ("Cubic fit with creases", "Automatic", True),
-            ("Cubic fit with creases", "Off", False), ("Cubic fit", "On", True)):
-        isopoints.Projection = projection
-        isopoints.ComputeSplatClips = choice
-        isopoints.UpdatePipeline()
-        arrays = isopoints.PointData.keys()
-        check(("SplatClip" in arrays) == has_clips, f"{projection}, {choice}: {arrays}")
-
-
 def main(plugin):
     simple.LoadPlugin(plugin)
     first_array_with_a_range()
     active_scalars_come_first_unless_constant()
     input_matters_rather_than_the_active_source()
     panel()
-    creases_are_clipped()
 
 
 main(sys.argv[1])

@@ -62,8 +62,8 @@ def picture(view):
 
 
 def number_of_splats(view):
-    """Disjoint disks of a radius of 16 pixels each."""
-    return np.count_nonzero(picture(view)[..., 2] < 250) / (np.pi * 16**2)
+    """Disjoint octahedra, seen from above as squares whose diagonals are of 32 pixels."""
+    return np.count_nonzero(picture(view)[..., 2] < 250) / (2 * 16**2)
 
 
 def all_seen(count):

@@ -157,9 +157,9 @@ def gather(value):
 
 gather.count = 0
 
-ALL_ARRAYS = dict(ComputeGradients=1, ComputeSplatAxes=1, ComputeSplatClips=1,
+ALL_ARRAYS = dict(ComputeGradients=1,
                   ComputeProjectionOrders=1)
-POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeRadii=0)
+POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeSplats=0)
 
 
 class RanksTestCase(unittest.TestCase):

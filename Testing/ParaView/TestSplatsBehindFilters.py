@@ -34,7 +34,7 @@ def ball():
     distance = simple.Calculator(Input=image, ResultArrayName="r", Function="mag(coords)")
     distance.UpdatePipeline()
     return simple.ScatteredIsopoints(
-        Input=distance, ContourBy=["POINTS", "r"], Isosurfaces=[RADIUS], ComputeSplatAxes=1)
+        Input=distance, ContourBy=["POINTS", "r"], Isosurfaces=[RADIUS])
 
 
 def picture(view, source):

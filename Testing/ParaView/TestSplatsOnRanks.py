@@ -127,7 +127,7 @@ def selects_what_one_rank_does(view, folder, size, isopoints):
     """Points in a rectangle, and those below single pixels, as when hovering. Of several ranks
     ParaView 5.11 selects points of one alone, with any representation."""
     next(cameras(view))
-    rectangles = [[100, 100, 400, 300]] + [
+    rectangles = [[95, 95, 405, 305]] + [
         [x, y, x, y] for x in range(130, 380, 50) for y in range(100, 310, 50)]
     found = [chosen(view, isopoints, rectangle) for rectangle in rectangles]
     path = os.path.join(folder, "chosen.npy")

@@ -74,7 +74,7 @@ class FilterTest(unittest.TestCase):
         self.assertEqual(isopoints.GetNumberOfNeighbors(), 12)
         self.assertEqual(isopoints.GetNumberOfContours(), 1)
         self.assertEqual(isopoints.GetValue(0), 0.0)
-        for name in ("ComputeNormals", "ComputeRadii", "ComputeScalars", "KeepTree"):
+        for name in ("ComputeNormals", "ComputeSplats", "ComputeScalars", "KeepTree"):
             self.assertEqual(getattr(isopoints, "Get" + name)(), 1)
             getattr(isopoints, name + "Off")()
             self.assertEqual(getattr(isopoints, "Get" + name)(), 0)

@@ -165,8 +165,7 @@ def configured(number):
     isopoints.SetOutputPointsPrecision(int(random.integers(3)))
     isopoints.SetContourBlocks(int(random.random() < 0.3))
     isopoints.SetKeepTree(int(random.random() < 0.8))
-    for name in ("Normals", "Radii", "Scalars", "Gradients", "ProjectionOrders", "SplatAxes",
-                 "SplatClips"):
+    for name in ("Normals", "Splats", "Scalars", "Gradients", "ProjectionOrders"):
         getattr(isopoints, "SetCompute" + name)(int(random.random() < 0.7))
     return isopoints, random
 

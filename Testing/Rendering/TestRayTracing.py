@@ -134,7 +134,7 @@ ROUNDING = 2  # levels of 255 between a picture and the window that Mesa draws i
 
 def is_like_the_true_sphere():
     mesh = true_sphere()
-    for material, bar in (("matte", 40.0), ("mirror", 35.0), ("glass", 30.0)):
+    for material, bar in (("matte", 51.0), ("mirror", 48.0), ("glass", 41.0)):
         pictures = [
             traced(renderer_of(actor_of(data, material), actor_of(tiles())))
             for data in (SPLATS, mesh)
@@ -253,10 +253,6 @@ def has_clear_results_of_nothing():
     flattened = actor_of(SPLATS)
     flattened.SetScale(1, 0, 1)
     check(np.array_equal(traced(renderer_of(flattened)), background), "no extent")
-    for normals in ([[np.nan] * 3], [[0.0] * 3]):
-        data = polydata([[0, 0, 0]], normals, Radius=np.ones(1))
-        middle = traced(renderer_of(actor_of(data)))[HEIGHT // 2, WIDTH // 2]
-        check(np.any(middle != background[HEIGHT // 2, WIDTH // 2]), "faces the camera")
     dark = renderer_of(actor_of(SPLATS))
     dark.RemoveAllLights()
     dark.AutomaticLightCreationOff()

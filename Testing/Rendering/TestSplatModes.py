@@ -10,9 +10,8 @@ from scenes import (
     check,
     color_by,
     differs,
-    parts,
-    polydata,
     psnr,
+    subset,
     torus_mesh,
     torus_splats,
 )
@@ -144,11 +143,11 @@ def back_culled(scene, actor):
 def composite(scene, actor):
     mapper = actor.GetMapper()
     if mapper.IsA("vtkIsopointSplatMapper"):
-        points, normals, radii = parts(mapper.GetInputDataObject(0, 0))
+        isopoints = mapper.GetPolygons().GetInputDataObject(0, 0)
+        left = vtk_to_numpy(isopoints.GetPoints().GetData())[:, 0] < 0
         blocks = vtkMultiBlockDataSet()
-        for i, chosen in enumerate((points[:, 0] < 0, points[:, 0] >= 0)):
-            block = polydata(points[chosen], normals[chosen], Radius=radii[chosen])
-            blocks.SetBlock(2 * i, block)
+        for i, chosen in enumerate((left, ~left)):
+            blocks.SetBlock(2 * i, subset(isopoints, chosen))
         mapper.SetInputDataObject(blocks)
 
 
@@ -195,19 +194,11 @@ def shadowed(scene, actor):
     scene.renderer.SetPass(camera)
 
 
-def inside_out(scene, actor):
-    """Normals may point to either side: the surface looks the same."""
-    light_kit(scene, actor)
-    mapper = actor.GetMapper()
-    if mapper.IsA("vtkIsopointSplatMapper"):
-        points, normals, radii = parts(mapper.GetInputDataObject(0, 0))
-        mapper.SetInputDataObject(polydata(points, -normals, Radius=radii))
-
-
 def far_from_the_origin(scene, actor):
     """Floats are 8 apart there, the torus is as large as a third of that."""
     mapper = actor.GetMapper()
-    data = mapper.GetInputDataObject(0, 0)
+    is_splats = mapper.IsA("vtkIsopointSplatMapper")
+    data = (mapper.GetPolygons() if is_splats else mapper).GetInputDataObject(0, 0)
     moved = data.NewInstance()
     moved.DeepCopy(data)
     offset = 1e8
@@ -250,7 +241,6 @@ MODES = {
     very_close: 35,
     from_inside: 35,
     shadowed: 35,
-    inside_out: 35,
     far_from_the_origin: 35,
 }
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Translucent splats show the layers that a translucent mesh shows."""
 
-import numpy as np
 from scenes import Scene, actor_of, check, color_by, psnr, torus_mesh, torus_splats
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersSources import vtkSphereSource
@@ -98,18 +97,10 @@ def main():
         translucent_color_map,
     ):
         ratio = psnr(picture(mesh, False, mode), picture(splats, True, mode))
-        print(f"{mode.__name__:26} {ratio:6.2f} dB, at least 35", flush=True)
-        if not ratio >= 35:
+        print(f"{mode.__name__:26} {ratio:6.2f} dB, at least 40", flush=True)
+        if not ratio >= 40:
             failed.append(mode.__name__)
     check(not failed, ", ".join(failed))
-
-    # One layer is another picture, so the layers were seen above.
-    def nearest_layer_only(scene, actor):
-        with_depth_peeling(scene, actor)
-        actor.GetMapper().SetMaximumNumberOfLayers(1)
-
-    one = picture(splats, True, nearest_layer_only)
-    check(np.abs(one - picture(splats, True, with_depth_peeling)).max() > 20, "the number of layers")
 
 
 if __name__ == "__main__":

@@ -65,8 +65,6 @@ def isopoints(field, low, high, count, seed=1, creases=False):
     contour.SetValue(0, 0.0)
     if creases:
         contour.SetProjection(vtkScatteredIsopointFilter.CREASE_FIT)
-        contour.ComputeSplatAxesOn()
-        contour.ComputeSplatClipsOn()
     contour.Update()
     return contour.GetOutput()
 
@@ -87,6 +85,18 @@ def parts(splats):
         vtk_to_numpy(splats.GetPointData().GetNormals()).astype(float),
         vtk_to_numpy(splats.GetPointData().GetArray("Radius")).astype(float),
     )
+
+
+def subset(data, chosen):
+    """Some of the isopoints with all their arrays."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    arrays = {}
+    for i in range(data.GetPointData().GetNumberOfArrays()):
+        array = data.GetPointData().GetArray(i)
+        if array.GetName() != "Normals":
+            arrays[array.GetName()] = vtk_to_numpy(array)[chosen]
+    normals = vtk_to_numpy(data.GetPointData().GetNormals())
+    return polydata(points[chosen], normals[chosen], **arrays)
 
 
 def grid_mesh(points, normals):

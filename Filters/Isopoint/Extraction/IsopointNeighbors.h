@@ -83,18 +83,24 @@ public:
     }
 
     /// Lists the isopoints around one, itself among them, each once or twice.
-    /// @param rings 1, or 2 with those around the ones found. All samples that determine which
-    /// these are lie in leaves that are connected to the ends of the isopoint's edge by no more
-    /// than 2 rings - 1 touching leaves.
+    /// @param rings 1 or more: each one adds those around the ones found before. All samples that
+    /// determine which these are lie in leaves that are connected to the ends of the isopoint's
+    /// edge by no more than 2 rings - 1 touching leaves.
     void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
     {
       found.clear();
       this->Ends.clear();
       this->Visited.clear();
       this->addAround(isopoint, found);
-      for (std::size_t i = 0, count = found.size(); rings > 1 && i < count; ++i)
+      std::size_t begin = 0;
+      for (int ring = 2; ring <= rings; ++ring)
       {
-        this->addAround(found[i], found);
+        const std::size_t end = found.size();
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->addAround(found[i], found);
+        }
+        begin = end;
       }
     }
 

@@ -10,12 +10,16 @@
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
+#include "Isopoint/Splat/CellCutter.h"
+#include "Isopoint/Splat/MutualSides.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Splat/SplatCell.h"
+#include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatNormals.h"
-#include "Isopoint/Splat/SplatShaper.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -42,7 +46,7 @@ public:
   {
   }
 
-  /// @param halo gathered
+  /// @param halo gathered, of fanRings or more if there are shapes
   /// @param isShaped which of this rank's isopoints are to have shapes; all get normals
   /// @param isShared whether what this rank computes for its isopoints is sent to the ranks in
   /// whose halo they are; otherwise those have normals alone there
@@ -64,7 +68,11 @@ public:
       });
     this->setNormals(halo, points, *neighbors, splats);
     this->shareNormals(halo, splats);
-    this->shape(halo, points, *neighbors, isShaped, splats);
+    if (this->Options.shapes)
+    {
+      const std::vector<SplatCell> cells = this->cut(halo, points, *neighbors, splats);
+      this->shape(halo, cells, isShaped, splats);
+    }
     if (isShared)
     {
       halo.share(splats);
@@ -116,33 +124,94 @@ private:
     }
   }
 
-  void shape(const SurfaceHalo<TSample>& halo, const SurfacePoints& points,
-    const Neighbors& neighbors, const std::vector<bool>& isShaped, std::vector<Splat>& splats)
+  /// A cell as ranks send it to each other.
+  struct SentCell
+  {
+    SplatCell cell;
+    std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
+  };
+
+  /// Cuts out the cells of this rank's isopoints, and receives those of its halo.
+  std::vector<SplatCell> cut(SurfaceHalo<TSample>& halo, const SurfacePoints& points,
+    const Neighbors& neighbors, const std::vector<Splat>& splats)
   {
     using Extents = SampleExtents<TSample>;
     const Extents extents(this->Exchange.tree());
-    std::vector<std::size_t> order;
+    const std::vector<IsopointEdge>& edges = halo.surface().edges;
+    std::vector<SentCell> sent;
+    std::vector<std::size_t> own; // mostly close ones after each other
     this->Exchange.together(
       [&]()
       {
-        std::vector<bool> isWanted(splats.size(), false);
-        for (std::size_t i = 0; i < isShaped.size(); ++i)
-        {
-          isWanted[halo.ownIndices()[i]] = isShaped[i] && this->Options.shapes;
-        }
+        sent.resize(splats.size(), SentCell{});
         for (const std::size_t point : neighbors.inOrder())
         {
-          if (isWanted[point])
+          if (std::binary_search(halo.ownIndices().begin(), halo.ownIndices().end(), point))
           {
-            order.push_back(point);
+            own.push_back(point);
           }
         }
       });
     inRounds(
-      this->Run, this->Exchange, order.size(),
-      [&]() { return SplatShaper<Neighbors, Extents>(neighbors, points, &extents, splats); },
-      [&](SplatShaper<Neighbors, Extents>& shaper, std::size_t i)
-      { shaper.shape(order[i], splats[order[i]]); });
+      this->Run, this->Exchange, own.size(),
+      [&]() { return CellCutter<Neighbors, Extents>(neighbors, points, &extents, splats); },
+      [&](CellCutter<Neighbors, Extents>& cutter, std::size_t i)
+      {
+        SentCell& to = sent[own[i]];
+        to.cell = cutter.cut(own[i]);
+        for (std::size_t k = 0; k < to.cell.count; ++k)
+        {
+          const std::size_t beyond = to.cell.corners[k].beyond;
+          to.beyond[k] = beyond == SplatCell::none ? IsopointEdge{} : edges[beyond];
+        }
+      });
+    halo.share(sent);
+    std::vector<SplatCell> cells;
+    this->Exchange.together(
+      [&]()
+      {
+        for (SentCell& from : sent)
+        {
+          for (std::size_t k = 0; k < from.cell.count; ++k)
+          {
+            std::size_t& beyond = from.cell.corners[k].beyond;
+            const std::size_t found =
+              beyond == SplatCell::none ? splats.size() : halo.find(from.beyond[k]);
+            beyond = found < splats.size() ? found : SplatCell::none;
+          }
+          cells.push_back(from.cell);
+        }
+      });
+    return cells;
+  }
+
+  void shape(const SurfaceHalo<TSample>& halo, const std::vector<SplatCell>& cells,
+    const std::vector<bool>& isShaped, std::vector<Splat>& splats)
+  {
+    std::vector<SplatCell> mutual;
+    const SplatFans fans(halo.surface().positions, splats, mutual);
+    this->Exchange.together(
+      [&]()
+      {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+        {
+          mutual.push_back(withMutualSides(cells, i));
+        }
+        constexpr std::size_t batch = 8192;
+        constexpr std::size_t grain = 512;
+        forBatches(this->Run, isShaped.size(), batch, grain,
+          [&](std::size_t begin, std::size_t end)
+          {
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              const std::size_t point = halo.ownIndices()[i];
+              if (isShaped[i])
+              {
+                fans.shape(point, splats[point]);
+              }
+            }
+          });
+      });
   }
 
   const Execution& Run;

@@ -69,7 +69,7 @@ public:
             for (const SentIsopoint& isopoint : list)
             {
               ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-              if (ring == 0)
+              if (ring == std::min(1, rings - 2)) // those of the rings before among them
               {
                 this->Surrounded.push_back(isopoint.edge);
               }
@@ -118,6 +118,13 @@ public:
         ofAll[this->indexOf(this->Received[rank][i].edge)] = arrived[rank][i];
       }
     }
+  }
+
+  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
+  std::size_t find(const IsopointEdge& edge) const
+  {
+    const std::size_t index = this->indexOf(edge);
+    return index < this->All.size() && this->All.edges[index] == edge ? index : this->All.size();
   }
 
 private:
@@ -362,7 +369,7 @@ private:
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
-  std::vector<IsopointEdge> Surrounded;            // received with the first ring
+  std::vector<IsopointEdge> Surrounded; // received with the first two rings, or the first of two
   Isosurface All;
   std::vector<std::size_t> OwnIndices;
   std::vector<bool> IsInner;

@@ -40,16 +40,24 @@ public:
     double squaredLimit = std::numeric_limits<double>::max())
   {
     this->Finder.find(point, rings, this->Found);
+    this->keepWithin(point, unit, squaredLimit);
+  }
+
+  /// Lists those found around the point within another limit.
+  void keepWithin(std::size_t point, double unit, double squaredLimit)
+  {
     const Vector& position = this->Positions[point];
     const double scale = 1.0 / unit;
     // Which ones are within the limit is unpredictable: all are written, and those are kept.
     this->Nearby.resize(this->Found.size());
     std::size_t count = 0;
+    this->IsFirstHere = true;
     for (const std::size_t other : this->Found)
     {
       const Vector offset = scaled(scale, difference(this->Positions[other], position));
       const double squaredDistance = dot(offset, offset);
       this->Nearby[count] = { squaredDistance, other };
+      this->IsFirstHere &= (squaredDistance != 0.0) | (other >= point);
       count += ((squaredDistance > 0.0) & (squaredDistance <= squaredLimit)) ? 1 : 0;
     }
     this->Nearby.resize(count);
@@ -75,6 +83,9 @@ public:
       found.push_back(this->Nearby[i].point);
     }
   }
+
+  /// Whether no earlier point found is at the same position.
+  bool isFirstHere() const { return this->IsFirstHere; }
 
   auto begin() const { return this->Nearby.begin(); }
   auto end() const { return this->Nearby.end(); }
@@ -104,6 +115,7 @@ private:
   typename TNeighbors::Finder Finder;
   std::vector<std::size_t> Found;
   std::vector<NearbyPoint> Nearby;
+  bool IsFirstHere = true;
 };
 
 } // namespace isopoint

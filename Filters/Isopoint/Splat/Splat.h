@@ -5,20 +5,37 @@
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 
-#include <optional>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
 
-/// How a point of the surface is drawn, in the units of the positions.
+/// A corner of a splat: its offset from the point, in units of the splat's radius, and the normal
+/// of the surface there, along normal + slopeAlong * t1 + slopeAcross * t2.
+struct SplatCorner
+{
+  float along;  // t1
+  float across; // t2
+  float height; // along the normal
+  float slopeAlong;
+  float slopeAcross;
+};
+
+/// Cells with more corners lose their shortest sides.
+constexpr std::size_t mostCorners = 8;
+
+/// The part of the surface that is drawn for a point: the triangles between the point and each two
+/// consecutive corners.
 struct Splat
 {
   Vector normal; // of length 1
-  double radius; // half the longer axis, positive
-  Vector axis1;  // half-axes of an ellipse, axis1 x axis2 along the normal, axis1 the longer
-  Vector axis2;
-  std::optional<CreasePlane> clip; // where a splat beside a crease ends
+  double radius; // the distance of the farthest corner
+  Vector axis;   // t1, tangential and as long as the radius; t2 = normal x t1
+  /// Counterclockwise seen from the tip of the normal. Further corners repeat the last one; all are
+  /// 0 at a point where another one comes first.
+  std::array<SplatCorner, mostCorners> corners;
 };
 
 /// The points of one surface, one entry each.

@@ -17,10 +17,13 @@ namespace isopoint
 /// How far around itself a sample represents its surroundings, in spacings.
 constexpr double sampleReach = 0.9;
 
+/// How far a splat may reach out of the samples, in spacings.
+constexpr double borderReach = 0.3;
+
 /// Cuts off the parts of cells that reach out of the samples: where the surface ends, a cell may be
 /// bounded only by points along its border, far outside. In each of extentDirections() a cell may
-/// reach `sampleReach` farther than samples stand ahead of its point: each sample represents what
-/// is around it. Extents are requested only where a cell reaches out, each once. For one thread.
+/// reach `borderReach` farther than samples stand ahead of its point. Extents are requested only
+/// where a cell reaches out, each once. For one thread.
 /// @tparam TExtents SampleExtents, or another class with its at()
 template <class TExtents>
 class SplatBorder
@@ -49,14 +52,14 @@ public:
   /// Cuts the point's cell in all directions in which it reaches out; the new sides are limits.
   void cut(TangentCell& cell)
   {
-    if (!this->IsKnown || cell.squaredReach() <= sampleReach * sampleReach)
+    if (!this->IsKnown)
     {
       return;
     }
     const std::array<Vector, extentCount> directions = extentDirections(this->Normal);
     for (std::size_t i = 0; i < extentCount; ++i)
     {
-      const double wanted = cell.reachTowards(directions[i]) - sampleReach;
+      const double wanted = cell.reachTowards(directions[i]) - borderReach;
       if (wanted > this->Extent[i] && !this->IsBorder[i])
       {
         this->Extent[i] = this->Extents->at({ this->Place, this->Normal, directions[i],
@@ -66,7 +69,7 @@ public:
       }
       if (this->IsBorder[i])
       {
-        cell.cut(directions[i], this->Extent[i] + sampleReach, true);
+        cell.cut(directions[i], this->Extent[i] + borderReach, TangentCell::limit);
       }
     }
   }

@@ -3,10 +3,13 @@
 #define isopoint_SplatGeometry_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Splat/CellCutter.h"
+#include "Isopoint/Splat/MutualSides.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Splat/SplatCell.h"
+#include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatNormals.h"
-#include "Isopoint/Splat/SplatShaper.h"
 
 #include <cstddef>
 #include <vector>
@@ -45,18 +48,45 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       }
     },
     [&](double share) { execution.progress(normalsShare * share); });
+  if (!options.shapes)
+  {
+    return splats;
+  }
+  constexpr double cellsShare = 0.4;
   const std::vector<std::size_t> order = neighbors.inOrder();
+  std::vector<SplatCell> cells(splats.size());
   forBatches(
-    execution, options.shapes ? splats.size() : 0, batch, grain,
+    execution, splats.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      SplatShaper<TNeighbors, TExtents> shaper(neighbors, points, extents, splats);
+      CellCutter<TNeighbors, TExtents> cutter(neighbors, points, extents, splats);
       for (std::size_t i = begin; i < end; ++i)
       {
-        shaper.shape(order[i], splats[order[i]]);
+        cells[order[i]] = cutter.cut(order[i]);
       }
     },
-    [&](double share) { execution.progress(normalsShare + (1.0 - normalsShare) * share); });
+    [&](double share) { execution.progress(normalsShare + cellsShare * share); });
+  std::vector<SplatCell> mutual(splats.size());
+  forBatches(execution, splats.size(), batch, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        mutual[i] = withMutualSides(cells, i);
+      }
+    });
+  const SplatFans fans(points.positions, splats, mutual);
+  const double fansBegin = normalsShare + cellsShare;
+  forBatches(
+    execution, splats.size(), batch, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        fans.shape(order[i], splats[order[i]]);
+      }
+    },
+    [&](double share) { execution.progress(fansBegin + (1.0 - fansBegin) * share); });
   return splats;
 }
 

@@ -22,8 +22,11 @@ public:
   {
     double x;
     double y;
-    bool isLimit; // whether the side that begins here limits the cell, where no point bounds it
+    std::size_t side; // what bounds the side that begins here: a point, limit or plane
   };
+
+  static constexpr std::size_t limit = static_cast<std::size_t>(-1); // where no point bounds it
+  static constexpr std::size_t plane = static_cast<std::size_t>(-2); // anything else
 
   /// @param reach of the octagon's corners, whose sides are limits
   TangentCell(const Vector& normal, double reach)
@@ -31,7 +34,7 @@ public:
   {
     for (const auto& [x, y] : directions)
     {
-      this->Corners[this->Count++] = { reach * x, reach * y, true };
+      this->Corners[this->Count++] = { reach * x, reach * y, limit };
     }
     this->SquaredReach = reach * reach;
   }
@@ -39,14 +42,14 @@ public:
   /// Keeps the places whose offset o from the point has outward . o <= distance.
   /// @param outward of any length
   /// @param distance not negative
-  /// @param isLimit whether the new side is a limit
-  void cut(const Vector& outward, double distance, bool isLimit = false)
+  /// @param side what bounds the new side
+  void cut(const Vector& outward, double distance, std::size_t side)
   {
-    this->cut(dot(outward, this->Frame.first), dot(outward, this->Frame.second), distance, isLimit);
+    this->cut(dot(outward, this->Frame.first), dot(outward, this->Frame.second), distance, side);
   }
 
   /// The same with the components of `outward` along first() and second().
-  void cut(double a, double b, double distance, bool isLimit = false)
+  void cut(double a, double b, double distance, std::size_t side)
   {
     if (distance * distance >= (a * a + b * b) * this->SquaredReach ||
         this->Count == this->Corners.size())
@@ -64,7 +67,7 @@ public:
     }
     if (most > tolerance)
     {
-      this->keepInside(excess, tolerance, isLimit);
+      this->keepInside(excess, tolerance, side);
     }
   }
 
@@ -80,14 +83,42 @@ public:
   }
 
   /// Cuts the cell down to an octagon whose sides are limits.
-  void limit(double reach)
+  void limitTo(double reach)
   {
     const double height = cosineOfSide * reach; // of the sides
     for (std::size_t i = 0; i < directions.size(); ++i)
     {
       const auto& [x, y] = directions[i];
       const auto& [nextX, nextY] = directions[(i + 1) % directions.size()];
-      this->cut(0.5 * (x + nextX), 0.5 * (y + nextY), cosineOfSide * height, true);
+      this->cut(0.5 * (x + nextX), 0.5 * (y + nextY), cosineOfSide * height, limit);
+    }
+  }
+
+  /// Drops the shortest sides, whose ends become one corner between them, until so many corners are
+  /// left.
+  void reduceTo(std::size_t most)
+  {
+    const auto squaredSide = [this](std::size_t i)
+    {
+      const Corner& next = this->Corners[(i + 1) % this->Count];
+      const double x = next.x - this->Corners[i].x;
+      const double y = next.y - this->Corners[i].y;
+      return x * x + y * y;
+    };
+    while (this->Count > most)
+    {
+      std::size_t shortest = 0;
+      for (std::size_t i = 1; i < this->Count; ++i)
+      {
+        shortest = squaredSide(i) < squaredSide(shortest) ? i : shortest;
+      }
+      const Corner from = this->Corners[shortest];
+      Corner& to = this->Corners[(shortest + 1) % this->Count];
+      to = { 0.5 * (from.x + to.x), 0.5 * (from.y + to.y), to.side };
+      std::copy(this->Corners.begin() + static_cast<std::ptrdiff_t>(shortest) + 1,
+        this->Corners.begin() + static_cast<std::ptrdiff_t>(this->Count),
+        this->Corners.begin() + static_cast<std::ptrdiff_t>(shortest));
+      --this->Count;
     }
   }
 
@@ -111,15 +142,14 @@ public:
   bool isOpen() const
   {
     return std::any_of(
-      this->begin(), this->end(), [](const Corner& corner) { return corner.isLimit; });
+      this->begin(), this->end(), [](const Corner& corner) { return corner.side == limit; });
   }
 
   /// The corners, counterclockwise around first x second, each once.
   const Corner* begin() const { return this->Corners.data(); }
   const Corner* end() const { return this->Corners.data() + this->Count; }
 
-  const Vector& first() const { return this->Frame.first; }
-  const Vector& second() const { return this->Frame.second; }
+  const TangentFrame& frame() const { return this->Frame; }
 
 private:
   /// Each cut adds a corner at most; cells have about six.
@@ -131,14 +161,14 @@ private:
     { -diagonal, -diagonal }, { 0.0, -1.0 }, { diagonal, -diagonal } } };
   static constexpr double cosineOfSide = 0.92387953251128674; // of 22.5 degrees
 
-  void keepInside(const std::array<double, capacity>& excess, double tolerance, bool isLimit)
+  void keepInside(const std::array<double, capacity>& excess, double tolerance, std::size_t side)
   {
     std::array<Corner, capacity> kept;
     std::size_t count = 0;
     double squaredReach = 0.0;
     const auto keep = [&](const Corner& corner)
     {
-      kept[count++] = corner;
+      kept[std::min(count++, capacity - 1)] = corner;
       squaredReach = std::max(squaredReach, corner.x * corner.x + corner.y * corner.y);
     };
     for (std::size_t i = 0; i < this->Count; ++i)
@@ -158,15 +188,16 @@ private:
       {
         if (!isOutside)
         {
-          kept[count - 1].isLimit = isLimit;
+          kept[count - 1].side = side;
         }
         continue;
       }
       const Corner& other = this->Corners[next];
       const double t = excess[i] / (excess[i] - excess[next]);
       keep({ corner.x + t * (other.x - corner.x), corner.y + t * (other.y - corner.y),
-        isOutside ? corner.isLimit : isLimit });
+        isOutside ? corner.side : side });
     }
+    count = std::min(count, capacity);
     std::copy(
       kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(count), this->Corners.begin());
     this->Count = count;

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_CellCutter_h
+#define isopoint_CellCutter_h
+
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Splat/Curvature.h"
+#include "Isopoint/Splat/NearbyPoints.h"
+#include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Splat/SplatBorder.h"
+#include "Isopoint/Splat/SplatCell.h"
+#include "Isopoint/Splat/TangentCell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Cuts out the cells of points whose normals are known, one at a time. For one thread.
+/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
+/// @tparam TExtents see SplatBorder
+template <class TNeighbors, class TExtents>
+class CellCutter
+{
+public:
+  /// @param splats of which normals are set
+  CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
+    const std::vector<Splat>& splats)
+    : Points(points)
+    , Splats(splats)
+    , Nearby(neighbors, points.positions)
+    , Border(extents)
+  {
+  }
+
+  SplatCell cut(std::size_t point)
+  {
+    const double unit = this->unitAt(point);
+    TangentCell cell(this->Splats[point].normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
+    this->cutOut(point, unit, cell);
+    PlaneForm curvature;
+    if (this->isSmooth(point))
+    {
+      const LocalFit& fit = this->Points.fits[point];
+      curvature = curvatureOf(cell.frame(), fit.hessian, fit.gradient, unit);
+      cutWhereSurfaceTurns(curvature, cell);
+    }
+    cell.reduceTo(mostCorners);
+    SplatCell result{ {}, 0, unit, curvature, this->Nearby.isFirstHere() };
+    for (const TangentCell::Corner& corner : cell)
+    {
+      const bool isPoint = corner.side != TangentCell::limit && corner.side != TangentCell::plane;
+      result.corners[result.count++] = { corner.x, corner.y,
+        isPoint ? corner.side : SplatCell::none };
+    }
+    return result;
+  }
+
+private:
+  /// How far a cell may reach, in spacings, where no point bounds it; twice as far where points do
+  /// but no fit determines a smooth surface, and four times where one does, as between samples in
+  /// lines.
+  static constexpr double openReach = 1.1;
+
+  /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
+  /// share of its distance.
+  static constexpr double creaseTolerance = 0.1;
+
+  /// Whether a fit held that describes a smooth surface.
+  bool isSmooth(std::size_t point) const
+  {
+    return !this->Points.fits.empty() && this->Points.fits[point].isSmooth;
+  }
+
+  /// The unit of length at a point: the samples' spacing or, where it is not known, half the length
+  /// of the point's edge.
+  double unitAt(std::size_t point) const
+  {
+    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    return spacing > 0.0 && std::isfinite(spacing)
+             ? spacing
+             : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
+  }
+
+  /// Cuts off what is farther than the surface's radius of curvature.
+  static void cutWhereSurfaceTurns(const PlaneForm& form, TangentCell& cell)
+  {
+    for (const PrincipalDirection& curvature : principalDirections(form))
+    {
+      const double radius = 1.0 / std::abs(curvature.value);
+      if (radius * radius < cell.squaredReach())
+      {
+        cell.cut(curvature.x, curvature.y, radius, TangentCell::plane);
+        cell.cut(-curvature.x, -curvature.y, radius, TangentCell::plane);
+      }
+    }
+  }
+
+  /// Cuts the octagon down to the cell, in the unit of length.
+  void cutOut(std::size_t point, double unit, TangentCell& cell)
+  {
+    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    this->Border.moveTo(this->Points.positions[point], this->Splats[point].normal, spacing);
+    if (!this->Points.fits.empty())
+    {
+      for (const CreasePlane& crease : this->Points.fits[point].creases)
+      {
+        cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
+      }
+    }
+    this->HasPassed = false;
+    // Points at more than twice a distance cut nothing off within it.
+    constexpr double near = sampleReach * sampleReach;
+    this->Nearby.find(point, 2, unit, 4.0 * near);
+    this->cutTowardsNearby(point, unit, cell);
+    if (cell.squaredReach() > near)
+    {
+      this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
+      this->cutTowardsNearby(point, unit, cell);
+    }
+    if (cell.squaredReach() > 2.0 * near)
+    {
+      // It may be large because points beyond are in no ring nearer.
+      this->Nearby.find(point, 3, unit, 4.0 * cell.squaredReach());
+      this->cutTowardsNearby(point, unit, cell);
+    }
+    if (cell.isOpen() || cell.squaredReach() > near)
+    {
+      this->Border.cut(cell);
+    }
+    if (cell.isOpen() || this->HasPassed)
+    {
+      cell.limitTo(openReach);
+    }
+  }
+
+  void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
+  {
+    for (const NearbyPoint& other : this->Nearby)
+    {
+      if (other.squaredDistance >= 4.0 * cell.squaredReach())
+      {
+        break;
+      }
+      this->cutTowards(point, other, unit, cell);
+    }
+  }
+
+  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
+  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
+  {
+    const Vector offset = scaled(
+      1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
+    const double a = dot(offset, cell.frame().first);
+    const double b = dot(offset, cell.frame().second);
+    const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
+    if (!cell.reachesBeyond(a, b, 0.5 * along) ||
+        this->isBeyondCrease(point, other.point, offset, unit) ||
+        this->passesUnfitted(point, other) ||
+        this->isCutAtCrease(point, other.point, offset, unit, cell))
+    {
+      return;
+    }
+    const double distance =
+      this->bendsTowards(point, other.point, offset) ? along : other.squaredDistance;
+    cell.cut(a, b, 0.5 * distance, other.point);
+  }
+
+  /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
+  /// there: nothing is to be cut halfway to it.
+  bool isBeyondCrease(std::size_t point, std::size_t other, const Vector& offset, double unit) const
+  {
+    if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
+    {
+      return false;
+    }
+    const double tolerance = creaseTolerance * lengthOf(offset);
+    const std::vector<CreasePlane>& creases = this->Points.fits[point].creases;
+    return std::any_of(creases.begin(), creases.end(),
+      [&](const CreasePlane& crease)
+      {
+        const double height = dot(crease.inward, offset) + crease.distance / unit;
+        return height < (this->isOnPiece(other, point, crease) ? tolerance : -tolerance);
+      });
+  }
+
+  /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
+  /// at one of its creases. @returns whether it does
+  bool isCutAtCrease(std::size_t point, std::size_t other, const Vector& offset, double unit,
+    TangentCell& cell) const
+  {
+    if (this->Points.fits.empty() || this->Points.fits[other].creases.empty())
+    {
+      return false;
+    }
+    const double tolerance = creaseTolerance * lengthOf(offset);
+    for (const CreasePlane& crease : this->Points.fits[other].creases)
+    {
+      const Vector outward = scaled(-crease.turn, this->Splats[other].normal);
+      const double height = dot(outward, offset);
+      if (this->isOnPiece(point, other, crease) && height > -tolerance &&
+          crease.distance / unit - dot(crease.inward, offset) < tolerance)
+      {
+        cell.cut(outward, std::max(0.0, height), TangentCell::plane);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether a point's normal is rather that of the plane across a crease than that of the point
+  /// whose crease this is.
+  bool isOnPiece(std::size_t point, std::size_t own, const CreasePlane& across) const
+  {
+    const Vector& normal = this->Splats[point].normal;
+    return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
+  }
+
+  /// Whether the surface bends from a point to another, as a sphere would, so that half the
+  /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
+  /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
+  /// close by are not what it bends to, nor what lies across an edge.
+  bool bendsTowards(std::size_t point, std::size_t other, const Vector& offset) const
+  {
+    if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other)))
+    {
+      return false;
+    }
+    const Vector& normal = this->Splats[point].normal;
+    const Vector& otherNormal = this->Splats[other].normal;
+    return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
+  }
+
+  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in
+  /// mind.
+  bool passesUnfitted(std::size_t point, const NearbyPoint& other)
+  {
+    const bool passes = other.squaredDistance < sampleReach * sampleReach &&
+                        this->isSmooth(point) && !this->isSmooth(other.point);
+    this->HasPassed = this->HasPassed || passes;
+    return passes;
+  }
+
+  const SurfacePoints& Points;
+  const std::vector<Splat>& Splats; // of which normals are set
+  NearbyPoints<TNeighbors> Nearby;
+  SplatBorder<TExtents> Border;
+  bool HasPassed = false; // points without a fit, over which the cell may reach
+};
+
+} // namespace isopoint
+
+#endif

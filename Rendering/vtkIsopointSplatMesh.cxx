@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatMesh.h"
+
+#include "vtkSMPTools.h"
+
+#include <cstddef>
+#include <numeric>
+
+namespace
+{
+
+std::size_t indexOf(vtkIdType id)
+{
+  return static_cast<std::size_t>(id);
+}
+
+template <class Function>
+void forPoints(vtkIdType points, const Function& of)
+{
+  vtkSMPTools::For(0, points,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        of(point);
+      }
+    });
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes, vtkIdType points)
+  : FirstVertices(indexOf(points) + 1, 0)
+  , FirstTriangles(indexOf(points) + 1, 0)
+{
+  forPoints(points,
+    [&](vtkIdType point)
+    {
+      const vtkIsopointSplatFan fan = shapes.Fan(point);
+      this->FirstVertices[indexOf(point) + 1] = fan.Vertices;
+      this->FirstTriangles[indexOf(point) + 1] = fan.Triangles;
+    });
+  std::partial_sum(
+    this->FirstVertices.begin(), this->FirstVertices.end(), this->FirstVertices.begin());
+  std::partial_sum(
+    this->FirstTriangles.begin(), this->FirstTriangles.end(), this->FirstTriangles.begin());
+
+  this->Vertices.resize(indexOf(this->NumberOfVertices()));
+  this->Corners.resize(indexOf(3 * this->NumberOfTriangles()));
+  std::vector<vtkIdType> pointOfVertex(this->Vertices.size());
+  forPoints(points,
+    [&](vtkIdType point)
+    {
+      const vtkIsopointSplatFan fan = shapes.Fan(point);
+      const vtkIdType first = this->FirstVertices[indexOf(point)];
+      for (int i = 0; i < fan.Vertices; ++i)
+      {
+        const vtkVector3d& normal = fan.Normals[indexOf(i)];
+        this->Vertices[indexOf(first + i)] = { fan.Places[indexOf(i)],
+          { static_cast<float>(normal[0]), static_cast<float>(normal[1]),
+            static_cast<float>(normal[2]) },
+          fan.Tolerance };
+        pointOfVertex[indexOf(first + i)] = point;
+      }
+      for (int i = 0; i < 3 * fan.Triangles; ++i)
+      {
+        this->Corners[indexOf(3 * this->FirstTriangles[indexOf(point)] + i)] =
+          first + vtkIsopointSplatCorner(fan, i / 3, i % 3);
+      }
+    });
+
+  // A counting sort of points by the place of their vertices.
+  this->MeetsAt = vtkIsopointMeetingCorners(this->Vertices);
+  this->FirstMeeting.assign(this->MeetsAt.size() + 1, 0);
+  for (const vtkIdType vertex : this->MeetsAt)
+  {
+    ++this->FirstMeeting[indexOf(vertex) + 1];
+  }
+  std::partial_sum(
+    this->FirstMeeting.begin(), this->FirstMeeting.end(), this->FirstMeeting.begin());
+  this->MeetingPoints.resize(this->MeetsAt.size());
+  std::vector<vtkIdType> next(this->FirstMeeting.begin(), this->FirstMeeting.end() - 1);
+  for (std::size_t i = 0; i < this->MeetsAt.size(); ++i)
+  {
+    this->MeetingPoints[indexOf(next[indexOf(this->MeetsAt[i])]++)] = pointOfVertex[i];
+  }
+}

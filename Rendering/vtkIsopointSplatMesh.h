@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSplatMesh_h
+#define vtkIsopointSplatMesh_h
+
+#include "vtkIsopointMeetingCorners.h"
+#include "vtkIsopointSplatShapes.h"
+
+#include "vtkType.h"
+
+#include <vector>
+
+/// The triangles of all splats, in the order of the points. Each splat has vertices of its own.
+struct vtkIsopointSplatMesh
+{
+  /// O(n log n) in the number of points.
+  /// @throws std::bad_alloc
+  vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes, vtkIdType points);
+
+  vtkIdType NumberOfVertices() const { return this->FirstVertices.back(); }
+  vtkIdType NumberOfTriangles() const { return this->FirstTriangles.back(); }
+
+  /// The first vertex and triangle of each point, and the numbers of all.
+  std::vector<vtkIdType> FirstVertices;
+  std::vector<vtkIdType> FirstTriangles;
+
+  std::vector<vtkIsopointCorner> Vertices;
+  std::vector<vtkIdType> Corners; // three vertices of each triangle
+
+  /// The points whose splats have a vertex at the same place: MeetingPoints from FirstMeeting of
+  /// the vertex MeetsAt[i] up to that of the next one.
+  std::vector<vtkIdType> MeetsAt;
+  std::vector<vtkIdType> FirstMeeting;
+  std::vector<vtkIdType> MeetingPoints;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkIsopointSplatMesh.h

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkIsopointSplatPolygons.h"
+
+#include "vtkIsopointSplatMesh.h"
+#include "vtkIsopointSplatShapes.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataPipeline.h"
+#include "vtkDataSet.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkVersionMacros.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkIsopointSplatPolygons);
+
+namespace
+{
+
+void setGeometry(const vtkIsopointSplatMesh& mesh, int pointType, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(pointType);
+  points->SetNumberOfPoints(mesh.NumberOfVertices());
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh.NumberOfVertices());
+  vtkSMPTools::For(0, mesh.NumberOfVertices(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        points->SetPoint(i, mesh.Vertices[static_cast<std::size_t>(i)].Place.GetData());
+        normals->SetTypedTuple(i, mesh.Vertices[static_cast<std::size_t>(i)].Normal.GetData());
+      }
+    });
+  output->SetPoints(points);
+  output->GetPointData()->SetNormals(normals);
+}
+
+/// @tparam TArray of 32 bits where these suffice: half of the memory
+template <class TArray>
+void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
+{
+  using Value = typename TArray::ValueType;
+  const vtkIdType count = mesh.NumberOfTriangles();
+  vtkNew<TArray> ends;
+  ends->SetNumberOfValues(count + 1);
+  vtkNew<TArray> corners;
+  corners->SetNumberOfValues(3 * count);
+  vtkSMPTools::For(0, 3 * count,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        corners->SetValue(i, static_cast<Value>(mesh.Corners[static_cast<std::size_t>(i)]));
+      }
+    });
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    ends->SetValue(i, static_cast<Value>(3 * i));
+  }
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(ends, corners);
+  output->SetPolys(triangles);
+}
+
+/// Calls of(begin, end) for ranges that make up all tuples of an array.
+template <class Function>
+void forTuples(vtkAbstractArray* array, vtkIdType tuples, const Function& of)
+{
+  if (vtkDataArray::SafeDownCast(array))
+  {
+    vtkSMPTools::For(0, tuples, of);
+  }
+  else
+  {
+    of(0, tuples); // strings change a state of their array
+  }
+}
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType tuples)
+{
+  const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  copy->SetName(array->GetName());
+  copy->SetNumberOfComponents(array->GetNumberOfComponents());
+  copy->CopyComponentNames(array);
+  copy->SetNumberOfTuples(tuples);
+  return copy;
+}
+
+/// An array of points at the vertices: real numbers are the mean of those of the points that meet
+/// there, others those of the first point.
+vtkSmartPointer<vtkAbstractArray> atVertices(
+  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh)
+{
+  const vtkIdType count = mesh.NumberOfVertices();
+  const auto copy = emptyLike(array, count);
+  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  vtkDataArray* const from = isReal ? vtkDataArray::SafeDownCast(array) : nullptr;
+  vtkDataArray* const to = vtkDataArray::SafeDownCast(copy);
+  forTuples(array, count,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType vertex = begin; vertex < end; ++vertex)
+      {
+        const auto i = static_cast<std::size_t>(mesh.MeetsAt[static_cast<std::size_t>(vertex)]);
+        const vtkIdType meeting = mesh.FirstMeeting[i + 1] - mesh.FirstMeeting[i];
+        const vtkIdType* const points =
+          mesh.MeetingPoints.data() + static_cast<std::size_t>(mesh.FirstMeeting[i]);
+        copy->SetTuple(vertex, points[0], array);
+        for (int component = 0; from && meeting > 1 && component < from->GetNumberOfComponents();
+             ++component)
+        {
+          double sum = 0.0;
+          for (vtkIdType k = 0; k < meeting; ++k)
+          {
+            sum += from->GetComponent(points[k], component);
+          }
+          to->SetComponent(vertex, component, sum / static_cast<double>(meeting));
+        }
+      }
+    });
+  return copy;
+}
+
+/// An array of cells at the triangles.
+/// @param cells of the points
+vtkSmartPointer<vtkAbstractArray> atTriangles(
+  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh, const std::vector<vtkIdType>& cells)
+{
+  const auto copy = emptyLike(array, mesh.NumberOfTriangles());
+  forTuples(array, static_cast<vtkIdType>(cells.size()),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        const auto i = static_cast<std::size_t>(point);
+        for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
+        {
+          copy->SetTuple(k, cells[i], array);
+        }
+      }
+    });
+  return copy;
+}
+
+/// An array of ids, each repeated from one offset to the next.
+vtkSmartPointer<vtkIdTypeArray> repeatedIds(
+  const char* name, const std::vector<vtkIdType>& offsets, const std::vector<vtkIdType>& ids)
+{
+  const auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(offsets.back());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    for (vtkIdType k = offsets[i]; k < offsets[i + 1]; ++k)
+    {
+      array->SetValue(k, ids[i]);
+    }
+  }
+  return array;
+}
+
+/// Whether an array says how a splat is drawn, and nothing about its point.
+bool isOfSplat(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  return array == attributes->GetNormals() || name == "SplatAxis" || name == "SplatPolygon" ||
+         name == "Normals" || name == vtkDataSetAttributes::GhostArrayName() ||
+         name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
+}
+
+/// @param copied(array) the array at vertices or triangles
+template <class Copied>
+void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copied& copied)
+{
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* const array = from->GetAbstractArray(i);
+    if (isOfSplat(from, array))
+    {
+      continue;
+    }
+    const int added = to->AddArray(copied(array));
+    // Ids that are to be unique are no longer.
+    const int attribute = from->IsArrayAnAttribute(i);
+    if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS &&
+        attribute != vtkDataSetAttributes::PEDIGREEIDS)
+    {
+      to->SetActiveAttribute(added, attribute);
+    }
+  }
+}
+
+/// The first vertex cell of each point, or nothing if a drawn point has none.
+std::vector<vtkIdType> vertexCells(vtkDataSet* data, const vtkIsopointSplatMesh& mesh)
+{
+  std::vector<vtkIdType> cells(static_cast<std::size_t>(data->GetNumberOfPoints()), -1);
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    const int type = data->GetCellType(cell);
+    if (type != VTK_VERTEX && type != VTK_POLY_VERTEX)
+    {
+      continue;
+    }
+    data->GetCellPoints(cell, points);
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      vtkIdType& own = cells[static_cast<std::size_t>(points->GetId(i))];
+      own = own < 0 ? cell : own;
+    }
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    if (cells[i] < 0 && mesh.FirstTriangles[i] < mesh.FirstTriangles[i + 1])
+    {
+      return {};
+    }
+  }
+  return cells;
+}
+
+int typeOfPoints(vtkDataSet* data)
+{
+  const auto points = vtkPointSet::SafeDownCast(data);
+  return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatPolygons::vtkIsopointSplatPolygons()
+  : RadiusArrayName(nullptr)
+{
+  this->SetRadiusArrayName("Radius");
+}
+
+//------------------------------------------------------------------------------
+vtkIsopointSplatPolygons::~vtkIsopointSplatPolygons()
+{
+  this->SetRadiusArrayName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatPolygons::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkExecutive* vtkIsopointSplatPolygons::CreateDefaultExecutive()
+{
+  return vtkCompositeDataPipeline::New();
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatPolygons::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  int type = VTK_POLY_DATA;
+  if (vtkCompositeDataSet::SafeDownCast(input))
+  {
+    type = VTK_MULTIBLOCK_DATA_SET;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+    // ParaView's geometry representation takes no such collections before.
+    if (input->IsA("vtkPartitionedDataSetCollection"))
+    {
+      type = VTK_PARTITIONED_DATA_SET_COLLECTION;
+    }
+#endif
+  }
+  return vtkDataObjectAlgorithm::SetOutputDataObject(
+    type, outputVector->GetInformationObject(0), /*exact=*/true);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatPolygons::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* const output = vtkDataObject::GetData(outputVector);
+  try
+  {
+    if (const auto data = vtkDataSet::SafeDownCast(input))
+    {
+      this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
+    }
+    else if (const auto blocks = vtkCompositeDataSet::SafeDownCast(input))
+    {
+      const auto polygons = vtkCompositeDataSet::SafeDownCast(output);
+      polygons->CopyStructure(blocks);
+      const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+      for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+      {
+        if (const auto block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+        {
+          vtkNew<vtkPolyData> made;
+          this->MakePolygons(block, made);
+          polygons->SetDataSet(iterator, made);
+        }
+      }
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    output->Initialize();
+    vtkErrorMacro("Out of memory: the splats of "
+                  << input->GetNumberOfElements(vtkDataObject::POINT)
+                  << " points are not drawn. Close other data, or pass fewer points.");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
+{
+  output->SetFieldData(input->GetFieldData());
+  const vtkIdType count = input->GetNumberOfPoints();
+  if (count == 0)
+  {
+    return;
+  }
+  const vtkIsopointSplatShapes shapes(
+    input, this->RadiusArrayName, this->Radius, this->RadiusScale);
+  const std::string problem = shapes.Problem();
+  if (!problem.empty())
+  {
+    vtkWarningMacro(<< problem);
+  }
+  double first[3];
+  input->GetPoint(0, first); // fills what data sets compute at the first call
+  const vtkIsopointSplatMesh mesh(shapes, count);
+  setGeometry(mesh, typeOfPoints(input), output);
+  if (std::max(3 * mesh.NumberOfTriangles(), mesh.NumberOfVertices()) <
+      std::numeric_limits<vtkTypeInt32>::max())
+  {
+    setTriangles<vtkTypeInt32Array>(mesh, output);
+  }
+  else
+  {
+    setTriangles<vtkTypeInt64Array>(mesh, output);
+  }
+  copyArrays(input->GetPointData(), output->GetPointData(),
+    [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
+  std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
+  std::iota(ids.begin(), ids.end(), 0);
+  output->GetPointData()->AddArray(repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, ids));
+  const std::vector<vtkIdType> cells = vertexCells(input, mesh);
+  if (!cells.empty())
+  {
+    copyArrays(input->GetCellData(), output->GetCellData(),
+      [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
+    output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles, cells));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointSplatPolygons::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RadiusArrayName: " << (this->RadiusArrayName ? this->RadiusArrayName : "(none)")
+     << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "RadiusScale: " << this->RadiusScale << "\n";
+}

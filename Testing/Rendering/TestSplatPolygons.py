@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The triangles that vtkIsopointSplatPolygons makes of points."""
+
+import numpy as np
+from scatteredisopoints import vtkIsopointSplatPolygons
+from scenes import RING, TUBE, add_array, check, isopoints, polydata, subset, torus_splats
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkDataSetAttributes,
+    vtkImageData,
+    vtkMultiBlockDataSet,
+    vtkPartitionedDataSetCollection,
+    vtkPolyData,
+)
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+
+UP = [0.0, 0.0, 1.0]
+
+
+def polygons_of(data, **properties):
+    polygons = vtkIsopointSplatPolygons()
+    for name, value in properties.items():
+        getattr(polygons, "Set" + name)(value)
+    events = []
+    for event in ("WarningEvent", "ErrorEvent"):
+        polygons.AddObserver(event, lambda _, name: events.append(name))
+    polygons.SetInputDataObject(data)
+    polygons.Update()
+    return polygons.GetOutputDataObject(0), events
+
+
+def triangles_of(data, **properties):
+    """Places and normals of the corners (n, 3, 3), and the output."""
+    output, events = polygons_of(data, **properties)
+    check(not events, f"no message: {events}")
+    if output.GetNumberOfPolys() == 0:
+        return np.zeros((0, 3, 3)), np.zeros((0, 3, 3)), output
+    corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    places = vtk_to_numpy(output.GetPoints().GetData()).astype(float)
+    normals = vtk_to_numpy(output.GetPointData().GetNormals()).astype(float)
+    return places[corners], normals[corners], output
+
+
+def array(output, name, cells=False):
+    data = output.GetCellData() if cells else output.GetPointData()
+    return vtk_to_numpy(data.GetArray(name))
+
+
+def areas(triangles):
+    return 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+
+
+def splats_of_isopoints():
+    """Close to the torus and its normals, of its area, facing outwards."""
+    data = torus_splats(100_000)
+    triangles, normals, output = triangles_of(data)
+    x, y, z = np.moveaxis(triangles, -1, 0)
+    distance = np.hypot(np.hypot(x, y) - RING, z) - TUBE
+    check(np.abs(distance).max() < 0.01, "on the torus")
+    area = np.linalg.norm(areas(triangles), axis=1).sum() / (4 * np.pi**2 * RING * TUBE)
+    check(abs(area - 1) < 0.02, f"the area of the torus: {area}")
+    facing = (areas(triangles)[:, None] * normals).sum(2)
+    check(-facing[facing < 0].sum() < 1e-3 * facing.sum(), "facing along the normals")
+    ids = array(output, "vtkOriginalPointIds")
+    cells = array(output, "vtkOriginalCellIds", cells=True)
+    corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    check((ids[corners] == cells[:, None]).all(), "each triangle is of one isopoint")
+    check(len(np.unique(cells)) == data.GetNumberOfPoints(), "each isopoint has triangles")
+    scaled, _, _ = triangles_of(data, RadiusScale=0.5)
+    half = np.linalg.norm(areas(scaled), axis=1).sum() / np.linalg.norm(areas(triangles), axis=1).sum()
+    check(abs(half - 0.25) < 0.01, "half the size")
+
+
+def arrays_are_interpolated():
+    """Between isopoints, as on a mesh: across corners that splats share there is no step."""
+    data = torus_splats(100_000)
+    count = data.GetNumberOfPoints()
+    x = vtk_to_numpy(data.GetPoints().GetData())[:, 0]
+    add_array(data, "of doubles", x.astype(float))
+    add_array(data, "of integers", np.arange(count, dtype=np.int32))
+    words = vtkStringArray()
+    words.SetName("words")
+    for i in range(count):
+        words.InsertNextValue(str(i))
+    data.GetPointData().AddArray(words)
+    _, _, output = triangles_of(data)
+    places = vtk_to_numpy(output.GetPoints().GetData())
+    error = np.abs(array(output, "of doubles") - places[:, 0])
+    check(np.median(error) < 0.006, f"values where they are: {np.median(error)}")
+    ids = array(output, "vtkOriginalPointIds")
+    rounded = np.round(places, 5)
+    _, group, sizes = np.unique(rounded, axis=0, return_inverse=True, return_counts=True)
+    low, high = np.full(len(sizes), np.inf), np.full(len(sizes), -np.inf)
+    np.minimum.at(low, group.ravel(), array(output, "of doubles"))
+    np.maximum.at(high, group.ravel(), array(output, "of doubles"))
+    shared = sizes >= 3
+    check(shared.sum() > 1.8 * count, "most corners are shared by three")
+    different = np.count_nonzero((high - low)[shared] > 1e-6)
+    check(different < 0.001 * shared.sum(), f"one value at each but {different}")
+    check((np.isin(array(output, "of integers"), np.arange(count))).all(), "integers stay")
+    strings = output.GetPointData().GetAbstractArray("words")
+    check(strings.GetNumberOfValues() == len(ids), "strings are kept")
+    for name in ("SplatAxis", "SplatPolygon"):
+        check(not output.GetPointData().HasArray(name), f"{name} is not")
+
+
+def octagons_and_octahedra():
+    radius = 0.5
+    for normal in (UP, [1.0, 2.0, -3.0], [0, 0, -1e-20], [1e30, 0, 0]):
+        triangles, normals, _ = triangles_of(polydata([(1, 2, 3)], [normal], Radius=np.array([radius])))
+        check(len(triangles) == 8, "eight triangles")
+        total = areas(triangles).sum(0)
+        check(np.isclose(np.linalg.norm(total), 2 * np.sqrt(2) * radius**2), "an octagon's area")
+        check(np.allclose(normals, np.array(normal) / np.linalg.norm(normal)), "of one normal")
+        check((areas(triangles) @ normals[0, 0] > 0).all(), "facing along it")
+    for normals in (None, [[0.0, 0.0, 0.0]], [[np.nan, 0.0, 0.0]]):
+        triangles, normals, _ = triangles_of(polydata([(1, 2, 3)], normals, Radius=np.array([radius])))
+        volume = np.einsum("ij,ij->i", triangles[:, 0] - [1, 2, 3], areas(triangles)).sum() / 3
+        check(len(triangles) == 8 and np.isclose(volume, 4 / 3 * radius**3), "an octahedron")
+        check(np.allclose(normals, (triangles - [1, 2, 3]) / radius), "with outward normals")
+    triangles, _, _ = triangles_of(polydata([(0, 0, 0)], [UP]), Radius=2.0)
+    check(np.isclose(np.abs(triangles).max(), 2.0), "a constant radius")
+    triangles, _, _ = triangles_of(
+        polydata([(0, 0, 0)], [UP], size=np.array([3.0])), RadiusArrayName="size", RadiusScale=2.0
+    )
+    check(np.isclose(np.abs(triangles).max(), 6.0), "another array, scaled")
+
+
+def what_cannot_be_drawn_is_left_out():
+    nan, inf = float("nan"), float("inf")
+    points = [(0, 0, 0), (nan, 0, 0), (0, inf, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0), (5, 0, 0)]
+    data = polydata(points, [UP] * 8, Radius=np.array([1, 1, 1, 0, -1, nan, inf, 1.0]))
+    _, _, output = triangles_of(data)
+    check(sorted(set(array(output, "vtkOriginalPointIds"))) == [0, 7], "two of eight")
+    ghosts = vtkUnsignedCharArray()
+    ghosts.SetName(vtkDataSetAttributes.GhostArrayName())
+    for i in range(8):
+        ghosts.InsertNextValue(
+            (vtkDataSetAttributes.DUPLICATEPOINT if i == 0 else 0)
+            | (vtkDataSetAttributes.HIDDENPOINT if i == 7 else 0)
+        )
+    data.GetPointData().AddArray(ghosts)
+    check(polygons_of(data)[0].GetNumberOfPolys() == 0, "ghosts")
+    torus = torus_splats(20_000)
+    numbers = vtk_to_numpy(torus.GetPointData().GetArray("SplatPolygon"))
+    numbers[5, 7] = nan
+    numbers[6] = 0
+    _, _, output = triangles_of(torus)
+    missing = set(range(torus.GetNumberOfPoints())) - set(array(output, "vtkOriginalPointIds"))
+    check(missing == {5, 6}, f"without a shape: {missing}")
+    for empty in (vtkPolyData(), vtkMultiBlockDataSet(), vtkImageData()):
+        output, events = polygons_of(empty)
+        check(not events and output is not None, "empty input")
+
+
+def arrays_of_the_wrong_shape():
+    torus = torus_splats(20_000)
+    for name in ("SplatAxis", "SplatPolygon"):
+        damaged = subset(torus, slice(None))
+        damaged.GetPointData().RemoveArray(name)
+        if name == "SplatPolygon":
+            add_array(damaged, name, np.zeros((torus.GetNumberOfPoints(), 7)))
+        output, events = polygons_of(damaged)
+        check(events == ["WarningEvent"], f"one warning without {name}: {events}")
+        check(output.GetNumberOfPolys() == 8 * torus.GetNumberOfPoints(), "octagons instead")
+
+
+def cells():
+    data = polydata([(0, 0, 0), (3, 0, 0)], [UP] * 2, Radius=np.ones(2))
+    data.GetCellData().AddArray(named([5.0, 7.0], "value"))
+    _, _, output = triangles_of(data)
+    check(array(output, "value", cells=True).tolist() == 8 * [5.0] + 8 * [7.0], "arrays of cells")
+    grid = vtkAppendFilter()
+    grid.AddInputData(data)
+    grid.Update()
+    _, _, output = triangles_of(grid.GetOutput())
+    check(array(output, "value", cells=True).tolist() == 8 * [5.0] + 8 * [7.0], "of a grid")
+    data.SetVerts(None)
+    data.GetCellData().Initialize()
+    _, _, output = triangles_of(data)
+    check(output.GetNumberOfPolys() == 16, "points without cells")
+    check(output.GetCellData().GetNumberOfArrays() == 0, "have no arrays of cells")
+    image = vtkImageData()
+    image.SetDimensions(3, 2, 1)
+    triangles, _, _ = triangles_of(image, Radius=0.1)
+    check(len(triangles) == 6 * 8, "points of an image")
+
+
+def named(values, name):
+    result = numpy_to_vtk(np.array(values), deep=True)
+    result.SetName(name)
+    return result
+
+
+def blocks():
+    torus = torus_splats(20_000)
+    left = vtk_to_numpy(torus.GetPoints().GetData())[:, 0] < 0
+    whole = polygons_of(torus)[0].GetNumberOfPolys()
+    data = vtkMultiBlockDataSet()
+    data.SetBlock(0, subset(torus, left))
+    data.SetBlock(2, subset(torus, ~left))
+    output, _ = polygons_of(data)
+    check(output.IsA("vtkMultiBlockDataSet") and output.GetNumberOfBlocks() == 3, "three blocks")
+    check(output.GetBlock(1) is None, "one empty")
+    count = sum(output.GetBlock(i).GetNumberOfPolys() for i in (0, 2))
+    check(count == whole, "the same triangles")
+    collection = vtkPartitionedDataSetCollection()
+    collection.SetPartition(0, 0, subset(torus, left))
+    collection.SetPartition(1, 0, subset(torus, ~left))
+    output, _ = polygons_of(collection)
+    check(output.GetNumberOfPoints() > torus.GetNumberOfPoints(), "a collection")
+
+
+def precision():
+    """Far from the origin, in doubles, corners still meet."""
+    offset = 1e7
+    data = isopoints(
+        lambda p: 1 - np.linalg.norm(p - offset, axis=1), [offset - 1.3] * 3, [offset + 1.3] * 3, 20_000
+    )
+    triangles, _, output = triangles_of(data)
+    check(triangles.dtype == float and abs(triangles.mean() - offset) < 0.1, "there")
+    check(np.abs(np.linalg.norm(triangles - offset, axis=2) - 1).max() < 0.02, "on the sphere")
+
+
+if __name__ == "__main__":
+    for test in (
+        splats_of_isopoints,
+        arrays_are_interpolated,
+        octagons_and_octahedra,
+        what_cannot_be_drawn_is_left_out,
+        arrays_of_the_wrong_shape,
+        cells,
+        blocks,
+        precision,
+    ):
+        print(test.__name__, flush=True)
+        test()
