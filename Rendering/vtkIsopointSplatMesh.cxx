@@ -3,8 +3,15 @@
 
 #include "vtkSMPTools.h"
 
+// Later versions of VTK have the operators in vtkVector.h.
+#if __has_include("vtkVectorOperators.h")
+#include "vtkVectorOperators.h"
+#endif
+
+#include <array>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace
 {
@@ -63,10 +70,26 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
           fan.Tolerance };
         pointOfVertex[indexOf(first + i)] = point;
       }
-      for (int i = 0; i < 3 * fan.Triangles; ++i)
+      for (int i = 0; i < fan.Triangles; ++i)
       {
-        this->Corners[indexOf(3 * this->FirstTriangles[indexOf(point)] + i)] =
-          first + vtkIsopointSplatCorner(fan, i / 3, i % 3);
+        std::array<int, 3> corners;
+        for (int k = 0; k < 3; ++k)
+        {
+          corners[indexOf(k)] = vtkIsopointSplatCorner(fan, i, k);
+        }
+        // Where corners have passed each other, a triangle would face away and be dark.
+        const vtkVector3d& a = fan.Places[indexOf(corners[0])];
+        const vtkVector3d side = fan.Places[indexOf(corners[1])] - a;
+        const vtkVector3d other = fan.Places[indexOf(corners[2])] - a;
+        if (side.Cross(other).Dot(fan.Normals[indexOf(corners[0])]) < 0.0)
+        {
+          std::swap(corners[1], corners[2]);
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          this->Corners[indexOf(3 * (this->FirstTriangles[indexOf(point)] + i) + k)] =
+            first + corners[indexOf(k)];
+        }
       }
     });
 
