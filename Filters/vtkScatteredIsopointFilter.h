@@ -338,8 +338,8 @@ public:
   ///@{
   /**
    * The number of nearest isopoints to which the plane is fitted that gives a normal
-   * (NORMALS_FROM_PLANES, and where the samples yield no gradient): the nearest of the first ring
-   * of touching cells, or of two rings if these are too few. More give smoother normals and rounder
+   * (NORMALS_FROM_PLANES, and where the samples yield no gradient): the nearest within two rings of
+   * touching cells. More give smoother normals and rounder
    * edges. Range: 3 to 1000; other values are clamped. Default: 12.
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);

@@ -153,7 +153,7 @@ ExtractedIsosurface extractOnRanks(const Execution& execution, SampleCloud<TSamp
   if (hasHalo)
   {
     const bool hasShapes = request.splats && request.splats->shapes;
-    halo.gather(std::max(ghosts ? ghostRings : 2, hasShapes ? fanRings : 2));
+    halo.gather(std::max(ghosts ? ghostRings : 3, hasShapes ? fanRings : 3));
   }
   const Isosurface& all = hasHalo ? halo.surface() : surface;
   std::vector<bool> isShaped;
@@ -190,6 +190,27 @@ ExtractedIsosurface extractOnRanks(const Execution& execution, SampleCloud<TSamp
   return result;
 }
 
+/// The splats of all isopoints of a surface.
+template <class TSample>
+std::vector<Splat> splatsOf(const Execution& execution, const SampleCloud<TSample>& cloud,
+  const Isosurface& surface, const SplatOptions& options)
+{
+  // Close points come after each other, so that what lies around them is in the caches.
+  const std::vector<std::size_t> order = inOrderOfLeaves(surface.leaves, cloud.tree.nodes.size());
+  const Isosurface ordered = chosenIsopoints(surface, order);
+  const IsopointNeighbors neighbors(execution, cloud.tree, cloud.neighborhoods, ordered.leaves);
+  const SampleExtents extents(cloud.tree);
+  const std::vector<Splat> found =
+    computeSplats(execution, { ordered.positions, ordered.decreasingEdges, ordered.fits, order },
+      neighbors, &extents, options);
+  std::vector<Splat> splats(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    splats[order[i]] = found[i];
+  }
+  return splats;
+}
+
 template <class TSample>
 ExtractedIsosurface extractPoints(const Execution& execution, SampleCloud<TSample>& cloud,
   std::size_t itemCount, const ExtractionRequest& request)
@@ -203,14 +224,9 @@ ExtractedIsosurface extractPoints(const Execution& execution, SampleCloud<TSampl
   throwIfAborted(execution);
   if (request.splats)
   {
-    const Isosurface& surface = result.surface;
-    const auto count = static_cast<double>(surface.size());
+    const auto count = static_cast<double>(result.surface.size());
     const Execution part = progress.part(count * splatting, count * work::writing);
-    const IsopointNeighbors neighbors(part, cloud.tree, cloud.neighborhoods, surface.leaves);
-    const SampleExtents extents(cloud.tree);
-    result.splats =
-      computeSplats(part, { surface.positions, surface.decreasingEdges, surface.fits }, neighbors,
-        &extents, *request.splats);
+    result.splats = splatsOf(part, cloud, result.surface, *request.splats);
   }
   result.surface.leaves = {};
   return result;

@@ -123,13 +123,6 @@ public:
     }
   }
 
-  std::vector<std::size_t> inOrder() const
-  {
-    std::vector<std::size_t> order(this->Positions.size());
-    std::iota(order.begin(), order.end(), std::size_t{ 0 });
-    return order;
-  }
-
   class Finder
   {
   public:
@@ -138,7 +131,7 @@ public:
     {
     }
 
-    void find(std::size_t point, int rings, std::vector<std::size_t>& found)
+    const std::vector<std::size_t>& find(std::size_t point, int rings)
     {
       std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
       for (const auto& [position, points] : this->Around.At)
@@ -148,15 +141,17 @@ public:
       const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
       std::nth_element(
         near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
-      found.clear();
+      this->Found.clear();
       for (std::size_t i = 0; i < count; ++i)
       {
-        found.insert(found.end(), near[i].second->begin(), near[i].second->end());
+        this->Found.insert(this->Found.end(), near[i].second->begin(), near[i].second->end());
       }
+      return this->Found;
     }
 
   private:
     const NearestAround& Around;
+    std::vector<std::size_t> Found;
   };
 
 private:

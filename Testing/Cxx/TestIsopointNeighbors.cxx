@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The isopoints around each: those whose edges end in leaves that touch the ends of its own.
+// The isopoints around each: those whose edges end in leaves around its own edge.
 #include "Clouds.h"
 
 #include "Isopoint/Extraction/ExtractIsosurface.h"
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <set>
 #include <vector>
@@ -49,22 +50,25 @@ struct Extracted
     isopoint::WorkProgress progress(execution);
     this->surface = isopoint::extractIsosurface(
       execution, this->tree, this->known, cloud.size(), request, progress, 0.0);
+    for (const isopoint::EdgeLeaves& leaves : this->surface.leaves)
+    {
+      this->Ends.push_back({ leaves.first, leaves.second });
+    }
   }
 
-  /// By comparing the regions of all leaves.
-  std::set<std::size_t> around(std::size_t isopoint) const
+  using Isopoints = std::set<std::size_t>;
+
+  /// The isopoints with an end in a leaf or in one that touches it, by comparing all regions.
+  Isopoints around(std::size_t leaf) const
   {
-    const auto regionOf = [this](std::size_t leaf)
-    { return isopoint::pathToLeaf(this->tree, leaf).region; };
-    std::set<std::size_t> found;
-    const isopoint::EdgeLeaves& own = this->surface.leaves[isopoint];
+    const auto regionOf = [this](std::size_t other)
+    { return isopoint::pathToLeaf(this->tree, other).region; };
+    Isopoints found;
     for (std::size_t i = 0; i < this->surface.size(); ++i)
     {
-      for (const std::size_t end :
-        { this->surface.leaves[i].first, this->surface.leaves[i].second })
+      for (const std::size_t end : this->endsOf(i))
       {
-        if (doTouch(regionOf(end), regionOf(own.first)) ||
-            doTouch(regionOf(end), regionOf(own.second)))
+        if (doTouch(regionOf(end), regionOf(leaf)))
         {
           found.insert(i);
         }
@@ -72,6 +76,40 @@ struct Extracted
     }
     return found;
   }
+
+  /// Those in so many rings around an isopoint.
+  Isopoints inRings(std::size_t isopoint, int rings) const
+  {
+    Isopoints found; // first those whose edges begin in the same leaf
+    for (std::size_t i = 0; i < this->surface.size(); ++i)
+    {
+      if (this->endsOf(i)[0] == this->endsOf(isopoint)[0])
+      {
+        found.insert(i);
+      }
+    }
+    for (int ring = 1; ring <= rings; ++ring)
+    {
+      std::set<std::size_t> ends;
+      for (const std::size_t other : found)
+      {
+        ends.insert(this->endsOf(other).begin(), this->endsOf(other).end());
+      }
+      for (const std::size_t end : ends)
+      {
+        found.merge(this->around(end));
+      }
+    }
+    return found;
+  }
+
+private:
+  const std::array<std::size_t, 2>& endsOf(std::size_t isopoint) const
+  {
+    return this->Ends[isopoint];
+  }
+
+  std::vector<std::array<std::size_t, 2>> Ends; // of the isopoints' edges, leaves
 };
 
 } // namespace
@@ -90,33 +128,24 @@ TEST(IsopointNeighbors, EndInTouchingLeaves)
       const isopoint::IsopointNeighbors<TSample> neighbors(
         clouds::executionOn(2), extracted.tree, *known, extracted.surface.leaves);
       isopoint::IsopointNeighbors<TSample>::Finder finder(neighbors);
-      std::vector<std::size_t> found;
-      for (std::size_t i = 0; i < extracted.surface.size(); i += 7)
+      for (std::size_t i = 0; i < extracted.surface.size(); i += 35)
       {
-        const std::set<std::size_t> expected = extracted.around(i);
-        finder.find(i, 1, found);
-        EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), expected) << i;
-        std::set<std::size_t> wider;
-        for (const std::size_t other : expected)
+        for (const int rings : { 1, 3, 2 })
         {
-          const std::set<std::size_t> more = extracted.around(other);
-          wider.insert(more.begin(), more.end());
+          const auto found = finder.find(i, rings);
+          const Extracted::Isopoints each(found.begin(), found.end());
+          EXPECT_EQ(each.size(), found.size()) << i;
+          EXPECT_EQ(each, extracted.inRings(i, rings)) << i << " in " << rings;
         }
-        if (i % 5 == 0)
-        {
-          finder.find(i, 2, found);
-          EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), wider) << i;
-        }
-      }
-      std::vector<std::size_t> order = neighbors.inOrder();
-      std::sort(order.begin(), order.end());
-      ASSERT_EQ(order.size(), extracted.surface.size());
-      for (std::size_t i = 0; i < order.size(); ++i)
-      {
-        ASSERT_EQ(order[i], i);
       }
     }
   }
+}
+
+TEST(IsopointNeighbors, AreInTheOrderOfLeaves)
+{
+  const std::vector<isopoint::EdgeLeaves> leaves{ { 4, 2 }, { 0, 4 }, { 3, 1 }, { 0, 1 } };
+  EXPECT_EQ(isopoint::inOrderOfLeaves(leaves, 5), (std::vector<std::size_t>{ 1, 3, 2, 0 }));
 }
 
 // Cells on three lines, each of which touches hundreds of those on the others.
@@ -127,15 +156,12 @@ TEST(IsopointNeighbors, OfLeavesThatTouchVeryManyAreFew)
   const isopoint::IsopointNeighbors<TSample> neighbors(
     clouds::executionOn(2), extracted.tree, extracted.known, extracted.surface.leaves);
   isopoint::IsopointNeighbors<TSample>::Finder finder(neighbors);
-  std::vector<std::size_t> found;
   std::size_t most = 0;
   std::size_t lonely = 0;
   for (std::size_t i = 0; i < extracted.surface.size(); ++i)
   {
-    finder.find(i, 1, found);
-    lonely += found.size() < 4 ? 1 : 0;
-    finder.find(i, 2, found);
-    most = std::max(most, found.size());
+    lonely += finder.find(i, 1).size() < 4 ? 1 : 0;
+    most = std::max(most, finder.find(i, 2).size());
   }
   EXPECT_LT(most, 2304u);
   EXPECT_LT(lonely, extracted.surface.size() / 2);

@@ -19,9 +19,31 @@
 namespace isopoint
 {
 
-/// The isopoints around each isopoint: those whose edges end in the two leaves of its own edge or
-/// in leaves that touch one of these, so that around an isopoint there are others in all directions
-/// in which the surface goes on, however unevenly the samples are spread.
+/// All isopoints, those first whose edges begin in the first leaf: mostly close ones after each
+/// other.
+/// @param leaves of the isopoints' edges
+/// @param nodeCount of the tree
+/// Complexity: O(nodes + isopoints)
+inline std::vector<std::size_t> inOrderOfLeaves(
+  const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
+{
+  std::vector<std::size_t> begins(nodeCount + 1, 0);
+  for (const EdgeLeaves& edge : leaves)
+  {
+    ++begins[edge.first + 1];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::size_t> order(leaves.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    order[begins[leaves[i].first]++] = i;
+  }
+  return order;
+}
+
+/// The isopoints around each isopoint: those whose edges end in leaves around its own edge, so that
+/// around an isopoint there are others in all directions in which the surface goes on, however
+/// unevenly the samples are spread.
 ///
 /// The time is bounded for leaves that touch very many others, as one that fills a void: around a
 /// leaf that touches more than 256 others no others are listed, nor are the isopoints of a leaf
@@ -56,24 +78,8 @@ public:
     this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
-  /// All isopoints, mostly close ones after each other.
-  std::vector<std::size_t> inOrder() const
-  {
-    std::vector<std::size_t> begins(this->Leaves.size() + 1, 0);
-    for (const std::array<Id, 2>& ends : this->Ends)
-    {
-      ++begins[ends[0] + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<std::size_t> order(this->Ends.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      order[begins[this->Ends[i][0]]++] = i;
-    }
-    return order;
-  }
-
-  /// Lists the isopoints around one. Memory is kept. For one thread.
+  /// Lists the isopoints around one. What was found is kept for the next ones whose edges begin in
+  /// the same leaf. For one thread.
   class Finder
   {
   public:
@@ -82,57 +88,105 @@ public:
     {
     }
 
-    /// Lists the isopoints around one, itself among them, each once or twice.
-    /// @param rings 1 or more: each one adds those around the ones found before. All samples that
-    /// determine which these are lie in leaves that are connected to the ends of the isopoint's
-    /// edge by no more than 2 rings - 1 touching leaves.
-    void find(std::size_t isopoint, int rings, std::vector<std::size_t>& found)
+    /// The isopoints around one, each once, mostly itself among them.
+    struct Found
     {
-      found.clear();
-      this->Ends.clear();
-      this->Visited.clear();
-      this->addAround(isopoint, found);
-      std::size_t begin = 0;
-      for (int ring = 2; ring <= rings; ++ring)
+      const std::size_t* first;
+      const std::size_t* last;
+      const std::size_t* begin() const { return this->first; }
+      const std::size_t* end() const { return this->last; }
+      std::size_t size() const { return static_cast<std::size_t>(this->last - this->first); }
+    };
+
+    /// @param rings 1 or more. In the first ring are the isopoints whose edges end in or next to an
+    /// end of one of the edges that begin where this one's does; each further ring adds those whose
+    /// edges end in or next to an end of one of the ring before. All samples that determine which
+    /// these are lie in leaves that are connected to this one's edge by no more than 2 rings + 1
+    /// touching leaves.
+    /// @returns a list that holds until the next call
+    Found find(std::size_t isopoint, int rings)
+    {
+      const Id leaf = this->Neighbors.Ends[isopoint][0];
+      if (this->RingEnds.empty() || leaf != this->Leaf)
       {
-        const std::size_t end = found.size();
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->addAround(found[i], found);
-        }
-        begin = end;
+        this->begin(leaf);
       }
+      while (this->RingEnds.size() < static_cast<std::size_t>(rings))
+      {
+        this->addRing();
+      }
+      const std::size_t* const first = this->Isopoints.data();
+      return { first, first + this->RingEnds[static_cast<std::size_t>(rings) - 1] };
     }
 
   private:
-    void addAround(std::size_t isopoint, std::vector<std::size_t>& found)
+    void begin(Id leaf)
     {
-      for (const Id end : this->Neighbors.Ends[isopoint])
+      this->Leaf = leaf;
+      this->Isopoints.clear();
+      this->Ends.clear();
+      this->Visited.clear();
+      this->Listed.clear();
+      this->addAround(leaf);
+      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
       {
-        if (!this->Ends.add(end))
+        if (this->Neighbors.Ends[isopoint][0] == leaf)
         {
-          continue;
+          this->addAround(this->Neighbors.Ends[isopoint][1]);
         }
-        this->addLeaf(end, found);
-        for (const Id leaf : this->Neighbors.Touching.at(end))
+      }
+      this->RingEnds.assign(1, this->Isopoints.size());
+    }
+
+    void addRing()
+    {
+      const std::size_t rings = this->RingEnds.size();
+      const std::size_t end = this->RingEnds.back();
+      for (std::size_t i = rings > 1 ? this->RingEnds[rings - 2] : 0; i < end; ++i)
+      {
+        for (const Id leaf : this->Neighbors.Ends[this->Isopoints[i]])
         {
-          this->addLeaf(leaf, found);
+          this->addAround(leaf);
         }
+      }
+      this->RingEnds.push_back(this->Isopoints.size());
+    }
+
+    void addAround(Id leaf)
+    {
+      if (!this->Ends.add(leaf))
+      {
+        return;
+      }
+      this->addLeaf(leaf);
+      for (const Id touching : this->Neighbors.Touching.at(leaf))
+      {
+        this->addLeaf(touching);
       }
     }
 
-    void addLeaf(Id leaf, std::vector<std::size_t>& found)
+    void addLeaf(Id leaf)
     {
-      if (found.size() < mostIsopoints && this->Visited.add(leaf))
+      if (this->Isopoints.size() >= mostIsopoints || !this->Visited.add(leaf))
       {
-        const auto list = this->Neighbors.Isopoints.at(leaf);
-        found.insert(found.end(), list.begin(), list.end());
+        return;
+      }
+      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
+      {
+        if (this->Listed.add(isopoint))
+        {
+          this->Isopoints.push_back(isopoint);
+        }
       }
     }
 
     const IsopointNeighbors& Neighbors;
-    LeafSet<Id> Ends; // whose surroundings are listed
+    Id Leaf = 0;
+    std::vector<std::size_t> Isopoints;
+    std::vector<std::size_t> RingEnds; // in this list
+    LeafSet<Id> Ends;                  // whose surroundings are listed
     LeafSet<Id> Visited;
+    LeafSet<std::size_t> Listed;
   };
 
 private:

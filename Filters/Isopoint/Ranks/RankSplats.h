@@ -11,8 +11,6 @@
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
 #include "Isopoint/Splat/CellCutter.h"
-#include "Isopoint/Splat/MutualSides.h"
-#include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatCell.h"
 #include "Isopoint/Splat/SplatFans.h"
@@ -23,6 +21,7 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -70,8 +69,20 @@ public:
     this->shareNormals(halo, splats);
     if (this->Options.shapes)
     {
-      const std::vector<SplatCell> cells = this->cut(halo, points, *neighbors, splats);
-      this->shape(halo, cells, isShaped, splats);
+      std::vector<SplatCell> cells = this->cut(halo, points, *neighbors, splats);
+      this->Exchange.together(
+        [&]()
+        {
+          std::vector<std::size_t> shaped;
+          for (std::size_t i = 0; i < isShaped.size(); ++i)
+          {
+            if (isShaped[i])
+            {
+              shaped.push_back(halo.ownIndices()[i]);
+            }
+          }
+          shapeSplats(this->Run, points, std::move(cells), shaped, splats);
+        });
     }
     if (isShared)
     {
@@ -92,17 +103,11 @@ private:
         std::set_intersection(ofAll.begin(), ofAll.end(), halo.ownIndices().begin(),
           halo.ownIndices().end(), std::back_inserter(unfitted));
       });
-    const auto count = static_cast<std::size_t>(this->Options.neighborCount);
     inRounds(
       this->Run, this->Exchange, unfitted.size(),
-      [&]() { return NearbyPoints<Neighbors>(neighbors, points.positions); },
-      [&](NearbyPoints<Neighbors>& nearby, std::size_t i)
-      {
-        const std::size_t point = unfitted[i];
-        std::vector<std::size_t> around;
-        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
-        splats[point].normal = planeNormal(points, point, around);
-      });
+      [&]() { return PlaneNormals<Neighbors>(neighbors, points, this->Options.neighborCount); },
+      [&](PlaneNormals<Neighbors>& normals, std::size_t i)
+      { splats[unfitted[i]].normal = normals.at(unfitted[i]); });
   }
 
   void shareNormals(SurfaceHalo<TSample>& halo, std::vector<Splat>& splats)
@@ -144,7 +149,8 @@ private:
       [&]()
       {
         sent.resize(splats.size(), SentCell{});
-        for (const std::size_t point : neighbors.inOrder())
+        for (const std::size_t point :
+          inOrderOfLeaves(halo.surface().leaves, this->Exchange.tree().nodes.size()))
         {
           if (std::binary_search(halo.ownIndices().begin(), halo.ownIndices().end(), point))
           {
@@ -183,35 +189,6 @@ private:
         }
       });
     return cells;
-  }
-
-  void shape(const SurfaceHalo<TSample>& halo, const std::vector<SplatCell>& cells,
-    const std::vector<bool>& isShaped, std::vector<Splat>& splats)
-  {
-    std::vector<SplatCell> mutual;
-    const SplatFans fans(halo.surface().positions, splats, mutual);
-    this->Exchange.together(
-      [&]()
-      {
-        for (std::size_t i = 0; i < cells.size(); ++i)
-        {
-          mutual.push_back(withMutualSides(cells, i));
-        }
-        constexpr std::size_t batch = 8192;
-        constexpr std::size_t grain = 512;
-        forBatches(this->Run, isShaped.size(), batch, grain,
-          [&](std::size_t begin, std::size_t end)
-          {
-            for (std::size_t i = begin; i < end; ++i)
-            {
-              const std::size_t point = halo.ownIndices()[i];
-              if (isShaped[i])
-              {
-                fans.shape(point, splats[point]);
-              }
-            }
-          });
-      });
   }
 
   const Execution& Run;

@@ -24,8 +24,10 @@
 namespace isopoint
 {
 
-/// This rank's isopoints and those of others within some rings around them (see
-/// IsopointNeighbors), in the order of the whole surface. All functions are collective.
+/// This rank's isopoints and those of others within some rings around them, in the order of the
+/// whole surface. Each ring adds those whose edges end in or next to an end of one of the ring
+/// before: one ring more than IsopointNeighbors are asked for has all that these find. All
+/// functions are collective.
 template <class TSample>
 class SurfaceHalo
 {
@@ -45,7 +47,7 @@ public:
   {
   }
 
-  /// Gathers this many rings, two or more.
+  /// Gathers this many rings, three or more.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   void gather(int rings)
   {
@@ -69,7 +71,7 @@ public:
             for (const SentIsopoint& isopoint : list)
             {
               ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-              if (ring == std::min(1, rings - 2)) // those of the rings before among them
+              if (ring == std::min(2, rings - 2)) // those of the rings before among them
               {
                 this->Surrounded.push_back(isopoint.edge);
               }
@@ -369,7 +371,7 @@ private:
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
-  std::vector<IsopointEdge> Surrounded; // received with the first two rings, or the first of two
+  std::vector<IsopointEdge> Surrounded; // received with the first three rings, or two of three
   Isosurface All;
   std::vector<std::size_t> OwnIndices;
   std::vector<bool> IsInner;

@@ -22,7 +22,7 @@ namespace isopoint
 
 /// Cuts out the cells of points whose normals are known, one at a time. For one thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
-/// @tparam TExtents see SplatBorder
+/// @tparam TExtents see cutAtBorder()
 template <class TNeighbors, class TExtents>
 class CellCutter
 {
@@ -32,8 +32,8 @@ public:
     const std::vector<Splat>& splats)
     : Points(points)
     , Splats(splats)
-    , Nearby(neighbors, points.positions)
-    , Border(extents)
+    , Nearby(neighbors, points)
+    , Extents(extents)
   {
   }
 
@@ -103,8 +103,6 @@ private:
   /// Cuts the octagon down to the cell, in the unit of length.
   void cutOut(std::size_t point, double unit, TangentCell& cell)
   {
-    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
-    this->Border.moveTo(this->Points.positions[point], this->Splats[point].normal, spacing);
     if (!this->Points.fits.empty())
     {
       for (const CreasePlane& crease : this->Points.fits[point].creases)
@@ -113,28 +111,33 @@ private:
       }
     }
     this->HasPassed = false;
-    // Points at more than twice a distance cut nothing off within it.
-    constexpr double near = sampleReach * sampleReach;
-    this->Nearby.find(point, 2, unit, 4.0 * near);
-    this->cutTowardsNearby(point, unit, cell);
-    if (cell.squaredReach() > near)
-    {
-      this->Nearby.keepWithin(point, unit, 4.0 * cell.squaredReach());
-      this->cutTowardsNearby(point, unit, cell);
-    }
-    if (cell.squaredReach() > 2.0 * near)
+    this->cutTowardsRings(point, 2, unit, cell);
+    constexpr double large = 1.27;
+    if (cell.squaredReach() > large * large)
     {
       // It may be large because points beyond are in no ring nearer.
-      this->Nearby.find(point, 3, unit, 4.0 * cell.squaredReach());
-      this->cutTowardsNearby(point, unit, cell);
+      this->cutTowardsRings(point, 3, unit, cell);
     }
-    if (cell.isOpen() || cell.squaredReach() > near)
-    {
-      this->Border.cut(cell);
-    }
+    cutAtBorder(this->Extents, this->Points.positions[point], this->Splats[point].normal,
+      this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing, cell);
     if (cell.isOpen() || this->HasPassed)
     {
       cell.limitTo(openReach);
+    }
+  }
+
+  /// Cuts a cell towards the points in rings around its own that are within twice its reach:
+  /// others cut nothing off.
+  void cutTowardsRings(std::size_t point, int rings, double unit, TangentCell& cell)
+  {
+    constexpr double usual = 1.5; // mostly no others are so near
+    this->Nearby.find(point, rings, unit);
+    this->Nearby.listWithin(std::min(usual * usual, 4.0 * cell.squaredReach()));
+    this->cutTowardsNearby(point, unit, cell);
+    if (4.0 * cell.squaredReach() > usual * usual)
+    {
+      this->Nearby.listWithin(4.0 * cell.squaredReach());
+      this->cutTowardsNearby(point, unit, cell);
     }
   }
 
@@ -248,7 +251,7 @@ private:
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
   NearbyPoints<TNeighbors> Nearby;
-  SplatBorder<TExtents> Border;
+  const TExtents* Extents;
   bool HasPassed = false; // points without a fit, over which the cell may reach
 };
 

@@ -3,10 +3,10 @@
 #define isopoint_NearbyPoints_h
 
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Splat/Splat.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace isopoint
@@ -26,62 +26,54 @@ template <class TNeighbors>
 class NearbyPoints
 {
 public:
-  NearbyPoints(const TNeighbors& neighbors, const std::vector<Vector>& positions)
-    : Positions(positions)
+  NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points)
+    : Points(points)
     , Finder(neighbors)
   {
   }
 
-  /// Goes to a point.
+  /// Goes to a point, and finds those around it. None is listed yet.
   /// @param rings see IsopointNeighbors
-  /// @param unit of length; if one over it is not finite, nothing is found
-  /// @param squaredLimit of the distances, in this unit
-  void find(std::size_t point, int rings, double unit,
-    double squaredLimit = std::numeric_limits<double>::max())
+  /// @param unit of length; if one over it is not finite, no point will be listed
+  void find(std::size_t point, int rings, double unit)
   {
-    this->Finder.find(point, rings, this->Found);
-    this->keepWithin(point, unit, squaredLimit);
+    const Vector& position = this->Points.positions[point];
+    const double scale = 1.0 / unit;
+    this->All.clear();
+    this->Nearby.clear();
+    this->IsFirstHere = true;
+    for (const std::size_t other : this->Finder.find(point, rings))
+    {
+      const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
+      const double squaredDistance = dot(offset, offset);
+      this->All.push_back({ squaredDistance, other });
+      if (squaredDistance == 0.0 && this->Points.numberOf(other) < this->Points.numberOf(point))
+      {
+        this->IsFirstHere = false;
+      }
+    }
   }
 
-  /// Lists those found around the point within another limit.
-  void keepWithin(std::size_t point, double unit, double squaredLimit)
+  /// Lists those at other positions within a limit, the square of a distance in the unit.
+  void listWithin(double squaredLimit)
   {
-    const Vector& position = this->Positions[point];
-    const double scale = 1.0 / unit;
     // Which ones are within the limit is unpredictable: all are written, and those are kept.
-    this->Nearby.resize(this->Found.size());
+    this->Nearby.resize(this->All.size());
     std::size_t count = 0;
-    this->IsFirstHere = true;
-    for (const std::size_t other : this->Found)
+    for (const NearbyPoint& other : this->All)
     {
-      const Vector offset = scaled(scale, difference(this->Positions[other], position));
-      const double squaredDistance = dot(offset, offset);
-      this->Nearby[count] = { squaredDistance, other };
-      this->IsFirstHere &= (squaredDistance != 0.0) | (other >= point);
-      count += ((squaredDistance > 0.0) & (squaredDistance <= squaredLimit)) ? 1 : 0;
+      this->Nearby[count] = other;
+      count += ((other.squaredDistance > 0.0) & (other.squaredDistance <= squaredLimit)) ? 1 : 0;
     }
     this->Nearby.resize(count);
     std::sort(this->Nearby.begin(), this->Nearby.end(),
-      [](const NearbyPoint& a, const NearbyPoint& b)
+      [this](const NearbyPoint& a, const NearbyPoint& b)
       {
-        return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-                                                      : a.point < b.point;
+        return a.squaredDistance != b.squaredDistance
+                 ? a.squaredDistance < b.squaredDistance
+                 : this->Points.numberOf(a.point) < this->Points.numberOf(b.point);
       });
     this->dropCoincident();
-  }
-
-  /// Lists the nearest ones around a point, in one ring or, if these are too few, in two.
-  void nearest(std::size_t point, double unit, std::size_t count, std::vector<std::size_t>& found)
-  {
-    for (int rings = 1; rings <= 2 && (rings == 1 || this->size() < count); ++rings)
-    {
-      this->find(point, rings, unit);
-    }
-    found.clear();
-    for (std::size_t i = 0; i < std::min(count, this->size()); ++i)
-    {
-      found.push_back(this->Nearby[i].point);
-    }
   }
 
   /// Whether no earlier point found is at the same position.
@@ -98,8 +90,9 @@ private:
     for (const NearbyPoint& nearby : this->Nearby)
     {
       std::size_t i = count;
-      while (i > 0 && this->Nearby[i - 1].squaredDistance == nearby.squaredDistance &&
-             this->Positions[this->Nearby[i - 1].point] != this->Positions[nearby.point])
+      while (
+        i > 0 && this->Nearby[i - 1].squaredDistance == nearby.squaredDistance &&
+        this->Points.positions[this->Nearby[i - 1].point] != this->Points.positions[nearby.point])
       {
         --i;
       }
@@ -111,9 +104,9 @@ private:
     this->Nearby.resize(count);
   }
 
-  const std::vector<Vector>& Positions;
+  const SurfacePoints& Points;
   typename TNeighbors::Finder Finder;
-  std::vector<std::size_t> Found;
+  std::vector<NearbyPoint> All; // that were found, in any order
   std::vector<NearbyPoint> Nearby;
   bool IsFirstHere = true;
 };

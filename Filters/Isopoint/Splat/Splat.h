@@ -44,6 +44,15 @@ struct SurfacePoints
   const std::vector<Vector>& positions;
   const std::vector<Vector>& decreasingEdges; // see Isosurface
   const std::vector<LocalFit>& fits;          // or empty
+
+  /// Of points at one position the one of the lowest number counts, and of points at the same
+  /// distance it comes first. Empty: they are numbered as listed.
+  std::vector<std::size_t> numbers = {};
+
+  std::size_t numberOf(std::size_t point) const
+  {
+    return this->numbers.empty() ? point : this->numbers[point];
+  }
 };
 
 constexpr int defaultNeighborCount = 12;

@@ -2,173 +2,207 @@
 #include "Isopoint/Splat/SplatFans.h"
 
 #include "Isopoint/Base/TangentFrame.h"
+#include "Isopoint/Splat/LoweredCell.h"
+#include "Isopoint/Splat/MutualSides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace isopoint
 {
-
-/// What is beyond the side that begins at a corner or, backward, the one that ends there.
-std::size_t SplatFans::beyond(const Corner& corner, bool isOnward) const
+namespace
 {
-  const SplatCell& cell = this->Cells[corner.point];
-  const std::size_t before = (corner.number + cell.count - 1) % cell.count;
-  return cell.corners[isOnward ? corner.number : before].beyond;
-}
 
-/// Whether both sides at a corner are cuts halfway to other points: the surface goes on there.
-bool SplatFans::isBetweenPoints(const Corner& corner) const
+/// A corner of a point's cell.
+struct CornerOf
 {
-  return this->beyond(corner, true) != SplatCell::none &&
-         this->beyond(corner, false) != SplatCell::none;
-}
+  std::size_t point;
+  std::size_t corner;
 
-/// The corner of the cell across a side that is at the same place.
-std::optional<SplatFans::Corner> SplatFans::across(const Corner& corner, bool isOnward) const
-{
-  const std::size_t beyond = this->beyond(corner, isOnward);
-  if (!SplatCell::isPoint(beyond))
+  bool operator==(const CornerOf& other) const
   {
+    return this->point == other.point && this->corner == other.corner;
+  }
+};
+
+/// The corners of cells that meet, each once, in the order of the points' numbers.
+struct Meeting
+{
+  std::array<CornerOf, mostMeeting> corners{};
+  std::size_t count = 0;
+  bool isTooLarge = false;    // then they are not brought together
+  bool isOverlapping = false; // so are they not; see SplatCell::overlapping
+
+  void add(const CornerOf& corner, const SurfacePoints& points)
+  {
+    this->isTooLarge = this->count == this->corners.size();
+    if (this->isTooLarge)
+    {
+      return;
+    }
+    const auto comesBefore = [&](const CornerOf& a, const CornerOf& b)
+    {
+      return std::pair(points.numberOf(a.point), a.corner) <
+             std::pair(points.numberOf(b.point), b.corner);
+    };
+    std::size_t i = this->count++;
+    for (; i > 0 && comesBefore(corner, this->corners[i - 1]); --i)
+    {
+      this->corners[i] = this->corners[i - 1];
+    }
+    this->corners[i] = corner;
+  }
+};
+
+/// Brings the corners of cells together.
+class CornerJoiner
+{
+public:
+  CornerJoiner(const SurfacePoints& points, const std::vector<Splat>& splats,
+    const std::vector<LoweredCell>& cells)
+    : Points(points)
+    , Splats(splats)
+    , Cells(cells)
+  {
+  }
+
+  /// A corner where it meets others: at the mean of all, the same for each of them.
+  LoweredCell::Corner joined(const CornerOf& corner) const
+  {
+    Meeting meeting;
+    meeting.add(corner, this->Points);
+    if (!this->follow(corner, true, meeting))
+    {
+      this->follow(corner, false, meeting);
+    }
+    LoweredCell::Corner result = this->at(corner);
+    const bool isInside = this->isBetweenPoints(corner);
+    if (meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside))
+    {
+      // Where cells do not agree, those around overlap, so that nothing gapes.
+      constexpr double overlap = 0.1;
+      const Vector outward = difference(result.position, this->Points.positions[corner.point]);
+      result.position = sum(result.position, isInside ? overlap : 0.0, outward);
+      return result;
+    }
+    const Vector& origin = this->at(meeting.corners.front()).position;
+    Vector offset{ 0.0, 0.0, 0.0 };
+    Vector normal{ 0.0, 0.0, 0.0 };
+    for (std::size_t i = 0; i < meeting.count; ++i)
+    {
+      const LoweredCell::Corner& other = this->at(meeting.corners[i]);
+      offset = sum(offset, 1.0, difference(other.position, origin));
+      normal = sum(normal, 1.0, other.normal);
+    }
+    result.position = sum(origin, 1.0 / static_cast<double>(meeting.count), offset);
+    result.normal = directionOf(normal);
+    return result;
+  }
+
+private:
+  const LoweredCell::Corner& at(const CornerOf& corner) const
+  {
+    return this->Cells[corner.point].corners[corner.corner];
+  }
+
+  /// What is beyond the side that begins at a corner or, backward, the one that ends there.
+  std::size_t beyond(const CornerOf& corner, bool isOnward) const
+  {
+    const LoweredCell& cell = this->Cells[corner.point];
+    const std::size_t before = (corner.corner > 0 ? corner.corner : cell.count) - 1;
+    return cell.corners[isOnward ? corner.corner : before].beyond;
+  }
+
+  /// Whether both sides at a corner are cuts halfway to other points: the surface goes on there.
+  bool isBetweenPoints(const CornerOf& corner) const
+  {
+    return this->beyond(corner, true) != SplatCell::none &&
+           this->beyond(corner, false) != SplatCell::none;
+  }
+
+  /// The corner of the cell across a side that is at the same place.
+  std::optional<CornerOf> across(const CornerOf& corner, bool isOnward) const
+  {
+    const std::size_t beyond = this->beyond(corner, isOnward);
+    if (!SplatCell::isPoint(beyond))
+    {
+      return std::nullopt;
+    }
+    const LoweredCell& other = this->Cells[beyond];
+    for (std::size_t i = 0; i < other.count; ++i)
+    {
+      if (other.corners[i].beyond == corner.point)
+      {
+        return CornerOf{ beyond, isOnward ? (i + 1) % other.count : i };
+      }
+    }
     return std::nullopt;
   }
-  const SplatCell& other = this->Cells[beyond];
-  for (std::size_t i = 0; i < other.count; ++i)
+
+  /// Whether two corners may be one place: the normals of their points do not oppose, and the two
+  /// are no farther apart than 1.2 times as far as they are from their points.
+  bool areClose(const CornerOf& a, const CornerOf& b) const
   {
-    if (other.corners[i].beyond == corner.point)
+    constexpr double mostShare = 1.2;
+    const LoweredCell::Corner& atA = this->at(a);
+    const LoweredCell::Corner& atB = this->at(b);
+    return dot(this->Splats[a.point].normal, this->Splats[b.point].normal) > 0.0 &&
+           lengthOf(difference(atA.position, atB.position)) <=
+             mostShare * 0.5 * (atA.distance + atB.distance);
+  }
+
+  /// Adds the corners that follow the first one, from cell to cell around the place where they
+  /// meet.
+  /// @returns whether this leads back to it
+  bool follow(const CornerOf& first, bool isOnward, Meeting& meeting) const
+  {
+    CornerOf last = first;
+    while (!meeting.isTooLarge)
     {
-      return Corner{ beyond, isOnward ? (i + 1) % other.count : i };
+      const std::optional<CornerOf> next = this->across(last, isOnward);
+      if (!next)
+      {
+        meeting.isOverlapping |= this->beyond(last, isOnward) == SplatCell::overlapping;
+        return false;
+      }
+      if (*next == first)
+      {
+        return true;
+      }
+      if (!this->areClose(last, *next))
+      {
+        return false;
+      }
+      meeting.add(*next, this->Points);
+      last = *next;
     }
+    return false;
   }
-  return std::nullopt;
-}
 
-/// A corner on the paraboloid of its point.
-SplatFans::Place SplatFans::placeOf(const Corner& corner) const
-{
-  const SplatCell& cell = this->Cells[corner.point];
-  const auto& [x, y, beyond] = cell.corners[corner.number];
-  const Vector& normal = this->Splats[corner.point].normal;
-  const TangentFrame frame(normal);
-  const double slopeX = cell.curvature.xx * x + cell.curvature.xy * y;
-  const double slopeY = cell.curvature.xy * x + cell.curvature.yy * y;
-  const double height = 0.5 * (slopeX * x + slopeY * y);
-  Vector position = sum(this->Positions[corner.point], cell.unit * x, frame.first);
-  position = sum(position, cell.unit * y, frame.second);
-  position = sum(position, cell.unit * height, normal);
-  const Vector upwards = sum(sum(normal, -slopeX, frame.first), -slopeY, frame.second);
-  return { corner, position, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y) };
-}
+  const SurfacePoints& Points;
+  const std::vector<Splat>& Splats;
+  const std::vector<LoweredCell>& Cells;
+};
 
-/// Whether two corners may be one place: the normals do not oppose, and the two are no farther
-/// apart than 1.2 times as far as they are from their points.
-bool SplatFans::areClose(const Place& a, const Place& b) const
-{
-  constexpr double mostShare = 1.2;
-  return dot(this->Splats[a.corner.point].normal, this->Splats[b.corner.point].normal) > 0.0 &&
-         lengthOf(difference(a.position, b.position)) <=
-           mostShare * 0.5 * (a.distance + b.distance);
-}
-
-void SplatFans::Meeting::add(const Place& place)
-{
-  this->isTooLarge = this->count == this->places.size();
-  if (this->isTooLarge)
-  {
-    return;
-  }
-  const Corner& corner = place.corner;
-  std::size_t i = this->count++;
-  for (; i > 0; --i)
-  {
-    const Corner& before = this->places[i - 1].corner;
-    if (before.point < corner.point ||
-        (before.point == corner.point && before.number < corner.number))
-    {
-      break;
-    }
-    this->places[i] = this->places[i - 1];
-  }
-  this->places[i] = place;
-}
-
-/// Adds the corners that follow the first one, from cell to cell around the place where they meet.
-/// @returns whether this leads back to it
-bool SplatFans::follow(const Place& first, bool isOnward, Meeting& meeting) const
-{
-  Place last = first;
-  while (!meeting.isTooLarge)
-  {
-    const std::optional<Corner> next = this->across(last.corner, isOnward);
-    if (!next)
-    {
-      meeting.isOverlapping |= this->beyond(last.corner, isOnward) == SplatCell::overlapping;
-      return false;
-    }
-    if (next->point == first.corner.point && next->number == first.corner.number)
-    {
-      return true;
-    }
-    const Place place = this->placeOf(*next);
-    if (!this->areClose(last, place))
-    {
-      return false;
-    }
-    meeting.add(place);
-    last = place;
-  }
-  return false;
-}
-
-/// A corner where it meets others: at the mean of all, the same for each of them.
-SplatFans::Place SplatFans::joined(const Corner& corner) const
-{
-  Place place = this->placeOf(corner);
-  Meeting meeting;
-  meeting.add(place);
-  if (!this->follow(place, true, meeting))
-  {
-    this->follow(place, false, meeting);
-  }
-  const bool isInside = this->isBetweenPoints(corner);
-  if (meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside))
-  {
-    // Where cells do not agree, those around overlap, so that nothing gapes.
-    constexpr double overlap = 0.1;
-    const Vector outward = difference(place.position, this->Positions[corner.point]);
-    place.position = sum(place.position, isInside ? overlap : 0.0, outward);
-    return place;
-  }
-  const Vector& origin = meeting.places.front().position;
-  Vector offset{ 0.0, 0.0, 0.0 };
-  Vector normal{ 0.0, 0.0, 0.0 };
-  for (std::size_t i = 0; i < meeting.count; ++i)
-  {
-    offset = sum(offset, 1.0, difference(meeting.places[i].position, origin));
-    normal = sum(normal, 1.0, meeting.places[i].normal);
-  }
-  place.position = sum(origin, 1.0 / static_cast<double>(meeting.count), offset);
-  place.normal = directionOf(normal);
-  return place;
-}
-
-/// Swaps corners until they follow each other counterclockwise: brought together with others, two
-/// may have passed each other.
-void SplatFans::turnOneWay(const TangentFrame& frame, std::size_t count,
+/// Swaps corners until they follow each other counterclockwise around the point: brought together
+/// with others, two may have passed each other.
+void turnOneWay(const TangentFrame& frame, std::size_t count,
   std::array<Vector, mostCorners>& offsets, std::array<Vector, mostCorners>& normals)
 {
-  const auto turn = [&](std::size_t i, std::size_t next)
+  const auto isTurned = [&](const Vector& a, const Vector& b)
   {
-    return dot(offsets[i], frame.first) * dot(offsets[next], frame.second) -
-           dot(offsets[i], frame.second) * dot(offsets[next], frame.first);
+    return dot(a, frame.first) * dot(b, frame.second) - dot(a, frame.second) * dot(b, frame.first) <
+           0.0;
   };
   for (std::size_t pass = 0; pass < count; ++pass)
   {
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::size_t next = (i + 1) % count;
-      if (turn(i, next) < 0.0)
+      if (isTurned(offsets[i], offsets[next]))
       {
         std::swap(offsets[i], offsets[next]);
         std::swap(normals[i], normals[next]);
@@ -177,22 +211,23 @@ void SplatFans::turnOneWay(const TangentFrame& frame, std::size_t count,
   }
 }
 
-void SplatFans::shape(std::size_t point, Splat& splat) const
+/// Sets all of a splat but its normal.
+void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& position,
+  const LoweredCell& cell, Splat& splat)
 {
-  const SplatCell& cell = this->Cells[point];
   const TangentFrame frame(splat.normal);
   std::array<Vector, mostCorners> offsets{};
   std::array<Vector, mostCorners> normals{};
   splat.radius = 0.0;
   for (std::size_t i = 0; i < cell.count; ++i)
   {
-    const Place place = this->joined({ point, i });
-    offsets[i] = difference(place.position, this->Positions[point]);
-    normals[i] = place.normal;
+    const LoweredCell::Corner corner = joiner.joined({ point, i });
+    offsets[i] = difference(corner.position, position);
+    normals[i] = corner.normal;
     splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
   }
-  splat.axis = scaled(splat.radius, frame.first);
   turnOneWay(frame, cell.count, offsets, normals);
+  splat.axis = scaled(splat.radius, frame.first);
   splat.corners = {};
   if (!cell.isFirstHere || !(splat.radius > 0.0) || !std::isfinite(splat.radius))
   {
@@ -211,6 +246,39 @@ void SplatFans::shape(std::size_t point, Splat& splat) const
     splat.corners[i] = { inRadii(frame.first), inRadii(frame.second), inRadii(splat.normal),
       slope(frame.first), slope(frame.second) };
   }
+}
+
+} // namespace
+
+void shapeSplats(const Execution& execution, const SurfacePoints& points,
+  std::vector<SplatCell> cells, const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
+{
+  constexpr std::size_t batch = 8192;
+  constexpr std::size_t grain = 512;
+  std::vector<LoweredCell> lowered(cells.size());
+  forBatches(
+    execution, cells.size(), batch, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        lowered[i] = loweredCell(withMutualSides(cells, i), points.positions[i], splats[i].normal);
+      }
+    },
+    [&](double share) { execution.progress(0.5 * share); });
+  std::vector<SplatCell>().swap(cells);
+  const CornerJoiner joiner(points, splats, lowered);
+  forBatches(
+    execution, shaped.size(), batch, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const std::size_t point = shaped[i];
+        setShape(joiner, point, points.positions[point], lowered[point], splats[point]);
+      }
+    },
+    [&](double share) { execution.progress(0.5 + 0.5 * share); });
 }
 
 } // namespace isopoint

@@ -4,14 +4,14 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Splat/CellCutter.h"
-#include "Isopoint/Splat/MutualSides.h"
-#include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatCell.h"
 #include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatNormals.h"
 
 #include <cstddef>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -19,8 +19,9 @@ namespace isopoint
 
 /// Normals and shapes of splats for the points of one surface; see docs/algorithm.md, section 12.
 ///
+/// @param points close ones best after each other
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
-/// @param extents of the samples, or null: then no border is known; see SplatBorder
+/// @param extents of the samples, or null: then no border is known; see cutAtBorder()
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n), and what the few requests of extents take.
 template <class TNeighbors, class TExtents>
@@ -33,18 +34,14 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
   const double normalsShare = options.shapes ? 0.4 : 1.0;
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
-  const auto count = static_cast<std::size_t>(options.neighborCount);
   forBatches(
     execution, unfitted.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      NearbyPoints<TNeighbors> nearby(neighbors, points.positions);
-      std::vector<std::size_t> around;
+      PlaneNormals<TNeighbors> normals(neighbors, points, options.neighborCount);
       for (std::size_t i = begin; i < end; ++i)
       {
-        const std::size_t point = unfitted[i];
-        nearby.nearest(point, lengthOf(points.decreasingEdges[point]), count, around);
-        splats[point].normal = planeNormal(points, point, around);
+        splats[unfitted[i]].normal = normals.at(unfitted[i]);
       }
     },
     [&](double share) { execution.progress(normalsShare * share); });
@@ -53,7 +50,6 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
     return splats;
   }
   constexpr double cellsShare = 0.4;
-  const std::vector<std::size_t> order = neighbors.inOrder();
   std::vector<SplatCell> cells(splats.size());
   forBatches(
     execution, splats.size(), batch, grain,
@@ -62,31 +58,14 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
       CellCutter<TNeighbors, TExtents> cutter(neighbors, points, extents, splats);
       for (std::size_t i = begin; i < end; ++i)
       {
-        cells[order[i]] = cutter.cut(order[i]);
+        cells[i] = cutter.cut(i);
       }
     },
     [&](double share) { execution.progress(normalsShare + cellsShare * share); });
-  std::vector<SplatCell> mutual(splats.size());
-  forBatches(execution, splats.size(), batch, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        mutual[i] = withMutualSides(cells, i);
-      }
-    });
-  const SplatFans fans(points.positions, splats, mutual);
-  const double fansBegin = normalsShare + cellsShare;
-  forBatches(
-    execution, splats.size(), batch, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        fans.shape(order[i], splats[order[i]]);
-      }
-    },
-    [&](double share) { execution.progress(fansBegin + (1.0 - fansBegin) * share); });
+  std::vector<std::size_t> all(splats.size());
+  std::iota(all.begin(), all.end(), std::size_t{ 0 });
+  shapeSplats(
+    partOf(execution, normalsShare + cellsShare, 1.0), points, std::move(cells), all, splats);
   return splats;
 }
 
