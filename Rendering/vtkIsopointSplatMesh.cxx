@@ -3,11 +3,6 @@
 
 #include "vtkSMPTools.h"
 
-// Later versions of VTK have the operators in vtkVector.h.
-#if __has_include("vtkVectorOperators.h")
-#include "vtkVectorOperators.h"
-#endif
-
 #include <array>
 #include <cstddef>
 #include <numeric>
@@ -77,7 +72,7 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
         {
           corners[indexOf(k)] = vtkIsopointSplatCorner(fan, i, k);
         }
-        // Where corners have passed each other, a triangle would face away and be dark.
+        // Where two corners of a splat have passed each other, it would face away and be dark.
         const vtkVector3d& a = fan.Places[indexOf(corners[0])];
         const vtkVector3d side = fan.Places[indexOf(corners[1])] - a;
         const vtkVector3d other = fan.Places[indexOf(corners[2])] - a;

@@ -11,11 +11,6 @@
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
-// Later versions of VTK have the operators in vtkVector.h.
-#if __has_include("vtkVectorOperators.h")
-#include "vtkVectorOperators.h"
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,6 +32,15 @@ vtkVector3d tupleOf(vtkDataArray* array, vtkIdType tuple)
   vtkVector3d vector;
   array->GetTuple(tuple, vector.GetData());
   return vector;
+}
+
+/// Makes a fan around its point one around its first corner.
+void dropPoint(vtkIsopointSplatFan& fan)
+{
+  std::copy(fan.Places.begin() + 1, fan.Places.end(), fan.Places.begin());
+  std::copy(fan.Normals.begin() + 1, fan.Normals.end(), fan.Normals.begin());
+  --fan.Vertices;
+  fan.Triangles -= 2;
 }
 
 double automaticRadius(vtkDataSet* data)
@@ -165,6 +169,9 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
     {
       return {};
     }
+    const double largest =
+      std::max({ std::abs(position[0]), std::abs(position[1]), std::abs(position[2]) });
+    fan.Tolerance += static_cast<float>(this->PositionError * largest);
   }
   else
   {
@@ -192,18 +199,6 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
 }
 
 //------------------------------------------------------------------------------
-float vtkIsopointSplatShapes::ToleranceAt(vtkIdType point, double radius) const
-{
-  // Corners are sums of a few numbers of float: those of the shape, and perhaps the position.
-  constexpr double ofShape = 16.0 * std::numeric_limits<float>::epsilon();
-  vtkVector3d position;
-  this->Data->GetPoint(point, position.GetData());
-  const double largest =
-    std::max({ std::abs(position[0]), std::abs(position[1]), std::abs(position[2]) });
-  return static_cast<float>(ofShape * radius + this->PositionError * largest);
-}
-
-//------------------------------------------------------------------------------
 bool vtkIsopointSplatShapes::SetPolygon(
   vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const
 {
@@ -216,22 +211,10 @@ bool vtkIsopointSplatShapes::SetPolygon(
   {
     return false;
   }
-  // Around such a fan's point the surface is flat to a hundredth of the splat's size: the point as
-  // a vertex would be seen at no zoom, but take a third of the triangles.
-  constexpr double slightSlope = 0.03;
   double steepest = 0.0;
-  for (int i = 0; i < mostCorners; ++i)
-  {
-    const double* const corner = numbers.data() + numbersOfCorner * i;
-    steepest = std::max({ steepest, std::hypot(corner[3], corner[4]), std::abs(corner[2]) });
-  }
-  if (!(this->Scale * steepest < slightSlope))
-  {
-    fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
-    fan.Normals[0] = normal;
-    fan.Vertices = 1;
-  }
-  const auto firstCorner = static_cast<std::size_t>(fan.Vertices);
+  fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
+  fan.Normals[0] = normal;
+  fan.Vertices = 1;
   for (int i = 0; i < mostCorners; ++i)
   {
     const double* const corner = numbers.data() + numbersOfCorner * i;
@@ -243,20 +226,32 @@ bool vtkIsopointSplatShapes::SetPolygon(
     {
       return false;
     }
-    if (next > firstCorner && place == fan.Places[next - 1])
+    if (next > 1 && place == fan.Places[next - 1])
     {
       continue; // fewer corners repeat the last one
     }
+    steepest = std::max({ steepest, std::hypot(corner[3], corner[4]), std::abs(corner[2]) });
     fan.Places[next] = place;
     fan.Normals[next] = normal + (this->Scale * corner[3] / radius) * along +
                         (this->Scale * corner[4] / radius) * across;
     fan.Normals[next].Normalize();
     ++fan.Vertices;
   }
-  const int corners = fan.Vertices - static_cast<int>(firstCorner);
-  fan.Triangles = firstCorner == 0 ? corners - 2 : corners;
-  fan.Tolerance = this->ToleranceAt(point, radius);
-  return corners >= 3;
+  fan.Triangles = fan.Vertices - 1;
+  if (fan.Triangles < 3)
+  {
+    return false;
+  }
+  // Corners are sums of a few numbers of float.
+  fan.Tolerance = static_cast<float>(16.0 * std::numeric_limits<float>::epsilon() * radius);
+  // Around the point of such a fan the surface is flat to a hundredth of the splat's size. Without
+  // a vertex there it looks the same, with a third fewer triangles.
+  constexpr double slightSlope = 0.03;
+  if (this->Scale * steepest < slightSlope)
+  {
+    dropPoint(fan);
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -274,11 +269,10 @@ void vtkIsopointSplatShapes::SetOctagon(
   fan.Triangles = mostCorners;
   fan.Normals.fill(normal);
   fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
-  for (int i = 0; i < mostCorners; ++i)
+  for (std::size_t i = 0; i < mostCorners; ++i)
   {
-    const double angle = 2.0 * vtkMath::Pi() * i / mostCorners;
-    fan.Places[static_cast<std::size_t>(1 + i)] =
-      (radius * std::cos(angle)) * along + (radius * std::sin(angle)) * across;
+    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / mostCorners;
+    fan.Places[1 + i] = (radius * std::cos(angle)) * along + (radius * std::sin(angle)) * across;
   }
 }
 

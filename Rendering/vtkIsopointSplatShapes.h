@@ -3,6 +3,10 @@
 #define vtkIsopointSplatShapes_h
 
 #include "vtkVector.h"
+// Later versions of VTK have the operators in vtkVector.h.
+#if __has_include("vtkVectorOperators.h")
+#include "vtkVectorOperators.h"
+#endif
 
 #include <array>
 #include <string>
@@ -16,7 +20,6 @@ class vtkUnsignedCharArray;
 struct vtkIsopointSplatFan
 {
   static constexpr int MaximumVertices = 9;
-  static constexpr int MaximumTriangles = 8;
 
   int Vertices = 0; // 0: nothing is drawn
   int Triangles = 0;
@@ -45,7 +48,6 @@ public:
 private:
   vtkDataArray* Usable(vtkDataArray* array, int components) const;
   bool IsGhost(vtkIdType point) const;
-  float ToleranceAt(vtkIdType point, double radius) const;
   bool SetPolygon(vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
   void SetOctagon(const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const;
   void SetOctahedron(double radius, vtkIsopointSplatFan& fan) const;

@@ -33,8 +33,9 @@ struct Splat
   Vector normal; // of length 1
   double radius; // the distance of the farthest corner
   Vector axis;   // t1, tangential and as long as the radius; t2 = normal x t1
-  /// Counterclockwise seen from the tip of the normal. Further corners repeat the last one; all are
-  /// 0 at a point where another one comes first.
+  /// Counterclockwise seen from the tip of the normal, but for rare ones that have passed each
+  /// other where cells meet. Further corners repeat the last one; all are 0 at a point where
+  /// another one comes first.
   std::array<SplatCorner, mostCorners> corners;
 };
 

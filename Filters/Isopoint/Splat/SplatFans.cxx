@@ -187,30 +187,6 @@ private:
   const std::vector<LoweredCell>& Cells;
 };
 
-/// Swaps corners until they follow each other counterclockwise around the point: brought together
-/// with others, two may have passed each other.
-void turnOneWay(const TangentFrame& frame, std::size_t count,
-  std::array<Vector, mostCorners>& offsets, std::array<Vector, mostCorners>& normals)
-{
-  const auto isTurned = [&](const Vector& a, const Vector& b)
-  {
-    return dot(a, frame.first) * dot(b, frame.second) - dot(a, frame.second) * dot(b, frame.first) <
-           0.0;
-  };
-  for (std::size_t pass = 0; pass < count; ++pass)
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const std::size_t next = (i + 1) % count;
-      if (isTurned(offsets[i], offsets[next]))
-      {
-        std::swap(offsets[i], offsets[next]);
-        std::swap(normals[i], normals[next]);
-      }
-    }
-  }
-}
-
 /// Sets all of a splat but its normal.
 void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& position,
   const LoweredCell& cell, Splat& splat)
@@ -226,7 +202,6 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
     normals[i] = corner.normal;
     splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
   }
-  turnOneWay(frame, cell.count, offsets, normals);
   splat.axis = scaled(splat.radius, frame.first);
   splat.corners = {};
   if (!cell.isFirstHere || !(splat.radius > 0.0) || !std::isfinite(splat.radius))
