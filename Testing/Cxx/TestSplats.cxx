@@ -79,8 +79,8 @@ TEST(Splats, CoverTheSurface)
   }
 }
 
-// Seen along the normal, all triangles turn the same way, except the few and small ones where corners
-// pass each other.
+// Seen along the normal, all triangles turn the same way, except the few and small ones where
+// corners pass each other.
 TEST(Splats, SurroundTheirPoints)
 {
   const Sphere sphere(800, 1.0, 0.0);
