@@ -18,7 +18,8 @@ struct vtkIsopointCorner
 /**
  * Which corners are one, up to rounding: those whose places are no farther apart than both of their
  * tolerances, along each axis, and whose normals differ by less than 0.06 degrees.
- * @returns for each corner the first of those that it is one with, perhaps itself
+ * O(n log n), unless tolerances are large against the distances between corners.
+ * @returns for each corner the one that stands for all that it is one with, perhaps itself
  * @throws std::bad_alloc
  */
 std::vector<vtkIdType> vtkIsopointMeetingCorners(const std::vector<vtkIsopointCorner>& corners);
