@@ -182,7 +182,7 @@ int vtkScatteredIsopointFilter::RequestData(
 {
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
-  this->NumberOfDroppedTetrahedra = 0;
+  this->NumberOfDroppedInGaps = 0;
   vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   this->Kept->GhostLevels = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
@@ -421,7 +421,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkScatteredIsopointFilter::ExtractIs
       kept.Extractor.extract(isopoint::partOf(execution, progress[i], progress[i + 1]), request,
         hasGhosts ? &ghosts[i] : nullptr));
     this->Kept->Findings.Points[i] += surfaces.back().countHere();
-    this->NumberOfDroppedTetrahedra += static_cast<vtkIdType>(surfaces.back().droppedTetrahedra);
+    this->NumberOfDroppedInGaps += static_cast<vtkIdType>(surfaces.back().droppedInGaps);
     if (!this->Kept->Link)
     {
       isopoint::throwIfAborted(execution);
@@ -502,6 +502,7 @@ void vtkScatteredIsopointFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeGradients: " << onOff(this->ComputeGradients) << "\n";
   os << indent << "ComputeProjectionOrders: " << onOff(this->ComputeProjectionOrders) << "\n";
   os << indent << "NumberOfUnprojectedPoints: " << this->NumberOfUnprojectedPoints << "\n";
+  os << indent << "NumberOfDroppedInGaps: " << this->NumberOfDroppedInGaps << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "ContourBlocks: " << onOff(this->ContourBlocks) << "\n";
   os << indent << "KeepTree: " << onOff(this->KeepTree) << "\n";

@@ -251,15 +251,16 @@ public:
 
   ///@{
   /**
-   * Whether to drop isopoints in gaps of the cloud, as beyond a free surface or between groups of
-   * boreholes. The spacing of samples behind the end x of an edge {x, y} is the distance from x to
-   * the third nearest sample position within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
-   * direction from y to x; it is infinite if there are fewer than three. An isopoint is dropped if
-   * its edge is longer than four times the larger of the spacings behind its ends. Edges between a
-   * dense and a sparse region, to an isolated sample, and between lines or slices of samples
-   * therefore remain; edges between lines do not if their samples scatter sideways as far as they
-   * are apart along the line. For triangles see vtkScatteredIsosurfaceFilter, where the default is
-   * on. Default: off.
+   * Whether the surface ends where the spacing of the samples jumps, as at voids, at the free
+   * surface of a fluid, or between groups of boreholes. Dropped are the isopoints on edges longer
+   * than twice the spacing of the samples behind both ends, if these edges are connected, through
+   * others like them, with one that is longer than four times that. The spacing behind the end x of
+   * an edge {x, y} is the distance from x to the second nearest sample position (the third nearest
+   * for the factor of four) within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the direction
+   * from y to x; it is infinite if there are fewer. Edges with an end in common are connected. So
+   * edges between a dense and a sparse region, to an isolated sample, and between lines or slices
+   * of samples remain, and closed surfaces amid samples stay closed. For triangles see
+   * vtkScatteredIsosurfaceFilter. Default: on.
    */
   vtkSetMacro(DropGaps, vtkTypeBool);
   vtkGetMacro(DropGaps, vtkTypeBool);
@@ -424,6 +425,12 @@ public:
   vtkGetMacro(NumberOfUnprojectedPoints, vtkIdType);
 
   /**
+   * The number of edges across isosurfaces that the last update left out since they lie in gaps; of
+   * triangles, of tetrahedra. See SetDropGaps().
+   */
+  vtkGetMacro(NumberOfDroppedInGaps, vtkIdType);
+
+  /**
    * The modification time, including that of the contour values.
    */
   vtkMTimeType GetMTime() override;
@@ -451,7 +458,7 @@ protected:
   double MinimumSpacing = 0.0;
   int Projection = CUBIC_FIT;
   int NormalMethod = AUTOMATIC_NORMALS;
-  vtkTypeBool DropGaps = 0;
+  vtkTypeBool DropGaps = 1;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeProjectionOrders = 0;
   vtkTypeBool ComputeNormals = 1;
@@ -464,7 +471,7 @@ protected:
   vtkTypeBool UseAllCores = 1;
   vtkIdType NumberOfSkippedSamples = 0;
   vtkIdType NumberOfUnprojectedPoints = 0;
-  vtkIdType NumberOfDroppedTetrahedra = 0; // of triangles
+  vtkIdType NumberOfDroppedInGaps = 0;
 
 private:
   vtkScatteredIsopointFilter(const vtkScatteredIsopointFilter&) = delete;

@@ -76,8 +76,8 @@ void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObj
     static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfSkippedSamples)));
   this->NumberOfUnprojectedPoints =
     static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints)));
-  this->NumberOfDroppedTetrahedra =
-    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfDroppedTetrahedra)));
+  this->NumberOfDroppedInGaps =
+    static_cast<vtkIdType>(team.sum(static_cast<std::uint64_t>(this->NumberOfDroppedInGaps)));
   vtkShareIsopointFindings(team, blocks.GetBlocks(), this->Kept->Findings);
 }
 

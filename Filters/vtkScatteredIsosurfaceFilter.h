@@ -29,10 +29,10 @@
  * field (NORMALS_FROM_FIELD), or the means of the normals of the triangles around (with
  * NORMALS_FROM_PLANES, and where the samples yield no gradient).
  *
- * DropGaps, on by default, leaves out the triangles where the samples end: those of tetrahedra with
- * edges longer than twice the spacing of the samples behind both ends, if they are connected with
- * the outside of the samples' convex hull or with edges longer than four times that. A closed
- * surface amid samples stays closed. docs/triangles.md has the rule.
+ * DropGaps leaves out the triangles of tetrahedra with edges longer than twice the spacing of the
+ * samples behind both ends, if they are connected, across facets, with the outside of the samples'
+ * convex hull or with a tetrahedron with an edge longer than four times that. docs/triangles.md has
+ * the rule.
  *
  * Angle, MinimumSpacing, NumberOfNeighbors and ComputeSplats
  * have no effect.
@@ -64,18 +64,11 @@ class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsosurfaceFilter
 public:
   static vtkScatteredIsosurfaceFilter* New();
   vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredIsopointFilter);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * True.
    */
   bool ExtractsTriangles() const override { return true; }
-
-  /**
-   * The number of tetrahedra across isosurfaces whose triangles the last update left out since they
-   * lie in gaps or outside of the cloud. See SetDropGaps().
-   */
-  vtkGetMacro(NumberOfDroppedTetrahedra, vtkIdType);
 
 protected:
   vtkScatteredIsosurfaceFilter();

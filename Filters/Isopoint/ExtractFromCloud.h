@@ -80,7 +80,7 @@ ExtractedIsosurface partOnRank(
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
-  result.droppedTetrahedra = rank == 0 ? all.droppedTetrahedra : 0;
+  result.droppedInGaps = rank == 0 ? all.droppedInGaps : 0;
   return result;
 }
 
@@ -99,7 +99,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
       throwIfAborted(execution);
       result.surface = std::move(found.vertices);
       result.triangles = std::move(found.triangles);
-      result.droppedTetrahedra = found.droppedTetrahedra;
+      result.droppedInGaps = found.droppedTetrahedra;
       if (request.splats)
       {
         const Isosurface& surface = result.surface;
@@ -182,6 +182,7 @@ ExtractedIsosurface extractOnRanks(const Execution& execution, SampleCloud<TSamp
     [&]()
     {
       result = chosen(cloud.tree, all, splats, isHome, true);
+      result.droppedInGaps = surface.droppedEdges;
       if (ghosts)
       {
         *ghosts = chosen(cloud.tree, all, splats, isHome, false);
@@ -220,6 +221,7 @@ ExtractedIsosurface extractPoints(const Execution& execution, SampleCloud<TSampl
   ExtractedIsosurface result;
   result.surface = extractIsosurface(execution, cloud.tree, cloud.neighborhoods, itemCount,
     request.isosurface, progress, splatting + work::writing);
+  result.droppedInGaps = result.surface.droppedEdges;
   thin(execution, request.minimumSpacing, result.surface);
   throwIfAborted(execution);
   if (request.splats)

@@ -39,9 +39,9 @@ struct ExtractedIsosurface
   std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
   std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
   std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
-  /// Crossing tetrahedra that were left out since they lie in gaps; of a cloud on ranks, those of
-  /// all are counted on the first one.
-  std::size_t droppedTetrahedra = 0;
+  /// Crossing edges, or tetrahedra of triangles, that were left out since they lie in gaps. Of a
+  /// cloud on ranks each is counted on one of them.
+  std::size_t droppedInGaps = 0;
   /// Whether each isopoint is counted on another rank; empty if none is.
   std::vector<bool> areElsewhere;
 

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <set>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -295,6 +297,40 @@ inline bool isDroppedByGap(const std::vector<Cell>& cells, std::size_t x, std::s
   return isCrowded(cells, x, y, factor, wanted) && isCrowded(cells, y, x, factor, wanted);
 }
 
+/// Section 6: the edges, pairs of cells, that are not in gaps. An edge is in a gap if it is over the
+/// weak criterion and connected, by ends in common with others over it, with one over the strong
+/// criterion.
+inline std::set<std::pair<std::size_t, std::size_t>> withoutGaps(
+  const std::vector<Cell>& cells, const std::set<std::pair<std::size_t, std::size_t>>& edges)
+{
+  std::set<std::pair<std::size_t, std::size_t>> kept;
+  std::set<std::pair<std::size_t, std::size_t>> weak;
+  std::set<std::size_t> ends; // of edges in gaps
+  for (const auto& edge : edges)
+  {
+    const auto& [x, y] = edge;
+    (isDroppedByGap(cells, x, y, 2.0, 2) ? weak : kept).insert(edge);
+    if (isDroppedByGap(cells, x, y, 4.0, 3))
+    {
+      ends.insert({ x, y });
+    }
+  }
+  for (std::size_t before = 0; before != ends.size();)
+  {
+    before = ends.size();
+    for (const auto& [x, y] : weak)
+    {
+      if (ends.count(x) + ends.count(y) > 0)
+      {
+        ends.insert({ x, y });
+      }
+    }
+  }
+  std::copy_if(weak.begin(), weak.end(), std::inserter(kept, kept.end()),
+    [&](const auto& edge) { return ends.count(edge.first) == 0; });
+  return kept;
+}
+
 /// Section 7: the parameter of the isopoint on the edge from i, the end of the lower id, to j.
 inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
 {
@@ -305,7 +341,7 @@ inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
 
 /// Section 7: the isopoints of one isovalue, one on each edge, ordered by (i, j).
 /// @param angle of section 5, in degrees, 0 to 180
-/// @param dropsGaps by the strong criterion of section 6
+/// @param dropsGaps whether edges in gaps are left out, section 6
 inline std::vector<Isopoint> extract(
   const clouds::Cloud& cloud, double isovalue, double angle, bool dropsGaps = false)
 {
@@ -313,20 +349,24 @@ inline std::vector<Isopoint> extract(
   const std::vector<Cell>& cells = tree.cells;
   const auto neighbors = neighborhoods(cells);
   const auto isBelow = [&](std::size_t cell) { return cells[cell].value < isovalue; };
-  std::map<std::pair<std::uint64_t, std::uint64_t>, double> parameters;
+  std::set<std::pair<std::size_t, std::size_t>> edges;
   for (std::size_t x = 0; x < cells.size(); ++x)
   {
     // An edge is kept if y survives at x or x at y: it is visited from both its ends.
     for (const std::size_t y : neighbors[x])
     {
-      if (isBelow(x) != isBelow(y) && survives(cells, neighbors[x], x, y, angle) &&
-          !(dropsGaps && isDroppedByGap(cells, x, y, 4.0, 3)))
+      if (isBelow(x) != isBelow(y) && survives(cells, neighbors[x], x, y, angle))
       {
-        const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
-        const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];
-        parameters[{ i.id, j.id }] = parameterOf(i, j, isovalue);
+        edges.insert({ std::min(x, y), std::max(x, y) });
       }
     }
+  }
+  std::map<std::pair<std::uint64_t, std::uint64_t>, double> parameters;
+  for (const auto& [x, y] : dropsGaps ? withoutGaps(cells, edges) : edges)
+  {
+    const Cell& i = cells[x].id < cells[y].id ? cells[x] : cells[y];
+    const Cell& j = cells[x].id < cells[y].id ? cells[y] : cells[x];
+    parameters[{ i.id, j.id }] = parameterOf(i, j, isovalue);
   }
   std::vector<Isopoint> isopoints;
   for (const auto& [edge, parameter] : parameters)

@@ -89,14 +89,7 @@ public:
       const Cells taken = this->takenAt(end, a, b);
       if (!taken.empty())
       {
-        std::vector<double> distances{ 0.0 };
-        for (const std::size_t cell : taken)
-        {
-          const auto d = bruteforce::difference(this->All[cell].position, this->All[end].position);
-          distances.push_back(std::hypot(d[0], d[1], d[2]));
-        }
-        std::sort(distances.begin(), distances.end());
-        sum += distances[2 * distances.size() / 5];
+        sum += this->spacingAt(end, taken);
         count += 1.0;
       }
     }
@@ -114,6 +107,34 @@ public:
   }
 
 private:
+  double spacingAt(std::size_t end, Cells taken) const
+  {
+    const auto offsetTo = [&](std::size_t cell)
+    { return bruteforce::difference(this->All[cell].position, this->All[end].position); };
+    const auto distanceTo = [&](std::size_t cell) { return isopoint::lengthOf(offsetTo(cell)); };
+    std::stable_sort(taken.begin(), taken.end(),
+      [&](std::size_t a, std::size_t b) { return distanceTo(a) < distanceTo(b); });
+    const std::size_t rank = 2 * (taken.size() + 1) / 5;
+    const double usual = rank > 0 ? distanceTo(taken[rank - 1]) : 0.0;
+    const auto first = isopoint::directionOf(offsetTo(taken[0]));
+    const auto second = std::find_if(taken.begin() + 1, taken.end(),
+      [&](std::size_t cell)
+      {
+        return std::abs(isopoint::dot(isopoint::directionOf(offsetTo(cell)), first)) <
+               0.86602540378443865;
+      });
+    if (second == taken.end())
+    {
+      return usual;
+    }
+    const auto normal = isopoint::directionOf(
+      isopoint::cross(isopoint::directionOf(offsetTo(*second)), first));
+    const auto third = std::find_if(second + 1, taken.end(),
+      [&](std::size_t cell)
+      { return std::abs(isopoint::dot(isopoint::directionOf(offsetTo(cell)), normal)) > 0.5; });
+    return third == taken.end() ? usual : std::min(usual, 1.2 * distanceTo(*third));
+  }
+
   static void addOnce(Cells& cells, const Cells& more)
   {
     for (const std::size_t cell : more)

@@ -136,7 +136,7 @@ TEST(Gaps, DropWhatTheDefinitionDrops)
   }
 }
 
-TEST(Gaps, DropIsopointsOnEdgesOverTheStrongCriterion)
+TEST(Gaps, DropIsopointsOnEdgesConnectedWithStrongOnes)
 {
   for (const double angle : { 0.0, defaultAngle, 90.0 })
   {

@@ -394,10 +394,10 @@ TEST(IsosurfaceFilter, DropsTrianglesAcrossGaps)
   filter->DropGapsOff();
   filter->Update();
   const vtkIdType all = filter->GetOutput()->GetNumberOfPolys();
-  EXPECT_EQ(filter->GetNumberOfDroppedTetrahedra(), 0);
+  EXPECT_EQ(filter->GetNumberOfDroppedInGaps(), 0);
   filter->DropGapsOn();
   filter->Update();
-  EXPECT_GT(filter->GetNumberOfDroppedTetrahedra(), 0);
+  EXPECT_GT(filter->GetNumberOfDroppedInGaps(), 0);
   EXPECT_LT(filter->GetOutput()->GetNumberOfPolys(), all);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 4);
 }

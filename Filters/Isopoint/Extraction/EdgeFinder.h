@@ -6,7 +6,6 @@
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
-#include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -29,25 +27,22 @@ class EdgeFinder
 public:
   using Id = typename TSample::Id;
 
-  EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion,
-    const std::optional<GapCriterion>& gapCriterion)
+  EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion)
     : Context(context)
     , Tree(context.tree)
     , Isovalue(context.isovalue)
     , Criterion(criterion)
-    , Gaps(gapCriterion)
     , Implicit(context.tree, context.bounds)
     , Values(context.tree, context.leafMeans)
   {
   }
 
   /// Adds the edges from the leaf's sample to the neighbors that survive the angle criterion there
-  /// and lie on the other side of the isovalue ([RL06] sections 6 and 7), but not across a gap.
+  /// and lie on the other side of the isovalue ([RL06] sections 6 and 7).
   /// @throws MissingNode, nothing added
   void find(const Path& leaf)
   {
     const std::size_t edgeCount = this->Edges.size();
-    const std::size_t coincidentCount = this->CoincidentLeaves.size();
     const std::size_t keptRecords = this->KeptRecords;
     try
     {
@@ -57,16 +52,12 @@ public:
     {
       this->Edges.erase(
         this->Edges.begin() + static_cast<std::ptrdiff_t>(edgeCount), this->Edges.end());
-      this->CoincidentLeaves.resize(coincidentCount);
       this->KeptRecords = keptRecords;
       throw;
     }
   }
 
   const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
-
-  /// Node indices of the leaves with coincident samples among the edges' ends, with repetitions.
-  const std::vector<std::size_t>& coincidentLeaves() const { return this->CoincidentLeaves; }
 
   /// The neighborhoods that were searched for, as NeighborhoodCache::add() takes them.
   std::vector<Id>& records()
@@ -204,19 +195,13 @@ private:
     return this->Criterion.survivesAmongSorted(this->Sorted.data(), this->Offsets[neighbor]);
   }
 
-  /// Adds the edge between a leaf's sample and another one, unless it spans a gap.
+  /// Adds the edge between a leaf's sample and another one.
   void connect(const Path& leaf, double value, std::size_t otherLeaf, double otherValue)
   {
     const TSample& sample = this->sampleAt(leaf.nodeIndex());
     const TSample& otherSample = this->sampleAt(otherLeaf);
-    if (this->Gaps && this->Gaps->drops(this->Tree, leaf, sample, otherSample))
-    {
-      return;
-    }
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
-    this->addCoincident(leaf.nodeIndex());
-    this->addCoincident(otherLeaf);
   }
 
   struct End
@@ -234,20 +219,10 @@ private:
       edgeParameter(first.value, second.value, this->Isovalue), first.leaf, second.leaf });
   }
 
-  void addCoincident(std::size_t leaf)
-  {
-    if (this->Tree.nodes[leaf].count() > 1 &&
-        (this->CoincidentLeaves.empty() || this->CoincidentLeaves.back() != leaf))
-    {
-      this->CoincidentLeaves.push_back(leaf);
-    }
-  }
-
   ExtractionContext<TSample>& Context;
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
-  const std::optional<GapCriterion>& Gaps;
   ImplicitNeighborhood<TSample> Implicit;
   NodeList<Id> Neighbors;
   std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf
@@ -256,7 +231,6 @@ private:
   std::vector<Offset> Sorted;  // the same, nearest first, where there are many
   std::vector<Crossing> Crossings;
   std::vector<CrossingEdge<TSample>> Edges;
-  std::vector<std::size_t> CoincidentLeaves;
   LeafValueCache<TSample> Values;
 };
 

@@ -9,6 +9,7 @@
 #include "Isopoint/Extraction/EdgeFinder.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/GapEdges.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
@@ -22,7 +23,6 @@
 #include <cstdint>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,7 +34,6 @@ template <class TSample>
 struct FoundEdges
 {
   std::vector<CrossingEdge<TSample>> edges;  // each once or twice, in any order
-  std::vector<std::size_t> coincidentLeaves; // among their ends, with repetitions
   std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
 };
 
@@ -54,8 +53,6 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
   FoundEdges<TSample>& result)
 {
   const AngleCriterion criterion(request.angle);
-  const std::optional<GapCriterion> gaps =
-    request.dropsGaps ? std::optional(GapCriterion::strong()) : std::nullopt;
   MissingWork left;
   std::mutex mutex;
   constexpr std::size_t grain = 256;
@@ -63,7 +60,7 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
     execution, nodes.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(context, criterion, gaps);
+      EdgeFinder<TSample> finder(context, criterion);
       const auto findAt = [&](const Path& leaf)
       {
         if (!context.tree.hasOwn(context.tree.nodes[leaf.nodeIndex()]))
@@ -90,8 +87,6 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
       const std::lock_guard<std::mutex> lock(mutex);
       result.edges.insert(result.edges.end(), finder.edges().begin(), finder.edges().end());
       result.neighborhoods.push_back(std::move(finder.records()));
-      result.coincidentLeaves.insert(result.coincidentLeaves.end(),
-        finder.coincidentLeaves().begin(), finder.coincidentLeaves().end());
     },
     execution.progress);
   return left;
@@ -198,8 +193,14 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   FoundEdges<TSample> found =
     findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
   keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
-  const std::vector<CrossingEdge<TSample>> edges = sortedUnique(
+  std::vector<CrossingEdge<TSample>> edges = sortedUnique(
     execution, found.edges, idCount, [](const CrossingEdge<TSample>& edge) { return edge.first; });
+  const std::size_t crossingCount = edges.size();
+  if (request.dropsGaps)
+  {
+    SingleTeam team;
+    dropMarked(edgesInGaps(execution, tree, team, edges), edges);
+  }
   const auto count = static_cast<double>(edges.size());
   std::vector<LocalFit> fits;
   if (request.fit)
@@ -209,7 +210,8 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   }
   Isosurface surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
     std::move(fits), request.fit && request.fit->move);
-  surface.coincident = coincidentSamplesOf(tree, std::move(found.coincidentLeaves));
+  surface.coincident = coincidentEnds(tree, surface.leaves);
+  surface.droppedEdges = crossingCount - edges.size();
   return surface;
 }
 

@@ -5,11 +5,13 @@
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Tree/CoincidentSamples.h"
+#include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -54,6 +56,8 @@ struct Isosurface
 
   std::vector<CoincidentSamples> coincident; // among the ends of the edges, by lowest id
 
+  std::size_t droppedEdges = 0; // crossing ones that lie in gaps
+
   std::size_t size() const { return this->edges.size(); }
 
   /// The samples that coincide with the one of this id, or null if it is alone.
@@ -89,6 +93,25 @@ inline Isosurface chosenIsopoints(
   few.leaves = chosen(surface.leaves);
   few.fits = chosen(surface.fits);
   return few;
+}
+
+/// The coincident samples among the ends of edges, by lowest id.
+template <class TSample>
+std::vector<CoincidentSamples> coincidentEnds(
+  const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
+{
+  std::vector<std::size_t> leaves;
+  for (const EdgeLeaves& edge : edges)
+  {
+    for (const std::size_t leaf : { edge.first, edge.second })
+    {
+      if (tree.nodes[leaf].count() > 1)
+      {
+        leaves.push_back(leaf);
+      }
+    }
+  }
+  return coincidentSamplesOf(tree, std::move(leaves));
 }
 
 /// An attribute of the samples at the ends of a surface's edges: their own or, of coincident

@@ -4,6 +4,7 @@
 
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/LeafSet.h"
+#include "Isopoint/Extraction/SampleSpacing.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
@@ -186,9 +187,7 @@ private:
       { neighbors.push_back(static_cast<Id>(neighbor)); });
   }
 
-  /// The spacing of the samples around an end: the distance that two fifths of its neighbors and
-  /// itself do not exceed. The farthest may stand across a void, the nearest all on one line with
-  /// it.
+  /// The spacing of the samples around an end.
   double spacingAt(const End& end)
   {
     KnownSpacing& known =
@@ -196,15 +195,12 @@ private:
     if (known.leaf != end.leaf)
     {
       const Vector center = this->positionOfLeaf(end.leaf);
-      this->Distances.assign(1, 0.0);
+      this->Spacing.clear();
       for (const Id neighbor : end.neighbors)
       {
-        this->Distances.push_back(lengthOf(difference(this->positionOfLeaf(neighbor), center)));
+        this->Spacing.add(difference(this->positionOfLeaf(neighbor), center));
       }
-      const auto rank =
-        this->Distances.begin() + static_cast<std::ptrdiff_t>(2 * this->Distances.size() / 5);
-      std::nth_element(this->Distances.begin(), rank, this->Distances.end());
-      known = { end.leaf, *rank };
+      known = { end.leaf, this->Spacing.spacing() };
     }
     return known.spacing;
   }
@@ -252,7 +248,7 @@ private:
   bool IsWide = false;
   std::array<FoundNeighbors, 1024> RecentlyFound{}; // by the leaf's last bits
   std::array<KnownSpacing, 1024> KnownSpacings{};   // likewise
-  std::vector<double> Distances;
+  SampleSpacing Spacing;
 };
 
 } // namespace isopoint

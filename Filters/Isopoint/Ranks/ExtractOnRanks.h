@@ -42,25 +42,6 @@ inline void keepOnRanks(
     });
 }
 
-/// The coincident samples among the ends of edges, by lowest id.
-template <class TSample>
-std::vector<CoincidentSamples> coincidentEnds(
-  const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
-{
-  std::vector<std::size_t> leaves;
-  for (const EdgeLeaves& edge : edges)
-  {
-    for (const std::size_t leaf : { edge.first, edge.second })
-    {
-      if (tree.nodes[leaf].count() > 1)
-      {
-        leaves.push_back(leaf);
-      }
-    }
-  }
-  return coincidentSamplesOf(tree, std::move(leaves));
-}
-
 } // namespace isopoint
 
 #endif

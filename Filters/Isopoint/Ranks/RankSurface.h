@@ -8,12 +8,14 @@
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/GapEdges.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Isopoint/Ranks/EdgeTeam.h"
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Tree/CoincidentSamples.h"
@@ -107,6 +109,10 @@ public:
     { return progress.part(isopointCount * work, isopointCount * left); };
     const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
     this->findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
+    if (request.dropsGaps)
+    {
+      surface.droppedEdges = this->dropGaps();
+    }
     const auto count = static_cast<double>(this->Edges.size());
     if (request.fit)
     {
@@ -115,8 +121,10 @@ public:
     this->Exchange.together(
       [&]()
       {
+        const std::size_t dropped = surface.droppedEdges;
         surface = placeIsopoints(partFor(count, work::placing, laterWork), context, this->Edges,
           std::move(this->Fits), request.fit && request.fit->move);
+        surface.droppedEdges = dropped;
       });
     return surface;
   }
@@ -188,6 +196,23 @@ private:
           { edge.first, edge.second, edge.crossing, static_cast<typename TSample::Id>(firstLeaf),
             static_cast<typename TSample::Id>(secondLeaf) });
       });
+  }
+
+  /// Drops the edges in gaps. @returns how many of them are counted on this rank
+  std::size_t dropGaps()
+  {
+    EdgeTeam<TSample> team(this->Tree, this->Exchange, this->Edges);
+    const std::vector<char> isInGap = edgesInGaps(this->Run, this->Tree, team, this->Edges);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < this->Edges.size(); ++i)
+    {
+      const Edge& edge = this->Edges[i];
+      const std::uint64_t place = firstPlaceOf(this->Tree, { edge.firstLeaf, edge.secondLeaf });
+      const bool isCounted = place >= this->Tree.ownBegin && place < this->Tree.ownEnd;
+      count += isInGap[i] && isCounted ? 1 : 0;
+    }
+    dropMarked(isInGap, this->Edges);
+    return count;
   }
 
   SentEdge sent(const Edge& edge) const

@@ -14,6 +14,7 @@
 #include "Isopoint/Ranks/RankSurface.h"
 #include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SentIsopoint.h"
+#include "Isopoint/Ranks/TeamOfTree.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
 #include <algorithm>
@@ -27,36 +28,18 @@ namespace isopoint
 {
 
 /// The ranks that share a tree, as the extraction of triangles sees them: what SingleRank is for
-/// one. All functions but order() and
-/// isHome() are collective.
-/// @throws FailedElsewhere, besides what work throws
+/// one. All functions but order() and isHome() are collective.
 template <class TSample>
-class TriangleRanks
+class TriangleRanks : public TeamOfTree<TSample>
 {
 public:
   TriangleRanks(SampleTree<TSample>& tree, NodeExchange<TSample>& exchange)
-    : Tree(tree)
-    , Exchange(exchange)
+    : TeamOfTree<TSample>(exchange)
+    , Tree(tree)
   {
   }
-
-  template <class Work>
-  void together(const Work& work)
-  {
-    this->Exchange.together(work);
-  }
-
-  bool isAny(bool mine) { return this->Exchange.isAny(mine); }
-  std::uint64_t sum(std::uint64_t mine) { return this->Exchange.team().sum(mine); }
 
   std::vector<BinaryIndex> refine(NarrowBand<TSample>& band) { return band.refine(this->Exchange); }
-
-  template <class MakeWorker, class Work>
-  void forEach(
-    const Execution& execution, std::size_t count, const MakeWorker& makeWorker, const Work& work)
-  {
-    inRounds(execution, this->Exchange, count, makeWorker, work);
-  }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)
   {
@@ -112,24 +95,20 @@ public:
 
   bool isHome(std::size_t leaf) const { return this->Tree.hasOwn(this->Tree.nodes[leaf]); }
 
-  void unite(std::vector<char>& marks)
+  /// The numbers are those of things that all ranks have in one order; each finds others.
+  void unite(std::vector<std::size_t>& found)
   {
-    constexpr std::size_t wordBits = 64;
-    std::vector<std::uint64_t> words; // each bit is set on one rank at most
+    const std::vector<std::vector<std::size_t>> all = this->Exchange.team().gather(found);
     this->together(
       [&]()
       {
-        words.resize(marks.size() / wordBits + 1, 0);
-        for (std::size_t i = 0; i < marks.size(); ++i)
+        found.clear();
+        for (const std::vector<std::size_t>& list : all)
         {
-          words[i / wordBits] |= std::uint64_t{ marks[i] ? 1U : 0U } << i % wordBits;
+          found.insert(found.end(), list.begin(), list.end());
         }
+        std::sort(found.begin(), found.end());
       });
-    this->Exchange.team().sum(words);
-    for (std::size_t i = 0; i < marks.size(); ++i)
-    {
-      marks[i] = static_cast<char>(words[i / wordBits] >> i % wordBits & 1);
-    }
   }
 
   /// Each rank fits to the samples around the edges that are counted there.
@@ -186,7 +165,6 @@ private:
   }
 
   SampleTree<TSample>& Tree;
-  NodeExchange<TSample>& Exchange;
 };
 
 } // namespace isopoint

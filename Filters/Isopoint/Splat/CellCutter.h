@@ -110,7 +110,6 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
       }
     }
-    this->HasPassed = false;
     this->cutTowardsRings(point, 2, unit, cell);
     constexpr double large = 1.27;
     if (cell.squaredReach() > large * large)
@@ -120,7 +119,7 @@ private:
     }
     cutAtBorder(this->Extents, this->Points.positions[point], this->Splats[point].normal,
       this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing, cell);
-    if (cell.isOpen() || this->HasPassed)
+    if (cell.isOpen())
     {
       cell.limitTo(openReach);
     }
@@ -163,7 +162,6 @@ private:
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
     if (!cell.reachesBeyond(a, b, 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
-        this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
     {
       return;
@@ -238,21 +236,10 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
-  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in
-  /// mind.
-  bool passesUnfitted(std::size_t point, const NearbyPoint& other)
-  {
-    const bool passes = other.squaredDistance < sampleReach * sampleReach &&
-                        this->isSmooth(point) && !this->isSmooth(other.point);
-    this->HasPassed = this->HasPassed || passes;
-    return passes;
-  }
-
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
   NearbyPoints<TNeighbors> Nearby;
   const TExtents* Extents;
-  bool HasPassed = false; // points without a fit, over which the cell may reach
 };
 
 } // namespace isopoint

@@ -16,7 +16,7 @@ namespace isopoint
 constexpr double sampleReach = 0.9;
 
 /// How far a splat may reach out of the samples, in spacings.
-constexpr double borderReach = 0.3;
+constexpr double borderReach = 0.15;
 
 /// Cuts off the parts of a point's cell that reach out of the samples: where the surface ends, a
 /// cell may be bounded only by points along its border, far outside. In each of extentDirections()

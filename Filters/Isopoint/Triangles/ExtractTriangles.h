@@ -131,18 +131,10 @@ private:
   void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
   {
     this->Ranks.together([&]() { this->Ranks.order(found); });
-    const std::vector<char> isDropped =
-      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      if (!isDropped[i])
-      {
-        found[kept++] = found[i];
-      }
-    }
-    this->Dropped = found.size() - kept;
-    found.resize(kept);
+    const std::size_t count = found.size();
+    dropMarked(
+      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(), found);
+    this->Dropped = count - found.size();
   }
 
   /// The surface of triangles whose vertices the fits move where no triangle turns over.
@@ -158,10 +150,7 @@ private:
     surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
     surface.droppedTetrahedra = this->Dropped;
-    std::vector<std::size_t> ends = leavesOf(mesh.edges);
-    const auto isSingle = [this](std::size_t leaf) { return this->Tree.nodes[leaf].count() == 1; };
-    ends.erase(std::remove_if(ends.begin(), ends.end(), isSingle), ends.end());
-    surface.vertices.coincident = coincidentSamplesOf(this->Tree, std::move(ends));
+    surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);
     return surface;
   }
 

@@ -5,17 +5,79 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Offset.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
+#include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Triangles/CrossingFacets.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace isopoint
 {
+
+/// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common are
+/// connected.
+/// @tparam TRanks SingleRank, or TriangleRanks
+template <class TSample, class TRanks>
+class TetrahedronParts
+{
+public:
+  using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
+
+  TetrahedronParts(const SampleTree<TSample>& tree, const TRanks& ranks,
+    const std::vector<Tetrahedron>& tetrahedra)
+    : Tree(tree)
+    , Ranks(ranks)
+    , Tetrahedra(tetrahedra)
+  {
+  }
+
+  std::size_t size() const { return this->Tetrahedra.size(); }
+
+  /// On the rank of the corner that comes first in the order of the tree.
+  bool isCounted(std::size_t tetrahedron) const
+  {
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    return this->Ranks.isHome(static_cast<std::size_t>(*std::min_element(corners.begin(),
+      corners.end(), [this](auto a, auto b)
+      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; })));
+  }
+
+  template <class Test>
+  bool anyEdge(std::size_t tetrahedron, const Test& test) const
+  {
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < corners.size(); ++j)
+      {
+        if (test(static_cast<std::size_t>(corners[i]), static_cast<std::size_t>(corners[j])))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  template <class Visit>
+  void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
+  {
+    if (!this->Facets)
+    {
+      this->Facets.emplace(this->Tetrahedra);
+    }
+    this->Facets->forEachNeighbor(tetrahedron, visit);
+  }
+
+private:
+  const SampleTree<TSample>& Tree;
+  const TRanks& Ranks;
+  const std::vector<Tetrahedron>& Tetrahedra;
+  std::optional<CrossingFacets> Facets; // once there is a gap
+};
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
 /// Where several ranks share the tree, all functions are collective.
@@ -34,6 +96,8 @@ public:
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
+    , Parts(tree, ranks, tetrahedra)
+    , Spread(execution, tree, ranks, this->Parts)
   {
   }
 
@@ -41,24 +105,10 @@ public:
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   std::vector<char> find()
   {
-    std::vector<std::size_t> front = this->seeds(); // the same on all ranks
-    this->Ranks.together(
-      [&]()
-      {
-        this->IsMet.resize(this->Tetrahedra.size(), 0);
-        this->IsInGap.resize(this->Tetrahedra.size(), 0);
-        for (const std::size_t i : front)
-        {
-          this->IsMet[i] = 1;
-        }
-      });
-    while (!front.empty())
-    {
-      const std::vector<char> areOver = this->areOver(GapCriterion::weak(), front);
-      this->Ranks.together([&]() { front = this->next(front, areOver); });
-    }
-    this->Ranks.together([&]() { this->dropFragments(); });
-    return std::move(this->IsInGap);
+    this->Spread.spread(this->seeds());
+    std::vector<char> isInGap;
+    this->Ranks.together([&]() { isInGap = this->withFragments(this->Spread.isInGap()); });
+    return isInGap;
   }
 
 private:
@@ -82,18 +132,10 @@ private:
           }
         }
       });
-    const std::vector<char> areOver = this->areOver(GapCriterion::strong(), candidates);
-    std::vector<std::size_t> seeds;
+    std::vector<std::size_t> seeds = this->Spread.over(GapCriterion::strong(), candidates);
     this->Ranks.together(
       [&]()
       {
-        for (std::size_t i = 0; i < candidates.size(); ++i)
-        {
-          if (areOver[i] && !this->Tetrahedra[candidates[i]].isAtHull)
-          {
-            seeds.push_back(candidates[i]);
-          }
-        }
         for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
         {
           if (this->Tetrahedra[i].isAtHull)
@@ -101,6 +143,8 @@ private:
             seeds.push_back(i);
           }
         }
+        std::sort(seeds.begin(), seeds.end());
+        seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
       });
     return seeds;
   }
@@ -112,7 +156,6 @@ private:
     std::vector<double> longest;      // edge at each leaf, by node
     std::vector<std::size_t> corners; // in the same order on all ranks
     std::vector<char> marks;          // of these
-    std::vector<char> marksOfNodes;
     this->Ranks.together(
       [&]()
       {
@@ -140,14 +183,17 @@ private:
                      ? 1
                      : 0;
       });
-    this->Ranks.unite(marks);
+    std::vector<std::size_t> crowded;
+    this->Ranks.together([&]() { crowded = markedOf(marks); });
+    this->Ranks.unite(crowded);
+    std::vector<char> marksOfNodes;
     this->Ranks.together(
       [&]()
       {
         marksOfNodes.resize(longest.size(), 0);
-        for (std::size_t i = 0; i < corners.size(); ++i)
+        for (const std::size_t i : crowded)
         {
-          marksOfNodes[corners[i]] = marks[i];
+          marksOfNodes[corners[i]] = 1;
         }
       });
     return marksOfNodes;
@@ -174,90 +220,16 @@ private:
     return longest;
   }
 
-  /// Of some tetrahedra, whether an edge is dropped by a criterion.
-  std::vector<char> areOver(
-    const GapCriterion& criterion, const std::vector<std::size_t>& tetrahedra)
+  /// What is in gaps, with the small pieces that border on them.
+  std::vector<char> withFragments(std::vector<char> isInGap)
   {
-    std::vector<char> marks;
-    this->Ranks.together([&]() { marks.resize(tetrahedra.size(), 0); });
-    this->Ranks.forEach(
-      this->Run, tetrahedra.size(), []() { return 0; },
-      [&](int, std::size_t i)
-      {
-        const Tetrahedron& tetrahedron = this->Tetrahedra[tetrahedra[i]];
-        marks[i] =
-          this->Ranks.isHome(this->firstLeafOf(tetrahedron)) && this->isOver(criterion, tetrahedron)
-            ? 1
-            : 0;
-      });
-    this->Ranks.unite(marks);
-    return marks;
-  }
-
-  bool isOver(const GapCriterion& criterion, const Tetrahedron& tetrahedron) const
-  {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const auto leaf = static_cast<std::size_t>(tetrahedron.corners[i]);
-      const Path path = pathToLeaf(this->Tree, leaf);
-      for (std::size_t j = i + 1; j < 4; ++j)
-      {
-        if (criterion.drops(this->Tree, path, this->sampleOf(leaf),
-              this->sampleOf(static_cast<std::size_t>(tetrahedron.corners[j]))))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /// Puts those of a front that are over the weak criterion into the gap.
-  /// @returns their neighbors that were not met before
-  std::vector<std::size_t> next(
-    const std::vector<std::size_t>& front, const std::vector<char>& areOver)
-  {
-    throwIfAborted(this->Run);
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < front.size(); ++i)
-    {
-      if (!areOver[i])
-      {
-        continue;
-      }
-      this->IsInGap[front[i]] = 1;
-      if (!this->Facets)
-      {
-        this->Facets.emplace(this->Tetrahedra);
-      }
-      this->Facets->forEachNeighbor(front[i],
-        [&](std::size_t neighbor)
-        {
-          if (!this->IsMet[neighbor])
-          {
-            this->IsMet[neighbor] = 1;
-            found.push_back(neighbor);
-          }
-        });
-    }
-    std::sort(found.begin(), found.end()); // neighbors stand in another order on each rank
-    return found;
-  }
-
-  /// Puts small pieces that border on a gap into it.
-  void dropFragments()
-  {
-    if (!this->Facets)
-    {
-      return;
-    }
     std::vector<std::size_t> fragments;
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
-      // All beside a gap were met.
-      if (this->IsMet[i] && !this->IsInGap[i] && this->isBesideGap(i))
+      // All that borders on a gap was reached.
+      if (this->Spread.isReached()[i] && !isInGap[i] && this->isBesideGap(i))
       {
-        const std::vector<std::size_t> piece = this->pieceAround(i);
+        const std::vector<std::size_t> piece = this->pieceAround(i, isInGap);
         if (piece.size() < smallestPiece)
         {
           fragments.insert(fragments.end(), piece.begin(), piece.end());
@@ -266,29 +238,31 @@ private:
     }
     for (const std::size_t i : fragments)
     {
-      this->IsInGap[i] = 1;
+      isInGap[i] = 1;
     }
+    return isInGap;
   }
 
-  bool isBesideGap(std::size_t tetrahedron) const
+  bool isBesideGap(std::size_t tetrahedron)
   {
     bool isBeside = false;
-    this->Facets->forEachNeighbor(
-      tetrahedron, [&](std::size_t neighbor) { isBeside = isBeside || this->IsInGap[neighbor]; });
+    this->Parts.forEachNeighbor(tetrahedron,
+      [&](std::size_t neighbor)
+      { isBeside = isBeside || this->Spread.isInGap()[neighbor] != 0; });
     return isBeside;
   }
 
-  /// The tetrahedra that hang together with one across crossing facets, out of gaps; of many,
+  /// The tetrahedra that are connected with one across crossing facets, out of gaps; of many,
   /// `smallestPiece`.
-  std::vector<std::size_t> pieceAround(std::size_t tetrahedron) const
+  std::vector<std::size_t> pieceAround(std::size_t tetrahedron, const std::vector<char>& isInGap)
   {
     std::vector<std::size_t> piece{ tetrahedron };
     for (std::size_t i = 0; i < piece.size() && piece.size() < smallestPiece; ++i)
     {
-      this->Facets->forEachNeighbor(piece[i],
+      this->Parts.forEachNeighbor(piece[i],
         [&](std::size_t neighbor)
         {
-          if (!this->IsInGap[neighbor] && piece.size() < smallestPiece &&
+          if (!isInGap[neighbor] && piece.size() < smallestPiece &&
               std::find(piece.begin(), piece.end(), neighbor) == piece.end())
           {
             piece.push_back(neighbor);
@@ -296,14 +270,6 @@ private:
         });
     }
     return piece;
-  }
-
-  /// The corner that comes first in the order of the tree.
-  std::size_t firstLeafOf(const Tetrahedron& tetrahedron) const
-  {
-    return static_cast<std::size_t>(
-      *std::min_element(tetrahedron.corners.begin(), tetrahedron.corners.end(),
-        [this](Id a, Id b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; }));
   }
 
   const TSample& sampleOf(std::size_t leaf) const
@@ -315,9 +281,8 @@ private:
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const std::vector<Tetrahedron>& Tetrahedra;
-  std::optional<CrossingFacets> Facets; // where there is a gap
-  std::vector<char> IsMet;              // each tetrahedron: whether it was in a front
-  std::vector<char> IsInGap;
+  TetrahedronParts<TSample, TRanks> Parts;
+  GapSpread<TSample, TRanks, TetrahedronParts<TSample, TRanks>> Spread;
 };
 
 } // namespace isopoint

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_GapSpread_h
+#define isopoint_GapSpread_h
+
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Neighbors/GapCriterion.h"
+#include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The numbers of what is marked, ascending.
+inline std::vector<std::size_t> markedOf(const std::vector<char>& marks)
+{
+  std::vector<std::size_t> marked;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    if (marks[i])
+    {
+      marked.push_back(i);
+    }
+  }
+  return marked;
+}
+
+/// Drops what is marked.
+template <class T>
+void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (!marks[i])
+    {
+      all[kept++] = all[i];
+    }
+  }
+  all.resize(kept);
+}
+
+/// Finds which parts of a surface, its edges or tetrahedra, lie in gaps of the cloud: those over the
+/// weak gap criterion that are connected with a seed through others over it. Where several ranks
+/// share the tree, all functions are collective.
+/// @tparam TRanks SingleTeam or TeamOfTree with unite(parts), which adds those that other ranks found,
+/// and orders them
+/// @tparam TParts has
+/// - size();
+/// - anyEdge(part, test), whether test(leaf, otherLeaf) is true of any edge of a part;
+/// - isCounted(part), whether this rank is to look at it;
+/// - forEachNeighbor(part, visit), the parts that are connected with it
+template <class TSample, class TRanks, class TParts>
+class GapSpread
+{
+public:
+  GapSpread(
+    const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks, TParts& parts)
+    : Run(execution)
+    , Tree(tree)
+    , Ranks(ranks)
+    , Parts(parts)
+  {
+  }
+
+  /// Those of some parts that have an edge over a criterion, and those that other ranks found.
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere; so do the other functions
+  std::vector<std::size_t> over(
+    const GapCriterion& criterion, const std::vector<std::size_t>& candidates)
+  {
+    std::vector<char> marks;
+    this->Ranks.together([&]() { marks.resize(candidates.size(), 0); });
+    this->Ranks.forEach(
+      this->Run, candidates.size(), []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const std::size_t part = candidates[i];
+        marks[i] = this->Parts.isCounted(part) && this->isOver(criterion, part) ? 1 : 0;
+      });
+    std::vector<std::size_t> found;
+    this->Ranks.together(
+      [&]()
+      {
+        for (const std::size_t i : markedOf(marks))
+        {
+          found.push_back(candidates[i]);
+        }
+      });
+    this->Ranks.unite(found);
+    return found;
+  }
+
+  /// Marks what is in gaps.
+  /// @param front the seeds, each once
+  void spread(std::vector<std::size_t> front)
+  {
+    this->Ranks.together(
+      [&]()
+      {
+        this->IsReached.resize(this->Parts.size(), 0);
+        this->IsInGap.resize(this->Parts.size(), 0);
+        for (const std::size_t part : front)
+        {
+          this->IsReached[part] = 1;
+        }
+      });
+    while (this->Ranks.isAny(!front.empty()))
+    {
+      const std::vector<std::size_t> weak = this->over(GapCriterion::weak(), front);
+      this->Ranks.together([&]() { front = this->next(weak); });
+    }
+  }
+
+  /// Of each part, whether it is in a gap.
+  const std::vector<char>& isInGap() const { return this->IsInGap; }
+
+  /// Of each part, whether it is a seed or is connected with a part in a gap.
+  const std::vector<char>& isReached() const { return this->IsReached; }
+
+private:
+  bool isOver(const GapCriterion& criterion, std::size_t part) const
+  {
+    return this->Parts.anyEdge(part,
+      [&](std::size_t leaf, std::size_t other)
+      {
+        return criterion.drops(this->Tree, pathToLeaf(this->Tree, leaf),
+          this->Tree.samples[this->Tree.nodes[leaf].begin],
+          this->Tree.samples[this->Tree.nodes[other].begin]);
+      });
+  }
+
+  /// Puts parts into the gap. @returns their neighbors that were not reached before
+  std::vector<std::size_t> next(const std::vector<std::size_t>& parts)
+  {
+    throwIfAborted(this->Run);
+    std::vector<std::size_t> found;
+    for (const std::size_t part : parts)
+    {
+      if (this->IsInGap[part])
+      {
+        continue;
+      }
+      this->IsInGap[part] = 1;
+      this->IsReached[part] = 1;
+      this->Parts.forEachNeighbor(part,
+        [&](std::size_t neighbor)
+        {
+          if (!this->IsReached[neighbor])
+          {
+            this->IsReached[neighbor] = 1;
+            found.push_back(neighbor);
+          }
+        });
+    }
+    std::sort(found.begin(), found.end()); // neighbors stand in another order on each rank
+    return found;
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  TRanks& Ranks;
+  TParts& Parts;
+  std::vector<char> IsReached;
+  std::vector<char> IsInGap;
+};
+
+} // namespace isopoint
+
+#endif
