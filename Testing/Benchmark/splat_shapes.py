@@ -2,7 +2,7 @@
 """How well splats follow the surface: how much of them strays from it, their area, what of the surface they
 leave uncovered, and how far their normals are off.
 
-    PYTHONPATH=... /usr/bin/python3 Testing/Benchmark/splat_shapes.py [FILE ARRAY ISOVALUE]...
+    PYTHONPATH=... Utilities/offscreen.sh /usr/bin/python3 Testing/Benchmark/splat_shapes.py [FILE ARRAY ISOVALUE]...
 
 Prints a Markdown table of analytic fields among random samples, or of files (VTK's XML formats; the array of
 points or cells). The reference is the exact surface of a field; of a file, the contour of its cells or, without
@@ -12,6 +12,8 @@ distance of a place to the 12 nearest samples.
 - stray: the area of splats farther than S / 2 from the reference, over the area of that;
 - area: that of all splats, over that of the reference;
 - uncovered: the share of the reference that is farther than S / 4 from all splats;
+- outside: pixels of splats that are farther than two pixels from those of the reference, over the pixels of that,
+  seen along three directions in windows of 600 x 600 pixels, the largest;
 - shading: the mean angle between the normals of splats, interpolated between corners, and that of the reference
   nearby, in degrees.
 
@@ -21,11 +23,14 @@ Needs SciPy.
 import sys
 
 import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
 from scatteredisopoints import (
+    vtkIsopointSplatMapper,
     vtkIsopointSplatPolygons,
     vtkScatteredIsopointFilter,
     vtkScatteredIsosurfaceFilter,
 )
+from scipy.ndimage import binary_dilation
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -37,6 +42,13 @@ from vtkmodules.vtkFiltersCore import (
     vtkTriangleFilter,
 )
 from vtkmodules.vtkIOXML import vtkXMLGenericDataObjectReader
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkWindowToImageFilter,
+)
 
 PLACES = 300_000  # on splats, and on the reference
 RANDOM = np.random.default_rng(1)
@@ -77,6 +89,43 @@ def fans_of(points):
     places = vtk_to_numpy(fans.GetPoints().GetData()).astype(float)
     normals = vtk_to_numpy(fans.GetPointData().GetNormals()).astype(float)
     return places[corners], normals[corners]
+
+
+def pixels_of(data, mapper, bounds, direction):
+    """Which pixels something covers, seen along a direction."""
+    mapper.SetInputDataObject(data)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().LightingOff()
+    window, renderer = vtkRenderWindow(), vtkRenderer()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(600, 600)
+    window.AddRenderer(renderer)
+    renderer.AddActor(actor)
+    renderer.GetActiveCamera().SetPosition(*np.negative(direction))
+    renderer.GetActiveCamera().SetFocalPoint(0, 0, 0)
+    renderer.GetActiveCamera().SetViewUp(0, 0, 1)
+    renderer.ResetCamera(bounds)
+    renderer.ResetCameraClippingRange()
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(600, 600, 3)[..., 0] > 0
+
+
+def outside(points, mesh):
+    """The pixels of splats outside of those of a mesh, over the latter: the most in three views."""
+    shares = []
+    for direction in ((1, 0.5, -0.4), (-0.3, 1, -0.6), (0.2, -0.3, -1)):
+        inside = pixels_of(mesh, vtkPolyDataMapper(), mesh.GetBounds(), direction)
+        splats = pixels_of(points, vtkIsopointSplatMapper(), mesh.GetBounds(), direction)
+        near = binary_dilation(inside, np.ones((3, 3)), iterations=2)
+        shares.append(np.count_nonzero(splats & ~near) / np.count_nonzero(inside))
+    return max(shares)
 
 
 def random_samples(count, field):
@@ -186,7 +235,7 @@ def gradient_of(field, places):
 
 
 def measured(data, array, isovalue, mesh, field):
-    """Stray, area, uncovered and shading."""
+    """The number of points, stray, area, uncovered, outside and shading."""
     isopoints = vtkScatteredIsopointFilter()
     points = configured(isopoints, data, array, isovalue)
     on_reference, true_normals, true_area = on_triangles(*triangles_of(mesh), PLACES)
@@ -203,19 +252,20 @@ def measured(data, array, isovalue, mesh, field):
     truth = gradient_of(field, on_splats) if field else true_normals[nearest]
     cosines = np.abs((normals * truth).sum(axis=1))
     shading = np.degrees(np.arccos(np.minimum(cosines, 1))).mean()
-    return points.GetNumberOfPoints(), stray, area / true_area, uncovered, shading
+    return points.GetNumberOfPoints(), stray, area / true_area, uncovered, outside(points, mesh), shading
 
 
 def print_row(name, data, array, isovalue, mesh, field=None):
-    count, stray, area, uncovered, shading = measured(data, array, isovalue, mesh, field)
+    count, stray, area, uncovered, beyond, shading = measured(data, array, isovalue, mesh, field)
     print(
-        f"| {name} | {count:,} | {100 * stray:.2f} % | {area:.3f} | {100 * uncovered:.2f} % | {shading:.2f} |",
+        f"| {name} | {count:,} | {100 * stray:.2f} % | {area:.3f} | {100 * uncovered:.2f} % | {100 * beyond:.2f} %"
+        f" | {shading:.2f} |",
         flush=True,
     )
 
 
 def main(arguments):
-    print("| | splats | stray | area | uncovered | shading, degrees |\n|---|---|---|---|---|---|", flush=True)
+    print("| | splats | stray | area | uncovered | outside | shading, degrees |\n|---|---|---|---|---|---|---|", flush=True)
     for path, array, isovalue in zip(arguments[::3], arguments[1::3], arguments[2::3]):
         reader = vtkXMLGenericDataObjectReader()
         reader.SetFileName(path)

@@ -337,3 +337,38 @@ TEST(Coverage, SplatsDoNotExtendFarBeyondTheSamples)
   EXPECT_GT(farthest, 0.0);
   EXPECT_LT(farthest, 2.3 * spacing);
 }
+
+// Most cells that touch those of a wall of two layers of samples are of other walls.
+TEST(Coverage, SplatsOfThinWallsDoNotReachAcrossVoids)
+{
+  constexpr double distance = 10.0; // of walls, in spacings
+  clouds::Random random(7);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> heights;
+  for (int wall = 0; wall < 4; ++wall)
+  {
+    for (int i = 0; i < 2 * 40 * 40; ++i)
+    {
+      const auto jittered = [&random](int k) { return k + 0.3 * (random() - 0.5); };
+      const Vector place{ jittered(i / 2 % 40), distance * wall + jittered(i % 2),
+        jittered(i / 80) };
+      points->InsertNextPoint(place.data());
+      heights->InsertNextValue(static_cast<float>(place[2] + 0.2 * place[0]));
+    }
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  cloud->GetPointData()->SetScalars(heights);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 23.3);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 200);
+  const double farthest = farthestRim(filter->GetOutput(),
+    [](const Vector& p)
+    {
+      const double wall = std::clamp(std::round((p[1] - 0.5) / distance), 0.0, 3.0);
+      return std::abs(p[1] - 0.5 - distance * wall) - 0.5;
+    });
+  EXPECT_LT(farthest, 1.0);
+}
