@@ -37,6 +37,7 @@ struct HalfSpace
     const double along = query.direction[0];
     return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
   }
+  const isopoint::WideSample* nearest(const isopoint::ExtentQuery&) const { return nullptr; }
 };
 
 /// The isopoints of a surface, one entry each.
@@ -122,6 +123,8 @@ public:
       this->At[positions[i]].push_back(i);
     }
   }
+
+  bool isAcrossGap(std::size_t, const isopoint::WideSample&, double) const { return false; }
 
   class Finder
   {

@@ -50,6 +50,28 @@ double extentByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& query)
   return std::min({ above, below, query.enough });
 }
 
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// The number of the nearest sample that stands ahead by `enough` or more, the lowest of equals.
+std::size_t nearestByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& query)
+{
+  std::size_t nearest = none;
+  double least = query.reach;
+  for (std::size_t i = cloud.size(); i-- > 0;)
+  {
+    const double* const p = &cloud.positions[3 * i];
+    const Vector offset = isopoint::difference({ p[0], p[1], p[2] }, query.place);
+    const double length = isopoint::lengthOf(offset);
+    const double ahead = isopoint::dot(offset, query.direction);
+    if (length <= least && ahead >= query.enough && ahead >= 0.7071 * length)
+    {
+      least = length;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
 std::vector<ExtentQuery> randomQueries(const clouds::Cloud& cloud, int count)
 {
   clouds::Random random(11);
@@ -75,8 +97,15 @@ std::vector<ExtentQuery> randomQueries(const clouds::Cloud& cloud, int count)
 TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
 {
   int limited = 0;
+  int found = 0;
+  clouds::Cloud coarse = clouds::coarse(3000, 10, 6); // many samples are equally far
+  for (double& coordinate : coarse.positions)
+  {
+    coordinate *= 0.125;
+  }
   for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
-         clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5) })
+         clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5),
+         coarse })
   {
     Tree tree = loaded(cloud);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);
@@ -92,10 +121,14 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
         const double expected = extentByBruteForce(cloud, query);
         EXPECT_DOUBLE_EQ(extents.at(query), expected);
         limited += expected > 0.0 && expected < query.enough ? 1 : 0;
+        const isopoint::WideSample* const nearest = extents.nearest(query);
+        EXPECT_EQ(nearest ? nearest->id : none, nearestByBruteForce(cloud, query));
+        found += nearest ? 1 : 0;
       }
     }
   }
   EXPECT_GT(limited, 300);
+  EXPECT_GT(found, 1000);
 }
 
 // Where a surface leaves the samples at a grazing angle, they are ahead on one side of it only.
@@ -124,8 +157,8 @@ TEST(SampleExtent, IsTheSmallerOneOfBothSidesOfTheTangentPlane)
 
 TEST(SampleExtent, OfNoSamplesIsZero)
 {
-  const Tree none;
-  EXPECT_EQ(isopoint::SampleExtents(none).at(
-              { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 }),
-    0.0);
+  const Tree empty;
+  const ExtentQuery query{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 };
+  EXPECT_EQ(isopoint::SampleExtents(empty).at(query), 0.0);
+  EXPECT_EQ(isopoint::SampleExtents(empty).nearest(query), nullptr);
 }

@@ -5,6 +5,7 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/LeafSet.h"
+#include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/Path.h"
@@ -63,6 +64,7 @@ public:
   IsopointNeighbors(const Execution& execution, const SampleTree<TSample>& tree,
     const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves,
     const std::vector<bool>* isInner = nullptr)
+    : Tree(tree)
   {
     std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
     this->numberLeaves(leaves, numbers);
@@ -76,6 +78,23 @@ public:
       }
     }
     this->listTouching(execution, tree, known, numbers, isSurrounded);
+  }
+
+  /// Whether a void of a width, up to a sample, is a gap as seen from an isopoint: whether it is over
+  /// the strong gap criterion, in place of the length of an edge between an end of the isopoint's
+  /// edge and the sample.
+  /// @throws MissingNode
+  bool isAcrossGap(std::size_t isopoint, const TSample& sample, double width) const
+  {
+    return std::any_of(this->Ends[isopoint].begin(), this->Ends[isopoint].end(),
+      [&](Id end)
+      {
+        const std::size_t leaf = this->Leaves[end];
+        const TSample& own = this->Tree.samples[this->Tree.nodes[leaf].begin];
+        const double length = offsetBetween(positionOf(own), positionOf(sample)).length;
+        return width > 0.0 && GapCriterion::strong(std::max(1.0, length / width))
+                                .drops(this->Tree, pathToLeaf(this->Tree, leaf), own, sample);
+      });
   }
 
   /// Lists the isopoints around one. What was found is kept for the next ones whose edges begin in
@@ -338,6 +357,7 @@ private:
     }
   }
 
+  const SampleTree<TSample>& Tree;
   std::vector<Id> Leaves;              // node indices of the leaves that edges end in, by number
   std::vector<std::array<Id, 2>> Ends; // of the isopoints' edges, numbers of leaves
   Lists<std::size_t> Isopoints;        // whose edges end in each leaf, ascending

@@ -37,7 +37,8 @@ public:
   static GapCriterion weak() { return { 2.0, 2 }; }
 
   /// What is over this one is in a gap. Next to no edge of random samples without a gap is.
-  static GapCriterion strong() { return { 4.0, 3 }; }
+  /// @param ratio of the edge's length to that of its part which spans the gap, 1 or more
+  static GapCriterion strong(double ratio = 1.0) { return { 4.0 * ratio, 3 }; }
 
   /// Whether the edge between the positions of two samples is dropped, one of them a leaf's.
   /// Symmetric in them, and the same whatever part of the tree is built.

@@ -24,6 +24,10 @@ struct ExtentQuery
   double reach;     // of the samples that count from the place, above `enough`, finite
 };
 
+/// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as rounding
+/// permits.
+constexpr double leastCosineAhead = 0.7071;
+
 /// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
 /// their regions. Each is computed at its first request; from any thread.
 template <class TSample>
@@ -79,8 +83,6 @@ public:
   bool isEnough() const { return this->extent() >= this->Query.enough; }
 
 private:
-  static constexpr double leastCosine = 0.7071; // of 45 degrees, except for rounding
-
   /// @param box the intersection of the search's box and the node's region
   /// @throws MissingNode at a node whose samples another rank holds
   void visit(std::size_t nodeIndex, const Region& box)
@@ -157,7 +159,7 @@ private:
     // Lengths are rounded either way.
     constexpr double slack = 0.999;
     const double least = slack * lengthOf(gap);
-    return least <= this->Query.reach && ahead >= leastCosine * least;
+    return least <= this->Query.reach && ahead >= leastCosineAhead * least;
   }
 
   /// Includes the samples of a node that is not split; of many only as long as one of the rest may
@@ -186,7 +188,7 @@ private:
     const double height = dot(offset, this->Query.normal);
     const double ahead = dot(offset, this->Query.direction);
     const double length = lengthOf(offset);
-    if (ahead < leastCosine * length || length > this->Query.reach)
+    if (ahead < leastCosineAhead * length || length > this->Query.reach)
     {
       return;
     }
@@ -205,6 +207,97 @@ private:
   const ExtentQuery& Query;
   double Above = 0.0; // how far samples stand ahead on this side of the plane
   double Below = 0.0;
+};
+
+/// Searches for the nearest of the samples that an ExtentQuery asks for and that stand ahead by
+/// `enough` or more; of equally distant ones that of the lowest id.
+template <class TSample>
+class SampleAheadSearch
+{
+public:
+  SampleAheadSearch(const SampleTree<TSample>& tree, const ExtentQuery& query)
+    : Tree(tree)
+    , Query(query)
+    , Distance(query.reach)
+  {
+  }
+
+  /// @returns null if there is none
+  /// @throws MissingNode at a node whose samples another rank holds
+  /// Complexity: that of a nearest neighbor
+  const TSample* search()
+  {
+    if (!this->Tree.isEmpty())
+    {
+      this->visit(SampleTree<TSample>::rootNode, this->Tree.region);
+    }
+    return this->Found;
+  }
+
+private:
+  void visit(std::size_t nodeIndex, const Region& region)
+  {
+    if (!this->mayHoldIt(region))
+    {
+      return;
+    }
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!node.isSplit())
+    {
+      if (node.isAbsent)
+      {
+        throw MissingNode{ nodeIndex, region };
+      }
+      const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+      for (std::size_t i = node.begin; i < end; ++i)
+      {
+        this->consider(this->Tree.samples[i]);
+      }
+      return;
+    }
+    const bool isUpperFirst = this->Query.place[node.axis] > node.plane;
+    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+    {
+      Region part = region;
+      (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
+      this->visit(this->Tree.child(node, isUpper), part);
+    }
+  }
+
+  bool mayHoldIt(const Region& region) const
+  {
+    double ahead = 0.0; // the largest
+    Vector gap{};       // from the place to the region
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = region.lower[axis] - this->Query.place[axis];
+      const double upper = region.upper[axis] - this->Query.place[axis];
+      gap[axis] = std::max({ lower, -upper, 0.0 });
+      const double direction = this->Query.direction[axis];
+      ahead += std::max(direction * lower, direction * upper);
+    }
+    constexpr double slack = 0.999; // for rounding
+    return ahead >= slack * this->Query.enough && slack * lengthOf(gap) <= this->Distance;
+  }
+
+  void consider(const TSample& sample)
+  {
+    const Vector offset = difference(positionOf(sample), this->Query.place);
+    const double ahead = dot(offset, this->Query.direction);
+    const double length = lengthOf(offset);
+    const bool isNearer = length < this->Distance ||
+                          (length == this->Distance && (!this->Found || sample.id < this->Found->id));
+    if (isNearer && ahead >= this->Query.enough && ahead >= leastCosineAhead * length)
+    {
+      this->Distance = length;
+      this->Found = &sample;
+    }
+  }
+
+  const SampleTree<TSample>& Tree;
+  const ExtentQuery& Query;
+  double Distance;
+  const TSample* Found = nullptr;
 };
 
 /// The extents of a tree's samples ahead of places on a surface. The tree must not change
@@ -243,6 +336,12 @@ public:
       search.search(0.707 * query.reach, 0.72 * query.reach);
     }
     return search.extent();
+  }
+
+  /// The nearest of the samples that stand ahead by query.enough or more; see SampleAheadSearch.
+  const TSample* nearest(const ExtentQuery& query) const
+  {
+    return SampleAheadSearch<TSample>(this->Tree, query).search();
   }
 
 private:

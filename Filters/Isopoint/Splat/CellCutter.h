@@ -21,7 +21,7 @@ namespace isopoint
 {
 
 /// Cuts out the cells of points whose normals are known, one at a time. For one thread.
-/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
+/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder and isAcrossGap()
 /// @tparam TExtents see cutAtBorder()
 template <class TNeighbors, class TExtents>
 class CellCutter
@@ -30,7 +30,8 @@ public:
   /// @param splats of which normals are set
   CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
     const std::vector<Splat>& splats)
-    : Points(points)
+    : Neighbors(neighbors)
+    , Points(points)
     , Splats(splats)
     , Nearby(neighbors, points)
     , Extents(extents)
@@ -117,8 +118,12 @@ private:
       // It may be large because points beyond are in no ring nearer.
       this->cutTowardsRings(point, 3, unit, cell);
     }
-    cutAtBorder(this->Extents, this->Points.positions[point], this->Splats[point].normal,
-      this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing, cell);
+    cutAtBorder(
+      this->Extents, this->Points.positions[point], this->Splats[point].normal,
+      this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing,
+      [&](const auto& sample, double width)
+      { return this->Neighbors.isAcrossGap(point, sample, width); },
+      cell);
     if (cell.isOpen())
     {
       cell.limitTo(openReach);
@@ -236,6 +241,7 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
+  const TNeighbors& Neighbors;
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
   NearbyPoints<TNeighbors> Nearby;

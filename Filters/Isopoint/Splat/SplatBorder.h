@@ -7,6 +7,7 @@
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Splat/TangentCell.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace isopoint
@@ -18,22 +19,42 @@ constexpr double sampleReach = 0.9;
 /// How far a splat may reach out of the samples, in spacings.
 constexpr double borderReach = 0.15;
 
+/// How far samples stand ahead of a place, in the sense of SampleExtents::at(), without those across
+/// a gap.
+/// @param isAcrossGap(sample, width) whether the void up to a sample, of this width, is a gap
+template <class TExtents, class TIsAcrossGap>
+double extentUpToGaps(
+  const TExtents& extents, const ExtentQuery& query, const TIsAcrossGap& isAcrossGap)
+{
+  const double extent = extents.at(query);
+  const auto* const sample = extent < query.enough ? nullptr : extents.nearest(query);
+  if (!sample)
+  {
+    return extent;
+  }
+  const Vector offset = difference(positionOf(*sample), query.place);
+  ExtentQuery nearer = query;
+  nearer.reach = std::nextafter(lengthOf(offset), 0.0);
+  nearer.enough = std::min(query.enough, nearer.reach);
+  const double before = extents.at(nearer);
+  return isAcrossGap(*sample, dot(offset, query.direction) - before) ? before : extent;
+}
+
 /// Cuts off the parts of a point's cell that reach out of the samples: where the surface ends, a
 /// cell may be bounded only by points along its border, far outside. In each of extentDirections()
-/// it may reach `borderReach` farther than samples stand ahead of the point; the new sides are
-/// limits. A closed cell is complete where it reaches no farther than `sampleReach`.
-/// @tparam TExtents SampleExtents, or another class with its at()
+/// it may reach `borderReach` farther than samples stand ahead of the point on this side of gaps; the
+/// new sides are limits. A closed cell is complete where it reaches no farther than `sampleReach`.
+/// @tparam TExtents SampleExtents, or another class with its at() and nearest()
 /// @param extents null for none: then there is no border
 /// @param normal of the point's splat, of length 1
 /// @param spacing of the samples there, the unit of the cell; if it is not positive, no border is
 /// known
-template <class TExtents>
+/// @param isAcrossGap see extentUpToGaps()
+template <class TExtents, class TIsAcrossGap>
 void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& normal, double spacing,
-  TangentCell& cell)
+  const TIsAcrossGap& isAcrossGap, TangentCell& cell)
 {
-  // How far away samples count, in spacings: a cell is as far from what is across a gap as it may
-  // reach into it.
-  constexpr double mostReach = 9.0;
+  constexpr double mostReach = 9.0; // of samples that count, in spacings
   const double complete = cell.isOpen() ? borderReach : sampleReach;
   if (!extents || !(spacing > 0.0) || !std::isfinite(mostReach * spacing) ||
       cell.squaredReach() <= complete * complete)
@@ -47,12 +68,12 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
     {
       continue;
     }
-    const double wanted = reach - borderReach;
-    const double extent =
-      extents->at({ place, normal, direction, wanted * spacing, mostReach * spacing }) / spacing;
-    if (extent < wanted)
+    const ExtentQuery query{ place, normal, direction, (reach - borderReach) * spacing,
+      mostReach * spacing };
+    const double extent = extentUpToGaps(*extents, query, isAcrossGap);
+    if (extent < query.enough)
     {
-      cell.cut(direction, extent + borderReach, TangentCell::limit);
+      cell.cut(direction, extent / spacing + borderReach, TangentCell::limit);
     }
   }
 }
