@@ -6,6 +6,7 @@
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
@@ -27,11 +28,14 @@ class EdgeFinder
 public:
   using Id = typename TSample::Id;
 
-  EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion)
+  /// @param listsGaps whether gapEdges() are wanted
+  EdgeFinder(
+    ExtractionContext<TSample>& context, const AngleCriterion& criterion, bool listsGaps)
     : Context(context)
     , Tree(context.tree)
     , Isovalue(context.isovalue)
     , Criterion(criterion)
+    , ListsGaps(listsGaps)
     , Implicit(context.tree, context.bounds)
     , Values(context.tree, context.leafMeans)
   {
@@ -43,6 +47,7 @@ public:
   void find(const Path& leaf)
   {
     const std::size_t edgeCount = this->Edges.size();
+    const std::size_t gapCount = this->GapEdges.size();
     const std::size_t keptRecords = this->KeptRecords;
     try
     {
@@ -52,12 +57,16 @@ public:
     {
       this->Edges.erase(
         this->Edges.begin() + static_cast<std::ptrdiff_t>(edgeCount), this->Edges.end());
+      this->GapEdges.resize(gapCount);
       this->KeptRecords = keptRecords;
       throw;
     }
   }
 
   const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
+
+  /// Those of them that are over the strong gap criterion.
+  const std::vector<CrossingEdge<TSample>>& gapEdges() const { return this->GapEdges; }
 
   /// The neighborhoods that were searched for, as NeighborhoodCache::add() takes them.
   std::vector<Id>& records()
@@ -202,6 +211,10 @@ private:
     const TSample& otherSample = this->sampleAt(otherLeaf);
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
+    if (this->ListsGaps && GapCriterion::strong().drops(this->Tree, leaf, sample, otherSample))
+    {
+      this->GapEdges.push_back(this->Edges.back());
+    }
   }
 
   struct End
@@ -223,6 +236,7 @@ private:
   const SampleTree<TSample>& Tree;
   const double Isovalue;
   const AngleCriterion& Criterion;
+  const bool ListsGaps;
   ImplicitNeighborhood<TSample> Implicit;
   NodeList<Id> Neighbors;
   std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf
@@ -231,6 +245,7 @@ private:
   std::vector<Offset> Sorted;  // the same, nearest first, where there are many
   std::vector<Crossing> Crossings;
   std::vector<CrossingEdge<TSample>> Edges;
+  std::vector<CrossingEdge<TSample>> GapEdges;
   LeafValueCache<TSample> Values;
 };
 

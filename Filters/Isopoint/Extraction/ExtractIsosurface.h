@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Base/SingleTeam.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
@@ -33,7 +34,8 @@ namespace isopoint
 template <class TSample>
 struct FoundEdges
 {
-  std::vector<CrossingEdge<TSample>> edges;  // each once or twice, in any order
+  std::vector<CrossingEdge<TSample>> edges; // each once or twice, in any order
+  std::vector<CrossingEdge<TSample>> gapEdges; // those over the strong gap criterion, if wanted
   std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
 };
 
@@ -60,7 +62,7 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
     execution, nodes.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      EdgeFinder<TSample> finder(context, criterion);
+      EdgeFinder<TSample> finder(context, criterion, request.dropsGaps);
       const auto findAt = [&](const Path& leaf)
       {
         if (!context.tree.hasOwn(context.tree.nodes[leaf.nodeIndex()]))
@@ -86,6 +88,8 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
       }
       const std::lock_guard<std::mutex> lock(mutex);
       result.edges.insert(result.edges.end(), finder.edges().begin(), finder.edges().end());
+      result.gapEdges.insert(
+        result.gapEdges.end(), finder.gapEdges().begin(), finder.gapEdges().end());
       result.neighborhoods.push_back(std::move(finder.records()));
     },
     execution.progress);
@@ -199,7 +203,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   if (request.dropsGaps)
   {
     SingleTeam team;
-    dropMarked(edgesInGaps(execution, tree, team, edges), edges);
+    dropMarked(edgesInGaps(execution, tree, team, edges, found.gapEdges), edges);
   }
   const auto count = static_cast<double>(edges.size());
   std::vector<LocalFit> fits;

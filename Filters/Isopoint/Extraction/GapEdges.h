@@ -3,15 +3,12 @@
 #define isopoint_GapEdges_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/SingleTeam.h"
 #include "Isopoint/Extraction/CrossingEdge.h"
-#include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -75,23 +72,31 @@ private:
 
 /// Which crossing edges lie in gaps of the cloud: docs/algorithm.md, section 6. Where several ranks
 /// share the tree, this is collective.
-/// @param edges each once
-/// @param ranks SingleTeam, or TeamOfEdges
+/// @param edges ordered, each once
+/// @param strong those over the strong gap criterion, in any order, with repetitions
+/// @param ranks SingleTeam, or EdgeTeam
 /// @throws std::bad_alloc, Aborted, FailedElsewhere
 template <class TSample, class TRanks>
 std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSample>& tree,
-  TRanks& ranks, const std::vector<CrossingEdge<TSample>>& edges)
+  TRanks& ranks, const std::vector<CrossingEdge<TSample>>& edges,
+  const std::vector<CrossingEdge<TSample>>& strong)
 {
   EdgeParts<TSample> parts(edges);
   GapSpread<TSample, TRanks, EdgeParts<TSample>> spread(execution, tree, ranks, parts);
-  std::vector<std::size_t> all;
+  std::vector<std::size_t> seeds;
   ranks.together(
     [&]()
     {
-      all.resize(edges.size());
-      std::iota(all.begin(), all.end(), std::size_t{ 0 });
+      for (const CrossingEdge<TSample>& edge : strong)
+      {
+        const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+        seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
+      }
+      std::sort(seeds.begin(), seeds.end());
+      seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     });
-  spread.spread(spread.over(GapCriterion::strong(), all));
+  ranks.unite(seeds);
+  spread.spread(std::move(seeds));
   return spread.isInGap();
 }
 

@@ -23,7 +23,10 @@ public:
   void clear() { this->Neighbors.clear(); }
 
   /// Adds a neighbor at another position.
-  void add(const Vector& offset) { this->Neighbors.push_back({ offset, lengthOf(offset) }); }
+  void add(const Vector& offset)
+  {
+    this->Neighbors.push_back({ offset, lengthOf(offset), this->Neighbors.size() });
+  }
 
   /// The distance that two fifths of the neighbors and the sample itself do not exceed, or that at
   /// which they span space, if that is well less. The farthest may be across a void, the nearest
@@ -31,8 +34,9 @@ public:
   /// Complexity: O(n log n)
   double spacing()
   {
-    std::stable_sort(this->Neighbors.begin(), this->Neighbors.end(),
-      [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
+    std::sort(this->Neighbors.begin(), this->Neighbors.end(),
+      [](const Neighbor& a, const Neighbor& b)
+      { return a.distance != b.distance ? a.distance < b.distance : a.number < b.number; });
     constexpr double spanShare = 1.2;
     const std::size_t rank = 2 * (this->Neighbors.size() + 1) / 5;
     const double usual = rank > 0 ? this->Neighbors[rank - 1].distance : 0.0;
@@ -44,6 +48,7 @@ private:
   {
     Vector offset;
     double distance;
+    std::size_t number;
   };
 
   /// The distance of the nearest neighbor that is more than 30 degrees off the plane of the nearest

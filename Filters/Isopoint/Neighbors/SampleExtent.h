@@ -277,17 +277,23 @@ private:
       ahead += std::max(direction * lower, direction * upper);
     }
     constexpr double slack = 0.999; // for rounding
-    return ahead >= slack * this->Query.enough && slack * lengthOf(gap) <= this->Distance;
+    return ahead >= slack * this->Query.enough &&
+           slack * std::max({ gap[0], gap[1], gap[2] }) <= this->Distance &&
+           slack * lengthOf(gap) <= this->Distance;
   }
 
   void consider(const TSample& sample)
   {
     const Vector offset = difference(positionOf(sample), this->Query.place);
     const double ahead = dot(offset, this->Query.direction);
+    if (ahead < this->Query.enough)
+    {
+      return;
+    }
     const double length = lengthOf(offset);
     const bool isNearer = length < this->Distance ||
                           (length == this->Distance && (!this->Found || sample.id < this->Found->id));
-    if (isNearer && ahead >= this->Query.enough && ahead >= leastCosineAhead * length)
+    if (isNearer && ahead >= leastCosineAhead * length)
     {
       this->Distance = length;
       this->Found = &sample;

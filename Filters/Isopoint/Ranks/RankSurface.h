@@ -151,6 +151,7 @@ private:
       {
         this->Edges = sortedUnique(
           part, found.edges, this->IdCount, [](const Edge& edge) { return edge.first; });
+        this->GapEdges = std::move(found.gapEdges);
         keepNeighborhoods(part, found.neighborhoods, this->Tree.nodes.size(), this->Known);
       });
   }
@@ -202,7 +203,8 @@ private:
   std::size_t dropGaps()
   {
     EdgeTeam<TSample> team(this->Tree, this->Exchange, this->Edges);
-    const std::vector<char> isInGap = edgesInGaps(this->Run, this->Tree, team, this->Edges);
+    const std::vector<char> isInGap =
+      edgesInGaps(this->Run, this->Tree, team, this->Edges, this->GapEdges);
     std::size_t count = 0;
     for (std::size_t i = 0; i < this->Edges.size(); ++i)
     {
@@ -245,6 +247,7 @@ private:
   Neighborhoods& Known;
   std::uint64_t IdCount;
   std::vector<Edge> Edges;
+  std::vector<Edge> GapEdges; // see FoundEdges
   std::vector<LocalFit> Fits;
 };
 

@@ -112,10 +112,8 @@ private:
       }
     }
     this->cutTowardsRings(point, 2, unit, cell);
-    constexpr double large = 1.27;
-    if (cell.squaredReach() > large * large)
+    if (cell.squaredReach() > largeReach * largeReach)
     {
-      // It may be large because points beyond are in no ring nearer.
       this->cutTowardsRings(point, 3, unit, cell);
     }
     cutAtBorder(

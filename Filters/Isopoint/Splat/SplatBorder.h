@@ -19,6 +19,10 @@ constexpr double sampleReach = 0.9;
 /// How far a splat may reach out of the samples, in spacings.
 constexpr double borderReach = 0.15;
 
+/// Cells that reach farther, in spacings, may be large because points beyond were not found, or
+/// because of a gap.
+constexpr double largeReach = 1.27;
+
 /// How far samples stand ahead of a place, in the sense of SampleExtents::at(), without those across
 /// a gap.
 /// @param isAcrossGap(sample, width) whether the void up to a sample, of this width, is a gap
@@ -70,7 +74,8 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
     }
     const ExtentQuery query{ place, normal, direction, (reach - borderReach) * spacing,
       mostReach * spacing };
-    const double extent = extentUpToGaps(*extents, query, isAcrossGap);
+    const double extent = reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap)
+                                             : extents->at(query);
     if (extent < query.enough)
     {
       cell.cut(direction, extent / spacing + borderReach, TangentCell::limit);
