@@ -1,24 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkSMIsopointArrayDomain.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <set>
+#include <string>
+
 vtkStandardNewMacro(vtkSMIsopointArrayDomain);
 
 namespace
 {
 
-bool isVarying(vtkPVDataInformation* data, const char* name, int association)
+/// Whether an array numbers points or cells, or marks ghosts. Readers of finite elements make the
+/// former attributes, which data of several blocks may lose.
+bool isBookkeeping(vtkPVDataInformation* data, const std::string& name, int association)
+{
+  static const std::set<std::string> names{ vtkDataSetAttributes::GhostArrayName(),
+    "vtkOriginalPointIds", "vtkOriginalCellIds", "GlobalNodeId", "GlobalElementId",
+    "GlobalPointIds", "GlobalCellIds", "PedigreeNodeId", "PedigreeElementId" };
+  const auto isAttribute = [&](int type)
+  {
+    vtkPVDataSetAttributesInformation* const attributes =
+      data->GetAttributeInformation(association);
+    vtkPVArrayInformation* const array =
+      attributes ? attributes->GetAttributeInformation(type) : nullptr;
+    return array && array->GetName() && name == array->GetName();
+  };
+  return names.count(name) > 0 || isAttribute(vtkDataSetAttributes::GLOBALIDS) ||
+         isAttribute(vtkDataSetAttributes::PEDIGREEIDS);
+}
+
+/// Whether an array may well be contoured.
+bool isField(vtkPVDataInformation* data, const char* name, int association)
 {
   vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
-  if (!array)
+  if (!array || isBookkeeping(data, name, association))
   {
     return false;
   }
@@ -37,11 +62,11 @@ int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool use
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(usesUncheckedValues);
   const char* const chosen = helper.GetInputArrayNameToProcess();
-  bool isSet = !data || !chosen || isVarying(data, chosen, helper.GetInputArrayAssociation());
+  bool isSet = !data || !chosen || isField(data, chosen, helper.GetInputArrayAssociation());
   for (unsigned int i = 0; !isSet && i < this->GetNumberOfStrings(); ++i)
   {
     const int association = this->GetFieldAssociation(i);
-    isSet = isVarying(data, this->GetString(i), association);
+    isSet = isField(data, this->GetString(i), association);
     if (isSet)
     {
       helper.SetInputArrayToProcess(association, this->GetString(i));

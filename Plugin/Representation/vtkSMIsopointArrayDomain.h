@@ -4,7 +4,8 @@
  * @brief   a list of arrays whose default has isosurfaces
  *
  * The default is that of vtkSMArrayListDomain, unless that array is constant (as the numbers of
- * blocks often are): then it is the first one in the list that is not.
+ * blocks often are), the ids of points or cells, or their ghost marks: then it is the first one in
+ * the list that is none of these.
  */
 #ifndef vtkSMIsopointArrayDomain_h
 #define vtkSMIsopointArrayDomain_h

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <set>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -297,9 +297,9 @@ inline bool isDroppedByGap(const std::vector<Cell>& cells, std::size_t x, std::s
   return isCrowded(cells, x, y, factor, wanted) && isCrowded(cells, y, x, factor, wanted);
 }
 
-/// Section 6: the edges, pairs of cells, that are not in gaps. An edge is in a gap if it is over the
-/// weak criterion and connected, by ends in common with others over it, with one over the strong
-/// criterion.
+/// Section 6: the edges, pairs of cells, that are not in gaps. An edge is in a gap if it is over
+/// the weak criterion and connected, by ends in common with others over it, with one over the
+/// strong criterion.
 inline std::set<std::pair<std::size_t, std::size_t>> withoutGaps(
   const std::vector<Cell>& cells, const std::set<std::pair<std::size_t, std::size_t>>& edges)
 {

@@ -127,8 +127,8 @@ private:
     {
       return usual;
     }
-    const auto normal = isopoint::directionOf(
-      isopoint::cross(isopoint::directionOf(offsetTo(*second)), first));
+    const auto normal =
+      isopoint::directionOf(isopoint::cross(isopoint::directionOf(offsetTo(*second)), first));
     const auto third = std::find_if(second + 1, taken.end(),
       [&](std::size_t cell)
       { return std::abs(isopoint::dot(isopoint::directionOf(offsetTo(cell)), normal)) > 0.5; });

@@ -104,8 +104,7 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
     coordinate *= 0.125;
   }
   for (const clouds::Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(3000, 2),
-         clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5),
-         coarse })
+         clouds::coincident(clouds::uniform(3000, 3), 0.3), clouds::lines(3000, 3, 0, 5), coarse })
   {
     Tree tree = loaded(cloud);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);

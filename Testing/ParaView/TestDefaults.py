@@ -62,6 +62,21 @@ def first_array_with_a_range():
             check(isopoints.GetDataInformation().GetNumberOfPoints() > 100, "points")
 
 
+def ids_and_ghosts_come_last():
+    """As in finite elements, where ids are the first arrays by name."""
+    for association in ("POINTS", "CELLS"):
+        arrays = dict(GlobalElementId=lambda p: np.arange(len(p)), Nodes=lambda p: np.arange(len(p)),
+                      Pedigree=lambda p: np.arange(len(p)), stress=distance,
+                      vtkGhostType=lambda p: (p[:, 0] < 2).astype(np.uint8))
+        data = lattice(association, **arrays)
+        attributes = data.GetCellData() if association == "CELLS" else data.GetPointData()
+        attributes.SetActiveGlobalIds("Nodes")
+        attributes.SetActivePedigreeIds("Pedigree")
+        for create in filters():
+            chosen = list(create(Input=produced(data)).ContourBy)
+            check(chosen == [association, "stress"], f"no ids: {chosen}")
+
+
 def active_scalars_come_first_unless_constant():
     data = lattice("POINTS", BlockId=number(0), first=distance, second=distance)
     data.GetPointData().SetActiveScalars("second")
@@ -100,6 +115,7 @@ def panel():
 def main(plugin):
     simple.LoadPlugin(plugin)
     first_array_with_a_range()
+    ids_and_ghosts_come_last()
     active_scalars_come_first_unless_constant()
     input_matters_rather_than_the_active_source()
     panel()

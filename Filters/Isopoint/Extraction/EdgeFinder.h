@@ -29,8 +29,7 @@ public:
   using Id = typename TSample::Id;
 
   /// @param listsGaps whether gapEdges() are wanted
-  EdgeFinder(
-    ExtractionContext<TSample>& context, const AngleCriterion& criterion, bool listsGaps)
+  EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion, bool listsGaps)
     : Context(context)
     , Tree(context.tree)
     , Isovalue(context.isovalue)

@@ -34,7 +34,7 @@ namespace isopoint
 template <class TSample>
 struct FoundEdges
 {
-  std::vector<CrossingEdge<TSample>> edges; // each once or twice, in any order
+  std::vector<CrossingEdge<TSample>> edges;    // each once or twice, in any order
   std::vector<CrossingEdge<TSample>> gapEdges; // those over the strong gap criterion, if wanted
   std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
 };

@@ -45,8 +45,8 @@ public:
     }
     for (const auto leaf : { this->Edges[edge].firstLeaf, this->Edges[edge].secondLeaf })
     {
-      auto end = std::lower_bound(
-        this->Ends.begin(), this->Ends.end(), std::pair(static_cast<std::size_t>(leaf), std::size_t{ 0 }));
+      auto end = std::lower_bound(this->Ends.begin(), this->Ends.end(),
+        std::pair(static_cast<std::size_t>(leaf), std::size_t{ 0 }));
       for (; end != this->Ends.end() && end->first == static_cast<std::size_t>(leaf); ++end)
       {
         visit(end->second);

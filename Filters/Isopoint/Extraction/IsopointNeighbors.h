@@ -80,9 +80,9 @@ public:
     this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
-  /// Whether a void of a width, up to a sample, is a gap as seen from an isopoint: whether it is over
-  /// the strong gap criterion, in place of the length of an edge between an end of the isopoint's
-  /// edge and the sample.
+  /// Whether a void of a width, up to a sample, is a gap as seen from an isopoint: whether it is
+  /// over the strong gap criterion, in place of the length of an edge between an end of the
+  /// isopoint's edge and the sample.
   /// @throws MissingNode
   bool isAcrossGap(std::size_t isopoint, const TSample& sample, double width) const
   {

@@ -43,11 +43,11 @@ void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
   all.resize(kept);
 }
 
-/// Finds which parts of a surface, its edges or tetrahedra, lie in gaps of the cloud: those over the
-/// weak gap criterion that are connected with a seed through others over it. Where several ranks
-/// share the tree, all functions are collective.
-/// @tparam TRanks SingleTeam or TeamOfTree with unite(parts), which adds those that other ranks found,
-/// and orders them
+/// Finds which parts of a surface, its edges or tetrahedra, lie in gaps of the cloud: those over
+/// the weak gap criterion that are connected with a seed through others over it. Where several
+/// ranks share the tree, all functions are collective.
+/// @tparam TRanks SingleTeam or TeamOfTree with unite(parts), which adds those that other ranks
+/// found, and orders them
 /// @tparam TParts has
 /// - size();
 /// - anyEdge(part, test), whether test(leaf, otherLeaf) is true of any edge of a part;

@@ -24,8 +24,8 @@ struct ExtentQuery
   double reach;     // of the samples that count from the place, above `enough`, finite
 };
 
-/// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as rounding
-/// permits.
+/// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as
+/// rounding permits.
 constexpr double leastCosineAhead = 0.7071;
 
 /// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
@@ -291,8 +291,9 @@ private:
       return;
     }
     const double length = lengthOf(offset);
-    const bool isNearer = length < this->Distance ||
-                          (length == this->Distance && (!this->Found || sample.id < this->Found->id));
+    const bool isNearer =
+      length < this->Distance ||
+      (length == this->Distance && (!this->Found || sample.id < this->Found->id));
     if (isNearer && ahead >= leastCosineAhead * length)
     {
       this->Distance = length;

@@ -66,8 +66,7 @@ private:
   /// What goes to each rank.
   std::vector<std::vector<Ids>> sent(const std::vector<std::size_t>& found) const
   {
-    std::vector<std::vector<Ids>> outgoing(
-      static_cast<std::size_t>(this->Exchange.team().size()));
+    std::vector<std::vector<Ids>> outgoing(static_cast<std::size_t>(this->Exchange.team().size()));
     for (const std::size_t i : found)
     {
       for (const auto leaf : { this->Edges[i].firstLeaf, this->Edges[i].secondLeaf })

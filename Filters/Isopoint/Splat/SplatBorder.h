@@ -23,8 +23,8 @@ constexpr double borderReach = 0.15;
 /// because of a gap.
 constexpr double largeReach = 1.27;
 
-/// How far samples stand ahead of a place, in the sense of SampleExtents::at(), without those across
-/// a gap.
+/// How far samples stand ahead of a place, in the sense of SampleExtents::at(), without those
+/// across a gap.
 /// @param isAcrossGap(sample, width) whether the void up to a sample, of this width, is a gap
 template <class TExtents, class TIsAcrossGap>
 double extentUpToGaps(
@@ -46,8 +46,9 @@ double extentUpToGaps(
 
 /// Cuts off the parts of a point's cell that reach out of the samples: where the surface ends, a
 /// cell may be bounded only by points along its border, far outside. In each of extentDirections()
-/// it may reach `borderReach` farther than samples stand ahead of the point on this side of gaps; the
-/// new sides are limits. A closed cell is complete where it reaches no farther than `sampleReach`.
+/// it may reach `borderReach` farther than samples stand ahead of the point on this side of gaps;
+/// the new sides are limits. A closed cell is complete where it reaches no farther than
+/// `sampleReach`.
 /// @tparam TExtents SampleExtents, or another class with its at() and nearest()
 /// @param extents null for none: then there is no border
 /// @param normal of the point's splat, of length 1
@@ -74,8 +75,8 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
     }
     const ExtentQuery query{ place, normal, direction, (reach - borderReach) * spacing,
       mostReach * spacing };
-    const double extent = reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap)
-                                             : extents->at(query);
+    const double extent =
+      reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap) : extents->at(query);
     if (extent < query.enough)
     {
       cell.cut(direction, extent / spacing + borderReach, TangentCell::limit);

@@ -133,7 +133,8 @@ private:
     this->Ranks.together([&]() { this->Ranks.order(found); });
     const std::size_t count = found.size();
     dropMarked(
-      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(), found);
+      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(),
+      found);
     this->Dropped = count - found.size();
   }
 

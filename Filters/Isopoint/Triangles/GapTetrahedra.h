@@ -17,8 +17,8 @@
 namespace isopoint
 {
 
-/// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common are
-/// connected.
+/// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common
+/// are connected.
 /// @tparam TRanks SingleRank, or TriangleRanks
 template <class TSample, class TRanks>
 class TetrahedronParts
@@ -40,9 +40,9 @@ public:
   bool isCounted(std::size_t tetrahedron) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    return this->Ranks.isHome(static_cast<std::size_t>(*std::min_element(corners.begin(),
-      corners.end(), [this](auto a, auto b)
-      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; })));
+    return this->Ranks.isHome(
+      static_cast<std::size_t>(*std::min_element(corners.begin(), corners.end(),
+        [this](auto a, auto b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; })));
   }
 
   template <class Test>
@@ -247,8 +247,7 @@ private:
   {
     bool isBeside = false;
     this->Parts.forEachNeighbor(tetrahedron,
-      [&](std::size_t neighbor)
-      { isBeside = isBeside || this->Spread.isInGap()[neighbor] != 0; });
+      [&](std::size_t neighbor) { isBeside = isBeside || this->Spread.isInGap()[neighbor] != 0; });
     return isBeside;
   }
 
