@@ -74,7 +74,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
         const std::size_t wanted = 1 + (x + y) % 3;
         const isopoint::GapCriterion criterion(factor, wanted);
         const isopoint::WideSample& other = sampleOf(leafOf.at(expected.cells[y].id));
-        const bool isDropped = criterion.drops(tree, at, sampleOf(leaf), other);
+        const bool isDropped = criterion.drops(tree, sampleOf(leaf), other);
         EXPECT_EQ(isDropped, bruteforce::isDroppedByGap(
                                expected.cells, x, y, factor, static_cast<std::ptrdiff_t>(wanted)));
         if (isDropped)

@@ -245,6 +245,32 @@ TEST(Splats, EndSoonBeyondTheSamples)
   EXPECT_LT(farthest, 1.5);
 }
 
+// The normal of a point without a fit may be wrong: its splat may not cover what lies beyond it, so
+// the splat of a fitted neighbor does.
+TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
+{
+  const Vector gradient{ 0.0, 0.0, -1.0 };
+  Points points;
+  for (int i = -5; i <= 5; ++i)
+  {
+    for (int k = -5; k <= 5; ++k)
+    {
+      addFitted(points, { 1.0 * i, 1.0 * k, 0.0 }, isopoint::FitOrder::Quadratic, gradient);
+    }
+  }
+  const std::size_t middle = points.positions.size() / 2;
+  const auto areaOfMiddle = [&]() { return areaOf(splatsOf(points)[middle]); };
+  const double alone = areaOfMiddle();
+  for (const Vector& beside : { Vector{ 0.02, 0.01, 0.0 }, Vector{ -0.3, 0.2, 0.0 },
+         Vector{ -0.1, -0.3, 0.0 }, Vector{ 0.2, 0.3, 0.0 } })
+  {
+    addFitted(points, beside, std::nullopt, { -1.0, 0.0, -0.2 });
+  }
+  EXPECT_NEAR(alone, 1.0, 1e-6);
+  EXPECT_GT(areaOfMiddle(), alone - 1e-6);
+  EXPECT_LT(areaOfMiddle(), 1.1 * 1.1 * alone + 1e-6); // where cells overlap
+}
+
 // In a lattice the planes halfway to diagonal neighbors pass through the corners that the others
 // leave: rounding decides which of them cut. Shapes do not depend on that.
 TEST(Splats, ShapesDoNotDependOnRounding)

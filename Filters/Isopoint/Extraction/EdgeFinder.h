@@ -210,7 +210,7 @@ private:
     const TSample& otherSample = this->sampleAt(otherLeaf);
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
-    if (this->ListsGaps && GapCriterion::strong().drops(this->Tree, leaf, sample, otherSample))
+    if (this->ListsGaps && GapCriterion::strong().drops(this->Tree, sample, otherSample))
     {
       this->GapEdges.push_back(this->Edges.back());
     }

@@ -36,6 +36,7 @@ public:
       static_cast<std::size_t>(this->Edges[edge].secondLeaf));
   }
 
+  /// Visits the edges at both ends; those of an end that was visited once no more.
   template <class Visit>
   void forEachNeighbor(std::size_t edge, const Visit& visit)
   {
@@ -47,10 +48,13 @@ public:
     {
       auto end = std::lower_bound(this->Ends.begin(), this->Ends.end(),
         std::pair(static_cast<std::size_t>(leaf), std::size_t{ 0 }));
-      for (; end != this->Ends.end() && end->first == static_cast<std::size_t>(leaf); ++end)
+      char& isVisited = this->IsVisited[static_cast<std::size_t>(end - this->Ends.begin())];
+      for (; !isVisited && end != this->Ends.end() && end->first == static_cast<std::size_t>(leaf);
+           ++end)
       {
         visit(end->second);
       }
+      isVisited = 1;
     }
   }
 
@@ -64,10 +68,12 @@ private:
       this->Ends.emplace_back(static_cast<std::size_t>(this->Edges[i].secondLeaf), i);
     }
     std::sort(this->Ends.begin(), this->Ends.end());
+    this->IsVisited.resize(this->Ends.size(), 0);
   }
 
   const std::vector<CrossingEdge<TSample>>& Edges;
   std::vector<std::pair<std::size_t, std::size_t>> Ends; // leaf and edge; once there is a gap
+  std::vector<char> IsVisited; // by the first entry of a leaf
 };
 
 /// Which crossing edges lie in gaps of the cloud: docs/algorithm.md, section 6. Where several ranks
@@ -97,7 +103,7 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
     });
   ranks.unite(seeds);
   spread.spread(std::move(seeds));
-  return spread.isInGap();
+  return spread.takeInGap();
 }
 
 } // namespace isopoint

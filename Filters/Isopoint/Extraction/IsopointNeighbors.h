@@ -89,11 +89,10 @@ public:
     return std::any_of(this->Ends[isopoint].begin(), this->Ends[isopoint].end(),
       [&](Id end)
       {
-        const std::size_t leaf = this->Leaves[end];
-        const TSample& own = this->Tree.samples[this->Tree.nodes[leaf].begin];
+        const TSample& own = this->Tree.samples[this->Tree.nodes[this->Leaves[end]].begin];
         const double length = offsetBetween(positionOf(own), positionOf(sample)).length;
         return width > 0.0 && GapCriterion::strong(std::max(1.0, length / width))
-                                .drops(this->Tree, pathToLeaf(this->Tree, leaf), own, sample);
+                                .drops(this->Tree, own, sample);
       });
   }
 

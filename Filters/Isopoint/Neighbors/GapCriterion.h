@@ -33,30 +33,22 @@ public:
   {
   }
 
-  /// What hangs together with a gap is in it if it is over this one.
+  /// What is connected with a gap is in it if it is over this one.
   static GapCriterion weak() { return { 2.0, 2 }; }
 
   /// What is over this one is in a gap. Next to no edge of random samples without a gap is.
   /// @param ratio of the edge's length to that of its part which spans the gap, 1 or more
   static GapCriterion strong(double ratio = 1.0) { return { 4.0 * ratio, 3 }; }
 
-  /// Whether the edge between the positions of two samples is dropped, one of them a leaf's.
-  /// Symmetric in them, and the same whatever part of the tree is built.
-  /// Complexity: O(depth + samples closer than the edge's length / factor to an end)
+  /// Whether the edge between the positions of two samples is dropped. Symmetric in them, and the
+  /// same whatever part of the tree is built.
+  /// @throws MissingNode at a node whose samples another rank holds
+  /// Complexity: O(depth + nodes that the cones behind both ends meet, up to the edge's length /
+  /// factor)
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, const Path& leaf, const TSample& own,
-    const TSample& other) const
+  bool drops(const SampleTree<TSample>& tree, const TSample& own, const TSample& other) const
   {
-    const auto aroundLeaf = [&](const Region& box, const auto& visit)
-    { return visitAround(tree, leaf, box, visit); };
-    const auto fromRoot = [&](const Region& box, const auto& visit)
-    {
-      return visitTouchingInSubtree(
-        tree, { SampleTree<TSample>::rootNode, 0 }, maximumDepth, box,
-        [](const Node<TSample>&) { return true; }, visit);
-    };
-    return this->isCrowdedBehind(tree, own, other, aroundLeaf) &&
-           this->isCrowdedBehind(tree, other, own, fromRoot);
+    return this->isCrowdedBehind(tree, own, other) && this->isCrowdedBehind(tree, other, own);
   }
 
   /// Whether edges at the sample of a leaf may be dropped that are no longer than this: a quick
@@ -99,22 +91,83 @@ private:
     }
   };
 
+  /// The samples behind an end of an edge.
+  template <class TSample>
+  struct Behind
+  {
+    const SampleTree<TSample>& tree;
+    Vector center; // the end
+    Offset edge;   // to the other end
+    Found<TSample> found;
+  };
+
   /// Whether the edge is longer than `factor` times the spacing behind its end.
-  /// @param search(box, visit) visits the nodes that hold the samples in a box around the end
-  template <class TSample, class Search>
-  bool isCrowdedBehind(const SampleTree<TSample>& tree, const TSample& end, const TSample& other,
-    const Search& search) const
+  template <class TSample>
+  bool isCrowdedBehind(
+    const SampleTree<TSample>& tree, const TSample& end, const TSample& other) const
   {
     const Vector center = positionOf(end);
-    const Offset edge = offsetBetween(center, positionOf(other));
-    const auto isBehind = [&](const TSample& sample)
+    Behind<TSample> behind{ tree, center, offsetBetween(center, positionOf(other)), {} };
+    return this->findBehind(SampleTree<TSample>::rootNode, tree.region, behind);
+  }
+
+  /// Adds samples behind an end. @returns whether there are enough
+  template <class TSample>
+  bool findBehind(std::size_t nodeIndex, const Region& region, Behind<TSample>& behind) const
+  {
+    if (!this->mayHoldAny(region, behind))
     {
-      const Offset offset = offsetBetween(center, positionOf(sample));
-      return this->Factor * offset.length < edge.length &&
-             -dot(offset.vector, edge.vector) > cosine * (offset.length * edge.length);
-    };
-    return this->finds(tree, isBehind,
-      [&](const auto& visit) { return search(this->boxAround(center, edge.length), visit); });
+      return false;
+    }
+    const SampleTree<TSample>& tree = behind.tree;
+    const Node<TSample>& node = tree.nodes[nodeIndex];
+    if (node.isSplit())
+    {
+      const bool isUpperFirst = behind.center[node.axis] > node.plane;
+      for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+      {
+        Region part = region;
+        (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
+        if (this->findBehind(tree.child(node, isUpper), part, behind))
+        {
+          return true;
+        }
+      }
+      return false;
+    }
+    if (node.isAbsent)
+    {
+      throw MissingNode{ nodeIndex, this->boxAround(behind.center, behind.edge.length) };
+    }
+    const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+    for (std::size_t i = node.begin; i < end && behind.found.count < this->WantedCount; ++i)
+    {
+      const Offset offset = offsetBetween(behind.center, positionOf(tree.samples[i]));
+      if (this->Factor * offset.length < behind.edge.length &&
+          -dot(offset.vector, behind.edge.vector) > cosine * (offset.length * behind.edge.length))
+      {
+        behind.found.add(tree.samples[i]);
+      }
+    }
+    return behind.found.count == this->WantedCount;
+  }
+
+  /// Whether a sample in a region may be behind an end. Rounding is monotonic: no number computed
+  /// for a sample exceeds its bound.
+  template <class TSample>
+  bool mayHoldAny(const Region& region, const Behind<TSample>& behind) const
+  {
+    const OffsetBounds offsets = offsetsToBox(behind.center, region.lower, region.upper);
+    const double least = std::sqrt(offsets.leastSquaredLength);
+    const Vector& edge = behind.edge.vector;
+    Vector product{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      product[axis] =
+        std::min(offsets.lower[axis] * edge[axis], offsets.upper[axis] * edge[axis]);
+    }
+    return this->Factor * least < behind.edge.length &&
+           -(product[0] + product[1] + product[2]) > cosine * (least * behind.edge.length);
   }
 
   /// Whether there are enough positions of samples of some kind.

@@ -4,11 +4,11 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
-#include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -117,6 +117,9 @@ public:
   /// Of each part, whether it is in a gap.
   const std::vector<char>& isInGap() const { return this->IsInGap; }
 
+  /// The same, which is empty from then on.
+  std::vector<char> takeInGap() { return std::move(this->IsInGap); }
+
   /// Of each part, whether it is a seed or is connected with a part in a gap.
   const std::vector<char>& isReached() const { return this->IsReached; }
 
@@ -126,8 +129,7 @@ private:
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)
       {
-        return criterion.drops(this->Tree, pathToLeaf(this->Tree, leaf),
-          this->Tree.samples[this->Tree.nodes[leaf].begin],
+        return criterion.drops(this->Tree, this->Tree.samples[this->Tree.nodes[leaf].begin],
           this->Tree.samples[this->Tree.nodes[other].begin]);
       });
   }

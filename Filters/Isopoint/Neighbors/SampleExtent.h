@@ -21,7 +21,7 @@ struct ExtentQuery
   Vector normal;    // of the surface there
   Vector direction; // orthogonal to it, of length 1
   double enough;    // the largest result that is of interest, positive
-  double reach;     // of the samples that count from the place, above `enough`, finite
+  double reach;     // of the samples that count from the place, not below `enough`, finite
 };
 
 /// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as
@@ -224,7 +224,7 @@ public:
 
   /// @returns null if there is none
   /// @throws MissingNode at a node whose samples another rank holds
-  /// Complexity: that of a nearest neighbor
+  /// Complexity: that of a nearest neighbor, and the samples of unsplit nodes on the way
   const TSample* search()
   {
     if (!this->Tree.isEmpty())
@@ -246,7 +246,7 @@ private:
     {
       if (node.isAbsent)
       {
-        throw MissingNode{ nodeIndex, region };
+        throw MissingNode{ nodeIndex, this->within(region) };
       }
       const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
       for (std::size_t i = node.begin; i < end; ++i)
@@ -262,6 +262,18 @@ private:
       (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
       this->visit(this->Tree.child(node, isUpper), part);
     }
+  }
+
+  /// The part of a region that is near enough, with room for rounding.
+  Region within(Region region) const
+  {
+    const double reach = 1.001 * this->Distance;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      region.lower[axis] = std::max(region.lower[axis], this->Query.place[axis] - reach);
+      region.upper[axis] = std::min(region.upper[axis], this->Query.place[axis] + reach);
+    }
+    return region;
   }
 
   bool mayHoldIt(const Region& region) const
@@ -346,6 +358,7 @@ public:
   }
 
   /// The nearest of the samples that stand ahead by query.enough or more; see SampleAheadSearch.
+  /// @throws MissingNode
   const TSample* nearest(const ExtentQuery& query) const
   {
     return SampleAheadSearch<TSample>(this->Tree, query).search();

@@ -109,10 +109,7 @@ public:
     { return progress.part(isopointCount * work, isopointCount * left); };
     const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
     this->findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
-    if (request.dropsGaps)
-    {
-      surface.droppedEdges = this->dropGaps();
-    }
+    const std::size_t dropped = request.dropsGaps ? this->dropGaps() : 0;
     const auto count = static_cast<double>(this->Edges.size());
     if (request.fit)
     {
@@ -121,7 +118,6 @@ public:
     this->Exchange.together(
       [&]()
       {
-        const std::size_t dropped = surface.droppedEdges;
         surface = placeIsopoints(partFor(count, work::placing, laterWork), context, this->Edges,
           std::move(this->Fits), request.fit && request.fit->move);
         surface.droppedEdges = dropped;

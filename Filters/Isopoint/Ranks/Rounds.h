@@ -20,10 +20,11 @@ namespace isopoint
 /// @param makeWorker() what one thread needs to work on some items
 /// @param work(worker, item) throws MissingNode where it lacks samples; it must not leave anything
 /// behind then
+/// @param reportsProgress whether one round takes the execution from no progress to all
 /// @throws what the work throws, std::bad_alloc, Aborted, FailedElsewhere
 template <class TSample, class MakeWorker, class Work>
 void inRounds(const Execution& execution, NodeExchange<TSample>& exchange, std::size_t count,
-  const MakeWorker& makeWorker, const Work& work)
+  const MakeWorker& makeWorker, const Work& work, bool reportsProgress = true)
 {
   std::vector<std::size_t> items;
   std::vector<MissingNode> missing;
@@ -61,7 +62,13 @@ void inRounds(const Execution& execution, NodeExchange<TSample>& exchange, std::
               }
             }
           },
-          execution.progress);
+          [&](double share)
+          {
+            if (reportsProgress)
+            {
+              execution.progress(share);
+            }
+          });
         std::sort(aside.begin(), aside.end());
         items.swap(aside);
       });

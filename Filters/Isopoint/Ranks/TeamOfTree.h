@@ -37,7 +37,7 @@ public:
   void forEach(
     const Execution& execution, std::size_t count, const MakeWorker& makeWorker, const Work& work)
   {
-    inRounds(execution, this->Exchange, count, makeWorker, work);
+    inRounds(execution, this->Exchange, count, makeWorker, work, false);
   }
 
 protected:

@@ -67,6 +67,10 @@ private:
   /// lines.
   static constexpr double openReach = 1.1;
 
+  /// Nearer points without a smooth fit, in spacings, do not bound a smooth one: their normals are
+  /// estimates, and their splats may not cover what is beyond.
+  static constexpr double unfittedReach = 0.5;
+
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
   static constexpr double creaseTolerance = 0.1;
@@ -111,6 +115,7 @@ private:
         cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
       }
     }
+    this->HasPassed = false;
     this->cutTowardsRings(point, 2, unit, cell);
     if (cell.squaredReach() > largeReach * largeReach)
     {
@@ -122,7 +127,7 @@ private:
       [&](const auto& sample, double width)
       { return this->Neighbors.isAcrossGap(point, sample, width); },
       cell);
-    if (cell.isOpen())
+    if (cell.isOpen() || this->HasPassed)
     {
       cell.limitTo(openReach);
     }
@@ -165,6 +170,7 @@ private:
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
     if (!cell.reachesBeyond(a, b, 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
+        this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
     {
       return;
@@ -239,11 +245,22 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
+  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in
+  /// mind.
+  bool passesUnfitted(std::size_t point, const NearbyPoint& other)
+  {
+    const bool passes = other.squaredDistance < unfittedReach * unfittedReach &&
+                        this->isSmooth(point) && !this->isSmooth(other.point);
+    this->HasPassed = this->HasPassed || passes;
+    return passes;
+  }
+
   const TNeighbors& Neighbors;
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats; // of which normals are set
   NearbyPoints<TNeighbors> Nearby;
   const TExtents* Extents;
+  bool HasPassed = false; // points without a fit, over which the cell may reach
 };
 
 } // namespace isopoint
