@@ -210,10 +210,20 @@ private:
     const TSample& otherSample = this->sampleAt(otherLeaf);
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
-    if (this->ListsGaps && GapCriterion::strong().drops(this->Tree, sample, otherSample))
+    if (this->ListsGaps && this->isStrong(leaf, sample, otherSample))
     {
       this->GapEdges.push_back(this->Edges.back());
     }
+  }
+
+  /// Whether the edge from a leaf's sample is over the strong gap criterion. Few are, and a quick
+  /// look shows most others.
+  bool isStrong(const Path& leaf, const TSample& own, const TSample& other) const
+  {
+    const GapCriterion strong = GapCriterion::strong();
+    return strong.mayDrop(
+             this->Tree, leaf, own, offsetBetween(positionOf(own), positionOf(other)).length) &&
+           strong.drops(this->Tree, own, other);
   }
 
   struct End

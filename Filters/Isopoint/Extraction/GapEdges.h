@@ -73,7 +73,7 @@ private:
 
   const std::vector<CrossingEdge<TSample>>& Edges;
   std::vector<std::pair<std::size_t, std::size_t>> Ends; // leaf and edge; once there is a gap
-  std::vector<char> IsVisited; // by the first entry of a leaf
+  std::vector<char> IsVisited;                           // by the first entry of a leaf
 };
 
 /// Which crossing edges lie in gaps of the cloud: docs/algorithm.md, section 6. Where several ranks

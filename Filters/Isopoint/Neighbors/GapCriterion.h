@@ -108,7 +108,21 @@ private:
   {
     const Vector center = positionOf(end);
     Behind<TSample> behind{ tree, center, offsetBetween(center, positionOf(other)), {} };
-    return this->findBehind(SampleTree<TSample>::rootNode, tree.region, behind);
+    // The smallest node around all that may count.
+    const Region box = this->boxAround(center, behind.edge.length);
+    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+    Region region = tree.region;
+    for (;;)
+    {
+      const Node<TSample>& node = tree.nodes[nodeIndex];
+      const bool isUpper = node.isSplit() && box.lower[node.axis] > node.plane;
+      if (!isUpper && !(node.isSplit() && box.upper[node.axis] < node.plane))
+      {
+        return this->findBehind(nodeIndex, region, behind);
+      }
+      (isUpper ? region.lower : region.upper)[node.axis] = node.plane;
+      nodeIndex = tree.child(node, isUpper);
+    }
   }
 
   /// Adds samples behind an end. @returns whether there are enough
@@ -163,8 +177,7 @@ private:
     Vector product{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      product[axis] =
-        std::min(offsets.lower[axis] * edge[axis], offsets.upper[axis] * edge[axis]);
+      product[axis] = std::min(offsets.lower[axis] * edge[axis], offsets.upper[axis] * edge[axis]);
     }
     return this->Factor * least < behind.edge.length &&
            -(product[0] + product[1] + product[2]) > cosine * (least * behind.edge.length);
