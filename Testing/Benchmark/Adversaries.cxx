@@ -162,6 +162,26 @@ Cloud layerBeforeCoincident(std::size_t count)
   return cloud;
 }
 
+/// Two layers of samples close to each other, and a few in front of their middle: long edges with
+/// most samples beside their ends, none of them behind.
+Cloud doubleLayerBeforeFew(std::size_t count)
+{
+  Random random;
+  const float depth = 1.0f / std::sqrt(static_cast<float>(count));
+  Cloud cloud = cloudOf(count,
+    [&](std::size_t i)
+    {
+      return i < 1000 ? Position{ 0.5f + depth * random(), 0.5f + depth * random(),
+        0.5f + depth * random() }
+                      : Position{ i % 2 ? 0.0f : -depth, random(), random() };
+    });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    cloud.values[i] = i < 1000 ? 0.0f : 0.8f;
+  }
+  return cloud;
+}
+
 /// Two skew lines at right angles, the Delaunay tetrahedrization of which has quadratic size.
 Cloud skewLines(std::size_t count)
 {
@@ -292,6 +312,7 @@ int main(int argumentCount, char** arguments)
     { "a cell that touches half of all", [&]() { return layerBeforeOne(count); } },
     { "coincident samples whose cell touches half of all",
       [&]() { return layerBeforeCoincident(count); } },
+    { "a double layer before a thousand", [&]() { return doubleLayerBeforeFew(count); } },
     { "two skew lines", [&]() { return skewLines(count); } },
     { "strongly clustered", [&]() { return clustered(count); } },
     { "on a sphere, one inside", [&]() { return onSphere(count); } },

@@ -8,6 +8,7 @@
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Tetrahedra/TreeRefinement.h"
 #include "Isopoint/Tree/Loading.h"
+#include "Isopoint/Tree/SampleBounds.h"
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
   auto tree =
     isopoint::loadSamples<isopoint::WideSample>({}, cloud.size(), clouds::readerOf(cloud));
   isopoint::splitCompletely({}, tree);
+  isopoint::SampleBounds<isopoint::WideSample> bounds(tree);
   std::map<std::uint64_t, std::size_t> leafOf; // by id
   isopoint::Path path = isopoint::pathToRoot(tree);
   isopoint::forEachBelow(tree, path, isopoint::maximumDepth,
@@ -74,7 +76,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
         const std::size_t wanted = 1 + (x + y) % 3;
         const isopoint::GapCriterion criterion(factor, wanted);
         const isopoint::WideSample& other = sampleOf(leafOf.at(expected.cells[y].id));
-        const bool isDropped = criterion.drops(tree, sampleOf(leaf), other);
+        const bool isDropped = criterion.drops(tree, bounds, sampleOf(leaf), other);
         EXPECT_EQ(isDropped, bruteforce::isDroppedByGap(
                                expected.cells, x, y, factor, static_cast<std::ptrdiff_t>(wanted)));
         if (isDropped)

@@ -223,7 +223,7 @@ private:
     const GapCriterion strong = GapCriterion::strong();
     return strong.mayDrop(
              this->Tree, leaf, own, offsetBetween(positionOf(own), positionOf(other)).length) &&
-           strong.drops(this->Tree, own, other);
+           strong.drops(this->Tree, this->Context.bounds, own, other);
   }
 
   struct End

@@ -9,6 +9,7 @@
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/Path.h"
+#include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -65,6 +66,7 @@ public:
     const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves,
     const std::vector<bool>* isInner = nullptr)
     : Tree(tree)
+    , Bounds(tree)
   {
     std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
     this->numberLeaves(leaves, numbers);
@@ -91,8 +93,8 @@ public:
       {
         const TSample& own = this->Tree.samples[this->Tree.nodes[this->Leaves[end]].begin];
         const double length = offsetBetween(positionOf(own), positionOf(sample)).length;
-        return width > 0.0 &&
-               GapCriterion::strong(std::max(1.0, length / width)).drops(this->Tree, own, sample);
+        return width > 0.0 && GapCriterion::strong(std::max(1.0, length / width))
+                                .drops(this->Tree, this->Bounds, own, sample);
       });
   }
 
@@ -357,10 +359,11 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  std::vector<Id> Leaves;              // node indices of the leaves that edges end in, by number
-  std::vector<std::array<Id, 2>> Ends; // of the isopoints' edges, numbers of leaves
-  Lists<std::size_t> Isopoints;        // whose edges end in each leaf, ascending
-  Lists<Id> Touching;                  // each leaf, numbers of leaves
+  mutable SampleBounds<TSample> Bounds; // computed once, from any thread
+  std::vector<Id> Leaves;               // node indices of the leaves that edges end in, by number
+  std::vector<std::array<Id, 2>> Ends;  // of the isopoints' edges, numbers of leaves
+  Lists<std::size_t> Isopoints;         // whose edges end in each leaf, ascending
+  Lists<Id> Touching;                   // each leaf, numbers of leaves
 };
 
 } // namespace isopoint

@@ -4,6 +4,7 @@
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tree/SampleBounds.h"
 
 #include <array>
 #include <cmath>
@@ -42,13 +43,16 @@ public:
 
   /// Whether the edge between the positions of two samples is dropped. Symmetric in them, and the
   /// same whatever part of the tree is built.
+  /// @param bounds of the tree's samples, computed where many nodes are looked at
   /// @throws MissingNode at a node whose samples another rank holds
-  /// Complexity: O(depth + nodes that the cones behind both ends meet, up to the edge's length /
-  /// factor)
+  /// Complexity: O(depth + nodes whose samples, or of a partial tree regions, may be in the cones
+  /// behind both ends, up to the edge's length / factor)
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, const TSample& own, const TSample& other) const
+  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+    const TSample& other) const
   {
-    return this->isCrowdedBehind(tree, own, other) && this->isCrowdedBehind(tree, other, own);
+    return this->isCrowdedBehind(tree, bounds, own, other) &&
+           this->isCrowdedBehind(tree, bounds, other, own);
   }
 
   /// Whether edges at the sample of a leaf may be dropped that are no longer than this: a quick
@@ -96,18 +100,20 @@ private:
   struct Behind
   {
     const SampleTree<TSample>& tree;
+    SampleBounds<TSample>& bounds;
     Vector center; // the end
     Offset edge;   // to the other end
     Found<TSample> found;
+    std::size_t visited = 0; // nodes
   };
 
   /// Whether the edge is longer than `factor` times the spacing behind its end.
   template <class TSample>
-  bool isCrowdedBehind(
-    const SampleTree<TSample>& tree, const TSample& end, const TSample& other) const
+  bool isCrowdedBehind(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds,
+    const TSample& end, const TSample& other) const
   {
     const Vector center = positionOf(end);
-    Behind<TSample> behind{ tree, center, offsetBetween(center, positionOf(other)), {} };
+    Behind<TSample> behind{ tree, bounds, center, offsetBetween(center, positionOf(other)), {} };
     // The smallest node around all that may count.
     const Region box = this->boxAround(center, behind.edge.length);
     std::size_t nodeIndex = SampleTree<TSample>::rootNode;
@@ -129,7 +135,7 @@ private:
   template <class TSample>
   bool findBehind(std::size_t nodeIndex, const Region& region, Behind<TSample>& behind) const
   {
-    if (!this->mayHoldAny(region, behind))
+    if (!this->mayHoldAny(offsetsToBox(behind.center, region.lower, region.upper), behind))
     {
       return false;
     }
@@ -137,6 +143,16 @@ private:
     const Node<TSample>& node = tree.nodes[nodeIndex];
     if (node.isSplit())
     {
+      // Mostly regions suffice; those of samples on lines and sheets reach far beyond these.
+      constexpr std::size_t many = 256;
+      if (++behind.visited > many && !tree.isPartial)
+      {
+        behind.bounds.compute();
+        if (!this->mayHoldAny(behind.bounds.offsets(behind.center, node), behind))
+        {
+          return false;
+        }
+      }
       const bool isUpperFirst = behind.center[node.axis] > node.plane;
       for (const bool isUpper : { isUpperFirst, !isUpperFirst })
       {
@@ -166,12 +182,11 @@ private:
     return behind.found.count == this->WantedCount;
   }
 
-  /// Whether a sample in a region may be behind an end. Rounding is monotonic: no number computed
-  /// for a sample exceeds its bound.
+  /// Whether a sample with an offset within bounds may be behind an end. Rounding is monotonic: no
+  /// number computed for a sample exceeds its bound.
   template <class TSample>
-  bool mayHoldAny(const Region& region, const Behind<TSample>& behind) const
+  bool mayHoldAny(const OffsetBounds& offsets, const Behind<TSample>& behind) const
   {
-    const OffsetBounds offsets = offsetsToBox(behind.center, region.lower, region.upper);
     const double least = std::sqrt(offsets.leastSquaredLength);
     const Vector& edge = behind.edge.vector;
     Vector product{};

@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
+#include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -61,6 +62,7 @@ public:
     const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks, TParts& parts)
     : Run(execution)
     , Tree(tree)
+    , Bounds(tree)
     , Ranks(ranks)
     , Parts(parts)
   {
@@ -124,12 +126,13 @@ public:
   const std::vector<char>& isReached() const { return this->IsReached; }
 
 private:
-  bool isOver(const GapCriterion& criterion, std::size_t part) const
+  bool isOver(const GapCriterion& criterion, std::size_t part)
   {
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)
       {
-        return criterion.drops(this->Tree, this->Tree.samples[this->Tree.nodes[leaf].begin],
+        return criterion.drops(this->Tree, this->Bounds,
+          this->Tree.samples[this->Tree.nodes[leaf].begin],
           this->Tree.samples[this->Tree.nodes[other].begin]);
       });
   }
@@ -163,6 +166,7 @@ private:
 
   const Execution& Run;
   const SampleTree<TSample>& Tree;
+  SampleBounds<TSample> Bounds;
   TRanks& Ranks;
   TParts& Parts;
   std::vector<char> IsReached;

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -104,7 +105,9 @@ public:
     NarrowBand<TSample> band(
       this->Tree, request.isovalue, this->Run, progress, work::finding + afterEdges);
     const std::vector<BinaryIndex> crossing = band.refine(this->Exchange);
-    ExtractionContext<TSample> context(this->Tree, this->Known, request.isovalue);
+    std::optional<ExtractionContext<TSample>> made;
+    this->Exchange.together([&]() { made.emplace(this->Tree, this->Known, request.isovalue); });
+    ExtractionContext<TSample>& context = *made;
     const auto partFor = [&progress](double isopointCount, double work, double left)
     { return progress.part(isopointCount * work, isopointCount * left); };
     const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
