@@ -39,7 +39,7 @@ bool isFinite(const vtkIsopointBlock& block, vtkIdType sample)
 
 std::string describeArray(const vtkIsopointFindings& findings)
 {
-  return findings.Array.empty() ? "the array" : "the array \"" + findings.Array + "\"";
+  return findings.Array.empty() ? "the array" : "\"" + findings.Array + "\"";
 }
 
 std::string textOf(double number, int digits)
@@ -87,7 +87,7 @@ int digitsFor(const vtkIsopointFindings& findings, const std::vector<double>& is
   return std::numeric_limits<double>::max_digits10;
 }
 
-std::string describeIsovaluesOutside(
+vtkIsopointMessage describeIsovaluesOutside(
   const vtkIsopointFindings& findings, const std::vector<double>& outside)
 {
   if (outside.empty())
@@ -95,36 +95,37 @@ std::string describeIsovaluesOutside(
     return {};
   }
   const int digits = digitsFor(findings, outside);
+  const std::string least = textOf(findings.Least, digits);
   if (findings.Least == findings.Greatest)
   {
-    return "There is no isosurface: all values of " + describeArray(findings) + " are " +
-           textOf(findings.Least, digits) + ". Choose another array.";
+    return { "constant array", "No isosurface: all values of " + describeArray(findings) + " are " +
+                                 least + ". Choose another array." };
   }
-  return (outside.size() > 1 ? "The isovalues " : "The isovalue ") + join(outside, digits) +
-         (outside.size() > 1 ? " have" : " has") + " no points: the values of " +
-         describeArray(findings) + " are from " + textOf(findings.Least, digits) + " to " +
-         textOf(findings.Greatest, digits) + ". Choose " +
-         (outside.size() > 1 ? "isovalues" : "one") + " above the former and up to the latter.";
+  const std::string isovalues = join(outside, digits);
+  return { "isovalues outside: " + isovalues,
+    "No isosurface at " + isovalues + ": " + describeArray(findings) + " is from " + least + " to " +
+      textOf(findings.Greatest, digits) +
+      ". Choose isovalues above the former and up to the latter." };
 }
 
 /// Of isovalues in the range.
-std::string describeEmptyIsovalues(
+vtkIsopointMessage describeEmptyIsovalues(
   const vtkIsopointFindings& findings, const std::vector<double>& empty)
 {
   if (empty.empty())
   {
     return {};
   }
-  return (empty.size() > 1 ? "The isovalues " : "The isovalue ") +
-         join(empty, digitsFor(findings, empty)) + (empty.size() > 1 ? " have" : " has") +
-         " no points, although samples are on both sides: " +
-         (findings.AreTriangles
-             ? "all of the surface is in gaps, or the samples are all in one plane. Turn DropGaps"
-               " off; of samples in a plane extract points instead of triangles."
-             : "all of them are in gaps. Turn DropGaps off.");
+  const std::string isovalues = join(empty, digitsFor(findings, empty));
+  return { "isovalues in gaps: " + isovalues,
+    "No isosurface at " + isovalues + ": " +
+      (findings.AreTriangles
+          ? "all of it is in gaps, or the samples are in one plane."
+            " Turn DropGaps off; of samples in a plane extract points instead of triangles."
+          : "all of it is in gaps between samples. Turn DropGaps off.") };
 }
 
-std::vector<std::string> describeIsovalues(const vtkIsopointFindings& findings)
+std::vector<vtkIsopointMessage> describeIsovalues(const vtkIsopointFindings& findings)
 {
   std::vector<double> outside;
   std::vector<double> empty;
@@ -140,30 +141,33 @@ std::vector<std::string> describeIsovalues(const vtkIsopointFindings& findings)
   return { describeIsovaluesOutside(findings, outside), describeEmptyIsovalues(findings, empty) };
 }
 
-std::string describeSkipped(const vtkIsopointFindings& findings)
+vtkIsopointMessage describeSkipped(const vtkIsopointFindings& findings)
 {
   if (findings.NotFinite + findings.WithoutArray == 0)
   {
     return {};
   }
-  std::vector<std::string> reasons;
-  const auto add = [&reasons](std::uint64_t count, const std::string& reason)
+  const std::vector<std::pair<std::uint64_t, std::string>> reasons{
+    { findings.NotFinite, "not finite" },
+    { findings.WithoutArray, "in blocks without " + describeArray(findings) },
+    { findings.Ghosts, "ghost or hidden" },
+  };
+  const std::uint64_t skipped = findings.NotFinite + findings.WithoutArray + findings.Ghosts;
+  std::vector<std::string> parts;
+  for (const auto& [count, reason] : reasons)
   {
     if (count > 0)
     {
-      reasons.push_back(std::to_string(count) + " " + reason);
+      parts.push_back(count < skipped ? std::to_string(count) + " " + reason : reason);
     }
-  };
-  add(findings.NotFinite, "with a coordinate or value that is not finite");
-  add(findings.WithoutArray, "of blocks without " + describeArray(findings));
-  add(findings.Ghosts, "ghost or hidden");
-  return std::to_string(findings.NotFinite + findings.WithoutArray + findings.Ghosts) + " of " +
-         std::to_string(findings.Samples) + " samples were skipped: " + join(reasons) +
-         ". Where they are, the surface is that of the samples around. Remove them from the input"
-         " if that is meant.";
+  }
+  return { "samples skipped",
+    "Skipped " + std::to_string(skipped) + " of " + std::to_string(findings.Samples) +
+      " samples: " + join(parts) + ". The surface there is that of the samples around.",
+    vtkIsopointMessage::NOTE };
 }
 
-std::string describeUnprojected(const vtkIsopointFindings& findings)
+vtkIsopointMessage describeUnprojected(const vtkIsopointFindings& findings)
 {
   const auto points =
     std::accumulate(findings.Points.begin(), findings.Points.end(), std::uint64_t{ 0 });
@@ -171,10 +175,26 @@ std::string describeUnprojected(const vtkIsopointFindings& findings)
   {
     return {};
   }
-  return std::to_string(findings.UnprojectedPoints) + " of " + std::to_string(points) +
-         " points are where linear interpolation places them: around them no fit holds, as in"
-         " strong noise or where samples are few, on lines or in one plane. Smooth noise first, or"
-         " set the projection to none, which is faster.";
+  return { "points without fit",
+    "No fit holds at " + std::to_string(findings.UnprojectedPoints) + " of " +
+      std::to_string(points) + " points: the surface may be rough. " +
+      (findings.AreTriangles ? "For" : "Extract triangles (Scattered Isosurface) for") +
+      " drill holes, shells and other samples on lines or surfaces" +
+      (findings.AreTriangles ? " set" : ", or set") +
+      " the projection to none. Smooth noise before, as with the linear fit." };
+}
+
+std::vector<vtkIsopointMessage> describeReplacedArrays(const vtkIsopointFindings& findings)
+{
+  std::vector<vtkIsopointMessage> messages;
+  for (const std::string& name : findings.ReplacedArrays)
+  {
+    messages.push_back({ "replaced array " + name,
+      "The computed array \"" + name +
+        "\" replaces the input array of this name. To keep that, rename it or switch the computed"
+        " array off." });
+  }
+  return messages;
 }
 
 } // namespace
@@ -253,11 +273,15 @@ void vtkShareIsopointFindings(
     isopoint::fromOrderedKey(team.maximum(isopoint::orderedKey(findings.Greatest)));
 }
 
-std::vector<std::string> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings)
+std::vector<vtkIsopointMessage> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings)
 {
-  std::vector<std::string> messages = describeIsovalues(findings);
+  std::vector<vtkIsopointMessage> messages = describeIsovalues(findings);
   messages.push_back(describeSkipped(findings));
   messages.push_back(describeUnprojected(findings));
-  messages.erase(std::remove(messages.begin(), messages.end(), ""), messages.end());
+  const std::vector<vtkIsopointMessage> replaced = describeReplacedArrays(findings);
+  messages.insert(messages.end(), replaced.begin(), replaced.end());
+  messages.erase(std::remove_if(messages.begin(), messages.end(),
+                   [](const vtkIsopointMessage& message) { return message.Text.empty(); }),
+    messages.end());
   return messages;
 }

@@ -17,6 +17,21 @@ class Team;
 }
 
 /**
+ * What the user of a filter is told.
+ */
+struct vtkIsopointMessage
+{
+  enum Kinds
+  {
+    WARNING, // of a result that is not what was asked for
+    NOTE     // on a result that is
+  };
+  std::string Cause; // the same in each update as long as it lasts
+  std::string Text;  // what counts first: ParaView's list cuts it; then the remedy
+  Kinds Kind = WARNING;
+};
+
+/**
  * What an update found out that its user may have to know.
  */
 struct vtkIsopointFindings
@@ -30,6 +45,7 @@ struct vtkIsopointFindings
   std::uint64_t Ghosts = 0;            // ghost and hidden samples
   std::uint64_t WithoutArray = 0;      // samples of blocks without the contoured array
   std::string Array;                   // its name, perhaps empty
+  std::set<std::string> ReplacedArrays; // input arrays with the name of a computed one
   /// The range of the samples that take part, known where an isovalue has no points; else, and if
   /// there are no such samples, empty.
   double Least = std::numeric_limits<double>::infinity();
@@ -56,9 +72,9 @@ void vtkShareIsopointFindings(
   isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings);
 
 /**
- * One sentence or two for each thing to be warned of: cause and remedy. Ghosts alone are no reason.
+ * A message for each cause. Ghosts alone are none.
  * @throws std::bad_alloc
  */
-std::vector<std::string> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings);
+std::vector<vtkIsopointMessage> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings);
 
 #endif

@@ -21,6 +21,7 @@
 #include "vtkScatteredIsopointFilterInternals.h"
 
 #include "vtkCellArray.h"
+#include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
@@ -29,6 +30,7 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkLogger.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -180,6 +182,7 @@ int vtkScatteredIsopointFilter::RequestUpdateExtent(
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->NumberOfSamples = 0;
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
   this->NumberOfDroppedInGaps = 0;
@@ -268,6 +271,7 @@ void vtkScatteredIsopointFilter::ReportProblem(const std::string& problem)
 
 void vtkScatteredIsopointFilter::ReportFindings()
 {
+  this->NumberOfSamples = static_cast<vtkIdType>(this->Kept->Findings.Samples);
   if (this->Kept->Link && this->Kept->Link->rank() > 0)
   {
     return;
@@ -278,14 +282,40 @@ void vtkScatteredIsopointFilter::ReportFindings()
                                  : static_cast<std::uint64_t>(this->NumberOfUnprojectedPoints);
   try
   {
-    for (const std::string& message : vtkDescribeIsopointFindings(findings))
-    {
-      vtkWarningMacro(<< message);
-    }
+    this->ReportMessages(vtkDescribeIsopointFindings(findings));
   }
   catch (const std::bad_alloc&)
   {
     // The output is complete without warnings.
+  }
+}
+
+void vtkScatteredIsopointFilter::ReportMessages(const std::vector<vtkIsopointMessage>& messages)
+{
+  // A cause is reported when it comes up, and not again as long as it lasts for this input.
+  vtkAlgorithm* const producer = this->GetInputAlgorithm();
+  const std::set<std::string> before =
+    this->Kept->ReportedOf == producer ? this->Kept->Reported : std::set<std::string>();
+  this->Kept->ReportedOf = producer;
+  this->Kept->Reported.clear();
+  for (const vtkIsopointMessage& message : messages)
+  {
+    this->Kept->Reported.insert(message.Cause);
+    if (before.count(message.Cause) > 0)
+    {
+      continue;
+    }
+    if (message.Kind == vtkIsopointMessage::WARNING)
+    {
+      vtkWarningMacro(<< message.Text);
+      continue;
+    }
+    if (!this->HasObserver(vtkCommand::MessageEvent))
+    {
+      vtkLogF(INFO, "%s: %s", this->GetClassName(), message.Text.c_str());
+    }
+    std::string text = message.Text;
+    this->InvokeEvent(vtkCommand::MessageEvent, text.data());
   }
 }
 
@@ -474,13 +504,7 @@ void vtkScatteredIsopointFilter::FillOutput(const Execution& execution,
   }
   for (const std::string& name : computed.AddTo(pointData))
   {
-    if (this->Kept->Link && this->Kept->Link->rank() > 0)
-    {
-      continue; // all ranks have the same arrays
-    }
-    vtkWarningMacro(<< "The computed array \"" << name
-                    << "\" replaces the input array of this name."
-                    << " To keep that, rename it or switch the computed array off.");
+    this->Kept->Findings.ReplacedArrays.insert(name);
   }
 }
 

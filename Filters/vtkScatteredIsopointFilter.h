@@ -122,6 +122,7 @@ class vtkIsopointEndSamples;
 class vtkIsopointStructure;
 class vtkMultiProcessController;
 struct vtkIsopointBlock;
+struct vtkIsopointMessage;
 
 class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsopointFilter : public vtkPolyDataAlgorithm
 {
@@ -412,6 +413,11 @@ public:
   ///@}
 
   /**
+   * The number of input points (or cells, or leaves) of the last update, skipped ones included.
+   */
+  vtkGetMacro(NumberOfSamples, vtkIdType);
+
+  /**
    * The number of input points (or cells, or leaves) that took no part in the last update: see
    * guarantee 3.
    */
@@ -469,6 +475,7 @@ protected:
   vtkTypeBool KeepTree = 1;
   vtkTypeBool ContourBlocks = 0;
   vtkTypeBool UseAllCores = 1;
+  vtkIdType NumberOfSamples = 0;
   vtkIdType NumberOfSkippedSamples = 0;
   vtkIdType NumberOfUnprojectedPoints = 0;
   vtkIdType NumberOfDroppedInGaps = 0;
@@ -500,6 +507,7 @@ private:
   void ReportProblem(const std::string& problem);
   /// Warns of what the update found out about samples and points, on the first rank alone.
   void ReportFindings();
+  void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
   void ConnectRanks();
   std::set<double> GetIsovalues();
   /// The progress after loading this many samples, and after each isovalue.

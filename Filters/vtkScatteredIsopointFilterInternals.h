@@ -9,12 +9,16 @@
 #include "vtkIsopointRanks.h"
 #include "vtkScatteredIsopointFilter.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkMultiProcessController.h"
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
 
 /// The tree of one cloud, and the state of the input it was loaded from.
 class vtkScatteredIsopointFilter::KeptTree
@@ -33,6 +37,8 @@ public:
   int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
   vtkIsopointFindings Findings;          // of the current update
+  std::set<std::string> Reported;        // causes of messages in the last update
+  vtkWeakPointer<vtkAlgorithm> ReportedOf; // the producer of its input
   std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured separately, else one
 
   void Clear()

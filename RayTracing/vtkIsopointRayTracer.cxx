@@ -11,6 +11,7 @@
 #include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkLightsPass.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -77,11 +78,79 @@ bool isSameWindow(const std::array<raytracing::Camera::Position, 3>& a,
   return difference <= share * size;
 }
 
-bool isSameCamera(const raytracing::Camera& a, const raytracing::Camera& b)
+/// Part of a picture: where it begins, in pixels from the lower left.
+struct Tile
 {
-  return isSameWindow(
-           { a.nearCorner, a.nearRight, a.nearUp }, { b.nearCorner, b.nearRight, b.nearUp }) &&
-         isSameWindow({ a.farCorner, a.farRight, a.farUp }, { b.farCorner, b.farRight, b.farUp });
+  std::size_t column = 0;
+  std::size_t row = 0;
+  std::size_t width = 0;
+  std::size_t height = 0;
+};
+
+/// The window of a camera onto one of two planes, of which a part is shown.
+std::array<raytracing::Camera::Position, 3> windowOf(
+  const raytracing::Camera& camera, bool isNear, const Tile& tile, double width, double height)
+{
+  const raytracing::Camera::Position& right = isNear ? camera.nearRight : camera.farRight;
+  const raytracing::Camera::Position& up = isNear ? camera.nearUp : camera.farUp;
+  std::array<raytracing::Camera::Position, 3> window{ isNear ? camera.nearCorner : camera.farCorner,
+    right, up };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    window[0][axis] += static_cast<double>(tile.column) / width * right[axis] +
+                       static_cast<double>(tile.row) / height * up[axis];
+    window[1][axis] *= static_cast<double>(tile.width) / width;
+    window[2][axis] *= static_cast<double>(tile.height) / height;
+  }
+  return window;
+}
+
+/// How far along a direction an offset reaches, as a share of the direction's length.
+double shareOf(const raytracing::Camera::Position& from, const raytracing::Camera::Position& to,
+  const raytracing::Camera::Position& direction)
+{
+  const double offset[3] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
+  return vtkMath::Dot(offset, direction.data()) /
+         vtkMath::Dot(direction.data(), direction.data());
+}
+
+/// Whether a camera with a window of so many pixels sees a part of a picture, or all of it: large
+/// pictures of a window are grabbed in tiles.
+bool isPart(const raytracing::Camera& camera, const int* size, const raytracing::Picture& picture,
+  const raytracing::Camera& pictureCamera, Tile& tile)
+{
+  const double width = picture.getWidth();
+  const double height = picture.getHeight();
+  const double column =
+    width * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearRight);
+  const double row =
+    height * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearUp);
+  if (!(column > -0.5 && row > -0.5 && std::lround(column) + size[0] <= width &&
+        std::lround(row) + size[1] <= height))
+  {
+    return false;
+  }
+  tile = { static_cast<std::size_t>(std::lround(column)), static_cast<std::size_t>(std::lround(row)),
+    static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
+  return isSameWindow(windowOf(pictureCamera, true, tile, width, height),
+           { camera.nearCorner, camera.nearRight, camera.nearUp }) &&
+         isSameWindow(windowOf(pictureCamera, false, tile, width, height),
+           { camera.farCorner, camera.farRight, camera.farUp });
+}
+
+std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
+{
+  std::vector<vtkActor*> actors;
+  vtkCollectionSimpleIterator iterator;
+  renderer->GetViewProps()->InitTraversal(iterator);
+  while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
+  {
+    if (vtkIsopointIsTraced(prop))
+    {
+      actors.push_back(vtkActor::SafeDownCast(prop));
+    }
+  }
+  return actors;
 }
 
 /// Differs where another picture is seen by the same camera.
@@ -143,6 +212,12 @@ public:
   void RenderTraced(vtkIsopointRayTracer* self, const vtkRenderState* state);
   void Draw(vtkOpenGLRenderWindow* window);
 
+  /// The picture's pixel at a place of what is shown of it.
+  std::size_t IndexOf(std::size_t column, std::size_t row) const
+  {
+    return (this->Shown.row + row) * this->Picture->getWidth() + this->Shown.column + column;
+  }
+
   vtkNew<vtkCameraPass> CameraPass;
   vtkNew<vtkIsopointFunctionPass> InnerPass;
   vtkNew<vtkSequencePass> OtherPasses; // of what is not traced
@@ -152,6 +227,7 @@ public:
   std::unique_ptr<raytracing::Picture> Picture;
   std::string PictureState;
   raytracing::Camera PictureCamera;
+  Tile Shown; // of the picture
 };
 
 //------------------------------------------------------------------------------
@@ -179,11 +255,11 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
       : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   std::ostringstream state;
   state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
-        << size[0] << ' ' << size[1] << ' ' << self->SamplesPerPixel << ' ' << self->AmbientLight
+        << self->SamplesPerPixel << ' ' << self->AmbientLight
         << ' ' << self->AmbientDistance << ' ' << self->Shadows << ' '
         << self->MaximumNumberOfBounces;
   if (isNewScene || !this->Picture || this->PictureState != state.str() ||
-      !isSameCamera(this->PictureCamera, this->View->Camera))
+      !isPart(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
   {
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
@@ -191,6 +267,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
     this->Picture->findDistances(this->View->Camera, this->Scene.Get(), threads);
     this->PictureState = state.str();
     this->PictureCamera = this->View->Camera;
+    this->Shown = { 0, 0, this->Picture->getWidth(), this->Picture->getHeight() };
   }
   const raytracing::PathTracer tracer(this->Scene.Get(), illuminants);
   vtkRenderWindow* const window = renderer->GetRenderWindow();
@@ -210,16 +287,13 @@ void vtkIsopointRayTracer::Internals::RenderTraced(
   vtkIsopointRayTracer* self, const vtkRenderState* state)
 {
   vtkRenderer* const renderer = state->GetRenderer();
-  std::vector<vtkActor*> traced;
+  // What is out of view casts shadows and is reflected.
+  const std::vector<vtkActor*> traced = tracedActorsOf(renderer);
   std::vector<vtkProp*> others;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
     vtkProp* const prop = state->GetPropArray()[i];
-    if (vtkIsopointIsTraced(prop))
-    {
-      traced.push_back(vtkActor::SafeDownCast(prop));
-    }
-    else
+    if (std::find(traced.begin(), traced.end(), prop) == traced.end())
     {
       others.push_back(prop);
     }
@@ -243,8 +317,8 @@ void vtkIsopointRayTracer::Internals::RenderTraced(
 //------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
 {
-  const std::size_t width = this->Picture->getWidth();
-  const std::size_t height = this->Picture->getHeight();
+  const std::size_t width = this->Shown.width;
+  const std::size_t height = this->Shown.height;
   std::vector<float> colors(4 * width * height);
   std::vector<float> depths(width * height);
   constexpr double half = 0.5;
@@ -255,10 +329,11 @@ void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
     {
       const double x = (static_cast<double>(column) + half) / static_cast<double>(width);
       const std::size_t i = row * width + column;
-      const raytracing::Radiance pixel = this->Picture->pixel(i);
+      const std::size_t traced = this->IndexOf(column, row);
+      const raytracing::Radiance pixel = this->Picture->pixel(traced);
       const float values[4] = { pixel.color.x, pixel.color.y, pixel.color.z, pixel.alpha };
       std::copy(values, values + 4, &colors[4 * i]);
-      depths[i] = static_cast<float>(this->View->GetDepth(x, y, this->Picture->distance(i)));
+      depths[i] = static_cast<float>(this->View->GetDepth(x, y, this->Picture->distance(traced)));
     }
   }
   this->Display.Draw(window, static_cast<int>(width), static_cast<int>(height), colors, depths);
@@ -332,19 +407,10 @@ bool vtkIsopointRayTracer::RenderToImage(
                                   << " pixels cannot be traced: choose 1 to " << most << ".");
     return false;
   }
-  std::vector<vtkActor*> actors;
-  vtkCollectionSimpleIterator iterator;
-  renderer->GetViewProps()->InitTraversal(iterator);
-  while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
-  {
-    if (vtkIsopointIsTraced(prop))
-    {
-      actors.push_back(vtkActor::SafeDownCast(prop));
-    }
-  }
   try
   {
-    if (!this->Internal->Trace(this, renderer, actors, size, this->SamplesPerPixel))
+    if (!this->Internal->Trace(
+          this, renderer, tracedActorsOf(renderer), size, this->SamplesPerPixel))
     {
       return false;
     }
@@ -362,7 +428,8 @@ bool vtkIsopointRayTracer::RenderToImage(
       for (int x = 0; x < size[0]; ++x)
       {
         const std::size_t index = static_cast<std::size_t>(y) * size[0] + x;
-        const raytracing::Radiance pixel = this->Internal->Picture->pixel(index);
+        const raytracing::Radiance pixel = this->Internal->Picture->pixel(
+          this->Internal->IndexOf(static_cast<std::size_t>(x), static_cast<std::size_t>(y)));
         const raytracing::Color background = this->Internal->View->Environment.behind(
           (static_cast<float>(x) + half) / static_cast<float>(size[0]),
           (static_cast<float>(y) + half) / static_cast<float>(size[1]));

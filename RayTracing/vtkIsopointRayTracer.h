@@ -9,7 +9,8 @@
  * scalar colors, blocks and transforms as the mapper draws them. What else the renderer shows
  * (lines, points, text, volumes, annotations) is drawn by VTK over the picture, hidden where traced
  * surfaces are in front of it; RenderToImage() leaves it out. All actors are drawn by VTK for a
- * hardware selection.
+ * hardware selection. A window that shows a part of the last picture, as where a large picture is
+ * grabbed in tiles, is not traced again.
  *
  * Lights are the renderer's, with shadows. The background is the renderer's color, gradient
  * or texture; what is reflected and refracted sees it as a panorama around the camera, or the

@@ -3,15 +3,38 @@
 
 #include "vtkIsopointRayTracer.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
+#include "vtkRenderPass.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
+#include "vtkSmartPointer.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <utility>
 
 vtkStandardNewMacro(vtkIsopointRayTracingExporter);
+
+namespace
+{
+
+vtkIsopointRayTracingExporter::Monitor& theMonitor()
+{
+  static vtkIsopointRayTracingExporter::Monitor monitor;
+  return monitor;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::SetMonitor(Monitor monitor)
+{
+  theMonitor() = std::move(monitor);
+}
 
 //------------------------------------------------------------------------------
 vtkIsopointRayTracingExporter::vtkIsopointRayTracingExporter() = default;
@@ -80,18 +103,59 @@ void vtkIsopointRayTracingExporter::WriteData()
     vtkErrorMacro("The window shows nothing: it has no renderer.");
     return;
   }
+  if (this->Trace(renderer))
+  {
+    this->WriteWindow(renderer);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsopointRayTracingExporter::Trace(vtkRenderer* renderer)
+{
   int size[2];
   int origin[2];
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
-  vtkNew<vtkImageData> image;
-  if (!this->Tracer->RenderToImage(
-        renderer, this->Magnification * size[0], this->Magnification * size[1], image))
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(
+    [](vtkObject* tracer, unsigned long, void*, void* share)
+    {
+      if (theMonitor() && !theMonitor()(*static_cast<double*>(share)))
+      {
+        vtkIsopointRayTracer::SafeDownCast(tracer)->AbortExecuteOn();
+      }
+    });
+  const unsigned long observer = this->Tracer->AddObserver(vtkCommand::ProgressEvent, progress);
+  if (theMonitor())
   {
-    return; // the tracer has reported why
+    theMonitor()(0.0); // the scene is prepared first
   }
+  vtkNew<vtkImageData> image;
+  const bool isComplete = this->Tracer->RenderToImage(
+    renderer, this->Magnification * size[0], this->Magnification * size[1], image);
+  this->Tracer->RemoveObserver(observer);
+  if (theMonitor())
+  {
+    theMonitor()(1.0);
+  }
+  return isComplete; // else the tracer has reported why, or was stopped
+}
+
+//------------------------------------------------------------------------------
+void vtkIsopointRayTracingExporter::WriteWindow(vtkRenderer* renderer)
+{
+  const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
+  renderer->SetPass(this->Tracer);
+  vtkNew<vtkWindowToImageFilter> window;
+  window->SetInput(this->RenderWindow);
+  window->SetScale(this->Magnification);
+  window->ReadFrontBufferOff();
+  window->Update();
+  renderer->SetPass(pass);
+  this->Tracer->ReleaseGraphicsResources(this->RenderWindow);
+
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(this->FileName);
-  writer->SetInputData(image);
+  writer->SetInputData(window->GetOutput());
   writer->Write();
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
   {

@@ -3,8 +3,8 @@
  * @class   vtkIsopointRayTracingExporter
  * @brief   writes what a view shows as a ray-traced PNG picture
  *
- * The picture is that of vtkIsopointRayTracer, as large as the view or a multiple of it. Its
- * properties are those of the ray tracer.
+ * The picture is that of vtkIsopointRayTracer, as large as the view or a multiple of it, with what
+ * else the view shows, such as color legends and axes. Its properties are those of the ray tracer.
  */
 #ifndef vtkIsopointRayTracingExporter_h
 #define vtkIsopointRayTracingExporter_h
@@ -13,7 +13,10 @@
 #include "vtkNew.h"
 #include "vtkScatteredIsopointExportersModule.h" // for the export macro
 
+#include <functional> // for the monitor
+
 class vtkIsopointRayTracer;
+class vtkRenderer;
 
 class VTKSCATTEREDISOPOINTEXPORTERS_EXPORT vtkIsopointRayTracingExporter : public vtkExporter
 {
@@ -51,11 +54,29 @@ public:
   void SetAbsorptionDistance(double distance);
   ///@}
 
+  /**
+   * Called several times a second with the share of an export that is done, 0 to 1, in the thread
+   * that exports, while no OpenGL context is in use. If it returns false the export ends, and
+   * nothing is written.
+   */
+  using Monitor = std::function<bool(double share)>;
+
+  /**
+   * A monitor of all exports of this process: windows show their progress by it. Default: none.
+   */
+  static void SetMonitor(Monitor monitor);
+
 protected:
   vtkIsopointRayTracingExporter();
   ~vtkIsopointRayTracingExporter() override;
 
   void WriteData() override;
+
+  /// @returns whether the picture is complete
+  bool Trace(vtkRenderer* renderer);
+
+  /// Writes the window with the traced picture in it.
+  void WriteWindow(vtkRenderer* renderer);
 
   char* FileName = nullptr;
   int Magnification = 1;

@@ -30,6 +30,9 @@ struct Hit
   const Surface* surface = nullptr; // null: the ray meets none
   float distance = std::numeric_limits<float>::infinity();
   Vector normal; // of unit length, interpolated; to either side of the ray
+  /// From the place to the smooth surface that the triangle with its normals stands for, on the
+  /// ray's side: where shadow rays start.
+  Vector lift;
   Color color;
   float opacity = 1.0f; // of the color, besides that of the material
 };

@@ -161,7 +161,7 @@ Color PathTracer::direct(const Shading& shading, const Reflect& reflect) const
     Color passed{ 1.0f, 1.0f, 1.0f };
     if (this->Light.hasShadows)
     {
-      const Ray ray{ shading.position, arriving.towards, nearestDistance, arriving.distance };
+      const Ray ray{ shading.position + shading.hit.lift, arriving.towards, nearestDistance, arriving.distance };
       passed = this->Surfaces.transmittance(ray);
     }
     sum += arriving.strength * passed * reflect(light, arriving.towards, cosine);
@@ -191,7 +191,7 @@ Color PathTracer::ambient(const Shading& shading) const
   const Vector direction = Frame(shading.normal)
                              .toWorld({ radius * std::cos(angle), radius * std::sin(angle),
                                std::sqrt(1.0f - place.first) });
-  const Ray ray{ shading.position, direction, nearestDistance, light.distance };
+  const Ray ray{ shading.position + shading.hit.lift, direction, nearestDistance, light.distance };
   return this->Surfaces.transmittance(ray) * color * shading.hit.color;
 }
 

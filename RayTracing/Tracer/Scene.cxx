@@ -77,6 +77,24 @@ void setColor(Hit& hit, const Surface& surface, const RTCHit& place)
   }
 }
 
+/// Triangles whose normals are interpolated would cast shadows on each other where the light comes
+/// in at a low angle. The smooth surface is taken to pass through the mean of the place's
+/// projections onto the tangential planes of the vertices, weighted as normals are, as far as they
+/// are in front of the triangle (J. Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II).
+Vector liftOf(const Surface& surface, const RTCHit& place, const Vector& position, float side)
+{
+  const auto& corners = surface.triangles[place.primID];
+  const float weights[3] = { 1.0f - place.u - place.v, place.u, place.v };
+  Vector lift;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const Vector normal = side * directionOf(surface.normals[corners[i]]);
+    const float height = dot(surface.vertices[corners[i]] - position, normal);
+    lift += weights[i] * std::max(height, 0.0f) * normal;
+  }
+  return lift;
+}
+
 /// What a surface lets through to the light behind it.
 Color passing(const Hit& hit, const Ray& ray)
 {
@@ -137,6 +155,8 @@ Hit Scene::closest(const Ray& ray, unsigned int mask) const
     hit.normal = directionOf(interpolated(surface.normals, surface.triangles[embree.hit.primID],
                                embree.hit.u, embree.hit.v, same),
       hit.normal);
+    const float side = dot(hit.normal, ray.direction) > 0.0f ? -1.0f : 1.0f;
+    hit.lift = liftOf(surface, embree.hit, ray.at(hit.distance), side);
   }
   setColor(hit, surface, embree.hit);
   return hit;

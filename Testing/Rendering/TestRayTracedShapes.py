@@ -7,15 +7,16 @@ from scatteredisopoints import vtkIsopointRayTracer
 from scenes import Scene, actor_of, add_array, as_array, check, color_by, isopoints, polydata, psnr
 from scenes import torus_mesh, torus_splats
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
-from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes, vtkLight
 
 SIZE = 300
 
 
-def traced(scene, samples=9):
+def traced(scene, samples=9, shadows=False):
     tracer = vtkIsopointRayTracer()
     tracer.SetSamplesPerPixel(samples)
-    tracer.ShadowsOff()
+    tracer.SetShadows(shadows)
     image = vtkImageData()
     check(tracer.RenderToImage(scene.renderer, SIZE, SIZE, image), "there is a picture")
     return as_array(image)
@@ -52,6 +53,27 @@ def shapes():
     compare("a body with edges", actor_of(body))
     normal = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)
     compare("one octagon", actor_of(polydata([[0, 0, 0]], [normal], Radius=np.ones(1))), bar=35)
+
+
+def small_bodies():
+    """A ball of four spacings casts no shadow on its own lit side, coarse as its triangles are."""
+    spacing = 0.25
+    ball = isopoints(lambda p: 1.0 - np.linalg.norm(p, axis=1), -1.5, 1.5, round((3 / spacing) ** 3))
+    mesh = vtkSphereSource()
+    mesh.SetRadius(1.0)
+    mesh.SetThetaResolution(24)
+    mesh.SetPhiResolution(12)
+    mesh.Update()
+    for name, actor in (("splats", actor_of(ball)), ("mesh", actor_of(mesh.GetOutput(), False))):
+        scene = Scene(actor, size=SIZE)
+        light = vtkLight()
+        light.SetPosition(-8.0, 3.0, 2.0)
+        scene.renderer.AddLight(light)
+        lit = traced(scene).max(axis=2)
+        darkened = (lit - traced(scene, shadows=True).max(axis=2) > 20).sum()
+        share = darkened / (lit > 20).sum()
+        print(f"a small ball as {name}: {share:.2%} of it in its own shadow")
+        check(share < 0.002, f"a small ball as {name} is in its own shadow")
 
 
 def transforms():
@@ -120,6 +142,8 @@ def opacities():
 
 
 shapes()
+small_bodies()
+
 transforms()
 colors()
 blocks()

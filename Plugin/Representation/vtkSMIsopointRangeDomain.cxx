@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkSMIsopointRangeDomain.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMUncheckedPropertyHelper.h"
+
+vtkStandardNewMacro(vtkSMIsopointRangeDomain);
+
+namespace
+{
+
+/// The chosen array and its association; empty if none is chosen.
+std::string chosenArray(vtkSMPropertyHelper& selection)
+{
+  const char* const name =
+    selection.GetNumberOfElements() >= 5 ? selection.GetAsString(4) : nullptr;
+  return name ? std::string(selection.GetAsString(3)) + " " + name : std::string();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues)
+{
+  const int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(usesUncheckedValues);
+  this->HasDefault = result && helper.GetNumberOfElements() == 1;
+  if (this->HasDefault)
+  {
+    this->Default = helper.GetAsDouble();
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkSMProperty* const selection = this->GetRequiredProperty("ArraySelection");
+  vtkSMProperty* const property = this->GetProperty();
+  if (!selection || !property)
+  {
+    return;
+  }
+  vtkSMUncheckedPropertyHelper shown(selection);
+  const std::string array = chosenArray(shown);
+  const bool isAnother = !this->Array.empty() && array != this->Array;
+  this->Array = array;
+  if (isAnother && this->IsDefault(property))
+  {
+    // A choice that is not applied yet changes the panel alone.
+    vtkSMPropertyHelper applied(selection);
+    this->SetDefaultValues(property, array != chosenArray(applied));
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMIsopointRangeDomain::IsDefault(vtkSMProperty* property) const
+{
+  vtkSMUncheckedPropertyHelper isovalues(property);
+  return this->HasDefault && isovalues.GetNumberOfElements() == 1 &&
+         isovalues.GetAsDouble() == this->Default;
+}

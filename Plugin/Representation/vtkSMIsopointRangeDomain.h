@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkSMIsopointRangeDomain
+ * @brief   a range whose default follows the array
+ *
+ * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. Where
+ * another array is chosen while the isovalue still is the default, it becomes the middle of the new
+ * array's range. Isovalues that were typed, and all where only the data change, are kept.
+ *
+ * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
+ */
+#ifndef vtkSMIsopointRangeDomain_h
+#define vtkSMIsopointRangeDomain_h
+
+#include "vtkSMArrayRangeDomain.h"
+#include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+
+#include <string> // for the array's name
+
+class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRangeDomain
+  : public vtkSMArrayRangeDomain
+{
+public:
+  static vtkSMIsopointRangeDomain* New();
+  vtkTypeMacro(vtkSMIsopointRangeDomain, vtkSMArrayRangeDomain);
+
+  /**
+   * Sets the property. @returns whether it did
+   */
+  int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
+
+  void Update(vtkSMProperty* requestingProperty) override;
+
+protected:
+  vtkSMIsopointRangeDomain() = default;
+  ~vtkSMIsopointRangeDomain() override = default;
+
+private:
+  bool IsDefault(vtkSMProperty* property) const;
+
+  std::string Array; // that the range is of, with its association
+  bool HasDefault = false;
+  double Default = 0.0; // that the property was set to
+
+  vtkSMIsopointRangeDomain(const vtkSMIsopointRangeDomain&) = delete;
+  void operator=(const vtkSMIsopointRangeDomain&) = delete;
+};
+
+#endif
