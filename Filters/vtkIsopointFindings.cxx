@@ -169,8 +169,7 @@ vtkIsopointMessage describeSkipped(const vtkIsopointFindings& findings)
 
 vtkIsopointMessage describeUnprojected(const vtkIsopointFindings& findings)
 {
-  const auto points =
-    std::accumulate(findings.Points.begin(), findings.Points.end(), std::uint64_t{ 0 });
+  const std::uint64_t points = findings.GetNumberOfPoints();
   if (2 * findings.UnprojectedPoints <= points)
   {
     return {};
@@ -204,6 +203,11 @@ void vtkIsopointFindings::Start(const std::set<double>& isovalues)
   *this = vtkIsopointFindings();
   this->Isovalues.assign(isovalues.begin(), isovalues.end());
   this->Points.assign(isovalues.size(), 0);
+}
+
+std::uint64_t vtkIsopointFindings::GetNumberOfPoints() const
+{
+  return std::accumulate(this->Points.begin(), this->Points.end(), std::uint64_t{ 0 });
 }
 
 void vtkIsopointFindings::CountSamples(

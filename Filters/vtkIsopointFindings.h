@@ -54,6 +54,9 @@ struct vtkIsopointFindings
   /// Nothing yet, of these isovalues. @throws std::bad_alloc
   void Start(const std::set<double>& isovalues);
 
+  /// Of all isovalues.
+  std::uint64_t GetNumberOfPoints() const;
+
   /// Counts the samples of some blocks, of which the extractor left out this many.
   void CountSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
 };

@@ -183,6 +183,7 @@ int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfSamples = 0;
+  this->NumberOfExtractedPoints = 0;
   this->NumberOfSkippedSamples = 0;
   this->NumberOfUnprojectedPoints = 0;
   this->NumberOfDroppedInGaps = 0;
@@ -272,6 +273,7 @@ void vtkScatteredIsopointFilter::ReportProblem(const std::string& problem)
 void vtkScatteredIsopointFilter::ReportFindings()
 {
   this->NumberOfSamples = static_cast<vtkIdType>(this->Kept->Findings.Samples);
+  this->NumberOfExtractedPoints = static_cast<vtkIdType>(this->Kept->Findings.GetNumberOfPoints());
   if (this->Kept->Link && this->Kept->Link->rank() > 0)
   {
     return;

@@ -418,6 +418,11 @@ public:
   vtkGetMacro(NumberOfSamples, vtkIdType);
 
   /**
+   * The number of points that the last update extracted, those of all ranks, without ghosts.
+   */
+  vtkGetMacro(NumberOfExtractedPoints, vtkIdType);
+
+  /**
    * The number of input points (or cells, or leaves) that took no part in the last update: see
    * guarantee 3.
    */
@@ -476,6 +481,7 @@ protected:
   vtkTypeBool ContourBlocks = 0;
   vtkTypeBool UseAllCores = 1;
   vtkIdType NumberOfSamples = 0;
+  vtkIdType NumberOfExtractedPoints = 0;
   vtkIdType NumberOfSkippedSamples = 0;
   vtkIdType NumberOfUnprojectedPoints = 0;
   vtkIdType NumberOfDroppedInGaps = 0;

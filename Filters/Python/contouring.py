@@ -108,7 +108,7 @@ def contour(
     RuntimeError
         With the filter's message, if it reports an error.
 
-    What the filter warns of is a RuntimeWarning.
+    What the filter warns of or notes, such as skipped samples, is a RuntimeWarning.
     """
     filter_class = vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter
     isopoints = filter_class()
@@ -294,6 +294,7 @@ def _update(isopoints: vtkScatteredIsopointFilter) -> None:
 
     watch("ErrorEvent", errors)
     watch("WarningEvent", cautions)
+    watch("MessageEvent", cautions)
     isopoints.Update()
     for text in cautions:
         warnings.warn(text, RuntimeWarning, stacklevel=3)

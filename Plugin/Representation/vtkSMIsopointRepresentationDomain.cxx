@@ -29,12 +29,17 @@ bool hasVerticesAlone(vtkPVDataInformation* data)
 } // namespace
 
 //------------------------------------------------------------------------------
+bool vtkSMIsopointRepresentationDomain::AreIsopoints(vtkPVDataInformation* data)
+{
+  return data && hasVerticesAlone(data) && hasPointArray(data, "Normals", 3) &&
+         hasPointArray(data, "Radius", 1);
+}
+
+//------------------------------------------------------------------------------
 int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   vtkSMProperty* property, bool usesUncheckedValues)
 {
-  vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
-  if (!data || !hasVerticesAlone(data) || !hasPointArray(data, "Normals", 3) ||
-      !hasPointArray(data, "Radius", 1))
+  if (!AreIsopoints(this->GetInputDataInformation("Input")))
   {
     return 0;
   }

@@ -4,10 +4,7 @@
  * @brief   makes "Isopoint Splats" the default representation of isopoints
  *
  * A domain of a property of the representation's proxy, which is part of one with the property
- * "Representation" that it sets. Data are taken for isopoints, whatever filters
- * they have passed through, if they have the point arrays "Normals" of three components and
- * "Radius" of one, and as many cells as points, the vertices, or none. Of other data the default
- * is left as it is.
+ * "Representation" that it sets. Of other data the default is left as it is.
  *
  * The required property "Input" yields the data.
  */
@@ -17,12 +14,21 @@
 #include "vtkSMDomain.h"
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
 
+class vtkPVDataInformation;
+
 class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRepresentationDomain
   : public vtkSMDomain
 {
 public:
   static vtkSMIsopointRepresentationDomain* New();
   vtkTypeMacro(vtkSMIsopointRepresentationDomain, vtkSMDomain);
+
+  /**
+   * Whether data are isopoints, whatever filters they have passed through: they have the point
+   * arrays "Normals" of three components and "Radius" of one, and as many cells as points, the
+   * vertices, or none.
+   */
+  static bool AreIsopoints(vtkPVDataInformation* data);
 
   /**
    * Sets the property if the data are isopoints. @returns whether it did

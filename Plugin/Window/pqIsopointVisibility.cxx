@@ -10,6 +10,9 @@
 #include "pqView.h"
 
 #include "vtkNew.h"
+#include "vtkOutputWindow.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMIsopointRepresentationDomain.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -18,8 +21,11 @@
 
 #include <QList>
 #include <QObject>
+#include <QStringList>
 
+#include <algorithm>
 #include <cstring>
+#include <string>
 
 namespace
 {
@@ -65,6 +71,7 @@ void pqIsopointVisibility::follow(pqServerManagerModelItem* item)
     if (auto* const filter = qobject_cast<pqPipelineFilter*>(item))
     {
       hideSplatsBehind(filter);
+      explainEmptySlice(filter);
     }
   }
 }
@@ -89,5 +96,26 @@ void pqIsopointVisibility::hideSplatsBehind(pqPipelineFilter* filter)
         controller->Hide(input->getSourceProxy(), input->getPortNumber(), view->getViewProxy());
       }
     }
+  }
+}
+
+void pqIsopointVisibility::explainEmptySlice(pqPipelineFilter* filter)
+{
+  static const QStringList filtersOfCells{ "Cut", "SliceWithPlane", "SliceAlongPolyLine", "Contour" };
+  if (!filtersOfCells.contains(filter->getProxy()->GetXMLName()) ||
+      filter->getOutputPort(0)->getDataInformation()->GetNumberOfPoints() > 0)
+  {
+    return;
+  }
+  const QList<pqOutputPort*> inputs = filter->getAllInputs();
+  if (std::any_of(inputs.begin(), inputs.end(),
+        [](pqOutputPort* input) {
+          return vtkSMIsopointRepresentationDomain::AreIsopoints(input->getDataInformation());
+        }))
+  {
+    const std::string message = std::string(filter->getProxy()->GetXMLLabel()) +
+                                " yields nothing from isopoints, which have no cells."
+                                " Apply it to the triangles of Scattered Isosurface instead.\n";
+    vtkOutputWindowDisplayWarningText(message.c_str());
   }
 }

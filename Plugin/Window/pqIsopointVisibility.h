@@ -11,7 +11,8 @@ class pqPipelineFilter;
 class pqServerManagerModelItem;
 
 /// Hides what a filter was applied to where it is drawn as splats, as ParaView's window does where
-/// it is drawn as a surface: behind opaque splats the output would not be seen.
+/// it is drawn as a surface: behind opaque splats the output would not be seen. Where a filter leaves
+/// nothing of isopoints, since it takes cells, it says what to do.
 class pqIsopointVisibility
 {
 public:
@@ -24,6 +25,9 @@ private:
   void follow(pqServerManagerModelItem* item);
 
   static void hideSplatsBehind(pqPipelineFilter* filter);
+
+  /// Says why a slice of isopoints shows nothing.
+  static void explainEmptySlice(pqPipelineFilter* filter);
 
   QSet<pqServerManagerModelItem*> NewItems;
   std::unique_ptr<QObject> Following; // as long as signals are followed

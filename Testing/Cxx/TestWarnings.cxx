@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an update warns of: isovalues without points, samples left out, fits that do not hold. One
-// warning of each for an update, with figures.
+// What an update warns of, or notes: isovalues without points, samples left out, fits that do not
+// hold. One short message of each cause, with figures, as long as the cause lasts.
 #include "InputTesting.h"
 
 #include "vtkDataSetAttributes.h"
@@ -32,24 +32,44 @@ public:
   std::vector<std::string> All;
 };
 
-std::vector<std::string> warningsOf(vtkScatteredIsopointFilter* filter)
+std::vector<std::string> messagesOf(vtkScatteredIsopointFilter* filter, unsigned long kind)
 {
   const auto watcher = vtkSmartPointer<WarningWatcher>::Take(WarningWatcher::New());
-  const unsigned long tag = filter->AddObserver(vtkCommand::WarningEvent, watcher);
+  const unsigned long tag = filter->AddObserver(kind, watcher);
   filter->Modified();
   filter->Update();
   filter->RemoveObserver(tag);
   return watcher->All;
 }
 
-void expectWarning(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+std::vector<std::string> warningsOf(vtkScatteredIsopointFilter* filter)
 {
-  const std::vector<std::string> warnings = warningsOf(filter);
-  ASSERT_EQ(warnings.size(), 1u);
+  return messagesOf(filter, vtkCommand::WarningEvent);
+}
+
+std::vector<std::string> notesOf(vtkScatteredIsopointFilter* filter)
+{
+  return messagesOf(filter, vtkCommand::MessageEvent);
+}
+
+void expectOne(const std::vector<std::string>& messages, const std::vector<std::string>& parts)
+{
+  ASSERT_EQ(messages.size(), 1u);
   for (const std::string& part : parts)
   {
-    EXPECT_NE(warnings.front().find(part), std::string::npos) << warnings.front();
+    EXPECT_NE(messages.front().find(part), std::string::npos) << messages.front();
   }
+}
+
+void expectWarning(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+{
+  expectOne(warningsOf(filter), parts);
+  EXPECT_TRUE(warningsOf(filter).empty()) << "the same again";
+}
+
+void expectNote(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+{
+  expectOne(notesOf(filter), parts);
 }
 
 template <class TFilter = vtkScatteredIsopointFilter>
@@ -77,10 +97,10 @@ TEST(Warnings, AnIsovalueOutsideTheRangeIsNamedWithTheRange)
   {
     any->SetNumberOfContours(1);
     any->SetValue(0, 8.25);
-    expectWarning(any, { "isovalue 8.25 ", "\"distance\"", "from 0.0625 to 7.5" });
+    expectWarning(any, { "No isosurface at 8.25: \"distance\" is from 0.0625 to 7.5." });
     any->SetValue(1, 0.5);
     any->SetValue(2, -1.0);
-    expectWarning(any, { "isovalues -1, 8.25 ", "from 0.0625 to 7.5" });
+    expectWarning(any, { "No isosurface at -1, 8.25: ", "from 0.0625 to 7.5" });
     EXPECT_GT(any->GetOutput()->GetNumberOfPoints(), 0);
   }
 }
@@ -95,7 +115,7 @@ TEST(Warnings, FiguresThatDifferLookDifferent)
   }
   const auto filter = newFilterOf(cloud);
   filter->SetValue(0, 300.0001);
-  expectWarning(filter, { "300.0001 has no points", "from 300 to 300.00004" });
+  expectWarning(filter, { "at 300.0001: ", "from 300 to 300.00004" });
   filter->SetValue(0, 300.0); // no sample is below
   expectWarning(filter, { "above the former and up to the latter" });
 }
@@ -114,7 +134,7 @@ TEST(Warnings, AVoidThatIsLeftWithoutPointsIsExplained)
   const auto filter = newFilterOf(cloud);
   filter->SetValue(0, 50.0);
   filter->DropGapsOn();
-  expectWarning(filter, { "50 has no points", "on both sides", "all of them are in gaps" });
+  expectWarning(filter, { "at 50: all of it is in gaps", "DropGaps" });
 }
 
 TEST(Warnings, APlaneWithoutTrianglesIsExplained)
@@ -127,7 +147,7 @@ TEST(Warnings, APlaneWithoutTrianglesIsExplained)
     cloud->GetPoints()->SetPoint(i, position[0], position[1], 0.0);
   }
   expectWarning(
-    newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "on both sides", "in one plane" });
+    newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "in one plane" });
 }
 
 TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
@@ -142,14 +162,14 @@ TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
   values->SetValue(4, 7.5);
   const auto filter = newFilterOf(cloud);
   filter->SetValue(0, 8.0);
-  expectWarning(filter, { "isovalue 8 ", " to 7.5" });
+  expectWarning(filter, { "at 8: ", " to 7.5" });
 }
 
 TEST(Warnings, AConstantArrayHasNoIsosurface)
 {
   const auto cloud = newCloud(500);
   vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars())->FillValue(0.7);
-  expectWarning(newFilterOf(cloud), { "all values of the array \"distance\" are 0.7" });
+  expectWarning(newFilterOf(cloud), { "all values of \"distance\" are 0.7" });
 }
 
 TEST(Warnings, SkippedSamplesAreCountedByTheirReason)
@@ -159,8 +179,10 @@ TEST(Warnings, SkippedSamplesAreCountedByTheirReason)
   values->SetValue(5, notANumber);
   cloud->GetPoints()->SetPoint(6, std::numeric_limits<double>::infinity(), 0.0, 0.0);
   const auto filter = newFilterOf(cloud);
-  expectWarning(filter, { "2 of 500 samples", "2 with a coordinate or value that is not finite" });
+  EXPECT_TRUE(warningsOf(newFilterOf(cloud)).empty()) << "what is left out is no problem";
+  expectNote(filter, { "Skipped 2 of 500 samples: not finite." });
   EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 2);
+  EXPECT_EQ(filter->GetNumberOfSamples(), 500);
 
   const auto other = newCloud(30);
   other->GetPointData()->Initialize();
@@ -168,12 +190,12 @@ TEST(Warnings, SkippedSamplesAreCountedByTheirReason)
   blocks->SetBlock(0, cloud);
   blocks->SetBlock(1, other);
   blocks->SetBlock(2, newCloud(400));
-  filter->SetInputData(blocks);
   for (const int byBlock : { 0, 1 })
   {
-    filter->SetContourBlocks(byBlock);
-    expectWarning(filter, { "32 of 930 samples", "2 with a coordinate",
-                            "30 of blocks without the array \"distance\"" });
+    const auto filterOfBlocks = newFilterOf(blocks.Get());
+    filterOfBlocks->SetContourBlocks(byBlock);
+    expectNote(filterOfBlocks,
+      { "Skipped 32 of 930 samples: 2 not finite, 30 in blocks without \"distance\"." });
   }
 }
 
@@ -190,7 +212,7 @@ TEST(Warnings, GhostsAloneAreMeantToBeLeftOut)
   auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
   values->SetValue(5, notANumber);
   values->Modified();
-  expectWarning(filter, { "2 of 500", "1 with a coordinate or value", "1 ghost or hidden" });
+  expectNote(filter, { "2 of 500", "1 not finite", "1 ghost or hidden" });
 }
 
 TEST(Warnings, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
@@ -210,7 +232,40 @@ TEST(Warnings, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
   ASSERT_EQ(warnings.size(), 1u);
   const std::string figures = std::to_string(filter->GetNumberOfUnprojectedPoints()) + " of " +
                               std::to_string(filter->GetOutput()->GetNumberOfPoints()) + " points";
-  EXPECT_NE(warnings.front().find(figures), std::string::npos) << warnings.front();
+  EXPECT_NE(warnings.front().find("No fit holds at " + figures), std::string::npos)
+    << warnings.front();
+  EXPECT_NE(warnings.front().find("Scattered Isosurface"), std::string::npos) << warnings.front();
+  EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
   EXPECT_TRUE(warningsOf(filter).empty());
+}
+
+TEST(Warnings, ACauseIsNamedWhenItComesUp)
+{
+  const auto cloud = newCloud(500);
+  const auto filter = newFilterOf(cloud);
+  filter->SetValue(0, 9.0);
+  expectWarning(filter, { "at 9: " });
+  filter->SetValue(0, 0.7);
+  EXPECT_TRUE(warningsOf(filter).empty());
+  filter->SetValue(0, 9.0);
+  expectWarning(filter, { "at 9: " });
+  filter->SetValue(0, 8.0);
+  expectWarning(filter, { "at 8: " });
+  filter->SetInputData(newCloud(400));
+  expectWarning(filter, { "at 8: " });
+}
+
+TEST(Warnings, WhatCountsComesFirst)
+{
+  // ParaView's list of messages shows about this many characters.
+  constexpr std::size_t shown = 70;
+  const auto cloud = newCloud(500);
+  const auto filter = newFilterOf(cloud);
+  filter->SetValue(0, 9.0);
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  const std::size_t begin = warnings.front().find("No isosurface at 9: \"distance\" is from ");
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_LE(warnings.front().find(". Choose") - begin, shown);
 }

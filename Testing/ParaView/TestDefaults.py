@@ -105,6 +105,28 @@ def input_matters_rather_than_the_active_source():
         check(kept.ContourBy[1] == "named", "a choice that both inputs have")
 
 
+def isovalue_follows_the_array():
+    """As long as nobody has chosen one."""
+    data = lattice("POINTS", first=distance, large=lambda p: 1000 * distance(p))
+    for create in filters():
+        isopoints = create(Input=produced(data))
+        first = isopoints.Isosurfaces[0]
+        isopoints.ContourBy = ["POINTS", "large"]
+        check(np.isclose(isopoints.Isosurfaces[0], 1000 * first), "the middle of the other range")
+        isopoints.UpdatePipeline()
+        check(isopoints.GetDataInformation().GetNumberOfPoints() > 100, "points")
+        isopoints.ContourBy = ["POINTS", "first"]
+        check(isopoints.Isosurfaces[0] == first, "and back")
+        isopoints.Isosurfaces = [4.25]
+        isopoints.ContourBy = ["POINTS", "large"]
+        check(list(isopoints.Isosurfaces) == [4.25], "a choice stays")
+        isopoints.Isosurfaces = [3000.0, 4000.0]
+        isopoints.ContourBy = ["POINTS", "first"]
+        check(list(isopoints.Isosurfaces) == [3000.0, 4000.0], "several stay")
+        given = create(Input=produced(data), ContourBy=["POINTS", "large"], Isosurfaces=[first])
+        check(list(given.Isosurfaces) == [first], "one that is given with the array stays")
+
+
 def panel():
     for create in filters():
         drop_gaps = create(Input=simple.Wavelet()).SMProxy.GetProperty("DropGaps")
@@ -118,6 +140,7 @@ def main(plugin):
     ids_and_ghosts_come_last()
     active_scalars_come_first_unless_constant()
     input_matters_rather_than_the_active_source()
+    isovalue_follows_the_array()
     panel()
 
 

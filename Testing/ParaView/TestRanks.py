@@ -443,9 +443,9 @@ class RanksTest(RanksTestCase):
         owner = np.sort(ranks_of(points, "skewed"))
         data = poly_data(points[owner == RANK], np.flatnonzero(owner == RANK))
         for values, bad, expected in (
-                ((9.0,), 0, f"isovalue 9 has no points: the values of the array \"value\" are from"
+                ((9.0,), 0, f"No isosurface at 9: \"value\" is from"
                  f" {field(points).min():.6g} to {field(points).max():.6g}."),
-                ((0.3,), 3, f"{3 * SIZE} of {2000 + 10 * SIZE} samples were skipped")):
+                ((0.3,), 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
             more = poly_data(cloud("uniform", 10, 20 + RANK), np.arange(10))
             vtk_to_numpy(more.GetPointData().GetArray("value"))[:] = 0.25
             vtk_to_numpy(more.GetPointData().GetArray("value"))[:bad] = np.nan
@@ -462,6 +462,7 @@ class RanksTest(RanksTestCase):
 
             warned.CallDataType = "string0"
             isopoints.AddObserver("WarningEvent", warned)
+            isopoints.AddObserver("MessageEvent", warned)
             run(isopoints, values)
             everything = gather(warnings)
             if RANK == 0:

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from xml.sax.saxutils import quoteattr
 
 # Runs in the window. It reports at each picture, the last time at the end.
 SCRIPT = """
@@ -45,7 +46,7 @@ def check(condition, message):
 
 
 def event(item, command, arguments=""):
-    return f"<pqevent object='{item}' command='{command}' arguments='{arguments}' />"
+    return f"<pqevent object='{item}' command='{command}' arguments={quoteattr(arguments)} />"
 
 
 def choose(name):
@@ -58,9 +59,13 @@ def set_property(name, value):
     return event(f"{FRAME}ProxyPanel/{name}/{kind}", command, value)
 
 
+def expect_of(item, state, value):
+    return f"<pqcheck object='{item}' property='{state}' arguments={quoteattr(value)} />"
+
+
 def expect(name, state, value):
     """That the row of a property is in a state: "enabled" or "visible"."""
-    return f"<pqcheck object='{FRAME}ProxyPanel/{name}' property='{state}' arguments='{value}' />"
+    return expect_of(f"{FRAME}ProxyPanel/{name}", state, value)
 
 
 APPLY = event(PANEL + "Accept", "activate")
@@ -83,7 +88,7 @@ def play(paraview, plugin, events, more=""):
     check("Success =  true" in done.stdout, "events could not be played")
     reports = [line[6:] for line in done.stdout.splitlines() if line.startswith("shown:")]
     check(reports, "nothing was reported")
-    return json.loads(reports[-1])
+    return json.loads(reports[-1]), done.stdout
 
 
 def inputs_are_hidden(plugin, paraview):
@@ -92,23 +97,21 @@ def inputs_are_hidden(plugin, paraview):
     names = ["Clip", "Threshold", "Calculator", "Transform"]
     for name in names:
         events += [choose(name), APPLY]
-    shown = play(paraview, plugin, events)
+    shown, _ = play(paraview, plugin, events)
     print(shown)
     check(shown.pop(names[-1] + "1") == [1, splats], "the last filter's output as splats")
     check(sorted(shown) == sorted(["ScatteredIsopoints1", "Calculator1", "Clip1", "Threshold1"]),
           "all filters")
     check(all(each == [0, splats] for each in shown.values()), "inputs are hidden")
-    shown = play(paraview, plugin, [choose("Clip"), APPLY],
-                 "simple.GetDisplayProperties(isopoints, view).Opacity = 0.5")
+    shown, _ = play(paraview, plugin, [choose("Clip"), APPLY],
+                    "simple.GetDisplayProperties(isopoints, view).Opacity = 0.5")
     check(all(visible for visible, _ in shown.values()), "translucent inputs stay")
 
 
 def rows_follow_others(plugin, paraview):
     """What has no effect is grayed out or hidden."""
-    counters = ("NumberOfSkippedSamples", "NumberOfUnprojectedPoints")
     for name in ("Scattered Isopoints", "Scattered Isosurface"):
-        events = [choose(name), *(expect(counter, "enabled", "false") for counter in counters)]
-        events += [expect("DropGaps", "visible", "true"), ADVANCED,
+        events = [choose(name), expect("DropGaps", "visible", "true"), ADVANCED,
                    expect("KeepTree", "visible", "true"), expect("ContourBlocks", "visible", "false"),
                    expect("NormalMethod", "enabled", "true")]
         points = name == "Scattered Isopoints"
@@ -125,9 +128,94 @@ def rows_follow_others(plugin, paraview):
          "isopoints = simple.GroupDatasets(Input=[wavelet])\nisopoints.UpdatePipeline()")
 
 
+def counters_are_texts(plugin, paraview):
+    """Counts and what they are a part of, of each update, in labels; one of the wavelet's 9261 samples
+    is not finite."""
+    more = """
+isopoints = simple.ProgrammableFilter(Input=wavelet, CopyArrays=1, Script='''
+import numpy as np
+values = np.array(inputs[0].PointData["RTData"])
+values[0] = np.nan
+output.PointData.append(values, "RTData")
+''')
+isopoints.UpdatePipeline()
+"""
+    panel = f"{FRAME}ProxyPanel/isopoint_counts/"
+    for name in ("Scattered Isopoints", "Scattered Isosurface"):
+        _, said = play(paraview, plugin, [
+            choose(name), expect_of(panel + "NumberOfSkippedSamples", "text", "0 of 0"), APPLY,
+            expect_of(panel + "NumberOfSkippedSamples", "text", "1 of 9261")], more)
+        check("WARN" not in said and "Warning" not in said, "no message of what is no problem")
+
+
+def help_is_at_labels(plugin, paraview):
+    """The first label of the panel."""
+    play(paraview, plugin, [
+        choose("Scattered Isopoints"),
+        expect_of(f"{FRAME}ProxyPanel/1QLabel0", "toolTip",
+                  '<html><head/><body><p align="justify">The scalar, at points or cells, whose isosurfaces '
+                  "are extracted. By default the first array that is neither constant nor the ids or ghost "
+                  "marks of points or cells.</p></body></html>")])
+
+
+def search_finds_the_filters_by_contour(plugin, paraview):
+    dialog = "pqClientMainWindow/QuickLaunchDialog"
+    key_press = 6
+    for name in ("Isopoints", "Isosurface"):
+        events = [event("pqClientMainWindow/menubar/menuFilters", "activate",
+                        "Search...\tCtrl+Space")]
+        events += [event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1")
+                   for key in f"CONTOUR {name}".upper()]
+        events += [expect_of(dialog + "/selection", "text", f"Contour Scattered {name}"),
+                   event(dialog + "/selection", "activate"), APPLY]
+        shown, _ = play(paraview, plugin, events, "isopoints = wavelet")
+        check(len(shown) == 2, f"{name} were created")
+
+
+def an_empty_slice_is_explained(plugin, paraview):
+    advice = "the triangles of Scattered Isosurface"
+    _, said = play(paraview, plugin, [choose("Slice"), APPLY])
+    check(said.count(advice) == 1, "it is said once what to slice")
+    _, said = play(paraview, plugin, [choose("Slice"), APPLY], "isopoints = wavelet")
+    check(advice not in said, "a slice of a grid is no reason")
+
+
+def isovalues_follow_the_array(plugin, paraview):
+    """In the panel, before anything is applied."""
+    more = """
+isopoints = simple.Calculator(Input=wavelet, ResultArrayName="small", Function="RTData / 1000")
+isopoints.UpdatePipeline()
+"""
+    array = event(f"{FRAME}ProxyPanel/SelectInputScalars/ComboBox", "set_string", "small")
+    _, said = play(paraview, plugin, [choose("Scattered Isopoints"), array, APPLY], more)
+    check("No isosurface" not in said, "the isovalue is in the range of the array")
+
+
+def pictures_are_traced(plugin, paraview):
+    """By an entry of the menu, with a button that stops it."""
+    path = os.path.join(tempfile.mkdtemp(), "traced.png")
+    options = "pqClientMainWindow/RayTracingOptions/"
+    samples = (options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
+               "SamplesPerPixel/IntRangeWidget/LineEdit")
+    for count, stop in (("60000", [event("pqClientMainWindow/RayTracingProgress/Stop", "activate")]),
+                        ("1", [])):
+        play(paraview, plugin, [
+            event("pqClientMainWindow/menubar/menu_File", "activate", "actionExportRayTracedPicture"),
+            event("pqClientMainWindow/FileExportDialog", "filesSelected", path),
+            event(samples, "set_string", count), event(options + "widget/OKButton", "activate"),
+            *stop])
+        check(os.path.exists(path) == (not stop), f"{count} samples: {'stopped' if stop else 'written'}")
+
+
 def main(plugin, paraview):
     inputs_are_hidden(plugin, paraview)
     rows_follow_others(plugin, paraview)
+    counters_are_texts(plugin, paraview)
+    help_is_at_labels(plugin, paraview)
+    search_finds_the_filters_by_contour(plugin, paraview)
+    an_empty_slice_is_explained(plugin, paraview)
+    isovalues_follow_the_array(plugin, paraview)
+    pictures_are_traced(plugin, paraview)
 
 
 main(*sys.argv[1:])

@@ -1,0 +1,14 @@
+# Gives the pages that ParaView makes of the filters' documentation headings and a picture:
+#
+#   cmake -DPAGES_DIR=... -DPICTURE=... -P FormatHelp.cmake
+#
+# ParaView starts paragraphs at blank lines; those that are bold are headings.
+file(COPY "${PICTURE}" DESTINATION "${PAGES_DIR}")
+get_filename_component(picture "${PICTURE}" NAME)
+file(GLOB pages "${PAGES_DIR}/filters.*.html")
+foreach (page IN LISTS pages)
+  file(READ "${page}" text)
+  string(REGEX REPLACE "<p>\n *<b>([^<]+)</b>\n<p>" "<h3>\\1</h3>\n<p>" text "${text}")
+  string(REPLACE "</div>\n" "</div>\n<p><img src=\"${picture}\" width=\"600\"/></p>\n" text "${text}")
+  file(WRITE "${page}" "${text}")
+endforeach ()

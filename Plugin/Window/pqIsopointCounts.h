@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef pqIsopointCounts_h
+#define pqIsopointCounts_h
+
+#include "pqPropertyWidget.h"
+
+#include <vector>
+
+class QLabel;
+class vtkSMProperty;
+class vtkSMPropertyGroup;
+
+/// Counts of the last update as text, "27 of 12717". What the property with a function "name" is a
+/// part of has the function "name of".
+class pqIsopointCounts : public pqPropertyWidget
+{
+  Q_OBJECT
+  using Superclass = pqPropertyWidget;
+
+public:
+  pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
+
+private Q_SLOTS:
+  void updateTexts();
+
+private:
+  struct Count
+  {
+    QLabel* Text;
+    vtkSMProperty* Part;
+    vtkSMProperty* Whole; // null: of nothing
+  };
+  std::vector<Count> Counts;
+};
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef pqIsopointSearch_h
+#define pqIsopointSearch_h
+
+#include <QWidget>
+
+#include <memory>
+
+/// Lets the quick search (Filters > Search) find the filters by "contour": it looks for the words in
+/// the names of menu entries, so that these get another one.
+class pqIsopointSearch
+{
+public:
+  /// Called when the plugin is loaded into the window.
+  void startup();
+  void shutdown();
+
+private:
+  /// Entries with the icons and states of those in the menu.
+  void updateEntries();
+
+  std::unique_ptr<QWidget> Entries;
+};
+
+#endif
