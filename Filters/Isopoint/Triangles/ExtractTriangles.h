@@ -12,6 +12,7 @@
 #include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
+#include "Isopoint/Triangles/CreaseMesh.h"
 #include "Isopoint/Triangles/GapTetrahedra.h"
 #include "Isopoint/Triangles/MarchingTetrahedra.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
@@ -150,6 +151,10 @@ private:
     TriangleSurface surface;
     surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
+    if (isMoved && this->Request.fit->highest == FitOrder::Crease)
+    {
+      meshCreases(this->Run, surface.vertices, surface.triangles);
+    }
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);
     return surface;

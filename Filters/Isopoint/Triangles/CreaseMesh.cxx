@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Isopoint/Triangles/CreaseMesh.h"
+
+#include "Isopoint/Base/SortUnique.h"
+#include "Isopoint/Triangles/FacetMesh.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace isopoint
+{
+namespace
+{
+
+/// A crease's vertex is at most this many lengths of the edge away from the middle of it.
+constexpr double mostOffset = 1.0;
+
+/// The vertex of a corner is at most this many lengths of the longest edge away from the middle of
+/// the triangle.
+constexpr double mostCornerOffset = 2.0;
+
+/// The value of a fit at a place near its vertex, over its slope there.
+double levelAt(const LocalFit& fit, const Vector& place)
+{
+  const Vector o = difference(place, fit.position);
+  const Hessian& h = fit.hessian;
+  const double bend = 0.5 * (h[0] * o[0] * o[0] + h[1] * o[1] * o[1] + h[2] * o[2] * o[2]) +
+                      h[3] * o[0] * o[1] + h[4] * o[0] * o[2] + h[5] * o[1] * o[2];
+  return (dot(fit.gradient, o) + bend) / lengthOf(fit.gradient);
+}
+
+Vector slopeAt(const LocalFit& fit, const Vector& place)
+{
+  const Vector o = difference(place, fit.position);
+  const Hessian& h = fit.hessian;
+  const Vector gradient{ fit.gradient[0] + h[0] * o[0] + h[3] * o[1] + h[4] * o[2],
+    fit.gradient[1] + h[3] * o[0] + h[1] * o[1] + h[5] * o[2],
+    fit.gradient[2] + h[4] * o[0] + h[5] * o[1] + h[2] * o[2] };
+  return scaled(1.0 / lengthOf(fit.gradient), gradient);
+}
+
+/// The place near another one where two or three fits have the isovalue: Newton's steps of least
+/// length. Not finite where they do not meet.
+template <int count>
+Vector commonZero(const std::array<const LocalFit*, count>& fits, const Vector& from)
+{
+  constexpr int steps = 4;
+  Vector place = from;
+  for (int step = 0; step < steps; ++step)
+  {
+    Eigen::Matrix<double, count, 3> slopes;
+    Eigen::Matrix<double, count, 1> levels;
+    for (int i = 0; i < count; ++i)
+    {
+      const Vector slope = slopeAt(*fits[static_cast<std::size_t>(i)], place);
+      slopes.row(i) << slope[0], slope[1], slope[2];
+      levels[i] = levelAt(*fits[static_cast<std::size_t>(i)], place);
+    }
+    const Eigen::Matrix<double, count, count> products = slopes * slopes.transpose();
+    const Eigen::Vector3d move = slopes.transpose() * (products.inverse() * levels);
+    place = { place[0] - move[0], place[1] - move[1], place[2] - move[2] };
+  }
+  return place;
+}
+
+bool isFinite(const Vector& vector)
+{
+  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
+Vector middle(const Vector& a, const Vector& b)
+{
+  return scaled(0.5, sum(a, 1.0, b));
+}
+
+class CreaseMesher
+{
+public:
+  CreaseMesher(
+    const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
+    : Run(execution)
+    , Surface(surface)
+    , Triangles(triangles)
+  {
+  }
+
+  void mesh()
+  {
+    this->computeNormals();
+    std::vector<Facet> facets = this->takeFacets();
+    if (facets.empty())
+    {
+      return;
+    }
+    facets = this->withoutUnfitted(std::move(facets));
+    facets = this->split(facets);
+    facets = this->untangled(std::move(facets));
+    for (const Facet& facet : facets)
+    {
+      this->Triangles.push_back(facet.corners);
+    }
+    this->order();
+  }
+
+private:
+  const LocalFit& fitOf(std::size_t vertex) const { return this->Surface.fits[vertex]; }
+  bool isFitted(std::size_t vertex) const { return this->fitOf(vertex).order.has_value(); }
+  bool isCrease(std::size_t vertex) const { return this->fitOf(vertex).order == FitOrder::Crease; }
+
+  void computeNormals()
+  {
+    this->Normals.reserve(this->Surface.size());
+    for (const LocalFit& fit : this->Surface.fits)
+    {
+      this->Normals.push_back(scaled(-1.0, directionOf(fit.gradient)));
+    }
+  }
+
+  /// Takes the triangles beside creases out of the surface, and those around.
+  std::vector<Facet> takeFacets()
+  {
+    std::vector<bool> isNear(this->Surface.size(), false);
+    for (std::size_t i = 0; i < isNear.size(); ++i)
+    {
+      isNear[i] = this->isCrease(i);
+    }
+    const auto isAnyNear = [&isNear](const SurfaceTriangle& triangle)
+    {
+      return std::any_of(
+        triangle.begin(), triangle.end(), [&](std::size_t corner) { return isNear[corner]; });
+    };
+    this->IsInner.assign(isNear.size(), false);
+    for (const SurfaceTriangle& triangle : this->Triangles)
+    {
+      if (isAnyNear(triangle))
+      {
+        for (const std::size_t corner : triangle)
+        {
+          this->IsInner[corner] = true;
+        }
+      }
+    }
+    isNear = this->IsInner;
+    const auto end = std::stable_partition(this->Triangles.begin(), this->Triangles.end(),
+      [&](const SurfaceTriangle& triangle) { return !isAnyNear(triangle); });
+    std::vector<Facet> facets;
+    std::transform(end, this->Triangles.end(), std::back_inserter(facets),
+      [this](const SurfaceTriangle& triangle) { return this->facetOf(triangle); });
+    this->Triangles.erase(end, this->Triangles.end());
+    return facets;
+  }
+
+  Facet facetOf(const SurfaceTriangle& corners) const
+  {
+    return { corners, this->normalOf({ corners[0], corners[1], corners[2] }) };
+  }
+
+  Vector normalOf(std::initializer_list<std::size_t> vertices) const
+  {
+    Vector all{};
+    for (const std::size_t vertex : vertices)
+    {
+      all = sum(all, 1.0, this->Normals[vertex]);
+    }
+    return directionOf(all);
+  }
+
+  /// Merges vertices at which no fit holds with the nearest neighbor that leaves no triangle
+  /// looking the wrong way.
+  std::vector<Facet> withoutUnfitted(std::vector<Facet> facets) const
+  {
+    FacetMesh mesh(this->Surface.positions, this->IsInner, std::move(facets));
+    for (std::size_t vertex = 0; vertex < this->IsInner.size(); ++vertex)
+    {
+      if (!this->IsInner[vertex] || this->isFitted(vertex))
+      {
+        continue;
+      }
+      std::vector<std::pair<double, std::size_t>> neighbors;
+      for (const std::size_t neighbor : mesh.neighborsOf(vertex))
+      {
+        if (this->isFitted(neighbor))
+        {
+          neighbors.emplace_back(
+            lengthOf(difference(this->Surface.positions[neighbor], this->Surface.positions[vertex])),
+            neighbor);
+        }
+      }
+      std::sort(neighbors.begin(), neighbors.end());
+      std::any_of(neighbors.begin(), neighbors.end(), [&](const auto& each)
+        { return mesh.collapse(vertex, each.second, [&](const Facet& moved)
+            { return mesh.signedArea(this->facetOf(moved.corners)) > 0.0; }); });
+    }
+    return mesh.facets();
+  }
+
+  using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
+
+  /// Whether two vertices are on different pieces.
+  bool isAcrossCrease(std::size_t a, std::size_t b) const
+  {
+    return this->IsInner[a] && this->IsInner[b] && this->isFitted(a) && this->isFitted(b) &&
+           (this->isCrease(a) || this->isCrease(b)) &&
+           dot(this->Normals[a], this->Normals[b]) < mostCreaseCosine;
+  }
+
+  /// Where an edge that is laid along both pieces crosses the crease between them.
+  std::optional<Vector> placeOnCrease(std::size_t a, std::size_t b) const
+  {
+    const Vector& p = this->Surface.positions[a];
+    const Vector& q = this->Surface.positions[b];
+    const std::array<const LocalFit*, 2> fits{ &this->fitOf(a), &this->fitOf(b) };
+    const Vector center = middle(p, q);
+    const Vector near = commonZero<2>(fits, center);
+    const Vector along = directionOf(cross(this->Normals[a], this->Normals[b]));
+    const auto offsetOf = [&](const Vector& place)
+    {
+      const Vector offset = difference(place, near);
+      const double shift = dot(offset, along);
+      return std::pair(shift, lengthOf(sum(offset, -shift, along)));
+    };
+    const auto [pShift, pOff] = offsetOf(p);
+    const auto [qShift, qOff] = offsetOf(q);
+    const double off = pOff + qOff;
+    const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
+    const Vector place = commonZero<2>(fits, sum(near, shift, along));
+    const double length = lengthOf(difference(q, p));
+    return isFinite(place) && lengthOf(difference(place, center)) <= mostOffset * length
+             ? std::optional(place)
+             : std::nullopt;
+  }
+
+  /// Appends a vertex, which takes over the edge of another one.
+  std::size_t addVertex(
+    std::size_t like, const Vector& place, std::initializer_list<std::size_t> around)
+  {
+    Isosurface& surface = this->Surface;
+    const std::size_t vertex = surface.size();
+    LocalFit fit = surface.fits[like];
+    double slope = 0.0;
+    for (const std::size_t each : around)
+    {
+      slope += lengthOf(this->fitOf(each).gradient) / static_cast<double>(around.size());
+    }
+    const Vector normal = this->normalOf(around);
+    fit.position = place;
+    fit.gradient = scaled(-slope, normal);
+    fit.hessian = {};
+    fit.isSmooth = false;
+    fit.order = FitOrder::Crease;
+    fit.creases.clear();
+    surface.edges.push_back(IsopointEdge(surface.edges[like]));
+    surface.positions.push_back(place);
+    surface.decreasingEdges.push_back(Vector(surface.decreasingEdges[like]));
+    surface.leaves.push_back(EdgeLeaves(surface.leaves[like]));
+    surface.fits.push_back(std::move(fit));
+    this->Normals.push_back(normal);
+    this->IsInner.push_back(true);
+    return vertex;
+  }
+
+  std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
+  {
+    const auto found = this->OnCreases.find(std::minmax(a, b));
+    return found != this->OnCreases.end() ? std::optional(found->second) : std::nullopt;
+  }
+
+  std::vector<Facet> split(const std::vector<Facet>& facets)
+  {
+    this->FirstNew = this->Surface.size();
+    std::vector<Edge> edges;
+    for (const Facet& facet : facets)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const Edge edge = std::minmax({ facet.corners[i], facet.corners[(i + 1) % 3] });
+        if (this->isAcrossCrease(edge.first, edge.second))
+        {
+          edges.push_back(edge);
+        }
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& [a, b] : edges)
+    {
+      if (const std::optional<Vector> place = this->placeOnCrease(a, b))
+      {
+        this->OnCreases[{ a, b }] = this->addVertex(a, *place, { a, b });
+      }
+    }
+    std::vector<Facet> parts;
+    for (const Facet& facet : facets)
+    {
+      this->addParts(facet, parts);
+    }
+    return parts;
+  }
+
+  void addParts(const Facet& facet, std::vector<Facet>& parts)
+  {
+    std::array<std::optional<std::size_t>, 3> onEdges;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      onEdges[i] = this->vertexOnCrease(facet.corners[i], facet.corners[(i + 1) % 3]);
+      count += onEdges[i] ? 1 : 0;
+    }
+    // Turned so that the corner that differs is the first one.
+    const auto turnedTo = [&](std::size_t first)
+    {
+      return std::array{ facet.corners[first], facet.corners[(first + 1) % 3],
+        facet.corners[(first + 2) % 3] };
+    };
+    if (count == 0)
+    {
+      parts.push_back(facet);
+    }
+    else if (count == 1)
+    {
+      const auto edge = static_cast<std::size_t>(
+        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return each; }) -
+        onEdges.begin());
+      const auto [a, b, c] = turnedTo(edge);
+      parts.push_back({ { a, *onEdges[edge], c }, this->normalOf({ a, c }) });
+      parts.push_back({ { *onEdges[edge], b, c }, this->normalOf({ b, c }) });
+    }
+    else if (count == 2)
+    {
+      const auto whole = static_cast<std::size_t>(
+        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return !each; }) -
+        onEdges.begin());
+      const auto [a, b, c] = turnedTo((whole + 2) % 3);
+      this->addTwoPieces(a, b, c, *onEdges[(whole + 2) % 3], *onEdges[(whole + 1) % 3], parts);
+    }
+    else
+    {
+      this->addThreePieces(facet.corners, { *onEdges[0], *onEdges[1], *onEdges[2] }, parts);
+    }
+  }
+
+  /// @param a alone on its piece; ab, ca where the crease crosses
+  void addTwoPieces(std::size_t a, std::size_t b, std::size_t c, std::size_t ab, std::size_t ca,
+    std::vector<Facet>& parts) const
+  {
+    const auto lengthBetween = [this](std::size_t p, std::size_t q)
+    { return lengthOf(difference(this->Surface.positions[p], this->Surface.positions[q])); };
+    const Vector normal = this->normalOf({ b, c });
+    parts.push_back({ { a, ab, ca }, this->Normals[a] });
+    if (lengthBetween(ab, c) < lengthBetween(ca, b))
+    {
+      parts.push_back({ { ab, b, c }, normal });
+      parts.push_back({ { ab, c, ca }, normal });
+    }
+    else
+    {
+      parts.push_back({ { ab, b, ca }, normal });
+      parts.push_back({ { b, c, ca }, normal });
+    }
+  }
+
+  void addThreePieces(const SurfaceTriangle& corners, const std::array<std::size_t, 3>& onEdges,
+    std::vector<Facet>& parts)
+  {
+    const auto& [a, b, c] = corners;
+    const auto& [ab, bc, ca] = onEdges;
+    if (const std::optional<Vector> place = this->placeOfCorner(corners))
+    {
+      const std::size_t corner = this->addVertex(a, *place, { a, b, c });
+      for (const auto& [piece, from, to] :
+        { std::array{ a, ca, ab }, std::array{ b, ab, bc }, std::array{ c, bc, ca } })
+      {
+        parts.push_back({ { piece, to, corner }, this->Normals[piece] });
+        parts.push_back({ { piece, corner, from }, this->Normals[piece] });
+      }
+      return;
+    }
+    parts.push_back({ { a, ab, ca }, this->Normals[a] });
+    parts.push_back({ { b, bc, ab }, this->Normals[b] });
+    parts.push_back({ { c, ca, bc }, this->Normals[c] });
+    parts.push_back({ { ab, bc, ca }, this->normalOf({ a, b, c }) });
+  }
+
+  std::optional<Vector> placeOfCorner(const SurfaceTriangle& corners) const
+  {
+    const auto& [a, b, c] = corners;
+    const std::vector<Vector>& positions = this->Surface.positions;
+    const Vector center =
+      scaled(1.0 / 3.0, sum(sum(positions[a], 1.0, positions[b]), 1.0, positions[c]));
+    const Vector place = commonZero<3>({ &this->fitOf(a), &this->fitOf(b), &this->fitOf(c) }, center);
+    const double longest = std::max({ lengthOf(difference(positions[a], positions[b])),
+      lengthOf(difference(positions[b], positions[c])),
+      lengthOf(difference(positions[c], positions[a])) });
+    return isFinite(place) && lengthOf(difference(place, center)) <= mostCornerOffset * longest
+             ? std::optional(place)
+             : std::nullopt;
+  }
+
+  /// Flips edges of triangles that look the wrong way, and merges vertices of creases where that
+  /// does not suffice.
+  std::vector<Facet> untangled(std::vector<Facet> facets) const
+  {
+    FacetMesh mesh(this->Surface.positions, this->IsInner, std::move(facets));
+    mesh.untangle();
+    for (const std::size_t inverted : mesh.invertedFacets())
+    {
+      this->mergeAt(mesh, inverted);
+    }
+    mesh.untangle();
+    return mesh.facets();
+  }
+
+  void mergeAt(FacetMesh& mesh, std::size_t inverted) const
+  {
+    const Facet facet = mesh.facet(inverted);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      for (const auto& [from, to] :
+        { std::pair(i, (i + 1) % 3), std::pair((i + 1) % 3, i) })
+      {
+        const std::size_t vertex = facet.corners[from];
+        const std::size_t neighbor = facet.corners[to];
+        const bool isPossible = vertex >= this->FirstNew && neighbor >= this->FirstNew;
+        if (isPossible && mesh.collapse(vertex, neighbor,
+                            [&](const Facet& moved) { return mesh.signedArea(moved) >= 0.0; }))
+        {
+          return;
+        }
+      }
+    }
+  }
+
+  /// Drops vertices without triangles, and orders the triangles.
+  void order()
+  {
+    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> number(this->Surface.size(), unused);
+    for (const SurfaceTriangle& triangle : this->Triangles)
+    {
+      for (const std::size_t corner : triangle)
+      {
+        number[corner] = 0;
+      }
+    }
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < number.size(); ++i)
+    {
+      if (number[i] != unused)
+      {
+        number[i] = kept.size();
+        kept.push_back(i);
+      }
+    }
+    if (kept.size() < number.size())
+    {
+      const std::size_t dropped = this->Surface.droppedEdges;
+      this->Surface = chosenIsopoints(this->Surface, kept);
+      this->Surface.droppedEdges = dropped;
+    }
+    for (SurfaceTriangle& triangle : this->Triangles)
+    {
+      triangle = { number[triangle[0]], number[triangle[1]], number[triangle[2]] };
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    }
+    this->Triangles = sortedUnique(this->Run, this->Triangles, kept.size(),
+      [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+  }
+
+  const Execution& Run;
+  Isosurface& Surface;
+  std::vector<SurfaceTriangle>& Triangles;
+  std::vector<Vector> Normals;
+  std::vector<bool> IsInner;                  // whether all triangles around a vertex are facets
+  std::map<Edge, std::size_t> OnCreases;      // vertices, by the edges that they are on
+  std::size_t FirstNew = 0;                   // vertex
+};
+
+} // namespace
+
+void meshCreases(
+  const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
+{
+  CreaseMesher(execution, surface, triangles).mesh();
+}
+
+} // namespace isopoint
