@@ -174,34 +174,93 @@ private:
     return directionOf(all);
   }
 
-  /// Merges vertices at which no fit holds with the nearest neighbor that leaves no triangle
-  /// looking the wrong way.
-  std::vector<Facet> withoutUnfitted(std::vector<Facet> facets) const
+  bool isAlike(std::size_t a, std::size_t b) const
+  {
+    return dot(this->Normals[a], this->Normals[b]) >= mostCreaseCosine;
+  }
+
+  /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one with
+  /// a normal between those of all neighbors.
+  bool isLost(std::size_t vertex, const std::vector<std::size_t>& neighbors) const
+  {
+    return !this->isFitted(vertex) ||
+           (!this->isCrease(vertex) &&
+             std::none_of(neighbors.begin(), neighbors.end(), [&](std::size_t neighbor)
+               { return this->isFitted(neighbor) && this->isAlike(vertex, neighbor); }));
+  }
+
+  /// Merges vertices that are lost with the nearest neighbor that leaves no triangle looking the
+  /// wrong way, and finds the fits that describe pieces.
+  std::vector<Facet> withoutUnfitted(std::vector<Facet> facets)
   {
     FacetMesh mesh(this->Surface.positions, this->IsInner, std::move(facets));
     for (std::size_t vertex = 0; vertex < this->IsInner.size(); ++vertex)
     {
-      if (!this->IsInner[vertex] || this->isFitted(vertex))
+      if (this->IsInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
       {
-        continue;
+        this->mergeWithNearest(mesh, vertex);
       }
-      std::vector<std::pair<double, std::size_t>> neighbors;
-      for (const std::size_t neighbor : mesh.neighborsOf(vertex))
-      {
-        if (this->isFitted(neighbor))
-        {
-          neighbors.emplace_back(
-            lengthOf(difference(this->Surface.positions[neighbor], this->Surface.positions[vertex])),
-            neighbor);
-        }
-      }
-      std::sort(neighbors.begin(), neighbors.end());
-      std::any_of(neighbors.begin(), neighbors.end(), [&](const auto& each)
-        { return mesh.collapse(vertex, each.second, [&](const Facet& moved)
-            { return mesh.signedArea(this->facetOf(moved.corners)) > 0.0; }); });
+    }
+    this->Pieces.resize(this->IsInner.size());
+    for (std::size_t vertex = 0; vertex < this->IsInner.size(); ++vertex)
+    {
+      this->Pieces[vertex] = this->IsInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
     }
     return mesh.facets();
   }
+
+  /// Neighbors that are wanted, the nearest first.
+  template <class IsWanted>
+  std::vector<std::size_t> nearestNeighbors(
+    const FacetMesh& mesh, std::size_t vertex, const IsWanted& isWanted) const
+  {
+    std::vector<std::pair<double, std::size_t>> byDistance;
+    for (const std::size_t neighbor : mesh.neighborsOf(vertex))
+    {
+      if (isWanted(neighbor))
+      {
+        byDistance.emplace_back(
+          lengthOf(difference(this->Surface.positions[neighbor], this->Surface.positions[vertex])),
+          neighbor);
+      }
+    }
+    std::sort(byDistance.begin(), byDistance.end());
+    std::vector<std::size_t> neighbors;
+    for (const auto& [distance, neighbor] : byDistance)
+    {
+      neighbors.push_back(neighbor);
+    }
+    return neighbors;
+  }
+
+  void mergeWithNearest(FacetMesh& mesh, std::size_t vertex) const
+  {
+    const auto isUpright = [&](const Facet& moved)
+    { return mesh.signedArea(this->facetOf(moved.corners)) > 0.0; };
+    for (const std::size_t neighbor : this->nearestNeighbors(
+           mesh, vertex, [this](std::size_t each) { return this->isFitted(each); }))
+    {
+      if (mesh.collapse(vertex, neighbor, isUpright))
+      {
+        return;
+      }
+    }
+  }
+
+  /// The vertex whose fit describes the piece that a vertex is on: beside a crease smooth fits are
+  /// rounded, so that of the nearest neighbor on the piece that knows the crease.
+  std::size_t pieceOf(const FacetMesh& mesh, std::size_t vertex) const
+  {
+    if (this->isCrease(vertex))
+    {
+      return vertex;
+    }
+    const std::vector<std::size_t> alike = this->nearestNeighbors(mesh, vertex,
+      [&](std::size_t each) { return this->isCrease(each) && this->isAlike(vertex, each); });
+    return alike.empty() ? vertex : alike.front();
+  }
+
+  const LocalFit& pieceFit(std::size_t vertex) const { return this->fitOf(this->Pieces[vertex]); }
 
   using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
 
@@ -210,7 +269,7 @@ private:
   {
     return this->IsInner[a] && this->IsInner[b] && this->isFitted(a) && this->isFitted(b) &&
            (this->isCrease(a) || this->isCrease(b)) &&
-           dot(this->Normals[a], this->Normals[b]) < mostCreaseCosine;
+           !this->isAlike(a, b);
   }
 
   /// Where an edge that is laid along both pieces crosses the crease between them.
@@ -218,7 +277,7 @@ private:
   {
     const Vector& p = this->Surface.positions[a];
     const Vector& q = this->Surface.positions[b];
-    const std::array<const LocalFit*, 2> fits{ &this->fitOf(a), &this->fitOf(b) };
+    const std::array<const LocalFit*, 2> fits{ &this->pieceFit(a), &this->pieceFit(b) };
     const Vector center = middle(p, q);
     const Vector near = commonZero<2>(fits, center);
     const Vector along = directionOf(cross(this->Normals[a], this->Normals[b]));
@@ -396,7 +455,8 @@ private:
     const std::vector<Vector>& positions = this->Surface.positions;
     const Vector center =
       scaled(1.0 / 3.0, sum(sum(positions[a], 1.0, positions[b]), 1.0, positions[c]));
-    const Vector place = commonZero<3>({ &this->fitOf(a), &this->fitOf(b), &this->fitOf(c) }, center);
+    const Vector place = commonZero<3>(
+      { &this->pieceFit(a), &this->pieceFit(b), &this->pieceFit(c) }, center);
     const double longest = std::max({ lengthOf(difference(positions[a], positions[b])),
       lengthOf(difference(positions[b], positions[c])),
       lengthOf(difference(positions[c], positions[a])) });
@@ -480,6 +540,7 @@ private:
   std::vector<SurfaceTriangle>& Triangles;
   std::vector<Vector> Normals;
   std::vector<bool> IsInner;                  // whether all triangles around a vertex are facets
+  std::vector<std::size_t> Pieces;            // the vertex whose fit describes that of a vertex
   std::map<Edge, std::size_t> OnCreases;      // vertices, by the edges that they are on
   std::size_t FirstNew = 0;                   // vertex
 };

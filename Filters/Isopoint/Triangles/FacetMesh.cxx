@@ -172,7 +172,12 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
 std::vector<std::size_t> FacetMesh::neighborsOf(std::size_t vertex) const
 {
   std::vector<std::size_t> neighbors;
-  for (const std::size_t facet : this->FacetsAround.at(vertex))
+  const auto around = this->FacetsAround.find(vertex);
+  if (around == this->FacetsAround.end())
+  {
+    return neighbors;
+  }
+  for (const std::size_t facet : around->second)
   {
     for (const std::size_t corner : this->Facets[facet].corners)
     {

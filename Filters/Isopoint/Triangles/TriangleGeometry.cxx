@@ -49,7 +49,9 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   const auto isTurned = [&](const SurfaceTriangle& triangle)
   {
     const auto& [a, b, c] = triangle;
-    if (!isMoved(a) && !isMoved(b) && !isMoved(c))
+    const bool isAtCrease = std::any_of(triangle.begin(), triangle.end(),
+      [&fits](std::size_t vertex) { return fits[vertex].order == FitOrder::Crease; });
+    if (isAtCrease || (!isMoved(a) && !isMoved(b) && !isMoved(c)))
     {
       return false;
     }

@@ -18,6 +18,7 @@ namespace isopoint
 /// directions against the three gradients, and that of the moved ones has not: then the three
 /// vertices stay, as if no fit held; until no triangle is turned over. (Linear interpolation alone
 /// leaves some that look the wrong way in flat tetrahedra.)
+/// Triangles with a vertex of a fit with creases are left to meshCreases().
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
