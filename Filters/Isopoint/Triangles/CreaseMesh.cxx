@@ -28,30 +28,52 @@ constexpr double mostOffset = 1.0;
 /// the triangle.
 constexpr double mostCornerOffset = 2.0;
 
-/// The value of a fit at a place near its vertex, over its slope there.
-double levelAt(const LocalFit& fit, const Vector& place)
+/// One of the smooth pieces that meet at a crease: where a function of degree two is zero.
+struct Piece
 {
-  const Vector o = difference(place, fit.position);
-  const Hessian& h = fit.hessian;
-  const double bend = 0.5 * (h[0] * o[0] * o[0] + h[1] * o[1] * o[1] + h[2] * o[2] * o[2]) +
-                      h[3] * o[0] * o[1] + h[4] * o[0] * o[2] + h[5] * o[1] * o[2];
-  return (dot(fit.gradient, o) + bend) / lengthOf(fit.gradient);
-}
+  Vector place; // on it
+  Vector slope; // there, of length 1
+  Hessian bend; // over the slope
 
-Vector slopeAt(const LocalFit& fit, const Vector& place)
-{
-  const Vector o = difference(place, fit.position);
-  const Hessian& h = fit.hessian;
-  const Vector gradient{ fit.gradient[0] + h[0] * o[0] + h[3] * o[1] + h[4] * o[2],
-    fit.gradient[1] + h[3] * o[0] + h[1] * o[1] + h[5] * o[2],
-    fit.gradient[2] + h[4] * o[0] + h[5] * o[1] + h[2] * o[2] };
-  return scaled(1.0 / lengthOf(fit.gradient), gradient);
-}
+  explicit Piece(const LocalFit& fit)
+    : place(fit.position)
+    , slope(directionOf(fit.gradient))
+    , bend(fit.hessian)
+  {
+    for (double& each : this->bend)
+    {
+      each /= lengthOf(fit.gradient);
+    }
+  }
 
-/// The place near another one where two or three fits have the isovalue: Newton's steps of least
-/// length. Not finite where they do not meet.
+  /// The tangent plane of another piece of a vertex's fit.
+  Piece(const Vector& vertex, const CreasePlane& plane)
+    : place(sum(vertex, -plane.distance, plane.inward))
+    , slope(plane.inward)
+    , bend{}
+  {
+  }
+
+  double valueAt(const Vector& position) const
+  {
+    const Vector o = difference(position, this->place);
+    return 0.5 * dot(sum(this->slope, 1.0, this->slopeAt(position)), o);
+  }
+
+  Vector slopeAt(const Vector& position) const
+  {
+    const Vector o = difference(position, this->place);
+    const Hessian& h = this->bend;
+    return { this->slope[0] + h[0] * o[0] + h[3] * o[1] + h[4] * o[2],
+      this->slope[1] + h[3] * o[0] + h[1] * o[1] + h[5] * o[2],
+      this->slope[2] + h[4] * o[0] + h[5] * o[1] + h[2] * o[2] };
+  }
+};
+
+/// The place near another one where two or three pieces meet: Newton's steps of least length. Not
+/// finite where they do not.
 template <int count>
-Vector commonZero(const std::array<const LocalFit*, count>& fits, const Vector& from)
+Vector meetingOf(const std::array<Piece, count>& pieces, const Vector& from)
 {
   constexpr int steps = 4;
   Vector place = from;
@@ -61,9 +83,10 @@ Vector commonZero(const std::array<const LocalFit*, count>& fits, const Vector& 
     Eigen::Matrix<double, count, 1> levels;
     for (int i = 0; i < count; ++i)
     {
-      const Vector slope = slopeAt(*fits[static_cast<std::size_t>(i)], place);
+      const Piece& piece = pieces[static_cast<std::size_t>(i)];
+      const Vector slope = piece.slopeAt(place);
       slopes.row(i) << slope[0], slope[1], slope[2];
-      levels[i] = levelAt(*fits[static_cast<std::size_t>(i)], place);
+      levels[i] = piece.valueAt(place);
     }
     const Eigen::Matrix<double, count, count> products = slopes * slopes.transpose();
     const Eigen::Vector3d move = slopes.transpose() * (products.inverse() * levels);
@@ -260,7 +283,54 @@ private:
     return alike.empty() ? vertex : alike.front();
   }
 
-  const LocalFit& pieceFit(std::size_t vertex) const { return this->fitOf(this->Pieces[vertex]); }
+  /// The pieces that vertices are on: all as the vertex whose fit has the most pieces sees them, if
+  /// it sees all, or else each as its own vertex does.
+  template <int count>
+  std::array<Piece, count> piecesAt(const std::array<std::size_t, count>& vertices) const
+  {
+    const auto seen = [this](std::size_t vertex)
+    { return this->fitOf(this->Pieces[vertex]).creases.size(); };
+    const std::size_t most = *std::max_element(vertices.begin(), vertices.end(),
+      [&](std::size_t a, std::size_t b) { return seen(a) < seen(b); });
+    std::array<Piece, count> pieces = this->ownPieces(vertices, std::make_index_sequence<count>());
+    std::array<Piece, count> all = pieces;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      const std::optional<Piece> piece = this->pieceSeenFrom(most, vertices[i]);
+      if (!piece)
+      {
+        return pieces;
+      }
+      all[i] = *piece;
+    }
+    return all;
+  }
+
+  template <std::size_t count, std::size_t... indices>
+  std::array<Piece, count> ownPieces(
+    const std::array<std::size_t, count>& vertices, std::index_sequence<indices...>) const
+  {
+    return { Piece(this->fitOf(this->Pieces[vertices[indices]]))... };
+  }
+
+  /// The piece of a vertex as another one's fit sees it, if that has a piece of a similar normal,
+  /// and sees more pieces.
+  std::optional<Piece> pieceSeenFrom(std::size_t viewer, std::size_t vertex) const
+  {
+    const LocalFit& fit = this->fitOf(this->Pieces[viewer]);
+    if (viewer == vertex || this->fitOf(this->Pieces[vertex]).creases.size() == fit.creases.size())
+    {
+      return Piece(this->fitOf(this->Pieces[vertex]));
+    }
+    for (const CreasePlane& plane : fit.creases)
+    {
+      if (std::abs(dot(plane.inward, this->Normals[vertex])) >= mostCreaseCosine)
+      {
+        return Piece(fit.position, plane);
+      }
+    }
+    return std::nullopt;
+  }
 
   using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
 
@@ -277,9 +347,9 @@ private:
   {
     const Vector& p = this->Surface.positions[a];
     const Vector& q = this->Surface.positions[b];
-    const std::array<const LocalFit*, 2> fits{ &this->pieceFit(a), &this->pieceFit(b) };
+    const std::array<Piece, 2> pieces = this->piecesAt<2>({ a, b });
     const Vector center = middle(p, q);
-    const Vector near = commonZero<2>(fits, center);
+    const Vector near = meetingOf<2>(pieces, center);
     const Vector along = directionOf(cross(this->Normals[a], this->Normals[b]));
     const auto offsetOf = [&](const Vector& place)
     {
@@ -291,7 +361,7 @@ private:
     const auto [qShift, qOff] = offsetOf(q);
     const double off = pOff + qOff;
     const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
-    const Vector place = commonZero<2>(fits, sum(near, shift, along));
+    const Vector place = meetingOf<2>(pieces, sum(near, shift, along));
     const double length = lengthOf(difference(q, p));
     return isFinite(place) && lengthOf(difference(place, center)) <= mostOffset * length
              ? std::optional(place)
@@ -455,8 +525,7 @@ private:
     const std::vector<Vector>& positions = this->Surface.positions;
     const Vector center =
       scaled(1.0 / 3.0, sum(sum(positions[a], 1.0, positions[b]), 1.0, positions[c]));
-    const Vector place = commonZero<3>(
-      { &this->pieceFit(a), &this->pieceFit(b), &this->pieceFit(c) }, center);
+    const Vector place = meetingOf<3>(this->piecesAt<3>(corners), center);
     const double longest = std::max({ lengthOf(difference(positions[a], positions[b])),
       lengthOf(difference(positions[b], positions[c])),
       lengthOf(difference(positions[c], positions[a])) });
