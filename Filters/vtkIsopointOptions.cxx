@@ -159,6 +159,7 @@ isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* f
   request.isosurface.angle = filter->GetAngle();
   request.isosurface.dropsGaps = filter->GetDropGaps() != 0;
   request.isosurface.fit = fitRequestOf(filter, arrays);
+  request.isosurface.partsCreases = filter->GetComputeNormals() != 0;
   request.minimumSpacing = filter->GetMinimumSpacing();
   request.triangles = filter->ExtractsTriangles();
   if (arrays.NeedsSplats())

@@ -24,6 +24,10 @@ namespace
 /// A crease's vertex is at most this many lengths of the edge away from the middle of it.
 constexpr double mostOffset = 1.0;
 
+/// Facets of a vertex whose normals form a smaller cosine, of 20 degrees or more with it, get a
+/// copy of it.
+constexpr double mostPartedCosine = 0.94;
+
 /// The vertex of a corner is at most this many lengths of the longest edge away from the middle of
 /// the triangle.
 constexpr double mostCornerOffset = 2.0;
@@ -116,7 +120,7 @@ public:
   {
   }
 
-  void mesh()
+  void mesh(bool parts)
   {
     this->computeNormals();
     std::vector<Facet> facets = this->takeFacets();
@@ -127,6 +131,10 @@ public:
     facets = this->withoutUnfitted(std::move(facets));
     facets = this->split(facets);
     facets = this->untangled(std::move(facets));
+    if (parts)
+    {
+      this->partCreases(facets);
+    }
     for (const Facet& facet : facets)
     {
       this->Triangles.push_back(facet.corners);
@@ -202,14 +210,17 @@ private:
     return dot(this->Normals[a], this->Normals[b]) >= mostCreaseCosine;
   }
 
-  /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one with
-  /// a normal between those of all neighbors.
+  /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one that
+  /// differs from all around that know the crease.
   bool isLost(std::size_t vertex, const std::vector<std::size_t>& neighbors) const
   {
+    const auto knowsCrease = [this](std::size_t neighbor) { return this->isCrease(neighbor); };
+    const auto agrees = [&](std::size_t neighbor)
+    { return this->isCrease(neighbor) && this->isAlike(vertex, neighbor); };
     return !this->isFitted(vertex) ||
            (!this->isCrease(vertex) &&
-             std::none_of(neighbors.begin(), neighbors.end(), [&](std::size_t neighbor)
-               { return this->isFitted(neighbor) && this->isAlike(vertex, neighbor); }));
+             std::any_of(neighbors.begin(), neighbors.end(), knowsCrease) &&
+             std::none_of(neighbors.begin(), neighbors.end(), agrees));
   }
 
   /// Merges vertices that are lost with the nearest neighbor that leaves no triangle looking the
@@ -260,13 +271,17 @@ private:
   {
     const auto isUpright = [&](const Facet& moved)
     { return mesh.signedArea(this->facetOf(moved.corners)) > 0.0; };
-    for (const std::size_t neighbor : this->nearestNeighbors(
-           mesh, vertex, [this](std::size_t each) { return this->isFitted(each); }))
+    const auto isAny = [](const Facet&) { return true; }; // edges are flipped later
+    const std::vector<std::size_t> neighbors = this->nearestNeighbors(
+      mesh, vertex, [this](std::size_t each) { return this->isFitted(each); });
+    const auto mergesWith = [&](const auto& isAllowed)
     {
-      if (mesh.collapse(vertex, neighbor, isUpright))
-      {
-        return;
-      }
+      return std::any_of(neighbors.begin(), neighbors.end(), [&](std::size_t neighbor)
+        { return mesh.collapse(vertex, neighbor, isAllowed); });
+    };
+    if (!mergesWith(isUpright))
+    {
+      mergesWith(isAny);
     }
   }
 
@@ -372,15 +387,19 @@ private:
   std::size_t addVertex(
     std::size_t like, const Vector& place, std::initializer_list<std::size_t> around)
   {
-    Isosurface& surface = this->Surface;
-    const std::size_t vertex = surface.size();
-    LocalFit fit = surface.fits[like];
     double slope = 0.0;
     for (const std::size_t each : around)
     {
       slope += lengthOf(this->fitOf(each).gradient) / static_cast<double>(around.size());
     }
-    const Vector normal = this->normalOf(around);
+    return this->addVertex(like, place, this->normalOf(around), slope);
+  }
+
+  std::size_t addVertex(std::size_t like, const Vector& place, const Vector& normal, double slope)
+  {
+    Isosurface& surface = this->Surface;
+    const std::size_t vertex = surface.size();
+    LocalFit fit = surface.fits[like];
     fit.position = place;
     fit.gradient = scaled(-slope, normal);
     fit.hessian = {};
@@ -452,7 +471,7 @@ private:
     };
     if (count == 0)
     {
-      parts.push_back(facet);
+      parts.push_back(this->facetOf(facet.corners));
     }
     else if (count == 1)
     {
@@ -568,6 +587,39 @@ private:
     }
   }
 
+  /// Repeats the vertices of facets that look to different sides: the copy for a piece has the
+  /// normal of the first facet there.
+  void partCreases(std::vector<Facet>& facets)
+  {
+    std::map<std::size_t, std::vector<std::size_t>> copies; // of vertices, the vertex itself first
+    for (Facet& facet : facets)
+    {
+      for (std::size_t& corner : facet.corners)
+      {
+        if (dot(this->Normals[corner], facet.normal) < mostPartedCosine)
+        {
+          corner = this->copyOf(corner, facet.normal, copies[corner]);
+        }
+      }
+    }
+  }
+
+  std::size_t copyOf(
+    std::size_t vertex, const Vector& normal, std::vector<std::size_t>& copies)
+  {
+    for (const std::size_t copy : copies)
+    {
+      if (dot(this->Normals[copy], normal) >= mostPartedCosine)
+      {
+        return copy;
+      }
+    }
+    const Vector place = this->Surface.positions[vertex]; // which adding moves
+    copies.push_back(
+      this->addVertex(vertex, place, normal, lengthOf(this->fitOf(vertex).gradient)));
+    return copies.back();
+  }
+
   /// Drops vertices without triangles, and orders the triangles.
   void order()
   {
@@ -616,10 +668,10 @@ private:
 
 } // namespace
 
-void meshCreases(
-  const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
+void meshCreases(const Execution& execution, Isosurface& surface,
+  std::vector<SurfaceTriangle>& triangles, bool parts)
 {
-  CreaseMesher(execution, surface, triangles).mesh();
+  CreaseMesher(execution, surface, triangles).mesh(parts);
 }
 
 } // namespace isopoint

@@ -19,10 +19,11 @@ namespace isopoint
 /// @param surface with fits; new vertices are appended, and take over the edge of the first vertex
 /// of theirs; vertices without triangles are dropped
 /// @param triangles of its vertices, ordered
+/// @param parts whether vertices are repeated for each piece that they are on
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(triangles), and O(n log n) of those beside creases
-void meshCreases(
-  const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles);
+void meshCreases(const Execution& execution, Isosurface& surface,
+  std::vector<SurfaceTriangle>& triangles, bool parts);
 
 } // namespace isopoint
 
