@@ -103,8 +103,8 @@ vtkIsopointMessage describeIsovaluesOutside(
   }
   const std::string isovalues = join(outside, digits);
   return { "isovalues outside: " + isovalues,
-    "No isosurface at " + isovalues + ": " + describeArray(findings) + " is from " + least + " to " +
-      textOf(findings.Greatest, digits) +
+    "No isosurface at " + isovalues + ": " + describeArray(findings) + " is from " + least +
+      " to " + textOf(findings.Greatest, digits) +
       ". Choose isovalues above the former and up to the latter." };
 }
 

@@ -36,15 +36,15 @@ struct vtkIsopointMessage
  */
 struct vtkIsopointFindings
 {
-  std::vector<double> Isovalues;       // ascending
-  std::vector<std::uint64_t> Points;   // for each isovalue
-  bool AreTriangles = false;           // whether points are connected
-  std::uint64_t UnprojectedPoints = 0; // that no fit moved, where fits were to
-  std::uint64_t Samples = 0;           // those that were left out included
-  std::uint64_t NotFinite = 0;         // samples with such a coordinate or value
-  std::uint64_t Ghosts = 0;            // ghost and hidden samples
-  std::uint64_t WithoutArray = 0;      // samples of blocks without the contoured array
-  std::string Array;                   // its name, perhaps empty
+  std::vector<double> Isovalues;        // ascending
+  std::vector<std::uint64_t> Points;    // for each isovalue
+  bool AreTriangles = false;            // whether points are connected
+  std::uint64_t UnprojectedPoints = 0;  // that no fit moved, where fits were to
+  std::uint64_t Samples = 0;            // those that were left out included
+  std::uint64_t NotFinite = 0;          // samples with such a coordinate or value
+  std::uint64_t Ghosts = 0;             // ghost and hidden samples
+  std::uint64_t WithoutArray = 0;       // samples of blocks without the contoured array
+  std::string Array;                    // its name, perhaps empty
   std::set<std::string> ReplacedArrays; // input arrays with the name of a computed one
   /// The range of the samples that take part, known where an isovalue has no points; else, and if
   /// there are no such samples, empty.

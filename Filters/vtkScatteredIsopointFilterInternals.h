@@ -36,10 +36,10 @@ public:
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
   int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
-  vtkIsopointFindings Findings;          // of the current update
-  std::set<std::string> Reported;        // causes of messages in the last update
+  vtkIsopointFindings Findings;            // of the current update
+  std::set<std::string> Reported;          // causes of messages in the last update
   vtkWeakPointer<vtkAlgorithm> ReportedOf; // the producer of its input
-  std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured separately, else one
+  std::map<std::size_t, KeptTree> Trees;   // by leaf if blocks are contoured separately, else one
 
   void Clear()
   {

@@ -110,8 +110,7 @@ double shareOf(const raytracing::Camera::Position& from, const raytracing::Camer
   const raytracing::Camera::Position& direction)
 {
   const double offset[3] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
-  return vtkMath::Dot(offset, direction.data()) /
-         vtkMath::Dot(direction.data(), direction.data());
+  return vtkMath::Dot(offset, direction.data()) / vtkMath::Dot(direction.data(), direction.data());
 }
 
 /// Whether a camera with a window of so many pixels sees a part of a picture, or all of it: large
@@ -130,8 +129,9 @@ bool isPart(const raytracing::Camera& camera, const int* size, const raytracing:
   {
     return false;
   }
-  tile = { static_cast<std::size_t>(std::lround(column)), static_cast<std::size_t>(std::lround(row)),
-    static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
+  tile = { static_cast<std::size_t>(std::lround(column)),
+    static_cast<std::size_t>(std::lround(row)), static_cast<std::size_t>(size[0]),
+    static_cast<std::size_t>(size[1]) };
   return isSameWindow(windowOf(pictureCamera, true, tile, width, height),
            { camera.nearCorner, camera.nearRight, camera.nearUp }) &&
          isSameWindow(windowOf(pictureCamera, false, tile, width, height),
@@ -255,9 +255,8 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
       : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   std::ostringstream state;
   state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
-        << self->SamplesPerPixel << ' ' << self->AmbientLight
-        << ' ' << self->AmbientDistance << ' ' << self->Shadows << ' '
-        << self->MaximumNumberOfBounces;
+        << self->SamplesPerPixel << ' ' << self->AmbientLight << ' ' << self->AmbientDistance << ' '
+        << self->Shadows << ' ' << self->MaximumNumberOfBounces;
   if (isNewScene || !this->Picture || this->PictureState != state.str() ||
       !isPart(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
   {

@@ -23,8 +23,7 @@ const std::string wholeSuffix = " of";
 
 bool endsWith(const std::string& text, const std::string& end)
 {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 } // namespace
@@ -58,8 +57,7 @@ pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group,
     {
       if (property)
       {
-        pqCoreUtilities::connect(
-          property, vtkCommand::ModifiedEvent, this, SLOT(updateTexts()));
+        pqCoreUtilities::connect(property, vtkCommand::ModifiedEvent, this, SLOT(updateTexts()));
       }
     }
   }

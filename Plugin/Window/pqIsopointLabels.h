@@ -6,8 +6,8 @@
 
 #include <memory>
 
-/// Shows the help of a property of the filters at its label too: ParaView shows it at what is to the
-/// right of that alone.
+/// Shows the help of a property of the filters at its label too: ParaView shows it at what is to
+/// the right of that alone.
 class pqIsopointLabels
 {
 public:

@@ -101,7 +101,8 @@ void pqIsopointVisibility::hideSplatsBehind(pqPipelineFilter* filter)
 
 void pqIsopointVisibility::explainEmptySlice(pqPipelineFilter* filter)
 {
-  static const QStringList filtersOfCells{ "Cut", "SliceWithPlane", "SliceAlongPolyLine", "Contour" };
+  static const QStringList filtersOfCells{ "Cut", "SliceWithPlane", "SliceAlongPolyLine",
+    "Contour" };
   if (!filtersOfCells.contains(filter->getProxy()->GetXMLName()) ||
       filter->getOutputPort(0)->getDataInformation()->GetNumberOfPoints() > 0)
   {
@@ -109,9 +110,8 @@ void pqIsopointVisibility::explainEmptySlice(pqPipelineFilter* filter)
   }
   const QList<pqOutputPort*> inputs = filter->getAllInputs();
   if (std::any_of(inputs.begin(), inputs.end(),
-        [](pqOutputPort* input) {
-          return vtkSMIsopointRepresentationDomain::AreIsopoints(input->getDataInformation());
-        }))
+        [](pqOutputPort* input)
+        { return vtkSMIsopointRepresentationDomain::AreIsopoints(input->getDataInformation()); }))
   {
     const std::string message = std::string(filter->getProxy()->GetXMLLabel()) +
                                 " yields nothing from isopoints, which have no cells."

@@ -11,8 +11,8 @@ class pqPipelineFilter;
 class pqServerManagerModelItem;
 
 /// Hides what a filter was applied to where it is drawn as splats, as ParaView's window does where
-/// it is drawn as a surface: behind opaque splats the output would not be seen. Where a filter leaves
-/// nothing of isopoints, since it takes cells, it says what to do.
+/// it is drawn as a surface: behind opaque splats the output would not be seen. Where a filter
+/// leaves nothing of isopoints, since it takes cells, it says what to do.
 class pqIsopointVisibility
 {
 public:

@@ -161,7 +161,8 @@ Color PathTracer::direct(const Shading& shading, const Reflect& reflect) const
     Color passed{ 1.0f, 1.0f, 1.0f };
     if (this->Light.hasShadows)
     {
-      const Ray ray{ shading.position + shading.hit.lift, arriving.towards, nearestDistance, arriving.distance };
+      const Ray ray{ shading.position + shading.hit.lift, arriving.towards, nearestDistance,
+        arriving.distance };
       passed = this->Surfaces.transmittance(ray);
     }
     sum += arriving.strength * passed * reflect(light, arriving.towards, cosine);

@@ -146,8 +146,7 @@ TEST(Warnings, APlaneWithoutTrianglesIsExplained)
     cloud->GetPoint(i, position);
     cloud->GetPoints()->SetPoint(i, position[0], position[1], 0.0);
   }
-  expectWarning(
-    newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "in one plane" });
+  expectWarning(newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "in one plane" });
 }
 
 TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)

@@ -34,7 +34,9 @@ FOLDERS = {
     "Rendering": ["Rendering/*.h"],
     "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h"],
     TRACER: [TRACER + "/*.h"],
-    "Plugin/Window": ["Plugin/Window/*.h"],
+    "Plugin/Window": [
+        "Plugin/Window/*.h", "Plugin/Exporter/vtkIsopointRayTracingExporter.h",
+        "Plugin/Representation/vtkSMIsopointRepresentationDomain.h"],
     "Plugin/Exporter": ["Plugin/Exporter/*.h", "RayTracing/vtkIsopointRayTracer.h"],
     "Plugin/Representation": [
         "Plugin/Representation/*.h", "Rendering/vtkIsopointPolygonMapper.h",

@@ -17,8 +17,8 @@ struct IsosurfaceRequest
   double angle = defaultAngle; // of the angle criterion, in degrees, 0 up to 180
   bool dropsGaps = false;      // whether what lies in gaps of the cloud is left out
   std::optional<FitRequest> fit = std::nullopt;
-  /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that each
-  /// has one normal.
+  /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that
+  /// each has one normal.
   bool partsCreases = false;
 };
 

@@ -153,8 +153,7 @@ private:
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->Request.fit->highest == FitOrder::Crease)
     {
-      meshCreases(
-        this->Run, surface.vertices, surface.triangles, this->Request.partsCreases);
+      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request.partsCreases);
     }
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);

@@ -9,8 +9,8 @@
 namespace isopoint
 {
 
-FacetMesh::FacetMesh(const std::vector<Vector>& positions, const std::vector<bool>& isInner,
-  std::vector<Facet> facets)
+FacetMesh::FacetMesh(
+  const std::vector<Vector>& positions, const std::vector<bool>& isInner, std::vector<Facet> facets)
   : Positions(positions)
   , IsInner(isInner)
   , Facets(std::move(facets))
@@ -70,9 +70,8 @@ bool FacetMesh::hasEdge(std::size_t a, std::size_t b) const
 double FacetMesh::signedArea(const Facet& facet) const
 {
   const auto& [a, b, c] = facet.corners;
-  return dot(facet.normal,
-    cross(difference(this->Positions[b], this->Positions[a]),
-      difference(this->Positions[c], this->Positions[a])));
+  return dot(facet.normal, cross(difference(this->Positions[b], this->Positions[a]),
+                             difference(this->Positions[c], this->Positions[a])));
 }
 
 double FacetMesh::invertedArea(const Facet& a, const Facet& b) const
@@ -138,8 +137,8 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
       continue;
     }
     const SurfaceTriangle& corners = this->Facets[*other].corners;
-    const std::size_t d = *std::find_if(
-      corners.begin(), corners.end(), [a, b](std::size_t corner) { return corner != a && corner != b; });
+    const std::size_t d = *std::find_if(corners.begin(), corners.end(),
+      [a, b](std::size_t corner) { return corner != a && corner != b; });
     if (!this->IsInner[d] || this->hasEdge(c, d))
     {
       continue;
@@ -207,8 +206,8 @@ std::optional<std::vector<std::size_t>> FacetMesh::facetsToMove(
   std::vector<std::size_t> common;
   std::set_intersection(
     own.begin(), own.end(), others.begin(), others.end(), std::back_inserter(common));
-  const bool isClosed = std::all_of(own.begin(), own.end(), [&](std::size_t each)
-    { return this->facetAt(vertex, each) && this->facetAt(each, vertex); });
+  const bool isClosed = std::all_of(own.begin(), own.end(),
+    [&](std::size_t each) { return this->facetAt(vertex, each) && this->facetAt(each, vertex); });
   if (common.size() != 2 || own.size() < 4 || !isClosed)
   {
     return std::nullopt;
@@ -225,8 +224,7 @@ std::optional<std::vector<std::size_t>> FacetMesh::facetsToMove(
   return kept;
 }
 
-void FacetMesh::move(
-  std::size_t vertex, std::size_t neighbor, const std::vector<std::size_t>& kept)
+void FacetMesh::move(std::size_t vertex, std::size_t neighbor, const std::vector<std::size_t>& kept)
 {
   const std::vector<std::size_t> around = this->FacetsAround.at(vertex);
   for (const std::size_t facet : around)
@@ -239,6 +237,20 @@ void FacetMesh::move(
     replace(this->Facets[facet].corners, vertex, neighbor);
     this->connect(facet);
   }
+}
+
+double FacetMesh::invertedAreaAround(std::size_t vertex) const
+{
+  double area = 0.0;
+  const auto around = this->FacetsAround.find(vertex);
+  if (around != this->FacetsAround.end())
+  {
+    for (const std::size_t facet : around->second)
+    {
+      area += std::max(0.0, -this->signedArea(this->Facets[facet]));
+    }
+  }
+  return area;
 }
 
 std::vector<Facet> FacetMesh::facets() const

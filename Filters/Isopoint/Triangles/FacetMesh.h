@@ -73,6 +73,9 @@ public:
   /// Twice the area of a facet, negative if it looks the wrong way.
   double signedArea(const Facet& facet) const;
 
+  /// Twice the area around a vertex that looks the wrong way.
+  double invertedAreaAround(std::size_t vertex) const;
+
   /// Those that are left.
   std::vector<Facet> facets() const;
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_CreaseSplitting_h
+#define isopoint_CreaseSplitting_h
+
+#include "Isopoint/Triangles/CreaseSurface.h"
+#include "Isopoint/Triangles/FacetMesh.h"
+
+#include <vector>
+
+namespace isopoint
+{
+
+/// Gives facets vertices on the creases and at the corners between the pieces that fits have found;
+/// vertices of which no piece is known are merged with neighbors. See docs/triangles.md.
+/// @param whole whose vertices are appended to
+/// @returns the facets, each on one piece and with the normal of that
+/// Complexity: O(n log n)
+std::vector<Facet> splitAtCreases(CreaseSurface& whole, std::vector<Facet> facets);
+
+} // namespace isopoint
+
+#endif

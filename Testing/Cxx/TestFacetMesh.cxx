@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Flips and collapses of edges on small meshes.
+#include "Isopoint/Triangles/FacetMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using isopoint::Facet;
+using isopoint::FacetMesh;
+using isopoint::Vector;
+
+namespace
+{
+
+const Vector up{ 0.0, 0.0, 1.0 };
+
+/// A fan around vertex 0, in the plane, whose rim is 1 to 6.
+std::vector<Facet> fan()
+{
+  std::vector<Facet> facets;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    facets.push_back({ { 0, 1 + i, 1 + (i + 1) % 6 }, up });
+  }
+  return facets;
+}
+
+std::vector<Vector> fanPositions(const Vector& center)
+{
+  return { center, { 1.0, 0.0, 0.0 }, { 0.5, 0.9, 0.0 }, { -0.5, 0.9, 0.0 }, { -1.0, 0.0, 0.0 },
+    { -0.5, -0.9, 0.0 }, { 0.5, -0.9, 0.0 } };
+}
+
+double areaOf(const FacetMesh& mesh)
+{
+  double area = 0.0;
+  for (const Facet& facet : mesh.facets())
+  {
+    area += mesh.signedArea(facet);
+  }
+  return area;
+}
+
+} // namespace
+
+TEST(FacetMesh, AnEdgeIsFlippedWhereAFacetLooksTheWrongWay)
+{
+  // The center lies beyond the edge from 1 to 2.
+  const std::vector<Vector> positions = fanPositions({ 0.85, 0.6, 0.0 });
+  const std::vector<bool> isInner(positions.size(), true);
+  FacetMesh mesh(positions, isInner, fan());
+  EXPECT_EQ(mesh.invertedFacets().size(), 1u);
+  const double area = areaOf(mesh);
+  mesh.untangle(); // the rim has no facets beyond: nothing can be flipped there
+  EXPECT_NEAR(areaOf(mesh), area, 1e-12);
+
+  std::vector<Facet> more = fan();
+  std::vector<Vector> withApex = positions;
+  withApex.push_back({ 1.2, 0.9, 0.0 });
+  more.push_back({ { 2, 1, 7 }, up });
+  const std::vector<bool> areInner(withApex.size(), true);
+  FacetMesh larger(withApex, areInner, more);
+  EXPECT_EQ(larger.invertedFacets().size(), 1u);
+  larger.untangle();
+  EXPECT_TRUE(larger.invertedFacets().empty());
+  EXPECT_EQ(larger.facets().size(), more.size());
+}
+
+TEST(FacetMesh, EdgesAtTheBorderOfWhatIsKnownStay)
+{
+  std::vector<Facet> more = fan();
+  std::vector<Vector> positions = fanPositions({ 0.85, 0.6, 0.0 });
+  positions.push_back({ 1.2, 0.9, 0.0 });
+  more.push_back({ { 2, 1, 7 }, up });
+  std::vector<bool> isInner(positions.size(), true);
+  isInner[7] = false;
+  FacetMesh mesh(positions, isInner, more);
+  mesh.untangle();
+  EXPECT_EQ(mesh.invertedFacets().size(), 1u);
+}
+
+TEST(FacetMesh, AVertexIsMergedWithANeighbor)
+{
+  const std::vector<Vector> positions = fanPositions({ 0.0, 0.0, 0.0 });
+  const std::vector<bool> isInner(positions.size(), true);
+  FacetMesh mesh(positions, isInner, fan());
+  const double area = areaOf(mesh);
+  EXPECT_EQ(mesh.neighborsOf(0), (std::vector<std::size_t>{ 1, 2, 3, 4, 5, 6 }));
+  EXPECT_FALSE(mesh.collapse(0, 1, [](const Facet&) { return false; }));
+  EXPECT_FALSE(mesh.collapse(1, 0, [](const Facet&) { return true; })) << "1 is at the border";
+  EXPECT_TRUE(mesh.collapse(0, 1, [](const Facet&) { return true; }));
+  EXPECT_EQ(mesh.facets().size(), 4u);
+  EXPECT_NEAR(areaOf(mesh), area, 1e-12);
+  EXPECT_TRUE(mesh.neighborsOf(0).empty());
+}
+
+TEST(FacetMesh, ATetrahedronStaysOne)
+{
+  const std::vector<Vector> positions{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },
+    { 0.0, 0.0, 1.0 } };
+  const std::vector<bool> isInner(positions.size(), true);
+  FacetMesh mesh(positions, isInner,
+    { { { 0, 2, 1 }, up }, { { 0, 1, 3 }, up }, { { 1, 2, 3 }, up }, { { 0, 3, 2 }, up } });
+  mesh.untangle();
+  EXPECT_FALSE(mesh.collapse(0, 1, [](const Facet&) { return true; }));
+  EXPECT_EQ(mesh.facets().size(), 4u);
+}
