@@ -317,10 +317,15 @@ int vtkIsopointSplatPolygons::RequestData(
       const auto polygons = vtkCompositeDataSet::SafeDownCast(output);
       polygons->CopyStructure(blocks);
       const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+      const auto all = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT));
+      double done = 0.0;
       for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
       {
         if (const auto block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
         {
+          const auto count = static_cast<double>(block->GetNumberOfPoints());
+          this->SetProgressShiftScale(done / std::max(all, 1.0), count / std::max(all, 1.0));
+          done += count;
           vtkNew<vtkPolyData> made;
           this->MakePolygons(block, made);
           polygons->SetDataSet(iterator, made);
@@ -335,6 +340,7 @@ int vtkIsopointSplatPolygons::RequestData(
                   << input->GetNumberOfElements(vtkDataObject::POINT)
                   << " points are not drawn. Close other data, or pass fewer points.");
   }
+  this->SetProgressShiftScale(0.0, 1.0);
   return 1;
 }
 
@@ -356,7 +362,12 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   double first[3];
   input->GetPoint(0, first); // fills what data sets compute at the first call
+  // The shares of the time that parts take.
+  constexpr double withMesh = 0.6;
+  constexpr double withTriangles = 0.65;
+  constexpr double withPoints = 0.95;
   const vtkIsopointSplatMesh mesh(shapes, count);
+  this->UpdateProgress(withMesh);
   setGeometry(mesh, typeOfPoints(input), output);
   if (std::max(3 * mesh.NumberOfTriangles(), mesh.NumberOfVertices()) <
       std::numeric_limits<vtkTypeInt32>::max())
@@ -367,11 +378,13 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   {
     setTriangles<vtkTypeInt64Array>(mesh, output);
   }
+  this->UpdateProgress(withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
   std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
   output->GetPointData()->AddArray(repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, ids));
+  this->UpdateProgress(withPoints);
   const std::vector<vtkIdType> cells = vertexCells(input, mesh);
   if (!cells.empty())
   {

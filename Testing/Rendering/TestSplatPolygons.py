@@ -212,6 +212,21 @@ def blocks():
     check(output.GetNumberOfPoints() > torus.GetNumberOfPoints(), "a collection")
 
 
+def progress():
+    """It rises while the triangles are made, over all blocks."""
+    torus = torus_splats(100_000)
+    blocks = vtkMultiBlockDataSet()
+    blocks.SetBlock(0, torus)
+    blocks.SetBlock(1, torus)
+    for data, fewest in ((torus, 4), (blocks, 7)):
+        polygons = vtkIsopointSplatPolygons()
+        polygons.SetInputData(data)
+        shares = []
+        polygons.AddObserver("ProgressEvent", lambda caller, _, to=shares: to.append(caller.GetProgress()))
+        polygons.Update()
+        check(len(shares) >= fewest and shares == sorted(shares), f"progress rises: {shares}")
+
+
 def precision():
     """Far from the origin, in doubles, corners still meet."""
     offset = 1e7
@@ -232,6 +247,7 @@ if __name__ == "__main__":
         arrays_of_the_wrong_shape,
         cells,
         blocks,
+        progress,
         precision,
     ):
         print(test.__name__, flush=True)
