@@ -38,6 +38,7 @@ struct HalfSpace
     return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
   }
   const isopoint::WideSample* nearest(const isopoint::ExtentQuery&) const { return nullptr; }
+  const isopoint::WideSample* nearestTo(const Vector&, double) const { return nullptr; }
 };
 
 /// The isopoints of a surface, one entry each.

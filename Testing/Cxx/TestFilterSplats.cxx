@@ -165,3 +165,36 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
     EXPECT_LT(astray, corners / 50); // fits at corners may be off
   }
 }
+
+// A field that oscillates as fast as its lattice can hold: normals point anywhere, and where nothing
+// bounds a cell, samples show that the surface is not there.
+TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
+{
+  constexpr int half = 10;
+  constexpr int size = 2 * half + 1;
+  vtkNew<vtkPoints> points;
+  const auto values = newArray<vtkDoubleArray>("f", size * size * size);
+  for (int i = 0; i < size * size * size; ++i)
+  {
+    const double x = i % size - half;
+    const double y = i / size % size - half;
+    const double z = i / size / size - half;
+    points->InsertNextPoint(x, y, z);
+    values->SetValue(i,
+      200.0 * std::exp(-(x * x + y * y + z * z) / 100.0) + 10.0 * std::sin(3.0 * x) +
+        18.0 * std::sin(1.5 * y) + 5.0 * std::cos(2.0 * z));
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  cloud->GetPointData()->SetScalars(values);
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(cloud);
+  for (const double isovalue : { 100.0, 140.0 })
+  {
+    filter->SetValue(0, isovalue);
+    filter->Update();
+    vtkDataArray* const radii = filter->GetOutput()->GetPointData()->GetArray("Radius");
+    ASSERT_GT(radii->GetNumberOfTuples(), 500);
+    EXPECT_LT(radii->GetRange()[1], 1.8);
+  }
+}

@@ -72,6 +72,25 @@ std::size_t nearestByBruteForce(const clouds::Cloud& cloud, const ExtentQuery& q
   return nearest;
 }
 
+/// The number of the sample nearest to a place within reach, the lowest of equals.
+std::size_t closestByBruteForce(const clouds::Cloud& cloud, const Vector& place, double reach)
+{
+  std::size_t closest = none;
+  double least = reach;
+  for (std::size_t i = cloud.size(); i-- > 0;)
+  {
+    const double* const p = &cloud.positions[3 * i];
+    const double length =
+      isopoint::lengthOf(isopoint::difference({ p[0], p[1], p[2] }, place));
+    if (length <= least)
+    {
+      least = length;
+      closest = i;
+    }
+  }
+  return closest;
+}
+
 std::vector<ExtentQuery> randomQueries(const clouds::Cloud& cloud, int count)
 {
   clouds::Random random(11);
@@ -123,6 +142,9 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
         const isopoint::WideSample* const nearest = extents.nearest(query);
         EXPECT_EQ(nearest ? nearest->id : none, nearestByBruteForce(cloud, query));
         found += nearest ? 1 : 0;
+        const Vector ahead = isopoint::sum(query.place, query.enough, query.direction);
+        const isopoint::WideSample* const closest = extents.nearestTo(ahead, query.enough);
+        EXPECT_EQ(closest ? closest->id : none, closestByBruteForce(cloud, ahead, query.enough));
       }
     }
   }
@@ -160,4 +182,5 @@ TEST(SampleExtent, OfNoSamplesIsZero)
   const ExtentQuery query{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 };
   EXPECT_EQ(isopoint::SampleExtents(empty).at(query), 0.0);
   EXPECT_EQ(isopoint::SampleExtents(empty).nearest(query), nullptr);
+  EXPECT_EQ(isopoint::SampleExtents(empty).nearestTo(query.place, 1.0), nullptr);
 }

@@ -5,6 +5,7 @@
 #include "Isopoint/Base/ConcurrentMemo.h"
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Neighbors/NearestSample.h"
 #include "Isopoint/Tree/SampleBox.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -362,6 +363,13 @@ public:
   const TSample* nearest(const ExtentQuery& query) const
   {
     return SampleAheadSearch<TSample>(this->Tree, query).search();
+  }
+
+  /// The sample nearest to a place, within reach; see NearestSampleSearch.
+  /// @throws MissingNode
+  const TSample* nearestTo(const Vector& place, double reach) const
+  {
+    return NearestSampleSearch<TSample>(this->Tree, place, reach).search();
   }
 
 private:

@@ -55,7 +55,7 @@ public:
     SurfaceHalo<TSample>& halo, const std::vector<bool>& isShaped, bool isShared)
   {
     const Isosurface& all = halo.surface();
-    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits };
+    const SurfacePoints points{ all.positions, all.decreasingEdges, all.fits, {}, all.isovalue };
     std::vector<Splat> splats;
     std::unique_ptr<Neighbors> neighbors;
     this->Exchange.together(

@@ -2,6 +2,7 @@
 #ifndef isopoint_CellCutter_h
 #define isopoint_CellCutter_h
 
+#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Splat/Curvature.h"
@@ -67,6 +68,11 @@ private:
   /// lines.
   static constexpr double openReach = 1.1;
 
+  /// Corners up to here, in spacings, are certain; those beyond are cut off here where samples
+  /// contradict them.
+  static constexpr double certainReach = 0.8;
+  static constexpr double contradictedReach = 0.6;
+
   /// Nearer points without a smooth fit, in spacings, do not bound a smooth one: their normals are
   /// estimates, and their splats may not cover what is beyond.
   static constexpr double unfittedReach = 0.5;
@@ -131,6 +137,83 @@ private:
     {
       cell.limitTo(openReach);
     }
+    if (cell.squaredReach() > certainReach * certainReach)
+    {
+      this->cutWhereSamplesDisagree(point, cell);
+    }
+  }
+
+  /// Cuts off corners that the samples there contradict: where the surface has turned away from the
+  /// tangent plane, or has ended.
+  void cutWhereSamplesDisagree(std::size_t point, TangentCell& cell) const
+  {
+    if (!this->Extents || this->Points.fits.empty() || !hasScale(this->Points.fits[point]))
+    {
+      return;
+    }
+    constexpr int mostRounds = 3; // cuts make corners too
+    bool isAnyCut = true;
+    for (int round = 0; round < mostRounds && isAnyCut; ++round)
+    {
+      std::vector<std::array<double, 2>> directions;
+      bool isConfirmedBefore = this->isConfirmed(point, (cell.end() - 1)->side);
+      for (const TangentCell::Corner& corner : cell)
+      {
+        const bool isConfirmedHere = this->isConfirmed(point, corner.side);
+        const double reach = std::hypot(corner.x, corner.y);
+        if (reach > certainReach && !(isConfirmedBefore && isConfirmedHere) &&
+            this->isContradicted(point, cell.frame(), corner))
+        {
+          directions.push_back({ corner.x / reach, corner.y / reach });
+        }
+        isConfirmedBefore = isConfirmedHere;
+      }
+      for (const auto& [x, y] : directions)
+      {
+        cell.cut(x, y, contradictedReach, TangentCell::plane);
+      }
+      isAnyCut = !directions.empty();
+    }
+  }
+
+  /// Whether the surface goes on smoothly to what is beyond a side: no samples need to be asked.
+  bool isConfirmed(std::size_t point, std::size_t side) const
+  {
+    constexpr double leastCosine = 0.9;
+    return side != TangentCell::limit && side != TangentCell::plane && this->isSmooth(point) &&
+           this->isSmooth(side) &&
+           dot(this->Splats[point].normal, this->Splats[side].normal) > leastCosine;
+  }
+
+  static bool hasScale(const LocalFit& fit)
+  {
+    const double slope = lengthOf(fit.gradient);
+    return slope > 0.0 && std::isfinite(slope) && fit.spacing > 0.0 && std::isfinite(fit.spacing);
+  }
+
+  /// Whether the value of the sample nearest to a corner is not what a point's fit says, by more
+  /// than the values change within half the spacing or half its distance.
+  bool isContradicted(
+    std::size_t point, const TangentFrame& frame, const TangentCell::Corner& corner) const
+  {
+    const LocalFit& fit = this->Points.fits[point];
+    const Vector place = sum(sum(this->Points.positions[point], fit.spacing * corner.x, frame.first),
+      fit.spacing * corner.y, frame.second);
+    constexpr double reach = 2.0; // in spacings
+    const auto* const sample = this->Extents->nearestTo(place, reach * fit.spacing);
+    if (!sample)
+    {
+      return false;
+    }
+    const Vector position = positionOf(*sample);
+    const Vector o = difference(position, this->Points.positions[point]);
+    const Hessian& h = fit.hessian;
+    const double bend = 0.5 * (h[0] * o[0] * o[0] + h[1] * o[1] * o[1] + h[2] * o[2] * o[2]) +
+                        h[3] * o[0] * o[1] + h[4] * o[0] * o[2] + h[5] * o[1] * o[2];
+    const double error = static_cast<double>(sample->value) - this->Points.isovalue -
+                         dot(fit.gradient, o) - (fit.isSmooth ? bend : 0.0);
+    const double unit = std::max(fit.spacing, lengthOf(difference(position, place)));
+    return std::abs(error) > 0.35 * unit * lengthOf(fit.gradient);
   }
 
   /// Cuts a cell towards the points in rings around its own that are within twice its reach:

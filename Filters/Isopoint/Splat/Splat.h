@@ -50,6 +50,8 @@ struct SurfacePoints
   /// distance it comes first. Empty: they are numbered as listed.
   std::vector<std::size_t> numbers = {};
 
+  double isovalue = 0.0;
+
   std::size_t numberOf(std::size_t point) const
   {
     return this->numbers.empty() ? point : this->numbers[point];

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NearestSample_h
+#define isopoint_NearestSample_h
+
+#include "Isopoint/Base/Region.h"
+#include "Isopoint/Base/Vector.h"
+#include "Isopoint/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace isopoint
+{
+
+/// Searches for the sample nearest to a place, of equally distant ones that of the lowest id.
+template <class TSample>
+class NearestSampleSearch
+{
+public:
+  /// @param reach of the samples that count from the place, finite
+  NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach)
+    : Tree(tree)
+    , Place(place)
+    , Distance(reach)
+  {
+  }
+
+  /// @returns null if there is none. The same however much of the tree is refined.
+  /// @throws MissingNode at a node whose samples another rank holds
+  /// Complexity: O(log n), mostly, and the samples of unsplit nodes on the way
+  const TSample* search()
+  {
+    if (!this->Tree.isEmpty())
+    {
+      this->visit(SampleTree<TSample>::rootNode, this->Tree.region);
+    }
+    return this->Found;
+  }
+
+private:
+  void visit(std::size_t nodeIndex, const Region& region)
+  {
+    constexpr double slack = 0.999; // for rounding
+    if (slack * this->distanceTo(region) > this->Distance)
+    {
+      return;
+    }
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (node.isSplit())
+    {
+      const bool isUpperFirst = this->Place[node.axis] > node.plane;
+      for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+      {
+        Region part = region;
+        (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
+        this->visit(this->Tree.child(node, isUpper), part);
+      }
+      return;
+    }
+    if (node.isAbsent)
+    {
+      throw MissingNode{ nodeIndex, this->within(region) };
+    }
+    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+    for (std::size_t i = node.begin; i < end; ++i)
+    {
+      this->consider(this->Tree.samples[i]);
+    }
+  }
+
+  double distanceTo(const Region& region) const
+  {
+    Vector gap{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      gap[axis] = std::max(
+        { region.lower[axis] - this->Place[axis], this->Place[axis] - region.upper[axis], 0.0 });
+    }
+    return lengthOf(gap);
+  }
+
+  /// The part of a region that is near enough, with room for rounding.
+  Region within(Region region) const
+  {
+    const double reach = 1.001 * this->Distance;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      region.lower[axis] = std::max(region.lower[axis], this->Place[axis] - reach);
+      region.upper[axis] = std::min(region.upper[axis], this->Place[axis] + reach);
+    }
+    return region;
+  }
+
+  void consider(const TSample& sample)
+  {
+    const double distance = lengthOf(difference(positionOf(sample), this->Place));
+    if (distance < this->Distance ||
+        (distance == this->Distance && (!this->Found || sample.id < this->Found->id)))
+    {
+      this->Distance = distance;
+      this->Found = &sample;
+    }
+  }
+
+  const SampleTree<TSample>& Tree;
+  const Vector Place;
+  double Distance;
+  const TSample* Found = nullptr;
+};
+
+} // namespace isopoint
+
+#endif
