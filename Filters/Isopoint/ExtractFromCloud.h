@@ -201,9 +201,9 @@ std::vector<Splat> splatsOf(const Execution& execution, const SampleCloud<TSampl
   const Isosurface ordered = chosenIsopoints(surface, order);
   const IsopointNeighbors neighbors(execution, cloud.tree, cloud.neighborhoods, ordered.leaves);
   const SampleExtents extents(cloud.tree);
-  const std::vector<Splat> found =
-    computeSplats(execution, { ordered.positions, ordered.decreasingEdges, ordered.fits, order, ordered.isovalue },
-      neighbors, &extents, options);
+  const std::vector<Splat> found = computeSplats(execution,
+    { ordered.positions, ordered.decreasingEdges, ordered.fits, order, ordered.isovalue },
+    neighbors, &extents, options);
   std::vector<Splat> splats(found.size());
   for (std::size_t i = 0; i < found.size(); ++i)
   {

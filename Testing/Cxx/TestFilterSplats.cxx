@@ -166,8 +166,8 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
   }
 }
 
-// A field that oscillates as fast as its lattice can hold: normals point anywhere, and where nothing
-// bounds a cell, samples show that the surface is not there.
+// A field that oscillates as fast as its lattice can hold: normals point anywhere, and where
+// nothing bounds a cell, samples show that the surface is not there.
 TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
 {
   constexpr int half = 10;
@@ -180,9 +180,9 @@ TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
     const double y = i / size % size - half;
     const double z = i / size / size - half;
     points->InsertNextPoint(x, y, z);
-    values->SetValue(i,
-      200.0 * std::exp(-(x * x + y * y + z * z) / 100.0) + 10.0 * std::sin(3.0 * x) +
-        18.0 * std::sin(1.5 * y) + 5.0 * std::cos(2.0 * z));
+    values->SetValue(i, 200.0 * std::exp(-(x * x + y * y + z * z) / 100.0) +
+                          10.0 * std::sin(3.0 * x) + 18.0 * std::sin(1.5 * y) +
+                          5.0 * std::cos(2.0 * z));
   }
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points);

@@ -36,6 +36,13 @@ ExtractionRequest fitted(ExtractionRequest request)
   return request;
 }
 
+ExtractionRequest creased(ExtractionRequest request, bool partsCreases)
+{
+  request.isosurface.fit = isopoint::FitRequest{ isopoint::FitOrder::Crease, true };
+  request.isosurface.partsCreases = partsCreases;
+  return request;
+}
+
 /// Each triangle by all that is known of its vertices, in order.
 ranks::Description describedTriangles(const ExtractedIsosurface& extracted)
 {
@@ -132,6 +139,33 @@ TEST(RanksTriangles, DoNotDependOnHowSamplesAreDealtOut)
   }
 }
 
+TEST(RanksTriangles, HaveTheSameCreases)
+{
+  Cloud cloud = clouds::uniform(6000, 14);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const auto along = [&](std::size_t axis)
+    { return std::abs(cloud.positions[3 * i + axis] - 0.5); };
+    cloud.values[i] = std::max({ along(0), along(1), along(2) });
+  }
+  const std::vector<ExtractionRequest> requests{ creased(requestOf(0.3), false),
+    creased(requestOf(0.3), true), fitted(requestOf(0.3)) };
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<double, double>({}, cloud.size(), clouds::readerOf(cloud));
+  std::vector<std::size_t> counts;
+  for (const ExtractionRequest& request : requests)
+  {
+    counts.push_back(extractor.extract({}, request).triangles.size());
+  }
+  EXPECT_EQ(counts[0], counts[1]);
+  EXPECT_GT(counts[0], counts[2] + counts[2] / 20) << "edges have vertices of their own";
+  for (const ranks::Deal deal : ranks::allDeals)
+  {
+    SCOPED_TRACE(static_cast<int>(deal));
+    expectSameTriangles(cloud, 3, deal, requests);
+  }
+}
+
 TEST(RanksTriangles, OfFewerSamplesThanRanks)
 {
   for (std::size_t count = 0; count < 8; ++count)
@@ -152,7 +186,8 @@ TEST(RanksTriangles, OfAnyCloud)
     const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
     const std::size_t size = 2 + dice(4);
     expectSameTriangles(cloud, size, ranks::Deal::RoundRobin,
-      { fitted(requestOf(isovalue)), requestOf(isovalue, dice(2) == 0) });
+      { fitted(requestOf(isovalue)), creased(requestOf(isovalue), seed % 2 == 0),
+        requestOf(isovalue, dice(2) == 0) });
   }
 }
 

@@ -80,8 +80,7 @@ std::size_t closestByBruteForce(const clouds::Cloud& cloud, const Vector& place,
   for (std::size_t i = cloud.size(); i-- > 0;)
   {
     const double* const p = &cloud.positions[3 * i];
-    const double length =
-      isopoint::lengthOf(isopoint::difference({ p[0], p[1], p[2] }, place));
+    const double length = isopoint::lengthOf(isopoint::difference({ p[0], p[1], p[2] }, place));
     if (length <= least)
     {
       least = length;

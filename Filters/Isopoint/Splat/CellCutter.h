@@ -72,6 +72,7 @@ private:
   /// contradict them.
   static constexpr double certainReach = 0.8;
   static constexpr double contradictedReach = 0.6;
+  static constexpr double contradiction = 0.35;
 
   /// Nearer points without a smooth fit, in spacings, do not bound a smooth one: their normals are
   /// estimates, and their splats may not cover what is beyond.
@@ -192,13 +193,14 @@ private:
   }
 
   /// Whether the value of the sample nearest to a corner is not what a point's fit says, by more
-  /// than the values change within half the spacing or half its distance.
+  /// than the values change within a share of the spacing, or of its distance.
   bool isContradicted(
     std::size_t point, const TangentFrame& frame, const TangentCell::Corner& corner) const
   {
     const LocalFit& fit = this->Points.fits[point];
-    const Vector place = sum(sum(this->Points.positions[point], fit.spacing * corner.x, frame.first),
-      fit.spacing * corner.y, frame.second);
+    const Vector place =
+      sum(sum(this->Points.positions[point], fit.spacing * corner.x, frame.first),
+        fit.spacing * corner.y, frame.second);
     constexpr double reach = 2.0; // in spacings
     const auto* const sample = this->Extents->nearestTo(place, reach * fit.spacing);
     if (!sample)
@@ -213,7 +215,7 @@ private:
     const double error = static_cast<double>(sample->value) - this->Points.isovalue -
                          dot(fit.gradient, o) - (fit.isSmooth ? bend : 0.0);
     const double unit = std::max(fit.spacing, lengthOf(difference(position, place)));
-    return std::abs(error) > 0.35 * unit * lengthOf(fit.gradient);
+    return std::abs(error) > contradiction * unit * lengthOf(fit.gradient);
   }
 
   /// Cuts a cell towards the points in rings around its own that are within twice its reach:
