@@ -67,6 +67,13 @@ std::string join(const std::vector<double>& numbers, int digits)
   return join(texts);
 }
 
+/// A share, so coarse that it is the same as long as nothing much changes.
+std::string tenths(std::uint64_t count, std::uint64_t all)
+{
+  constexpr std::uint64_t parts = 10;
+  return std::to_string(parts * count / std::max<std::uint64_t>(all, 1)) + " of 10";
+}
+
 /// So many digits that the isovalues and the ends of the range look different if they are.
 int digitsFor(const vtkIsopointFindings& findings, const std::vector<double>& isovalues)
 {
@@ -98,11 +105,12 @@ vtkIsopointMessage describeIsovaluesOutside(
   const std::string least = textOf(findings.Least, digits);
   if (findings.Least == findings.Greatest)
   {
-    return { "constant array", "No isosurface: all values of " + describeArray(findings) + " are " +
-                                 least + ". Choose another array." };
+    return { "constant array " + findings.Array, "No isosurface: all values of " +
+                                                   describeArray(findings) + " are " + least +
+                                                   ". Choose another array." };
   }
   const std::string isovalues = join(outside, digits);
-  return { "isovalues outside: " + isovalues,
+  return { "isovalues outside of " + findings.Array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + describeArray(findings) + " is from " + least +
       " to " + textOf(findings.Greatest, digits) +
       ". Choose isovalues above the former and up to the latter." };
@@ -117,12 +125,20 @@ vtkIsopointMessage describeEmptyIsovalues(
     return {};
   }
   const std::string isovalues = join(empty, digitsFor(findings, empty));
-  return { "isovalues in gaps: " + isovalues,
-    "No isosurface at " + isovalues + ": " +
-      (findings.AreTriangles
-          ? "all of it is in gaps, or the samples are in one plane."
-            " Turn DropGaps off; of samples in a plane extract points instead of triangles."
-          : "all of it is in gaps between samples. Turn DropGaps off.") };
+  std::string reason = "all of it is in gaps between samples. Turn DropGaps off.";
+  if (findings.AreTriangles)
+  {
+    reason = findings.DropsGaps
+               ? "all of it is in gaps, or the samples are in one plane. Turn DropGaps off; of"
+                 " samples in a plane extract points instead of triangles."
+               : "the samples are in one plane. Extract points instead of triangles.";
+  }
+  else if (!findings.DropsGaps)
+  {
+    reason = "no block has samples on both sides. Turn ContourBlocks off.";
+  }
+  return { "isovalues without points in " + findings.Array + ": " + isovalues,
+    "No isosurface at " + isovalues + ": " + reason };
 }
 
 std::vector<vtkIsopointMessage> describeIsovalues(const vtkIsopointFindings& findings)
@@ -161,9 +177,15 @@ vtkIsopointMessage describeSkipped(const vtkIsopointFindings& findings)
       parts.push_back(count < skipped ? std::to_string(count) + " " + reason : reason);
     }
   }
-  return { "samples skipped",
-    "Skipped " + std::to_string(skipped) + " of " + std::to_string(findings.Samples) +
-      " samples: " + join(parts) + ". The surface there is that of the samples around.",
+  const std::string cause =
+    "samples skipped of " + findings.Array + ": " + tenths(skipped, findings.Samples);
+  const std::string text = "Skipped " + std::to_string(skipped) + " of " +
+                           std::to_string(findings.Samples) + " samples: " + join(parts) + ".";
+  if (skipped == findings.Samples)
+  {
+    return { cause, text + " There is no isosurface. Choose another array." };
+  }
+  return { cause, text + " The surface there is that of the samples around.",
     vtkIsopointMessage::NOTE };
 }
 
@@ -174,13 +196,14 @@ vtkIsopointMessage describeUnprojected(const vtkIsopointFindings& findings)
   {
     return {};
   }
-  return { "points without fit",
+  return { "points without fit of " + findings.Array + ": " +
+             tenths(findings.UnprojectedPoints, points),
     "No fit holds at " + std::to_string(findings.UnprojectedPoints) + " of " +
-      std::to_string(points) + " points: the surface may be rough. " +
-      (findings.AreTriangles ? "For" : "Extract triangles (Scattered Isosurface) for") +
-      " drill holes, shells and other samples on lines or surfaces" +
-      (findings.AreTriangles ? " set" : ", or set") +
-      " the projection to none. Smooth noise before, as with the linear fit." };
+      std::to_string(points) +
+      " points: the surface may be rough. Smooth noise first. For drill"
+      " holes, shells and other samples on lines or surfaces " +
+      (findings.AreTriangles ? "set" : "extract triangles (Scattered Isosurface), or set") +
+      " the projection to none." };
 }
 
 std::vector<vtkIsopointMessage> describeReplacedArrays(const vtkIsopointFindings& findings)

@@ -39,6 +39,7 @@ struct vtkIsopointFindings
   std::vector<double> Isovalues;        // ascending
   std::vector<std::uint64_t> Points;    // for each isovalue
   bool AreTriangles = false;            // whether points are connected
+  bool DropsGaps = false;               // whether what lies in gaps is left out
   std::uint64_t UnprojectedPoints = 0;  // that no fit moved, where fits were to
   std::uint64_t Samples = 0;            // those that were left out included
   std::uint64_t NotFinite = 0;          // samples with such a coordinate or value

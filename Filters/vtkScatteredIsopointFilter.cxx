@@ -182,11 +182,7 @@ int vtkScatteredIsopointFilter::RequestUpdateExtent(
 int vtkScatteredIsopointFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->NumberOfSamples = 0;
-  this->NumberOfExtractedPoints = 0;
-  this->NumberOfSkippedSamples = 0;
-  this->NumberOfUnprojectedPoints = 0;
-  this->NumberOfDroppedInGaps = 0;
+  this->ClearCounts();
   vtkInformation* const outputInfo = outputVector->GetInformationObject(0);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   this->Kept->GhostLevels = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
@@ -199,6 +195,15 @@ int vtkScatteredIsopointFilter::RequestData(
     this->Kept->Clear();
   }
   return 1;
+}
+
+void vtkScatteredIsopointFilter::ClearCounts()
+{
+  this->NumberOfSamples = 0;
+  this->NumberOfExtractedPoints = 0;
+  this->NumberOfSkippedSamples = 0;
+  this->NumberOfUnprojectedPoints = 0;
+  this->NumberOfDroppedInGaps = 0;
 }
 
 void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObject* output)
@@ -246,6 +251,7 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
               "). Report this as a bug, with the input.";
   }
   output->Initialize();
+  this->ClearCounts();
   this->ReportProblem(problem);
 }
 
@@ -347,6 +353,7 @@ void vtkScatteredIsopointFilter::StartCounting()
   vtkIsopointFindings& findings = this->Kept->Findings;
   findings.Start(this->GetIsovalues());
   findings.AreTriangles = this->ExtractsTriangles();
+  findings.DropsGaps = this->DropGaps != 0;
   findings.WithoutArray = static_cast<std::uint64_t>(blocks.GetNumberOfPointsWithoutArray());
   findings.Samples = findings.WithoutArray;
   const char* const name =

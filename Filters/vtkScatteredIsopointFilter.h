@@ -512,6 +512,7 @@ private:
   void CountSkippedSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
   void ReportProblem(const std::string& problem);
   /// Warns of what the update found out about samples and points, on the first rank alone.
+  void ClearCounts();
   void ReportFindings();
   void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
   void ConnectRanks();

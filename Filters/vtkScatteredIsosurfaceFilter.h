@@ -29,6 +29,11 @@
  * field (NORMALS_FROM_FIELD), or the means of the normals of the triangles around (with
  * NORMALS_FROM_PLANES, and where the samples yield no gradient).
  *
+ * CREASE_FIT adds points on the edges and at the corners of bodies, behind all others; they have
+ * the interpolated arrays of a point nearby. Points there may be merged. With ComputeNormals,
+ * points on edges are repeated for each side, so that these are shaded sharply: the surface then
+ * has borders there, whose points coincide. docs/triangles.md has the rule.
+ *
  * DropGaps leaves out the triangles of tetrahedra with edges longer than twice the spacing of the
  * samples behind both ends, if they are connected, across facets, with the outside of the samples'
  * convex hull or with a tetrahedron with an edge longer than four times that. docs/triangles.md has

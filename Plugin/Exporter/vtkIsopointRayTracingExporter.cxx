@@ -15,6 +15,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkWindowToImageFilter.h"
 
+#include <vtksys/SystemTools.hxx>
+
+#include <string>
 #include <utility>
 
 vtkStandardNewMacro(vtkIsopointRayTracingExporter);
@@ -103,9 +106,21 @@ void vtkIsopointRayTracingExporter::WriteData()
     vtkErrorMacro("The window shows nothing: it has no renderer.");
     return;
   }
+  const std::string folder =
+    vtksys::SystemTools::GetFilenamePath(vtksys::SystemTools::CollapseFullPath(this->FileName));
+  if (!vtksys::SystemTools::FileIsDirectory(folder))
+  {
+    vtkErrorMacro("The picture " << this->FileName << " cannot be written: there is no folder "
+                                 << folder << ". Choose one that can be written to.");
+    return;
+  }
   if (this->Trace(renderer))
   {
     this->WriteWindow(renderer);
+  }
+  if (theMonitor())
+  {
+    theMonitor()(1.0);
   }
 }
 
@@ -133,10 +148,6 @@ bool vtkIsopointRayTracingExporter::Trace(vtkRenderer* renderer)
   const bool isComplete = this->Tracer->RenderToImage(
     renderer, this->Magnification * size[0], this->Magnification * size[1], image);
   this->Tracer->RemoveObserver(observer);
-  if (theMonitor())
-  {
-    theMonitor()(1.0);
-  }
   return isComplete; // else the tracer has reported why, or was stopped
 }
 
@@ -157,11 +168,12 @@ void vtkIsopointRayTracingExporter::WriteWindow(vtkRenderer* renderer)
   writer->SetFileName(this->FileName);
   writer->SetInputData(window->GetOutput());
   writer->Write();
+  this->RenderWindow->Render(); // without the traced picture
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    vtkErrorMacro("The picture " << this->FileName << " cannot be written: "
-                                 << vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
-                                 << ". Choose a folder that can be written to.");
+    vtkErrorMacro("The picture " << this->FileName
+                                 << " cannot be written. Choose a folder with room, and that can be"
+                                    " written to.");
   }
 }
 

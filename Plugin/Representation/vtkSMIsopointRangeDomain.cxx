@@ -27,11 +27,9 @@ int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool use
   const int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(usesUncheckedValues);
-  this->HasDefault = result && helper.GetNumberOfElements() == 1;
-  if (this->HasDefault)
-  {
-    this->Default = helper.GetAsDouble();
-  }
+  std::optional<double>& value = usesUncheckedValues ? this->ShownDefault : this->Default;
+  value = result && helper.GetNumberOfElements() == 1 ? std::optional(helper.GetAsDouble())
+                                                      : std::nullopt;
   return result;
 }
 
@@ -61,6 +59,7 @@ void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
 bool vtkSMIsopointRangeDomain::IsDefault(vtkSMProperty* property) const
 {
   vtkSMUncheckedPropertyHelper isovalues(property);
-  return this->HasDefault && isovalues.GetNumberOfElements() == 1 &&
-         isovalues.GetAsDouble() == this->Default;
+  const std::optional<double> isovalue =
+    isovalues.GetNumberOfElements() == 1 ? std::optional(isovalues.GetAsDouble()) : std::nullopt;
+  return isovalue && (isovalue == this->Default || isovalue == this->ShownDefault);
 }

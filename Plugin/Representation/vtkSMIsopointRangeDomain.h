@@ -5,7 +5,8 @@
  *
  * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. Where
  * another array is chosen while the isovalue still is the default, it becomes the middle of the new
- * array's range. Isovalues that were typed, and all where only the data change, are kept.
+ * array's range. Others, those of a state that was loaded, and all where only the data change, are
+ * kept.
  *
  * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
  */
@@ -15,7 +16,8 @@
 #include "vtkSMArrayRangeDomain.h"
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
 
-#include <string> // for the array's name
+#include <optional> // for default values
+#include <string>   // for the array's name
 
 class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRangeDomain
   : public vtkSMArrayRangeDomain
@@ -38,9 +40,9 @@ protected:
 private:
   bool IsDefault(vtkSMProperty* property) const;
 
-  std::string Array; // that the range is of, with its association
-  bool HasDefault = false;
-  double Default = 0.0; // that the property was set to
+  std::string Array;                  // that the range is of, with its association
+  std::optional<double> Default;      // that the property was set to
+  std::optional<double> ShownDefault; // the same, where it is not applied yet
 
   vtkSMIsopointRangeDomain(const vtkSMIsopointRangeDomain&) = delete;
   void operator=(const vtkSMIsopointRangeDomain&) = delete;

@@ -36,7 +36,7 @@ void setToolTip(QLabel* label)
   int columns = 0;
   grid->getItemPosition(index, &row, &column, &rows, &columns);
   QLayoutItem* const item = grid->itemAtPosition(row, column + columns);
-  if (item && item->widget())
+  if (item && item->widget() && !item->widget()->toolTip().isEmpty())
   {
     label->setToolTip(item->widget()->toolTip());
   }

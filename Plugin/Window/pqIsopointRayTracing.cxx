@@ -21,6 +21,7 @@
 #include <QEventLoop>
 #include <QList>
 #include <QMenu>
+#include <QPointer>
 #include <QProgressDialog>
 #include <QPushButton>
 #include <QString>
@@ -34,7 +35,7 @@ namespace
 /// Asks for a file and for options, and traces the active view.
 void exportActiveView()
 {
-  pqView* const view = pqActiveObjects::instance().activeView();
+  const QPointer<pqView> view = pqActiveObjects::instance().activeView();
   if (!qobject_cast<pqRenderView*>(view))
   {
     return;
@@ -44,7 +45,7 @@ void exportActiveView()
     nullptr, window, "Export Ray-Traced Picture", QString(), "PNG picture (*.png)");
   files.setObjectName("FileExportDialog");
   files.setFileMode(pqFileDialog::AnyFile);
-  if (files.exec() != QDialog::Accepted || files.getSelectedFiles().empty())
+  if (files.exec() != QDialog::Accepted || files.getSelectedFiles().empty() || !view)
   {
     return;
   }

@@ -106,3 +106,18 @@ TEST(FacetMesh, ATetrahedronStaysOne)
   EXPECT_FALSE(mesh.collapse(0, 1, [](const Facet&) { return true; }));
   EXPECT_EQ(mesh.facets().size(), 4u);
 }
+
+TEST(FacetMesh, FacetsBackToBackAreLeftAlone)
+{
+  const std::vector<Vector> positions{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } };
+  const std::vector<bool> isInner(positions.size(), true);
+  FacetMesh mesh(positions, isInner, { { { 0, 1, 2 }, up }, { { 1, 0, 2 }, up } });
+  EXPECT_EQ(mesh.invertedFacets().size(), 1u);
+  mesh.untangle();
+  for (const Facet& facet : mesh.facets())
+  {
+    EXPECT_NE(facet.corners[0], facet.corners[1]);
+    EXPECT_NE(facet.corners[1], facet.corners[2]);
+    EXPECT_NE(facet.corners[2], facet.corners[0]);
+  }
+}

@@ -255,6 +255,67 @@ TEST(Warnings, ACauseIsNamedWhenItComesUp)
   expectWarning(filter, { "at 8: " });
 }
 
+TEST(Warnings, AnotherArrayIsAnotherCause)
+{
+  const auto cloud = newCloud(500);
+  for (const char* const name : { "one", "two" })
+  {
+    const auto constant = newArray<vtkDoubleArray>(name, 500);
+    constant->FillValue(2.0);
+    cloud->GetPointData()->AddArray(constant);
+  }
+  const auto filter = newFilterOf(cloud);
+  for (const char* const name : { "one", "two" })
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+    expectWarning(filter, { std::string("\"") + name + "\" are 2" });
+  }
+}
+
+TEST(Warnings, ThatNothingIsLeftIsAProblem)
+{
+  const auto cloud = newCloud(500);
+  vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars())->FillValue(notANumber);
+  expectWarning(
+    newFilterOf(cloud), { "Skipped 500 of 500 samples: not finite. There is no isosurface." });
+}
+
+TEST(Warnings, IsovaluesBetweenBlocksAreNotInGaps)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const unsigned int block : { 0u, 1u })
+  {
+    const auto cloud = newCloud(400);
+    auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars());
+    for (vtkIdType i = 0; i < 400; ++i)
+    {
+      values->SetValue(i, values->GetValue(i) + 100.0 * block);
+    }
+    blocks->SetBlock(block, cloud);
+  }
+  const auto filter = newFilterOf(blocks.Get());
+  filter->SetValue(0, 50.0);
+  filter->ContourBlocksOn();
+  filter->DropGapsOff();
+  expectWarning(filter, { "at 50: no block has samples on both sides", "ContourBlocks" });
+}
+
+TEST(Warnings, NothingIsCountedAfterAnError)
+{
+  const auto cloud = newCloud(500);
+  vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetScalars())->SetValue(0, notANumber);
+  const auto filter = newFilterOf(cloud);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 1);
+  filter->SetAngle(-1.0);
+  const auto errors = watchErrors(filter);
+  filter->Update();
+  EXPECT_EQ(errors->Count, 1);
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 0);
+  EXPECT_EQ(filter->GetNumberOfSamples(), 0);
+  EXPECT_EQ(filter->GetNumberOfExtractedPoints(), 0);
+}
+
 TEST(Warnings, WhatCountsComesFirst)
 {
   // ParaView's list of messages shows about this many characters.

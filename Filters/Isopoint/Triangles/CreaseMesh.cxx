@@ -43,8 +43,8 @@ public:
       return;
     }
     const std::size_t firstOnCrease = this->Whole.surface.size();
-    facets = splitAtCreases(this->Whole, std::move(facets));
-    facets = untangleFacets(this->Whole, std::move(facets), firstOnCrease);
+    facets = splitAtCreases(this->Run, this->Whole, std::move(facets));
+    facets = untangleFacets(this->Run, this->Whole, std::move(facets), firstOnCrease);
     if (parts)
     {
       this->partCreases(facets);
@@ -95,7 +95,7 @@ private:
   /// normal of the first facet there.
   void partCreases(std::vector<Facet>& facets)
   {
-    std::map<std::size_t, std::vector<std::size_t>> copies; // of vertices, the vertex itself first
+    std::map<std::size_t, std::vector<std::size_t>> copies; // of each vertex
     for (Facet& facet : facets)
     {
       for (std::size_t& corner : facet.corners)

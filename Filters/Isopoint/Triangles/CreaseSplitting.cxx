@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -31,8 +32,9 @@ bool isFinite(const Vector& vector)
 class CreaseSplitter
 {
 public:
-  explicit CreaseSplitter(CreaseSurface& whole)
-    : Whole(whole)
+  CreaseSplitter(const Execution& execution, CreaseSurface& whole)
+    : Run(execution)
+    , Whole(whole)
   {
   }
 
@@ -43,6 +45,7 @@ public:
     FacetMesh mesh(this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
     for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
     {
+      this->lookAfter(vertex);
       if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
       {
         this->mergeWithNearest(mesh, vertex);
@@ -51,6 +54,7 @@ public:
     this->Pieces.resize(this->Whole.isInner.size());
     for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
     {
+      this->lookAfter(vertex);
       this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
     }
     return mesh.facets();
@@ -74,6 +78,7 @@ public:
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const auto& [a, b] : edges)
     {
+      this->lookAfter(a);
       if (const std::optional<Vector> place = this->placeOnCrease(a, b))
       {
         this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
@@ -190,6 +195,16 @@ public:
   }
 
 private:
+  /// Looks from time to time whether to stop.
+  void lookAfter(std::size_t count) const
+  {
+    constexpr std::size_t batch = 1024;
+    if (count % batch == 0)
+    {
+      throwIfAborted(this->Run);
+    }
+  }
+
   /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one that
   /// differs from all around that know the crease.
   bool isLost(std::size_t vertex, const std::vector<std::size_t>& neighbors) const
@@ -293,14 +308,18 @@ private:
     {
       return SurfacePiece(this->Whole.fitOf(this->Pieces[vertex]));
     }
+    const CreasePlane* closest = nullptr;
+    double cosine = mostCreaseCosine;
     for (const CreasePlane& plane : fit.creases)
     {
-      if (std::abs(dot(plane.inward, this->Whole.normals[vertex])) >= mostCreaseCosine)
+      const double own = std::abs(dot(plane.inward, this->Whole.normals[vertex]));
+      if (own >= cosine)
       {
-        return SurfacePiece(fit.position, plane);
+        closest = &plane;
+        cosine = own;
       }
     }
-    return std::nullopt;
+    return closest ? std::optional(SurfacePiece(fit.position, *closest)) : std::nullopt;
   }
 
   using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
@@ -320,11 +339,11 @@ private:
     const Vector& q = this->Whole.surface.positions[b];
     const std::vector<SurfacePiece> pieces = this->piecesAt({ a, b });
     const Vector center = scaled(0.5, sum(p, 1.0, q));
-    const Vector near = meetingOf(pieces, center);
+    const Vector meeting = meetingOf(pieces, center);
     const Vector along = directionOf(cross(this->Whole.normals[a], this->Whole.normals[b]));
     const auto offsetOf = [&](const Vector& place)
     {
-      const Vector offset = difference(place, near);
+      const Vector offset = difference(place, meeting);
       const double shift = dot(offset, along);
       return std::pair(shift, lengthOf(sum(offset, -shift, along)));
     };
@@ -332,7 +351,7 @@ private:
     const auto [qShift, qOff] = offsetOf(q);
     const double off = pOff + qOff;
     const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
-    const Vector place = meetingOf(pieces, sum(near, shift, along));
+    const Vector place = meetingOf(pieces, sum(meeting, shift, along));
     const double length = lengthOf(difference(q, p));
     return isFinite(place) && lengthOf(difference(place, center)) <= mostOffset * length
              ? std::optional(place)
@@ -344,6 +363,7 @@ private:
     return found != this->OnCreases.end() ? std::optional(found->second) : std::nullopt;
   }
 
+  const Execution& Run;
   CreaseSurface& Whole;
   std::vector<std::size_t> Pieces;       // the vertex whose fit describes that of a vertex
   std::map<Edge, std::size_t> OnCreases; // vertices, by the edges that they are on
@@ -351,9 +371,10 @@ private:
 
 } // namespace
 
-std::vector<Facet> splitAtCreases(CreaseSurface& whole, std::vector<Facet> facets)
+std::vector<Facet> splitAtCreases(
+  const Execution& execution, CreaseSurface& whole, std::vector<Facet> facets)
 {
-  CreaseSplitter splitter(whole);
+  CreaseSplitter splitter(execution, whole);
   return splitter.split(splitter.withoutLost(std::move(facets)));
 }
 

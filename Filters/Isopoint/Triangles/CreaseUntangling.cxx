@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -13,9 +14,9 @@ namespace
 /// right way, or are much smaller. Vertices on creases stay on them. @returns whether it did
 bool mergeAt(FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
 {
-  const Facet facet = mesh.facet(inverted); // which may have been removed since
+  const Facet facet = mesh.facet(inverted);
   constexpr double share = 0.1;
-  const double least = share * std::min(0.0, mesh.signedArea(facet));
+  const double least = share * mesh.signedArea(facet);
   for (std::size_t i = 0; i < 6; ++i)
   {
     const std::size_t vertex = facet.corners[i % 3];
@@ -62,21 +63,26 @@ bool slideAt(
 
 } // namespace
 
-std::vector<Facet> untangleFacets(
-  CreaseSurface& whole, std::vector<Facet> facets, std::size_t firstOnCrease)
+std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
+  std::vector<Facet> facets, std::size_t firstOnCrease)
 {
   FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
   constexpr int mostRounds = 5;
   bool isAnyMerged = true;
+  mesh.untangle();
   for (int round = 0; round < mostRounds && isAnyMerged; ++round)
   {
-    mesh.untangle();
     isAnyMerged = false;
-    for (const std::size_t inverted : mesh.invertedFacets())
+    for (const std::size_t facet : mesh.invertedFacets())
     {
-      isAnyMerged = mergeAt(mesh, inverted, firstOnCrease) ||
-                    slideAt(whole, mesh, inverted, firstOnCrease) || isAnyMerged;
+      throwIfAborted(execution);
+      if (mesh.isInverted(facet)) // still
+      {
+        isAnyMerged = mergeAt(mesh, facet, firstOnCrease) ||
+                      slideAt(whole, mesh, facet, firstOnCrease) || isAnyMerged;
+      }
     }
+    mesh.untangle();
   }
   return mesh.facets();
 }

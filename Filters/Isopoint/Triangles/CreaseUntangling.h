@@ -2,6 +2,7 @@
 #ifndef isopoint_CreaseUntangling_h
 #define isopoint_CreaseUntangling_h
 
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/Triangles/CreaseSurface.h"
 #include "Isopoint/Triangles/FacetMesh.h"
 
@@ -15,8 +16,9 @@ namespace isopoint
 /// that does not suffice. A few may be left.
 /// @param whole whose vertices on creases may be moved along them
 /// @param firstOnCrease the first vertex on a crease, all others being behind it
-std::vector<Facet> untangleFacets(
-  CreaseSurface& whole, std::vector<Facet> facets, std::size_t firstOnCrease);
+/// @throws std::bad_alloc, Aborted
+std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
+  std::vector<Facet> facets, std::size_t firstOnCrease);
 
 } // namespace isopoint
 

@@ -4,6 +4,7 @@
 #include "Isopoint/Fit/LocalFit.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace isopoint
@@ -84,7 +85,7 @@ std::vector<std::size_t> FacetMesh::invertedFacets() const
   std::vector<std::size_t> inverted;
   for (std::size_t i = 0; i < this->Facets.size(); ++i)
   {
-    if (!this->IsRemoved[i] && this->signedArea(this->Facets[i]) < 0.0)
+    if (this->isInverted(i))
     {
       inverted.push_back(i);
     }
@@ -139,7 +140,7 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
     const SurfaceTriangle& corners = this->Facets[*other].corners;
     const std::size_t d = *std::find_if(corners.begin(), corners.end(),
       [a, b](std::size_t corner) { return corner != a && corner != b; });
-    if (!this->IsInner[d] || this->hasEdge(c, d))
+    if (d == c || !this->IsInner[d] || this->hasEdge(c, d)) // d == c: back to back
     {
       continue;
     }

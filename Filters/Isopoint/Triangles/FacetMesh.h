@@ -70,6 +70,12 @@ public:
 
   const Facet& facet(std::size_t index) const { return this->Facets[index]; }
 
+  /// Whether a facet is left, and looks the wrong way.
+  bool isInverted(std::size_t index) const
+  {
+    return !this->IsRemoved[index] && this->signedArea(this->Facets[index]) < 0.0;
+  }
+
   /// Twice the area of a facet, negative if it looks the wrong way.
   double signedArea(const Facet& facet) const;
 
