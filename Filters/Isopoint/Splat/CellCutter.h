@@ -148,7 +148,8 @@ private:
   /// tangent plane, or has ended.
   void cutWhereSamplesDisagree(std::size_t point, TangentCell& cell) const
   {
-    if (!this->Extents || this->Points.fits.empty() || !hasScale(this->Points.fits[point]))
+    if (!this->Extents || this->Points.fits.empty() || !hasScale(this->Points.fits[point]) ||
+        this->isBesideCrease())
     {
       return;
     }
@@ -184,6 +185,13 @@ private:
     return side != TangentCell::limit && side != TangentCell::plane && this->isSmooth(point) &&
            this->isSmooth(side) &&
            dot(this->Splats[point].normal, this->Splats[side].normal) > leastCosine;
+  }
+
+  /// Whether a point nearby knows a crease: values beyond that are not those of this one's fit.
+  bool isBesideCrease() const
+  {
+    return std::any_of(this->Nearby.begin(), this->Nearby.end(),
+      [this](const NearbyPoint& other) { return !this->Points.fits[other.point].creases.empty(); });
   }
 
   static bool hasScale(const LocalFit& fit)
