@@ -128,7 +128,11 @@ std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& pr
 {
   const auto size = static_cast<std::uint64_t>(team.size());
   const auto own = static_cast<std::uint64_t>(team.rank());
-  const std::uint64_t lowest = size - team.maximum(problem.empty() ? 0 : size - own);
+  // Larger than what Team::together() tells: the others may still be in that, and then learn that
+  // this rank has failed.
+  constexpr std::uint64_t failure = 2;
+  const std::uint64_t most = team.maximum(problem.empty() ? failure : failure + size - own);
+  const std::uint64_t lowest = size + failure - most;
   if (lowest == size)
   {
     return {};

@@ -8,6 +8,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -61,6 +62,10 @@ bool forEach(std::size_t count, std::size_t threads, const std::function<void(st
   {
     // The system grants no more threads: those that were started do the work.
   }
+  catch (const std::bad_alloc&)
+  {
+    // The same for a lack of memory.
+  }
   work(goesOn);
   for (std::thread& worker : workers)
   {
@@ -71,6 +76,12 @@ bool forEach(std::size_t count, std::size_t threads, const std::function<void(st
     std::rethrow_exception(failure);
   }
   return !isStopped;
+}
+
+bool isFinite(const Radiance& radiance)
+{
+  return std::isfinite(radiance.color.x) && std::isfinite(radiance.color.y) &&
+         std::isfinite(radiance.color.z) && std::isfinite(radiance.alpha);
 }
 
 } // namespace
@@ -143,7 +154,11 @@ bool Picture::addSamples(const Camera& camera, const PathTracer& tracer, std::ui
         const Ray ray =
           camera.through((static_cast<double>(x) + static_cast<double>(place.first)) / this->Width,
             (static_cast<double>(y) + static_cast<double>(place.second)) / this->Height, skipped);
-        const Radiance radiance = tracer.along(ray, sampler);
+        Radiance radiance = tracer.along(ray, sampler);
+        if (!isFinite(radiance))
+        {
+          radiance = {}; // one such path would spoil the pixel
+        }
         // As it is displayed: one path to a light's highlight would outshine all others of a pixel.
         sum.color += { std::min(radiance.color.x, 1.0f), std::min(radiance.color.y, 1.0f),
           std::min(radiance.color.z, 1.0f) };

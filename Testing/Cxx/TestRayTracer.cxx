@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <set>
 
 using namespace raytracing;
@@ -247,6 +249,20 @@ TEST(Picture, NoSampleOutshinesTheOthers)
     cameraOf(0.25), PathTracer(scene, illuminants), 400, 1, [](double) { return true; });
   EXPECT_NEAR(picture.pixel(0).color.x, picture.pixel(0).alpha, 1e-4f);
   EXPECT_NEAR(picture.pixel(0).alpha, 0.5f, 0.05f);
+}
+
+TEST(Picture, APathWithoutAColorSpoilsNoPixel)
+{
+  const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
+  Illuminants illuminants;
+  illuminants.lights.emplace_back();
+  illuminants.lights[0].diffuse = { std::nanf(""), 1.0f, 1.0f };
+  Picture picture(1, 1, 16);
+  picture.addSamples(
+    cameraOf(0.25), PathTracer(scene, illuminants), 16, 1, [](double) { return true; });
+  const Radiance pixel = picture.pixel(0);
+  EXPECT_TRUE(std::isfinite(pixel.color.x) && std::isfinite(pixel.color.y) &&
+              std::isfinite(pixel.color.z) && std::isfinite(pixel.alpha));
 }
 
 TEST(Picture, EndsAndGoesOn)

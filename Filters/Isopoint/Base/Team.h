@@ -80,11 +80,12 @@ public:
       failure = failed;
     }
     this->Link.allReduce(&failure, 1, Reduction::Maximum);
-    if (failure == failed && own)
+    // What is larger is of a rank that failed between such steps.
+    if (failure >= failed && own)
     {
       std::rethrow_exception(own);
     }
-    if (failure == failed)
+    if (failure >= failed)
     {
       throw FailedElsewhere();
     }

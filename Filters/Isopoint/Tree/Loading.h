@@ -29,10 +29,10 @@ template <class TSample>
 struct SliceSummary
 {
   std::size_t kept = 0; // bounds and range are defined where this is positive
-  typename TSample::Coordinate lower[3];
-  typename TSample::Coordinate upper[3];
-  typename TSample::Value minimum;
-  typename TSample::Value maximum;
+  typename TSample::Coordinate lower[3] = {};
+  typename TSample::Coordinate upper[3] = {};
+  typename TSample::Value minimum = {};
+  typename TSample::Value maximum = {};
 
   void add(const TSample& sample)
   {
