@@ -120,18 +120,16 @@ bool isPart(const raytracing::Camera& camera, const int* size, const raytracing:
 {
   const double width = picture.getWidth();
   const double height = picture.getHeight();
-  const double column =
-    width * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearRight);
+  const double column = std::round(
+    width * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearRight));
   const double row =
-    height * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearUp);
-  if (!(column > -0.5 && row > -0.5 && std::lround(column) + size[0] <= width &&
-        std::lround(row) + size[1] <= height))
+    std::round(height * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearUp));
+  if (!(column >= 0.0 && row >= 0.0 && column + size[0] <= width && row + size[1] <= height))
   {
     return false;
   }
-  tile = { static_cast<std::size_t>(std::lround(column)),
-    static_cast<std::size_t>(std::lround(row)), static_cast<std::size_t>(size[0]),
-    static_cast<std::size_t>(size[1]) };
+  tile = { static_cast<std::size_t>(column), static_cast<std::size_t>(row),
+    static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
   return isSameWindow(windowOf(pictureCamera, true, tile, width, height),
            { camera.nearCorner, camera.nearRight, camera.nearUp }) &&
          isSameWindow(windowOf(pictureCamera, false, tile, width, height),

@@ -236,6 +236,7 @@ private:
     }
     std::sort(byDistance.begin(), byDistance.end());
     std::vector<std::size_t> neighbors;
+    neighbors.reserve(byDistance.size());
     for (const auto& [distance, neighbor] : byDistance)
     {
       neighbors.push_back(neighbor);

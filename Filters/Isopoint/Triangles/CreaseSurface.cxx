@@ -48,10 +48,10 @@ std::size_t CreaseSurface::addVertex(
   fit.isSmooth = false;
   fit.order = FitOrder::Crease;
   fit.creases.clear();
-  this->surface.edges.push_back(IsopointEdge(this->surface.edges[like]));
+  this->surface.edges.emplace_back(this->surface.edges[like]);
   this->surface.positions.push_back(place);
-  this->surface.decreasingEdges.push_back(Vector(this->surface.decreasingEdges[like]));
-  this->surface.leaves.push_back(EdgeLeaves(this->surface.leaves[like]));
+  this->surface.decreasingEdges.emplace_back(this->surface.decreasingEdges[like]);
+  this->surface.leaves.emplace_back(this->surface.leaves[like]);
   this->surface.fits.push_back(std::move(fit));
   this->normals.push_back(normal);
   this->isInner.push_back(true);
