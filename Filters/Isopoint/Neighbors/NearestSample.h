@@ -12,15 +12,29 @@
 namespace isopoint
 {
 
-/// Searches for the sample nearest to a place, of equally distant ones that of the lowest id.
-template <class TSample>
+/// The condition of a NearestSampleSearch that every sample meets.
+struct AnySample
+{
+  /// Whether a sample in a region may meet the condition.
+  bool mayHoldIn(const Region& /*region*/) const { return true; }
+
+  /// Whether a sample at an offset from the place, of this length, meets the condition.
+  bool holdsAt(const Vector& /*offset*/, double /*length*/) const { return true; }
+};
+
+/// Searches for the sample nearest to a place of those that meet a condition, of equally distant
+/// ones that of the lowest id.
+template <class TSample, class TCondition = AnySample>
 class NearestSampleSearch
 {
 public:
   /// @param reach of the samples that count from the place, finite
-  NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach)
+  /// @param condition with the functions of AnySample
+  NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach,
+    const TCondition& condition = {})
     : Tree(tree)
     , Place(place)
+    , Condition(condition)
     , Distance(reach)
   {
   }
@@ -41,7 +55,7 @@ private:
   void visit(std::size_t nodeIndex, const Region& region)
   {
     constexpr double slack = 0.999; // for rounding
-    if (slack * this->distanceTo(region) > this->Distance)
+    if (!this->Condition.mayHoldIn(region) || slack * this->distanceTo(region) > this->Distance)
     {
       return;
     }
@@ -93,9 +107,12 @@ private:
 
   void consider(const TSample& sample)
   {
-    const double distance = lengthOf(difference(positionOf(sample), this->Place));
-    if (distance < this->Distance ||
-        (distance == this->Distance && (!this->Found || sample.id < this->Found->id)))
+    const Vector offset = difference(positionOf(sample), this->Place);
+    const double distance = lengthOf(offset);
+    const bool isNearer =
+      distance < this->Distance ||
+      (distance == this->Distance && (!this->Found || sample.id < this->Found->id));
+    if (isNearer && this->Condition.holdsAt(offset, distance))
     {
       this->Distance = distance;
       this->Found = &sample;
@@ -104,6 +121,7 @@ private:
 
   const SampleTree<TSample>& Tree;
   const Vector Place;
+  const TCondition Condition;
   double Distance;
   const TSample* Found = nullptr;
 };

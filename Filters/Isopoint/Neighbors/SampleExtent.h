@@ -210,114 +210,38 @@ private:
   double Below = 0.0;
 };
 
-/// Searches for the nearest of the samples that an ExtentQuery asks for and that stand ahead by
-/// `enough` or more; of equally distant ones that of the lowest id.
-template <class TSample>
-class SampleAheadSearch
+/// The condition of a NearestSampleSearch that a sample stands ahead by an ExtentQuery's `enough`
+/// or more.
+class IsAhead
 {
 public:
-  SampleAheadSearch(const SampleTree<TSample>& tree, const ExtentQuery& query)
-    : Tree(tree)
-    , Query(query)
-    , Distance(query.reach)
+  explicit IsAhead(const ExtentQuery& query)
+    : Query(query)
   {
   }
 
-  /// @returns null if there is none
-  /// @throws MissingNode at a node whose samples another rank holds
-  /// Complexity: that of a nearest neighbor, and the samples of unsplit nodes on the way
-  const TSample* search()
+  bool mayHoldIn(const Region& region) const
   {
-    if (!this->Tree.isEmpty())
+    double ahead = 0.0; // the largest
+    for (int axis = 0; axis < 3; ++axis)
     {
-      this->visit(SampleTree<TSample>::rootNode, this->Tree.region);
+      const double direction = this->Query.direction[axis];
+      const double place = this->Query.place[axis];
+      ahead += std::max(
+        direction * (region.lower[axis] - place), direction * (region.upper[axis] - place));
     }
-    return this->Found;
+    constexpr double slack = 0.999; // for rounding
+    return ahead >= slack * this->Query.enough;
+  }
+
+  bool holdsAt(const Vector& offset, double length) const
+  {
+    const double ahead = dot(offset, this->Query.direction);
+    return ahead >= this->Query.enough && ahead >= leastCosineAhead * length;
   }
 
 private:
-  void visit(std::size_t nodeIndex, const Region& region)
-  {
-    if (!this->mayHoldIt(region))
-    {
-      return;
-    }
-    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (!node.isSplit())
-    {
-      if (node.isAbsent)
-      {
-        throw MissingNode{ nodeIndex, this->within(region) };
-      }
-      const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
-      for (std::size_t i = node.begin; i < end; ++i)
-      {
-        this->consider(this->Tree.samples[i]);
-      }
-      return;
-    }
-    const bool isUpperFirst = this->Query.place[node.axis] > node.plane;
-    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
-    {
-      Region part = region;
-      (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
-      this->visit(this->Tree.child(node, isUpper), part);
-    }
-  }
-
-  /// The part of a region that is near enough, with room for rounding.
-  Region within(Region region) const
-  {
-    const double reach = 1.001 * this->Distance;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      region.lower[axis] = std::max(region.lower[axis], this->Query.place[axis] - reach);
-      region.upper[axis] = std::min(region.upper[axis], this->Query.place[axis] + reach);
-    }
-    return region;
-  }
-
-  bool mayHoldIt(const Region& region) const
-  {
-    double ahead = 0.0; // the largest
-    Vector gap{};       // from the place to the region
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double lower = region.lower[axis] - this->Query.place[axis];
-      const double upper = region.upper[axis] - this->Query.place[axis];
-      gap[axis] = std::max({ lower, -upper, 0.0 });
-      const double direction = this->Query.direction[axis];
-      ahead += std::max(direction * lower, direction * upper);
-    }
-    constexpr double slack = 0.999; // for rounding
-    return ahead >= slack * this->Query.enough &&
-           slack * std::max({ gap[0], gap[1], gap[2] }) <= this->Distance &&
-           slack * lengthOf(gap) <= this->Distance;
-  }
-
-  void consider(const TSample& sample)
-  {
-    const Vector offset = difference(positionOf(sample), this->Query.place);
-    const double ahead = dot(offset, this->Query.direction);
-    if (ahead < this->Query.enough)
-    {
-      return;
-    }
-    const double length = lengthOf(offset);
-    const bool isNearer =
-      length < this->Distance ||
-      (length == this->Distance && (!this->Found || sample.id < this->Found->id));
-    if (isNearer && ahead >= leastCosineAhead * length)
-    {
-      this->Distance = length;
-      this->Found = &sample;
-    }
-  }
-
-  const SampleTree<TSample>& Tree;
   const ExtentQuery& Query;
-  double Distance;
-  const TSample* Found = nullptr;
 };
 
 /// The extents of a tree's samples ahead of places on a surface. The tree must not change
@@ -358,11 +282,13 @@ public:
     return search.extent();
   }
 
-  /// The nearest of the samples that stand ahead by query.enough or more; see SampleAheadSearch.
+  /// The nearest of the samples that stand ahead by query.enough or more; see NearestSampleSearch.
   /// @throws MissingNode
   const TSample* nearest(const ExtentQuery& query) const
   {
-    return SampleAheadSearch<TSample>(this->Tree, query).search();
+    return NearestSampleSearch<TSample, IsAhead>(
+      this->Tree, query.place, query.reach, IsAhead(query))
+      .search();
   }
 
   /// The sample nearest to a place, within reach; see NearestSampleSearch.
