@@ -52,6 +52,9 @@ public:
   {
   }
 
+  /// What together() tells the other ranks of a failure. A step in its place tells this or more.
+  static constexpr std::uint64_t failed = 2;
+
   int rank() const { return this->Link.rank(); }
   int size() const { return this->Link.size(); }
   const Traffic& traffic() const { return this->Counted; }
@@ -216,7 +219,6 @@ public:
 private:
   static constexpr std::uint64_t none = 0;
   static constexpr std::uint64_t aborted = 1;
-  static constexpr std::uint64_t failed = 2;
 
   void exchangeSizes(const std::vector<std::uint64_t>& outgoing,
     std::vector<std::uint64_t>& incoming, std::vector<OutgoingBytes>& from,
