@@ -92,6 +92,7 @@ public:
     return parts;
   }
 
+private:
   void addParts(const Facet& facet, std::vector<Facet>& parts)
   {
     std::array<std::optional<std::size_t>, 3> onEdges;
@@ -194,7 +195,6 @@ public:
              : std::nullopt;
   }
 
-private:
   /// Looks from time to time whether to stop.
   void lookAfter(std::size_t count) const
   {
@@ -358,6 +358,7 @@ private:
              ? std::optional(place)
              : std::nullopt;
   }
+
   std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
   {
     const auto found = this->OnCreases.find(std::minmax(a, b));

@@ -57,4 +57,5 @@ std::size_t CreaseSurface::addVertex(
   this->isInner.push_back(true);
   return vertex;
 }
+
 } // namespace isopoint
