@@ -143,7 +143,6 @@ def opacities():
 
 shapes()
 small_bodies()
-
 transforms()
 colors()
 blocks()
