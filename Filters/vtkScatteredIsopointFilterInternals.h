@@ -2,11 +2,11 @@
 #ifndef vtkScatteredIsopointFilterInternals_h
 #define vtkScatteredIsopointFilterInternals_h
 
+#include "Input/vtkIsopointBlocks.h"
+#include "Input/vtkIsopointInputState.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "vtkIsopointBlocks.h"
-#include "vtkIsopointFindings.h"
-#include "vtkIsopointInputState.h"
-#include "vtkIsopointRanks.h"
+#include "Update/vtkIsopointFindings.h"
+#include "Update/vtkIsopointRanks.h"
 #include "vtkScatteredIsopointFilter.h"
 
 #include "vtkAlgorithm.h"

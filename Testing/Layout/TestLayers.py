@@ -30,7 +30,12 @@ CORE_FOLDERS = {
 
 # The other folders with sources, and the headers of the project that they may include.
 FOLDERS = {
-    "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
+    "Filters": ["Filters/*.h", "Filters/Update/*.h", "Filters/Output/*.h", "Filters/Input/*.h",
+                CORE + "/*.h", CORE + "/Base/*.h"],
+    "Filters/Update": ["Filters/*.h", "Filters/Update/*.h", "Filters/Output/*.h",
+                       "Filters/Input/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
+    "Filters/Output": ["Filters/Output/*.h", "Filters/Input/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
+    "Filters/Input": ["Filters/Input/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
     "Rendering": ["Rendering/*.h"],
     "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h"],
     TRACER: [TRACER + "/*.h"],
@@ -140,7 +145,7 @@ class Project:
         allowed = FOLDERS[folder]
         if own and not any(pathlib.PurePath(own).match(pattern) for pattern in allowed):
             self.report(name, f"includes {include}: {folder} may not know it")
-        elif folder == "Filters" and RENDERING.match(include.rsplit("/", 1)[-1]):
+        elif folder.startswith("Filters") and RENDERING.match(include.rsplit("/", 1)[-1]):
             self.report(name, f"includes {include}: filters know no rendering")
         elif folder == TRACER and include.startswith("vtk"):
             self.report(name, f"includes {include}: the tracer knows no VTK")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointRanks.h"
+#include "Update/vtkIsopointRanks.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointOptions.h"
+#include "Update/vtkIsopointOptions.h"
 
+#include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkIsopointUsageError.h"
 #include "vtkScatteredIsopointFilter.h"
 
 #include "vtkDataObject.h"

@@ -2,8 +2,8 @@
 #ifndef vtkIsopointBlocks_h
 #define vtkIsopointBlocks_h
 
-#include "vtkIsopointBlock.h"
-#include "vtkIsopointInputState.h"
+#include "Input/vtkIsopointBlock.h"
+#include "Input/vtkIsopointInputState.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointInput.h"
+#include "Input/vtkIsopointInput.h"
 
+#include "Input/vtkIsopointBlock.h"
 #include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "vtkIsopointBlock.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"

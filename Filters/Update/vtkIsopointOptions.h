@@ -3,7 +3,7 @@
 #define vtkIsopointOptions_h
 
 #include "Isopoint/ExtractionRequest.h"
-#include "vtkIsopointComputedArrays.h"
+#include "Output/vtkIsopointComputedArrays.h"
 
 namespace isopoint
 {

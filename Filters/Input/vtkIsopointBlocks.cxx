@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointBlocks.h"
+#include "Input/vtkIsopointBlocks.h"
 
+#include "Input/vtkIsopointCellCenters.h"
+#include "Input/vtkIsopointGhosts.h"
+#include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Execution.h"
-#include "vtkIsopointCellCenters.h"
-#include "vtkIsopointGhosts.h"
-#include "vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"

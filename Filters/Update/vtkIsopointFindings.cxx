@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointFindings.h"
+#include "Update/vtkIsopointFindings.h"
 
+#include "Input/vtkIsopointBlock.h"
 #include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkIsopointBlock.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointFindings_h
 #define vtkIsopointFindings_h
 
-#include "vtkIsopointBlock.h"
+#include "Input/vtkIsopointBlock.h"
 
 #include <cstddef>
 #include <cstdint>
