@@ -114,14 +114,13 @@ vtkAbstractArray* vtkIsopointArrayChoice::Find(vtkDataSetAttributes* attributes)
                             : attributes->GetAbstractArray(this->Name.c_str());
 }
 
-std::string vtkIsopointArrayChoice::DescribeMissing() const
+std::string vtkIsopointArrayChoice::Describe() const
 {
   const std::string element = !this->MayBeOfPoints() ? "cell"
                               : this->MayBeOfCells() ? "point or cell"
                                                      : "point";
-  return this->Name.empty()
-           ? "The input has no active " + element + " scalars."
-           : "The input has no " + element + " array named \"" + this->Name + "\".";
+  return this->Name.empty() ? "active " + element + " scalars"
+                            : element + " array named \"" + this->Name + "\"";
 }
 
 void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObject* input,
@@ -147,7 +146,7 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
   }
   if (this->Blocks.empty())
   {
-    throw vtkIsopointNothingError(choice.DescribeMissing() + remedy);
+    throw vtkIsopointNothingError("The input has no " + choice.Describe() + "." + remedy);
   }
 }
 

@@ -30,6 +30,7 @@ class vtkPoints;
 class vtkIsopointArrayChoice
 {
 public:
+  vtkIsopointArrayChoice() = default;
   explicit vtkIsopointArrayChoice(vtkInformation* inputArray);
 
   /// Whether the array may be a point array, and a cell array. If it may be either, a point array
@@ -41,13 +42,13 @@ public:
   /// scalars by default); null if there is none.
   vtkAbstractArray* Find(vtkDataSetAttributes* attributes) const;
 
-  /// The cause, for an error message, if no leaf of an input has the array.
-  std::string DescribeMissing() const;
+  /// Which array it is, for messages and comparisons, as in "point array named ...".
+  std::string Describe() const;
 
 private:
-  int Association;
+  int Association = 0;
   std::string Name; // empty: the active attribute
-  int Attribute;
+  int Attribute = 0;
 };
 
 /**

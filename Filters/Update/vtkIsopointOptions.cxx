@@ -3,11 +3,6 @@
 
 #include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkScatteredIsopointFilter.h"
-
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
-#include "vtkType.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,114 +15,69 @@
 namespace
 {
 
-/// Whether isopoints are thinned out; triangles never are.
-bool isThinned(vtkScatteredIsopointFilter* filter)
-{
-  return filter->GetMinimumSpacing() > 0.0 && !filter->ExtractsTriangles();
-}
+constexpr int automaticNormals = -1;
+constexpr int normalsFromField = 0;
 
-bool hasNormalsFromField(vtkScatteredIsopointFilter* filter)
+/// FNV-1a, of words.
+class Hash
 {
-  if (filter->GetNormalMethod() == vtkScatteredIsopointFilter::AUTOMATIC_NORMALS)
+public:
+  void Add(double number)
   {
-    return filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION ||
-           filter->GetComputeGradients() || isThinned(filter);
+    number += 0.0; // 0 and -0 are the same
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    this->Value = (this->Value ^ bits) * 1099511628211u;
+    this->Value ^= this->Value >> 32;
   }
-  return filter->GetNormalMethod() == vtkScatteredIsopointFilter::NORMALS_FROM_FIELD;
-}
 
-/// The fit that the projection or an output requires, if any: thinning and normals from the field
-/// require polynomials, other splats and fit orders at least the sample spacing.
-std::optional<isopoint::FitRequest> fitRequestOf(
-  vtkScatteredIsopointFilter* filter, const vtkIsopointComputedArrays::Choice& arrays)
-{
-  using isopoint::FitOrder;
-  using isopoint::FitRequest;
-  switch (filter->GetProjection())
+  void Add(const std::string& text)
   {
-    case vtkScatteredIsopointFilter::LINEAR_FIT:
-      return FitRequest{ FitOrder::Linear, true };
-    case vtkScatteredIsopointFilter::QUADRATIC_FIT:
-      return FitRequest{ FitOrder::Quadratic, true };
-    case vtkScatteredIsopointFilter::CUBIC_FIT:
-      return FitRequest{ FitOrder::Cubic, true };
-    case vtkScatteredIsopointFilter::CREASE_FIT:
-      return FitRequest{ FitOrder::Crease, true };
-    default:
-      break;
+    for (const char letter : text)
+    {
+      this->Add(letter);
+    }
   }
-  const bool hasFieldNormals = arrays.NeedsSplats() && hasNormalsFromField(filter);
-  if (arrays.Gradients || hasFieldNormals || isThinned(filter))
-  {
-    return FitRequest{ FitOrder::Cubic, false };
-  }
-  if (arrays.NeedsSplats() || arrays.ProjectionOrder)
-  {
-    return FitRequest{ std::nullopt, false };
-  }
-  return std::nullopt;
-}
+
+  std::uint64_t Get() const { return this->Value; }
+
+private:
+  std::uint64_t Value = 14695981039346656037u;
+};
 
 } // namespace
 
-void vtkCheckIsopointOptions(vtkScatteredIsopointFilter* filter)
+void vtkIsopointOptions::Check() const
 {
-  const double* const values = filter->GetValues();
-  const vtkIdType valueCount = filter->GetNumberOfContours();
-  if (std::any_of(values, values + valueCount, [](double value) { return std::isnan(value); }))
+  if (std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
+        [](double value) { return std::isnan(value); }))
   {
     throw vtkIsopointUsageError("An isovalue is not a number. Set isovalues with SetValue().");
   }
-  const double angle = filter->GetAngle();
-  if (!(angle >= 0.0 && angle <= 180.0))
-  {
-    std::ostringstream message;
-    message << "The angle is " << angle
-            << " degrees, which is out of range. Set one within 0 and 180 with SetAngle().";
-    throw vtkIsopointUsageError(message.str());
-  }
-  if (std::isnan(filter->GetMinimumSpacing()))
-  {
-    throw vtkIsopointUsageError(
-      "The minimum spacing is not a number. Set one within 0 and 1 with SetMinimumSpacing().");
-  }
+  this->ForEach(
+    [](const char* name, double value, double least, double greatest)
+    {
+      if (!(value >= least && value <= greatest))
+      {
+        std::ostringstream message;
+        message << name << " is " << value << ", which is out of range. Set one within " << least
+                << " and " << greatest << " with Set" << name << "().";
+        throw vtkIsopointUsageError(message.str());
+      }
+    });
 }
 
-void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFilter* filter)
+void vtkIsopointOptions::CheckOnRanks(isopoint::Team& team) const
 {
-  std::uint64_t hash = 14695981039346656037u; // FNV-1a
-  const auto add = [&hash](double number)
+  Hash hash;
+  hash.Add(this->Triangles);
+  hash.Add(this->Array.Describe());
+  for (const double isovalue : this->GetSortedIsovalues())
   {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof(bits));
-    hash = (hash ^ bits) * 1099511628211u;
-    hash ^= hash >> 32;
-  };
-  for (int i = 0; i < filter->GetNumberOfContours(); ++i)
-  {
-    add(filter->GetValue(i) + 0.0); // 0 and -0 are the same
+    hash.Add(isovalue);
   }
-  for (const double number : { filter->GetAngle(), filter->GetMinimumSpacing() })
-  {
-    add(number);
-  }
-  for (const int number : { filter->GetDropGaps(), filter->GetProjection(),
-         filter->GetNormalMethod(), filter->GetNumberOfNeighbors(), filter->GetComputeNormals(),
-         filter->GetComputeSplats(), filter->GetComputeScalars(), filter->GetComputeGradients(),
-         filter->GetComputeProjectionOrders(), filter->GetOutputPointsPrecision(),
-         filter->GetContourBlocks() })
-  {
-    add(number);
-  }
-  vtkInformation* const array = filter->GetInputArrayInformation(0);
-  if (array->Has(vtkDataObject::FIELD_NAME()))
-  {
-    for (const char letter : std::string(array->Get(vtkDataObject::FIELD_NAME())))
-    {
-      add(letter);
-    }
-  }
-  const bool differ = team.maximum(hash) != ~team.maximum(~hash);
+  this->ForEach([&hash](const char*, double value, double, double) { hash.Add(value); });
+  const bool differ = team.maximum(hash.Get()) != ~team.maximum(~hash.Get());
   team.together(
     [&]()
     {
@@ -140,32 +90,67 @@ void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, vtkScatteredIsopointFi
     });
 }
 
-vtkIsopointComputedArrays::Choice vtkChooseIsopointArrays(vtkScatteredIsopointFilter* filter)
+std::set<double> vtkIsopointOptions::GetSortedIsovalues() const
 {
-  const bool hasSplats = !filter->ExtractsTriangles();
+  return { this->Isovalues.begin(), this->Isovalues.end() };
+}
+
+vtkIsopointComputedArrays::Choice vtkIsopointOptions::GetArrays() const
+{
   vtkIsopointComputedArrays::Choice choice;
-  choice.Normals = filter->GetComputeNormals() != 0;
-  choice.Splats = hasSplats && filter->GetComputeSplats() != 0;
-  choice.Gradients = filter->GetComputeGradients() != 0;
-  choice.ProjectionOrder = filter->GetComputeProjectionOrders() != 0;
-  choice.IsProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
+  choice.Normals = this->ComputeNormals;
+  choice.Splats = this->ComputeSplats;
+  choice.Gradients = this->ComputeGradients;
+  choice.ProjectionOrder = this->ComputeProjectionOrders;
+  choice.IsProjected = this->Projection != 0;
   return choice;
 }
 
-isopoint::ExtractionRequest vtkMakeIsopointRequest(vtkScatteredIsopointFilter* filter)
+bool vtkIsopointOptions::HasNormalsFromField() const
 {
-  const vtkIsopointComputedArrays::Choice arrays = vtkChooseIsopointArrays(filter);
-  isopoint::ExtractionRequest request;
-  request.isosurface.angle = filter->GetAngle();
-  request.isosurface.dropsGaps = filter->GetDropGaps() != 0;
-  request.isosurface.fit = fitRequestOf(filter, arrays);
-  request.isosurface.partsCreases = filter->GetComputeNormals() != 0;
-  request.minimumSpacing = filter->GetMinimumSpacing();
-  request.triangles = filter->ExtractsTriangles();
-  if (arrays.NeedsSplats())
+  if (this->NormalMethod == automaticNormals)
   {
-    request.splats = isopoint::SplatOptions{ filter->GetNumberOfNeighbors(),
-      hasNormalsFromField(filter), arrays.Splats };
+    return this->Projection != 0 || this->ComputeGradients || this->MinimumSpacing > 0.0;
+  }
+  return this->NormalMethod == normalsFromField;
+}
+
+/// The fit that the projection or an output requires, if any: thinning and normals from the field
+/// require polynomials, other splats and fit orders at least the sample spacing.
+std::optional<isopoint::FitRequest> vtkIsopointOptions::GetFitRequest() const
+{
+  using isopoint::FitOrder;
+  using isopoint::FitRequest;
+  if (this->Projection != 0)
+  {
+    return FitRequest{ static_cast<FitOrder>(this->Projection), true };
+  }
+  const bool needsSplats = this->GetArrays().NeedsSplats();
+  if (this->ComputeGradients || this->MinimumSpacing > 0.0 ||
+      (needsSplats && this->HasNormalsFromField()))
+  {
+    return FitRequest{ FitOrder::Cubic, false };
+  }
+  if (needsSplats || this->ComputeProjectionOrders)
+  {
+    return FitRequest{ std::nullopt, false };
+  }
+  return std::nullopt;
+}
+
+isopoint::ExtractionRequest vtkIsopointOptions::GetRequest() const
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface.angle = this->Angle;
+  request.isosurface.dropsGaps = this->DropGaps;
+  request.isosurface.fit = this->GetFitRequest();
+  request.isosurface.partsCreases = this->ComputeNormals;
+  request.minimumSpacing = this->MinimumSpacing;
+  request.triangles = this->Triangles;
+  if (this->GetArrays().NeedsSplats())
+  {
+    request.splats = isopoint::SplatOptions{ this->NumberOfNeighbors, this->HasNormalsFromField(),
+      this->ComputeSplats };
   }
   return request;
 }

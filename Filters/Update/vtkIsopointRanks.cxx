@@ -114,8 +114,21 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
 }
 
+void vtkIsopointSingleRank::exchange(const std::vector<isopoint::OutgoingBytes>& outgoing,
+  const std::vector<isopoint::IncomingBytes>& incoming)
+{
+  if (outgoing.front().count > 0)
+  {
+    std::memcpy(incoming.front().bytes, outgoing.front().bytes, outgoing.front().count);
+  }
+}
+
 std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
 {
+  if (team.size() == 1)
+  {
+    return 1;
+  }
   vtksys::SystemInformation system;
   system.RunOSCheck();
   const char* const name = system.GetHostname();

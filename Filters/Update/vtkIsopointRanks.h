@@ -24,8 +24,6 @@ public:
   explicit vtkIsopointCommunicator(vtkMultiProcessController* controller);
   ~vtkIsopointCommunicator() override;
 
-  vtkMultiProcessController* GetController() const { return this->Controller; }
-
   int rank() const override;
   int size() const override;
   void allReduce(std::uint64_t* numbers, std::size_t count, isopoint::Reduction reduction) override;
@@ -40,6 +38,19 @@ private:
   // Memory for sums and maxima, which must not be lacking on one rank alone.
   std::vector<unsigned long long> OwnNumbers;
   std::vector<unsigned long long> AllNumbers;
+};
+
+/**
+ * This rank alone.
+ */
+class vtkIsopointSingleRank : public isopoint::Communicator
+{
+public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  void allReduce(std::uint64_t*, std::size_t, isopoint::Reduction) override {}
+  void exchange(const std::vector<isopoint::OutgoingBytes>& outgoing,
+    const std::vector<isopoint::IncomingBytes>& incoming) override;
 };
 
 /**

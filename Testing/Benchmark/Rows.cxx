@@ -40,7 +40,7 @@ Row describe(const Task& task, const std::string& what, double copy)
 }
 
 Row measureUpdate(const Task& task, const std::string& what, double copy,
-  vtkScatteredIsopointFilter* filter, double isovalue)
+  vtkScatteredContourFilter* filter, double isovalue)
 {
   filter->SetValue(0, isovalue);
   filter->Modified();
@@ -67,7 +67,10 @@ vtkNew<TFilter> newFilter(const Task& task, Extras extras)
   vtkNew<TFilter> filter;
   filter->SetInputData(task.samples);
   filter->SetComputeNormals(extras == Extras::All);
-  filter->SetComputeSplats(extras == Extras::All);
+  if constexpr (std::is_same_v<TFilter, vtkScatteredIsopointFilter>)
+  {
+    filter->SetComputeSplats(extras == Extras::All);
+  }
   filter->SetComputeGradients(extras == Extras::Projection);
   if (extras == Extras::None)
   {
