@@ -7,7 +7,6 @@
 #include "Update/vtkIsopointUpdate.h"
 
 #include "vtkCompositeDataSet.h"
-#include "vtkContourValues.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -45,46 +44,6 @@ void vtkScatteredContourFilter::SetController(vtkMultiProcessController* control
 vtkMultiProcessController* vtkScatteredContourFilter::GetController() const
 {
   return this->LastUpdate->GetController();
-}
-
-void vtkScatteredContourFilter::SetValue(int i, double value)
-{
-  this->ContourValues->SetValue(i, value);
-}
-
-double vtkScatteredContourFilter::GetValue(int i)
-{
-  return this->ContourValues->GetValue(i);
-}
-
-double* vtkScatteredContourFilter::GetValues()
-{
-  return this->ContourValues->GetValues();
-}
-
-void vtkScatteredContourFilter::GetValues(double* contourValues)
-{
-  this->ContourValues->GetValues(contourValues);
-}
-
-void vtkScatteredContourFilter::SetNumberOfContours(int number)
-{
-  this->ContourValues->SetNumberOfContours(number);
-}
-
-vtkIdType vtkScatteredContourFilter::GetNumberOfContours()
-{
-  return this->ContourValues->GetNumberOfContours();
-}
-
-void vtkScatteredContourFilter::GenerateValues(int numContours, double range[2])
-{
-  this->ContourValues->GenerateValues(numContours, range);
-}
-
-void vtkScatteredContourFilter::GenerateValues(int numContours, double rangeStart, double rangeEnd)
-{
-  this->ContourValues->GenerateValues(numContours, rangeStart, rangeEnd);
 }
 
 vtkMTimeType vtkScatteredContourFilter::GetMTime()

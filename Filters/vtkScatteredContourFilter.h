@@ -14,13 +14,13 @@
 #ifndef vtkScatteredContourFilter_h
 #define vtkScatteredContourFilter_h
 
-#include "vtkNew.h" // for the contour values
+#include "vtkContourValues.h" // for inline methods
+#include "vtkNew.h"           // for the contour values
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 
-class vtkContourValues;
 class vtkIsopointUpdate;
 class vtkMultiProcessController;
 struct vtkIsopointOptions;
@@ -37,14 +37,20 @@ public:
    * once. An infinite value, or one outside the range of the array, gives no points; NaN is an
    * error. Default: one value, 0.
    */
-  void SetValue(int i, double value);
-  double GetValue(int i);
-  double* GetValues();
-  void GetValues(double* contourValues);
-  void SetNumberOfContours(int number);
-  vtkIdType GetNumberOfContours();
-  void GenerateValues(int numContours, double range[2]);
-  void GenerateValues(int numContours, double rangeStart, double rangeEnd);
+  void SetValue(int i, double value) { this->ContourValues->SetValue(i, value); }
+  double GetValue(int i) { return this->ContourValues->GetValue(i); }
+  double* GetValues() { return this->ContourValues->GetValues(); }
+  void GetValues(double* contourValues) { this->ContourValues->GetValues(contourValues); }
+  void SetNumberOfContours(int number) { this->ContourValues->SetNumberOfContours(number); }
+  vtkIdType GetNumberOfContours() { return this->ContourValues->GetNumberOfContours(); }
+  void GenerateValues(int numContours, double range[2])
+  {
+    this->ContourValues->GenerateValues(numContours, range);
+  }
+  void GenerateValues(int numContours, double rangeStart, double rangeEnd)
+  {
+    this->ContourValues->GenerateValues(numContours, rangeStart, rangeEnd);
+  }
   ///@}
 
   enum ProjectionMethod
