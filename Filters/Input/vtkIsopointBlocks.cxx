@@ -128,17 +128,18 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
 {
   this->ReleaseInput();
   std::string remedy;
+  std::size_t leaves = 0;
   vtkForEachIsopointLeaf(input,
     [&](vtkDataObject* leaf, std::size_t number)
     {
-      this->LeafCount = number + 1;
+      leaves = number + 1;
       if (elementCount(leaf) > 0)
       {
         remedy = remedy.empty() ? remedyFor(leaf) : remedy;
         this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
       }
     });
-  this->KeptCenters.erase(this->KeptCenters.lower_bound(this->LeafCount), this->KeptCenters.end());
+  this->KeptCenters.erase(this->KeptCenters.lower_bound(leaves), this->KeptCenters.end());
   if (remedy.empty())
   {
     throw vtkIsopointNothingError(
@@ -241,7 +242,6 @@ void vtkIsopointBlocks::ReleaseInput()
 {
   this->Blocks.clear();
   this->States.clear();
-  this->LeafCount = 0;
   this->PointsWithoutArray = 0;
 }
 

@@ -73,9 +73,6 @@ public:
   /// The state of the input that the blocks [begin, end) present.
   vtkIsopointInputState GetState(std::size_t begin, std::size_t end) const;
 
-  /// The number of leaves of the input that are not null, including those without samples.
-  std::size_t GetNumberOfLeaves() const { return this->LeafCount; }
-
   /// The number of points (or cells, where there are more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
@@ -96,7 +93,6 @@ private:
 
   std::vector<vtkIsopointBlock> Blocks;
   std::vector<vtkIsopointInputState> States; // one for each block
-  std::size_t LeafCount = 0;
   vtkIdType PointsWithoutArray = 0;
   std::map<std::size_t, Centers> KeptCenters; // by leaf
 };

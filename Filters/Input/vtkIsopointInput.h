@@ -14,23 +14,14 @@ struct Execution;
 struct vtkIsopointBlock;
 
 /**
- * Loads the samples of blocks into an extractor, which reads the arrays in place. Ids count through
- * one block after the other. If the extractor holds the same positions already, only the values are
- * replaced, and the tree is kept. Throws what IsosurfaceExtractor::load() throws.
- */
-void vtkLoadIsopointInput(const isopoint::Execution& execution,
-  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
-
-/**
  * Loads the samples of the blocks of all ranks as one cloud, the blocks of one rank after those of
- * the other, or replaces the values alone. Collective. Throws what
- * IsosurfaceExtractor::loadOnRanks() throws.
+ * the other, into an extractor, which reads the arrays in place. If the extractors hold the same
+ * positions already, only the values are replaced, and the tree is kept. Collective. Throws what
+ * IsosurfaceExtractor::load() throws.
  * @param blocks of this rank, perhaps none
- * @param team of the same ranks as the communicator
  */
-void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
-  const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
-  isopoint::Communicator& communicator, isopoint::IsosurfaceExtractor& extractor);
+void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
 
 /**
  * Whether the positions of all blocks are stored as float.

@@ -33,17 +33,15 @@
 #include <string>
 #include <utility>
 
-vtkIsopointExtraction::vtkIsopointExtraction(vtkAlgorithm* filter,
-  isopoint::Communicator& communicator, const vtkIsopointOptions& options, Kept& kept,
-  vtkIsopointFindings& findings)
+vtkIsopointExtraction::vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
+  const vtkIsopointOptions& options, Kept& kept, vtkIsopointFindings& findings)
   : Filter(filter)
-  , Communicator(communicator)
-  , Team(communicator)
+  , Team(team)
   , Options(options)
   , State(kept)
   , Findings(findings)
-  , Execution(vtkMakeIsopointExecution(
-      filter, options.UseAllCores, vtkCountIsopointRanksOnHost(this->Team)))
+  , Execution(
+      vtkMakeIsopointExecution(filter, options.UseAllCores, vtkCountIsopointRanksOnHost(team)))
 {
 }
 
@@ -51,7 +49,7 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
 {
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   vtkDataObject* const output = vtkDataObject::GetData(outputInfo);
-  this->Team.together([this]() { this->Options.Check(); });
+  this->Options.Check();
   this->Options.CheckOnRanks(this->Team);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   const int requested = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
@@ -59,7 +57,7 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
 
   this->CollectBlocks(input,
     this->IsOnRanks() ? inputInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()) : nullptr);
-  this->Team.together([this]() { this->StartCounting(); });
+  this->StartCounting();
   const vtkIsopointStructure structure = this->Options.ContourBlocks
                                            ? vtkMergeIsopointStructures(this->Team, input)
                                            : vtkIsopointStructure();
@@ -80,33 +78,24 @@ void vtkIsopointExtraction::CollectBlocks(vtkDataObject* input, const int* whole
 {
   vtkIsopointBlocks& blocks = this->State.Input;
   std::string nothing; // why this rank has no blocks
-  this->Team.together(
-    [&]()
-    {
-      try
-      {
-        blocks.Collect(this->Execution, input, this->Options.Array, wholeExtent);
-      }
-      catch (const vtkIsopointNothingError& error)
-      {
-        nothing = error.what();
-      }
-    });
+  try
+  {
+    blocks.Collect(this->Execution, input, this->Options.Array, wholeExtent);
+  }
+  catch (const vtkIsopointNothingError& error)
+  {
+    nothing = error.what();
+  }
   if (this->Team.isAny(nothing.empty()))
   {
     return;
   }
   // A rank that has points without the array knows what there is to choose from.
   const bool hasPoints = blocks.GetNumberOfPointsWithoutArray() > 0;
-  const bool isAnyWithPoints = this->Team.isAny(hasPoints);
-  this->Team.together(
-    [&]()
-    {
-      if (hasPoints == isAnyWithPoints)
-      {
-        throw vtkIsopointUsageError(nothing);
-      }
-    });
+  if (this->Team.isAny(hasPoints) == hasPoints)
+  {
+    throw vtkIsopointUsageError(nothing);
+  }
 }
 
 void vtkIsopointExtraction::StartCounting()
@@ -124,22 +113,15 @@ void vtkIsopointExtraction::ExtractLeaves(
   const vtkIsopointStructure& structure, vtkDataObject* input, vtkCompositeDataSet* output)
 {
   const std::vector<vtkIsopointBlock>& blocks = this->State.Input.GetBlocks();
-  std::vector<std::size_t> blockOf; // of each leaf, or behind the last one
-  std::vector<std::uint64_t> isHeld;
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-  this->Team.together(
-    [&]()
-    {
-      const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
-      surfaces.resize(structure.GetNumberOfLeaves());
-      blockOf.resize(surfaces.size(), blocks.size());
-      isHeld.resize(surfaces.size(), 0);
-      for (std::size_t i = 0; i < blocks.size(); ++i)
-      {
-        blockOf[numbers[blocks[i].Leaf]] = i;
-        isHeld[numbers[blocks[i].Leaf]] = 1;
-      }
-    });
+  const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces(structure.GetNumberOfLeaves());
+  std::vector<std::size_t> blockOf(surfaces.size(), blocks.size()); // behind the last one: of none
+  std::vector<std::uint64_t> isHeld(surfaces.size(), 0);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    blockOf[numbers[blocks[i].Leaf]] = i;
+    isHeld[numbers[blocks[i].Leaf]] = 1;
+  }
   this->Team.maximum(isHeld); // by any rank
   this->State.Trees.erase(this->State.Trees.lower_bound(surfaces.size()), this->State.Trees.end());
   const double share =
@@ -151,70 +133,45 @@ void vtkIsopointExtraction::ExtractLeaves(
     {
       this->Filter->SetProgressShiftScale(share * done++, share);
       const std::size_t block = blockOf[leaf];
-      this->Team.together([&]() { surfaces[leaf] = vtkSmartPointer<vtkPolyData>::New(); });
+      surfaces[leaf] = vtkSmartPointer<vtkPolyData>::New();
       this->ExtractBlocks(block, std::min(block + 1, blocks.size()), leaf, surfaces[leaf]);
     }
   }
-  this->Team.together(
-    [&]()
-    {
-      if (output) // null where this rank has nothing in place of the others' composite
-      {
-        structure.Fill(input, surfaces, output);
-      }
-    });
+  if (output) // null where this rank has nothing in place of the others' composite
+  {
+    structure.Fill(input, surfaces, output);
+  }
 }
 
 void vtkIsopointExtraction::ExtractBlocks(
   std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output)
 {
-  std::vector<vtkIsopointBlock> blocks;
-  vtkIsopointInputState state;
-  bool isNew = true;
-  KeptTree* kept = nullptr;
-  this->Team.together(
-    [&]()
-    {
-      const auto all = this->State.Input.GetBlocks().begin();
-      blocks.assign(
-        all + static_cast<std::ptrdiff_t>(begin), all + static_cast<std::ptrdiff_t>(end));
-      kept = &this->State.Trees[tree];
-      state = this->State.Input.GetState(begin, end);
-      state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
-      isNew = state != kept->LoadedFrom;
-    });
-  isNew = this->Team.isAny(isNew);
-  std::vector<double> progress;
-  this->Team.together(
-    [&]()
-    {
-      const std::size_t count = std::accumulate(blocks.begin(), blocks.end(), std::size_t{ 0 },
-        [](std::size_t sum, const vtkIsopointBlock& block)
-        { return sum + static_cast<std::size_t>(block.GetNumberOfSamples()); });
-      progress = this->ExpectProgress(count, !isNew);
-    });
+  const auto all = this->State.Input.GetBlocks().begin();
+  const std::vector<vtkIsopointBlock> blocks(
+    all + static_cast<std::ptrdiff_t>(begin), all + static_cast<std::ptrdiff_t>(end));
+  KeptTree& kept = this->State.Trees[tree];
+  vtkIsopointInputState state = this->State.Input.GetState(begin, end);
+  state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
+  const bool isNew = this->Team.isAny(state != kept.LoadedFrom);
+  const std::size_t count = std::accumulate(blocks.begin(), blocks.end(), std::size_t{ 0 },
+    [](std::size_t sum, const vtkIsopointBlock& block)
+    { return sum + static_cast<std::size_t>(block.GetNumberOfSamples()); });
+  const std::vector<double> progress = this->ExpectProgress(count, !isNew);
   if (isNew)
   {
-    kept->LoadedFrom.clear();
-    const isopoint::Execution loading = isopoint::partOf(this->Execution, 0.0, progress.front());
-    if (this->IsOnRanks())
-    {
-      vtkLoadIsopointInputOnRanks(loading, blocks, this->Team, this->Communicator, kept->Extractor);
-    }
-    else
-    {
-      vtkLoadIsopointInput(loading, blocks, kept->Extractor);
-    }
-    kept->LoadedFrom = std::move(state);
+    kept.LoadedFrom.clear();
+    vtkLoadIsopointInput(
+      isopoint::partOf(this->Execution, 0.0, progress.front()), this->Team, blocks, kept.Extractor);
+    kept.LoadedFrom = std::move(state);
   }
-  this->Findings.CountSamples(blocks, kept->Extractor);
+  this->Findings.CountSamples(blocks, kept.Extractor);
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(kept->Extractor, progress);
+    this->ExtractIsovalues(kept.Extractor, progress);
   const vtkIsopointEndSamples samples = this->IsOnRanks()
                                           ? vtkIsopointEndSamples(this->Team, blocks, surfaces)
                                           : vtkIsopointEndSamples(blocks, surfaces);
   const bool haveFloatPositions = !this->Team.isAny(!vtkHaveFloatPositions(blocks));
-  this->Team.together([&]() { this->FillOutput(samples, surfaces, haveFloatPositions, output); });
+  this->FillOutput(samples, surfaces, haveFloatPositions, output);
   this->Filter->UpdateProgress(1.0);
 }
 
@@ -251,7 +208,7 @@ std::vector<isopoint::ExtractedIsosurface> vtkIsopointExtraction::ExtractIsovalu
         hasGhosts ? &ghosts[i] : nullptr));
     this->Findings.Points[i] += surfaces.back().countHere();
     this->Findings.DroppedInGaps += surfaces.back().droppedInGaps;
-    this->Team.together([this]() { isopoint::throwIfAborted(this->Execution); });
+    isopoint::throwIfAborted(this->Execution);
   }
   std::move(ghosts.begin(), ghosts.end(), std::back_inserter(surfaces));
   return surfaces;

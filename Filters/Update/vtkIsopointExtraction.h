@@ -48,12 +48,12 @@ public:
     }
   };
 
-  /// @param communicator must outlive what is kept
+  /// @param team must outlive what is kept
   /// @param findings receives what is found out
-  vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Communicator& communicator,
+  vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
     const vtkIsopointOptions& options, Kept& kept, vtkIsopointFindings& findings);
 
-  /// Fills the output. Collective.
+  /// Fills the output. Called inside isopoint::Team::together().
   /// @throws vtkIsopointUsageError, or what isopoint::IsosurfaceExtractor throws
   void Run(vtkInformation* inputInfo, vtkInformation* outputInfo);
 
@@ -76,8 +76,7 @@ private:
     vtkPolyData* output);
 
   vtkAlgorithm* Filter;
-  isopoint::Communicator& Communicator;
-  isopoint::Team Team;
+  isopoint::Team& Team;
   const vtkIsopointOptions& Options;
   Kept& State;
   vtkIsopointFindings& Findings;

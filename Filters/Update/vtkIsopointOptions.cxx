@@ -78,16 +78,12 @@ void vtkIsopointOptions::CheckOnRanks(isopoint::Team& team) const
   }
   this->ForEach([&hash](const char*, double value, double, double) { hash.Add(value); });
   const bool differ = team.maximum(hash.Get()) != ~team.maximum(~hash.Get());
-  team.together(
-    [&]()
-    {
-      if (differ && team.rank() == 0)
-      {
-        throw vtkIsopointUsageError(
-          "The filters of the ranks have different options. Set the same on all of them, or"
-          " contour each rank's samples separately with SetController(nullptr).");
-      }
-    });
+  if (differ && team.rank() == 0)
+  {
+    throw vtkIsopointUsageError(
+      "The filters of the ranks have different options. Set the same on all of them, or contour"
+      " each rank's samples separately with SetController(nullptr).");
+  }
 }
 
 std::set<double> vtkIsopointOptions::GetSortedIsovalues() const

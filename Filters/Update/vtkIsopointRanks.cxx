@@ -139,12 +139,13 @@ std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
 
 std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem)
 {
+  if (team.size() == 1)
+  {
+    return problem;
+  }
   const auto size = static_cast<std::uint64_t>(team.size());
   const auto own = static_cast<std::uint64_t>(team.rank());
-  // The others may still be in Team::together(), and then learn that this rank has failed.
-  constexpr std::uint64_t failure = isopoint::Team::failed;
-  const std::uint64_t most = team.maximum(problem.empty() ? failure : failure + size - own);
-  const std::uint64_t lowest = size + failure - most;
+  const std::uint64_t lowest = size - team.maximum(problem.empty() ? 0 : size - own);
   if (lowest == size)
   {
     return {};

@@ -43,12 +43,12 @@ bool vtkIsopointUpdate::HasOtherRanks() const
 void vtkIsopointUpdate::ConnectRanks()
 {
   vtkMultiProcessController* const others = this->HasOtherRanks() ? this->Controller : nullptr;
-  if (this->Communicator && this->ConnectedTo == others)
+  if (this->Team && this->ConnectedTo == others)
   {
     return;
   }
   this->Kept.Clear(); // what is kept belongs to other ranks
-  this->Communicator.reset();
+  this->Team.reset();
   if (others)
   {
     this->Communicator = std::make_unique<vtkIsopointCommunicator>(others);
@@ -57,6 +57,7 @@ void vtkIsopointUpdate::ConnectRanks()
   {
     this->Communicator = std::make_unique<vtkIsopointSingleRank>();
   }
+  this->Team = std::make_unique<isopoint::Team>(*this->Communicator);
   this->ConnectedTo = others;
 }
 
@@ -70,11 +71,15 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   try
   {
     this->ConnectRanks();
-    vtkIsopointOptions options;
-    fillOptions(options);
-    keepsTree = options.KeepTree;
-    vtkIsopointExtraction(this->Filter, *this->Communicator, options, this->Kept, this->Findings)
-      .Run(inputInfo, outputInfo);
+    this->Team->together(
+      [&]()
+      {
+        vtkIsopointOptions options;
+        fillOptions(options);
+        keepsTree = options.KeepTree;
+        vtkIsopointExtraction(this->Filter, *this->Team, options, this->Kept, this->Findings)
+          .Run(inputInfo, outputInfo);
+      });
     hasFailed = false;
   }
   catch (...)
@@ -141,17 +146,13 @@ std::string vtkIsopointUpdate::DescribeFailure()
 void vtkIsopointUpdate::ReportProblem(const std::string& problem)
 {
   std::string message = problem;
-  if (this->ConnectedTo)
+  try
   {
-    try
-    {
-      isopoint::Team team(*this->Communicator);
-      message = vtkGatherIsopointProblem(team, problem);
-    }
-    catch (const std::exception&)
-    {
-      // For lack of memory each rank reports its own.
-    }
+    this->Team->together([&]() { message = vtkGatherIsopointProblem(*this->Team, problem); });
+  }
+  catch (const std::exception&)
+  {
+    message = problem; // for lack of memory each rank reports its own
   }
   if (!message.empty())
   {
@@ -161,7 +162,7 @@ void vtkIsopointUpdate::ReportProblem(const std::string& problem)
 
 void vtkIsopointUpdate::ReportFindings()
 {
-  if (this->Communicator->rank() > 0)
+  if (this->Team->rank() > 0)
   {
     return;
   }

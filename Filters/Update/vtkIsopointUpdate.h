@@ -54,8 +54,9 @@ private:
 
   vtkAlgorithm* Filter;
   vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<isopoint::Communicator> Communicator; // of all ranks
   vtkMultiProcessController* ConnectedTo = nullptr;     // null: this rank alone
+  std::unique_ptr<isopoint::Communicator> Communicator; // of all ranks
+  std::unique_ptr<isopoint::Team> Team;                 // outlives what is kept
   vtkIsopointExtraction::Kept Kept;
   vtkIsopointFindings Findings;
   std::set<std::string> Reported;          // causes of messages in the last update

@@ -25,7 +25,7 @@ CORE_FOLDERS = {
 }
 
 # Each folder with sources, and the headers of the project that they may include besides its own.
-CORE_DOOR = [CORE + "/*.h", CORE + "/Base/*.h"]
+CORE_DOOR = [CORE + "/*.h", CORE + "/Base/*.h", CORE + "/Ranks/ByteBuffer.h"]
 FOLDERS = {
     "Filters": ["Filters/Update/*.h", "Filters/Output/*.h", "Filters/Input/*.h"],
     "Filters/Update": ["Filters/Output/*.h", "Filters/Input/*.h", *CORE_DOOR],
@@ -35,8 +35,8 @@ FOLDERS = {
     **{f"{CORE}/{name}": [f"{CORE}/{lower}/*.h" for lower in lowers]
        for name, lowers in CORE_FOLDERS.items()},
     "Rendering": [],
-    "RayTracing": [TRACER + "/*.h", "Rendering/*.h"],
-    TRACER: [],
+    "RayTracing": [TRACER + "/*.h", "Rendering/*.h", CORE + "/Base/*.h"],
+    TRACER: [CORE + "/Base/*.h"],
     "Plugin/Window": [
         "Plugin/Exporter/vtkIsopointRayTracingExporter.h",
         "Plugin/Representation/vtkSMIsopointRepresentationDomain.h"],
