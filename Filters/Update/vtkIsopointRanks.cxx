@@ -16,32 +16,45 @@ namespace
 
 constexpr int tag = 72671; // of messages between the ranks of one filter
 
-constexpr std::size_t reducedAtOnce = std::size_t{ 1 } << 15;
+constexpr std::size_t reducedAtOnce = std::size_t{ 1 } << 13;
 
 } // namespace
 
-vtkIsopointCommunicator::vtkIsopointCommunicator(vtkMultiProcessController* controller)
-  : Controller(controller)
-  , OwnNumbers(reducedAtOnce)
+vtkIsopointCommunicator::vtkIsopointCommunicator()
+  : OwnNumbers(reducedAtOnce)
   , AllNumbers(reducedAtOnce)
 {
 }
 
 vtkIsopointCommunicator::~vtkIsopointCommunicator() = default;
 
+void vtkIsopointCommunicator::SetController(vtkMultiProcessController* controller)
+{
+  this->Controller = controller;
+}
+
+vtkMultiProcessController* vtkIsopointCommunicator::GetController() const
+{
+  return this->Controller;
+}
+
 int vtkIsopointCommunicator::rank() const
 {
-  return this->Controller->GetLocalProcessId();
+  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
 }
 
 int vtkIsopointCommunicator::size() const
 {
-  return this->Controller->GetNumberOfProcesses();
+  return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
 void vtkIsopointCommunicator::allReduce(
   std::uint64_t* numbers, std::size_t count, isopoint::Reduction reduction)
 {
+  if (this->size() == 1)
+  {
+    return;
+  }
   const int operation =
     reduction == isopoint::Reduction::Sum ? vtkCommunicator::SUM_OP : vtkCommunicator::MAX_OP;
   for (std::size_t done = 0; done < count; done += reducedAtOnce)
@@ -112,15 +125,6 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
   char* const bytes = static_cast<char*>(message.bytes);
   forParts(message.count, [&](std::size_t begin, vtkIdType length)
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
-}
-
-void vtkIsopointSingleRank::exchange(const std::vector<isopoint::OutgoingBytes>& outgoing,
-  const std::vector<isopoint::IncomingBytes>& incoming)
-{
-  if (outgoing.front().count > 0)
-  {
-    std::memcpy(incoming.front().bytes, outgoing.front().bytes, outgoing.front().count);
-  }
 }
 
 std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)

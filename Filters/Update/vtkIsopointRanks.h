@@ -15,14 +15,17 @@
 class vtkMultiProcessController;
 
 /**
- * The ranks of a controller of VTK, as the core sees them. Messages may have any size: they are
- * sent in parts.
+ * The ranks of a controller of VTK, as the core sees them; without one, this rank alone. Messages
+ * may have any size: they are sent in parts.
  */
 class vtkIsopointCommunicator : public isopoint::Communicator
 {
 public:
-  explicit vtkIsopointCommunicator(vtkMultiProcessController* controller);
+  vtkIsopointCommunicator();
   ~vtkIsopointCommunicator() override;
+
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const;
 
   int rank() const override;
   int size() const override;
@@ -38,19 +41,6 @@ private:
   // Memory for sums and maxima, which must not be lacking on one rank alone.
   std::vector<unsigned long long> OwnNumbers;
   std::vector<unsigned long long> AllNumbers;
-};
-
-/**
- * This rank alone.
- */
-class vtkIsopointSingleRank : public isopoint::Communicator
-{
-public:
-  int rank() const override { return 0; }
-  int size() const override { return 1; }
-  void allReduce(std::uint64_t*, std::size_t, isopoint::Reduction) override {}
-  void exchange(const std::vector<isopoint::OutgoingBytes>& outgoing,
-    const std::vector<isopoint::IncomingBytes>& incoming) override;
 };
 
 /**

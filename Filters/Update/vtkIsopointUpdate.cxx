@@ -3,7 +3,6 @@
 
 #include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Team.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include "vtkAlgorithm.h"
@@ -11,7 +10,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkLogger.h"
-#include "vtkMultiProcessController.h"
 #include "vtkSetGet.h"
 
 #include <exception>
@@ -20,6 +18,7 @@
 
 vtkIsopointUpdate::vtkIsopointUpdate(vtkAlgorithm* filter)
   : Filter(filter)
+  , Team(this->Communicator)
 {
 }
 
@@ -27,38 +26,8 @@ vtkIsopointUpdate::~vtkIsopointUpdate() = default;
 
 void vtkIsopointUpdate::SetController(vtkMultiProcessController* controller)
 {
-  this->Controller = controller;
-}
-
-vtkMultiProcessController* vtkIsopointUpdate::GetController() const
-{
-  return this->Controller;
-}
-
-bool vtkIsopointUpdate::HasOtherRanks() const
-{
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-}
-
-void vtkIsopointUpdate::ConnectRanks()
-{
-  vtkMultiProcessController* const others = this->HasOtherRanks() ? this->Controller : nullptr;
-  if (this->Team && this->ConnectedTo == others)
-  {
-    return;
-  }
   this->Kept.Clear(); // what is kept belongs to other ranks
-  this->Team.reset();
-  if (others)
-  {
-    this->Communicator = std::make_unique<vtkIsopointCommunicator>(others);
-  }
-  else
-  {
-    this->Communicator = std::make_unique<vtkIsopointSingleRank>();
-  }
-  this->Team = std::make_unique<isopoint::Team>(*this->Communicator);
-  this->ConnectedTo = others;
+  this->Communicator.SetController(controller);
 }
 
 void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
@@ -70,14 +39,13 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   bool hasFailed = true;
   try
   {
-    this->ConnectRanks();
-    this->Team->together(
+    this->Team.together(
       [&]()
       {
         vtkIsopointOptions options;
         fillOptions(options);
         keepsTree = options.KeepTree;
-        vtkIsopointExtraction(this->Filter, *this->Team, options, this->Kept, this->Findings)
+        vtkIsopointExtraction(this->Filter, this->Team, options, this->Kept, this->Findings)
           .Run(inputInfo, outputInfo);
       });
     hasFailed = false;
@@ -148,7 +116,7 @@ void vtkIsopointUpdate::ReportProblem(const std::string& problem)
   std::string message = problem;
   try
   {
-    this->Team->together([&]() { message = vtkGatherIsopointProblem(*this->Team, problem); });
+    this->Team.together([&]() { message = vtkGatherIsopointProblem(this->Team, problem); });
   }
   catch (const std::exception&)
   {
@@ -162,7 +130,7 @@ void vtkIsopointUpdate::ReportProblem(const std::string& problem)
 
 void vtkIsopointUpdate::ReportFindings()
 {
-  if (this->Team->rank() > 0)
+  if (this->Team.rank() > 0)
   {
     return;
   }

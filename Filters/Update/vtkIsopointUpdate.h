@@ -6,11 +6,9 @@
 #include "Update/vtkIsopointFindings.h"
 #include "Update/vtkIsopointRanks.h"
 
-#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <functional>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,9 +31,9 @@ public:
 
   /// The processes whose inputs form one cloud; null: this one alone.
   void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController() const;
+  vtkMultiProcessController* GetController() const { return this->Communicator.GetController(); }
 
-  bool HasOtherRanks() const;
+  bool HasOtherRanks() const { return this->Communicator.size() > 1; }
 
   /// Updates the output. Where that fails there is one error, and the output is empty. Collective.
   /// @param fillOptions called once
@@ -46,17 +44,14 @@ public:
   const vtkIsopointFindings& GetFindings() const { return this->Findings; }
 
 private:
-  void ConnectRanks();
   std::string DescribeFailure();
   void ReportProblem(const std::string& problem);
   void ReportFindings();
   void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
 
   vtkAlgorithm* Filter;
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  vtkMultiProcessController* ConnectedTo = nullptr;     // null: this rank alone
-  std::unique_ptr<isopoint::Communicator> Communicator; // of all ranks
-  std::unique_ptr<isopoint::Team> Team;                 // outlives what is kept
+  vtkIsopointCommunicator Communicator;
+  isopoint::Team Team;
   vtkIsopointExtraction::Kept Kept;
   vtkIsopointFindings Findings;
   std::set<std::string> Reported;          // causes of messages in the last update
