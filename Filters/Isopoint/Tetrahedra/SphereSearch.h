@@ -3,9 +3,10 @@
 #define isopoint_SphereSearch_h
 
 #include "Isopoint/Base/Region.h"
+#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tetrahedra/NodeMarks.h"
 #include "Isopoint/Tetrahedra/SphereFunction.h"
+#include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -202,10 +203,10 @@ private:
   bool visitEnd(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    this->Marks.markReached(nodeIndex);
+    this->Marks.set(nodeIndex, bandmarks::reached);
     if (node.isLeaf)
     {
-      if (!this->Marks.isInBand(nodeIndex) && this->isInside(shape, node.begin))
+      if (!this->Marks.has(nodeIndex, bandmarks::inBand) && this->isInside(shape, node.begin))
       {
         this->Found = nodeIndex;
       }
