@@ -2,7 +2,6 @@
 #include "Input/vtkIsopointInput.h"
 
 #include "Input/vtkIsopointBlock.h"
-#include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace
@@ -53,29 +51,6 @@ const unsigned char* ghostsOf(const vtkIsopointBlock& block)
 {
   return block.Ghosts ? block.Ghosts->GetPointer(0) : nullptr;
 }
-
-/// Reads a block whose arrays are packed, their type known to the compiler, as
-/// IsosurfaceExtractor::load() calls for.
-template <class T>
-struct PackedReader
-{
-  const T* Coordinates;
-  const T* Values;
-  const unsigned char* Ghosts;
-
-  template <class TOut, class TOutValue>
-  bool operator()(std::size_t point, TOut* position, TOutValue& value) const
-  {
-    if (this->Ghosts && (this->Ghosts[point] & excluding) != 0)
-    {
-      return false;
-    }
-    std::transform(this->Coordinates + 3 * point, this->Coordinates + 3 * point + 3, position,
-      [](T coordinate) { return static_cast<TOut>(coordinate); });
-    value = static_cast<TOutValue>(this->Values[point]);
-    return true;
-  }
-};
 
 /// Positions of any kind, determined at run time.
 class AnyPositions
@@ -216,38 +191,18 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& 
   const double valueError = errorOfValues(!team.isAny(!haveIntegers(blocks)));
   // A rank alone may have dropped its samples, as for lack of memory.
   const bool areHeld = !team.isAny(extractor.isOnRanks() != (team.size() > 1));
-  const auto loadWith = [&](std::size_t count, const auto& read)
+  const BlockReader read(blocks);
+  const auto load = [&](auto coordinate, auto value)
   {
-    const auto load = [&](auto coordinate, auto value)
+    using Coordinate = decltype(coordinate);
+    using Value = decltype(value);
+    if (!areHeld || !extractor.replaceValues<Coordinate, Value>(execution, read.count(), read))
     {
-      if (!areHeld ||
-          !extractor.replaceValues<decltype(coordinate), decltype(value)>(execution, count, read))
-      {
-        extractor.load<decltype(coordinate), decltype(value)>(execution, team, count, read);
-      }
-    };
-    floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
-                   : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
-  };
-  const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
-  vtkDataArray* const points = single ? coordinatesOf(single->Positions) : nullptr;
-  const auto loadPacked = [&](auto zero)
-  {
-    using T = decltype(zero);
-    const T* const coordinates = points ? packedArray<T>(points) : nullptr;
-    const T* const values = single ? packedArray<T>(single->Scalars) : nullptr;
-    if (coordinates && values)
-    {
-      loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
-        PackedReader<T>{ coordinates, values, ghostsOf(*single) });
+      extractor.load<Coordinate, Value>(execution, team, read.count(), read);
     }
-    return coordinates && values;
   };
-  if (!loadPacked(0.0f) && !loadPacked(0.0))
-  {
-    const BlockReader read(blocks);
-    loadWith(read.count(), read);
-  }
+  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
+                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
   extractor.setValueError(valueError);
 }
 

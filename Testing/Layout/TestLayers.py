@@ -48,7 +48,7 @@ FOLDERS = {
 # What includes of other projects only some folders may have: a pattern of includes, and one of the
 # folders that may have them.
 OTHERS = {
-    r"Eigen/": CORE + "/Fit",
+    r"Eigen/": CORE + "/(Fit|Splat)",
     r"CGAL/": CORE + "/(Splat|Tetrahedra)",
     r"embree[34]/": TRACER,
     r"vtk": rf"(?!{CORE}|{TRACER})",
