@@ -261,7 +261,7 @@ private:
     const double a = dot(offset, cell.frame().first);
     const double b = dot(offset, cell.frame().second);
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
-    if (!cell.reachesBeyond(a, b, 0.5 * along) ||
+    if (!(cell.reach(a, b) > 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
         this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
