@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Splat/SplatNormals.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace isopoint
 {
@@ -39,6 +41,49 @@ bool hasDirection(const Vector& vector)
 }
 
 } // namespace
+
+std::vector<std::size_t> verticesOf(
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+{
+  std::vector<bool> isUsed(vertexCount, false);
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    for (const std::size_t vertex : triangle)
+    {
+      isUsed[vertex] = true;
+    }
+  }
+  std::vector<std::size_t> vertices;
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    if (isUsed[vertex])
+    {
+      vertices.push_back(vertex);
+    }
+  }
+  return vertices;
+}
+
+std::vector<SurfaceTriangle> renumbered(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
+  std::size_t vertexCount)
+{
+  std::vector<std::size_t> number(vertexCount);
+  for (std::size_t place = 0; place < order.size(); ++place)
+  {
+    number[order[place]] = place;
+  }
+  std::vector<SurfaceTriangle> result;
+  result.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles)
+  {
+    SurfaceTriangle corners{ number[a], number[b], number[c] };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.push_back(corners);
+  }
+  return sortedUnique(execution, result, order.size(),
+    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+}
 
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
