@@ -36,6 +36,7 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
+/// Complexity: O(triangles), and O(n log n) if any is turned over, however many rounds it takes
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 
