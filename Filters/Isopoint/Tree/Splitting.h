@@ -5,7 +5,6 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Tree/MedianSelection.h"
-#include "Isopoint/Tree/Partition.h"
 #include "Isopoint/Tree/Sample.h"
 #include "Isopoint/Tree/Separation.h"
 
