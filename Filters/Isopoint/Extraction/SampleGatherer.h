@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -134,19 +136,6 @@ private:
     std::vector<Id> neighbors;
   };
 
-  /// Those of leaves whose neighborhoods are not kept for further isovalues.
-  struct FoundNeighbors
-  {
-    Id leaf = 0; // the tree's root is none
-    std::vector<Id> neighbors;
-  };
-
-  struct KnownSpacing
-  {
-    Id leaf = 0;
-    double spacing = 0.0;
-  };
-
   /// The neighbors of a leaf; none if they are too many. Valid until the next call.
   NodeList<Id> neighborsOf(Id leaf)
   {
@@ -155,25 +144,28 @@ private:
     {
       return known.count <= mostNeighbors ? known : NodeList<Id>{};
     }
-    FoundNeighbors& found =
-      this->RecentlyFound[static_cast<std::size_t>(leaf) % this->RecentlyFound.size()];
-    if (found.leaf != leaf)
+    auto found = this->RecentlyFound.find(leaf);
+    if (found == this->RecentlyFound.end())
     {
-      found.leaf = 0; // for as long as the list is incomplete
-      found.neighbors.clear();
+      std::vector<Id> neighbors;
       const bool areMany = visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaf),
-        [&found](std::size_t neighbor)
+        [&neighbors](std::size_t neighbor)
         {
-          found.neighbors.push_back(static_cast<Id>(neighbor));
-          return found.neighbors.size() > mostNeighbors;
+          neighbors.push_back(static_cast<Id>(neighbor));
+          return neighbors.size() > mostNeighbors;
         });
       if (areMany)
       {
-        found.neighbors.clear();
+        neighbors.clear();
       }
-      found.leaf = leaf;
+      constexpr std::size_t mostLists = 4096; // or memory would grow with the surface
+      if (this->RecentlyFound.size() == mostLists)
+      {
+        this->RecentlyFound.clear();
+      }
+      found = this->RecentlyFound.emplace(leaf, std::move(neighbors)).first;
     }
-    return { found.neighbors.data(), found.neighbors.size() };
+    return { found->second.data(), found->second.size() };
   }
 
   /// Lists some of very many neighbors: one for each subtree whose size over its distance is
@@ -190,9 +182,8 @@ private:
   /// The spacing of the samples around an end.
   double spacingAt(const End& end)
   {
-    KnownSpacing& known =
-      this->KnownSpacings[static_cast<std::size_t>(end.leaf) % this->KnownSpacings.size()];
-    if (known.leaf != end.leaf)
+    const auto [known, isNew] = this->Spacings.try_emplace(end.leaf, 0.0);
+    if (isNew)
     {
       const Vector center = this->positionOfLeaf(end.leaf);
       this->Spacing.clear();
@@ -200,9 +191,9 @@ private:
       {
         this->Spacing.add(difference(this->positionOfLeaf(neighbor), center));
       }
-      known = { end.leaf, this->Spacing.spacing() };
+      known->second = this->Spacing.spacing();
     }
-    return known.spacing;
+    return known->second;
   }
 
   bool isBelow(Id leaf)
@@ -246,8 +237,8 @@ private:
   LeafSet<Id> Known;         // leaves whose samples are taken
   std::vector<FitSample> Samples;
   bool IsWide = false;
-  std::array<FoundNeighbors, 1024> RecentlyFound{}; // by the leaf's last bits
-  std::array<KnownSpacing, 1024> KnownSpacings{};   // likewise
+  std::unordered_map<Id, std::vector<Id>> RecentlyFound; // neighbors, by leaf
+  std::unordered_map<Id, double> Spacings;               // likewise
   SampleSpacing Spacing;
 };
 
