@@ -39,7 +39,8 @@ public:
       [this]()
       {
         this->Boxes.resize(this->Tree.usedPairs);
-        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode]);
+        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode],
+          [this](std::size_t pair, const Box& box) { this->Boxes[pair] = box; });
       });
   }
 
@@ -55,7 +56,8 @@ public:
     }
     const auto pair = static_cast<std::size_t>(node.childPair);
     const Box box = this->Tree.isPartial
-                      ? this->BoxesOnDemand.at(pair, [&]() { return this->wholeBoxOf(node); })
+                      ? this->BoxesOnDemand.at(
+                          pair, [&]() { return this->boxOf(node, [](std::size_t, const Box&) {}); })
                       : this->Boxes[pair];
     return offsetsToBox(from, box.lower, box.upper);
   }
@@ -63,15 +65,18 @@ public:
 private:
   using Box = SampleBox<TSample>;
 
-  Box boxOf(const Node<TSample>& node)
+  /// @param note(pair, box) called for each split node, by its pair of children
+  template <class Note>
+  Box boxOf(const Node<TSample>& node, const Note& note) const
   {
     if (!node.isSplit())
     {
+      this->requireSamples(node);
       return boxOfSamples(this->Tree, node);
     }
-    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()]),
-      this->boxOf(this->Tree.nodes[node.upperNode()]));
-    this->Boxes[static_cast<std::size_t>(node.childPair)] = box;
+    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
+      this->boxOf(this->Tree.nodes[node.upperNode()], note));
+    note(static_cast<std::size_t>(node.childPair), box);
     return box;
   }
 
@@ -84,17 +89,6 @@ private:
         { infinity, infinity, infinity } };
       throw MissingNode{ static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere };
     }
-  }
-
-  Box wholeBoxOf(const Node<TSample>& node) const
-  {
-    if (!node.isSplit())
-    {
-      this->requireSamples(node);
-      return boxOfSamples(this->Tree, node);
-    }
-    return united(this->wholeBoxOf(this->Tree.nodes[node.lowerNode()]),
-      this->wholeBoxOf(this->Tree.nodes[node.upperNode()]));
   }
 
   const SampleTree<TSample>& Tree;
