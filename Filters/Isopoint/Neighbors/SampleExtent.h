@@ -6,7 +6,7 @@
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Neighbors/NearestSample.h"
-#include "Isopoint/Tree/SampleBox.h"
+#include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
