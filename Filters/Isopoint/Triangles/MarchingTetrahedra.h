@@ -58,7 +58,7 @@ public:
   EdgeTriangles<TSample> march()
   {
     this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
-      [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.lower); });
+      [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
     this->placeVertices();
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
@@ -67,22 +67,9 @@ public:
 
 private:
   /// An edge, by the node indices of its ends in ascending order.
-  struct LeafPair
-  {
-    Id lower;
-    Id upper;
+  using LeafPair = std::pair<Id, Id>;
 
-    bool operator<(const LeafPair& other) const
-    {
-      return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
-    }
-    bool operator==(const LeafPair& other) const
-    {
-      return this->lower == other.lower && this->upper == other.upper;
-    }
-  };
-
-  static LeafPair pairOf(Id a, Id b) { return { std::min(a, b), std::max(a, b) }; }
+  static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
 
   /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
   struct Polygon
