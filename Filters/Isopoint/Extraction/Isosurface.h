@@ -54,7 +54,7 @@ struct Isosurface
 
   std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
 
-  std::vector<CoincidentSamples> coincident; // among the ends of the edges, by lowest id
+  std::vector<CoincidentSamples> coincident; // all at ends of the edges, and others; by lowest id
 
   std::size_t droppedEdges = 0; // crossing ones that lie in gaps
 
