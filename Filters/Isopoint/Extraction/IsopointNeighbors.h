@@ -296,14 +296,22 @@ private:
     forBatches(execution, parts.size(), batch, 1,
       [&](std::size_t begin, std::size_t end)
       {
+        std::vector<Id> memory;
         for (std::size_t part = begin; part < end; ++part)
         {
           const std::size_t last = std::min(count, (part + 1) * grain);
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
-            if (isSurrounded[leaf])
+            const NodeList<Id> touching =
+              isSurrounded[leaf] ? fewNeighborsOf(tree, known,
+                                     static_cast<std::size_t>(this->Leaves[leaf]), most, memory)
+                                 : NodeList<Id>{};
+            for (const Id node : touching)
             {
-              addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+              if (numbers[node] != 0)
+              {
+                parts[part].push_back(numbers[node]);
+              }
             }
             this->Touching.ends[leaf] = parts[part].size();
           }
@@ -317,38 +325,6 @@ private:
         this->Touching.ends[leaf] += this->Touching.all.size();
       }
       this->Touching.all.insert(this->Touching.all.end(), parts[part].begin(), parts[part].end());
-    }
-  }
-
-  static void addTouching(const SampleTree<TSample>& tree, const NeighborhoodCache<Id>& known,
-    Id leaf, const std::vector<Id>& numbers, std::vector<Id>& touching)
-  {
-    const std::size_t begin = touching.size();
-    const auto add = [&](std::size_t node)
-    {
-      if (numbers[node] != 0)
-      {
-        touching.push_back(numbers[node]);
-      }
-    };
-    const NodeList<Id> list = known.at(leaf);
-    std::size_t found = list.count;
-    if (!list.isEmpty() && list.count <= most)
-    {
-      std::for_each(list.begin(), list.end(), add);
-    }
-    else if (list.isEmpty())
-    {
-      visitNeighbors(tree, pathToLeaf(tree, leaf),
-        [&](std::size_t node)
-        {
-          add(node);
-          return ++found > most;
-        });
-    }
-    if (found > most)
-    {
-      touching.resize(begin);
     }
   }
 

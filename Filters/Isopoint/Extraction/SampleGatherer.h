@@ -206,33 +206,25 @@ private:
   /// The neighbors of a leaf; none if they are too many. Valid until the next call.
   NodeList<Id> neighborsOf(Id leaf)
   {
-    const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leaf));
-    if (!known.isEmpty())
+    const auto found = this->RecentlyFound.find(leaf);
+    if (found != this->RecentlyFound.end())
     {
-      return known.count <= mostNeighbors ? known : NodeList<Id>{};
+      return { found->second.data(), found->second.size() };
     }
-    auto found = this->RecentlyFound.find(leaf);
-    if (found == this->RecentlyFound.end())
+    std::vector<Id> memory;
+    const NodeList<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
+      static_cast<std::size_t>(leaf), mostNeighbors, memory);
+    if (!memory.empty())
     {
-      std::vector<Id> neighbors;
-      const bool areMany = visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaf),
-        [&neighbors](std::size_t neighbor)
-        {
-          neighbors.push_back(static_cast<Id>(neighbor));
-          return neighbors.size() > mostNeighbors;
-        });
-      if (areMany)
-      {
-        neighbors.clear();
-      }
       constexpr std::size_t mostLists = 4096; // or memory would grow with the surface
       if (this->RecentlyFound.size() == mostLists)
       {
         this->RecentlyFound.clear();
       }
-      found = this->RecentlyFound.emplace(leaf, std::move(neighbors)).first;
+      memory.resize(neighbors.count);
+      this->RecentlyFound.emplace(leaf, std::move(memory)); // the elements stay where they are
     }
-    return { found->second.data(), found->second.size() };
+    return neighbors;
   }
 
   /// Lists some of very many neighbors: one for each subtree whose size over its distance is
