@@ -159,12 +159,9 @@ struct Meeting
       return std::pair(points.numberOf(a.point), a.corner) <
              std::pair(points.numberOf(b.point), b.corner);
     };
-    std::size_t i = this->count++;
-    for (; i > 0 && comesBefore(corner, this->corners[i - 1]); --i)
-    {
-      this->corners[i] = this->corners[i - 1];
-    }
-    this->corners[i] = corner;
+    CornerOf* const last = this->corners.data() + this->count++;
+    *last = corner;
+    std::rotate(std::upper_bound(this->corners.data(), last, corner, comesBefore), last, last + 1);
   }
 };
 
