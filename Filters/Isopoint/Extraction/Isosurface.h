@@ -111,7 +111,22 @@ std::vector<CoincidentSamples> coincidentEnds(
       }
     }
   }
-  return coincidentSamplesOf(tree, std::move(leaves));
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  std::vector<CoincidentSamples> result;
+  for (const std::size_t leaf : leaves)
+  {
+    CoincidentSamples group;
+    for (std::size_t i = tree.nodes[leaf].begin; i < tree.nodes[leaf].end; ++i)
+    {
+      group.ids.push_back(tree.samples[i].id);
+    }
+    result.push_back(std::move(group));
+  }
+  std::sort(result.begin(), result.end(),
+    [](const CoincidentSamples& a, const CoincidentSamples& b)
+    { return a.ids.front() < b.ids.front(); });
+  return result;
 }
 
 /// An attribute of the samples at the ends of a surface's edges: their own or, of coincident
