@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <set>
 
 using namespace thinningtesting;
 
@@ -222,39 +221,6 @@ TEST(Thinning, DropsNothingAtZeroOrWithoutFits)
   EXPECT_EQ(thinned(surface, 0.0).edges.size(), 1000u);
   surface.fits.clear();
   EXPECT_EQ(thinned(surface, 1.0).edges.size(), 1000u);
-}
-
-TEST(Thinning, KeepsTheCoincidentSamplesAtTheEndsOfEdges)
-{
-  const clouds::Cloud cloud = clouds::coarse(4000, 12, 72);
-  clouds::Cloud smooth = cloud;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    smooth.values[i] = cloud.positions[3 * i] + 0.3 * cloud.positions[3 * i + 1];
-  }
-  const Isosurface surface = extracted(smooth, 6.1);
-  const Isosurface few = thinned(surface, 1.0);
-  ASSERT_LT(few.edges.size(), surface.edges.size());
-  std::set<std::uint64_t> ends;
-  for (const isopoint::IsopointEdge& edge : few.edges)
-  {
-    ends.insert({ edge.first, edge.second });
-  }
-  std::vector<std::vector<std::uint64_t>> expected;
-  for (const isopoint::CoincidentSamples& group : surface.coincident)
-  {
-    if (ends.count(group.ids.front()) > 0)
-    {
-      expected.push_back(group.ids);
-    }
-  }
-  ASSERT_FALSE(expected.empty());
-  ASSERT_LT(expected.size(), surface.coincident.size());
-  ASSERT_EQ(few.coincident.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    EXPECT_EQ(few.coincident[i].ids, expected[i]);
-  }
 }
 
 TEST(Thinning, IsTheSameForAnyNumberOfThreads)

@@ -45,8 +45,8 @@ FOLDERS = {
 
 # The folders that alone may include a library.
 LIBRARIES = {
-    "Eigen": [CORE + "/Fit"],
-    "CGAL": [CORE + "/Splat", CORE + "/Tetrahedra"],
+    "Eigen": [CORE + "/Fit", CORE + "/Splat"],
+    "CGAL": [CORE + "/Tetrahedra"],
     "embree3": [TRACER],
     "embree4": [TRACER],
 }
@@ -253,7 +253,7 @@ class LayersTest(unittest.TestCase):
             for path in ("Random.h", "Cxx/Random.h", "../Testing/Cxx/Random.h"):
                 self.check_defect({name: f'#include "{path}"\n', "Testing/Cxx/Random.h": "\n"},
                                   "a header of the tests")
-            for library, homes in (("Eigen", ["Fit"]), ("CGAL", ["Splat", "Tetrahedra"])):
+            for library, homes in (("Eigen", ["Fit", "Splat"]), ("CGAL", ["Tetrahedra"])):
                 include = f"#include <{library}/Core>\n"
                 for home in homes:
                     self.assertEqual(self.problems({f"{CORE}/{home}/a.cxx": include}), "")
