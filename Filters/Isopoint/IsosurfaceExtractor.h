@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -115,6 +116,10 @@ public:
 
   /// The number of items that do not.
   std::size_t skippedCount() const;
+
+  /// The least and the greatest value of the samples that take part, of all ranks; infinity and its
+  /// negative without any.
+  std::pair<double, double> valueRange() const;
 
   /// What load() and extract() are expected to take for this many items, in nanoseconds of one
   /// thread: their ratio is good to a factor of about two, to divide progress.

@@ -186,8 +186,6 @@ TEST(IsosurfaceFilter, ComputesArrays)
   filter->ComputeScalarsOff();
   filter->ComputeGradientsOn();
   filter->ComputeProjectionOrdersOn();
-  filter->SetMinimumSpacing(0.5);
-  filter->SetAngle(10.0);
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->Update();
   vtkPointData* const data = filter->GetOutput()->GetPointData();
@@ -198,7 +196,6 @@ TEST(IsosurfaceFilter, ComputesArrays)
   }
   EXPECT_EQ(names, (std::set<std::string>{ "x", "position", "Gradients", "ProjectionOrder" }));
   EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
-  // What has no effect has none.
   const auto plain = newFilter(newCloud(20000), 0.7);
   plain->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   plain->Update();

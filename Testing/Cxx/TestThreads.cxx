@@ -2,7 +2,7 @@
 // The filter's own threads: where one cannot be started the others do its work, and no thread
 // outlives an exception.
 #include "FailingAllocator.h"
-#include "vtkIsopointExecution.h"
+#include "Update/vtkIsopointExecution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointOutput.h"
+#include "Output/vtkIsopointOutput.h"
 
+#include "Input/vtkIsopointAllocation.h"
 #include "Isopoint/Base/Vector.h"
-#include "vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

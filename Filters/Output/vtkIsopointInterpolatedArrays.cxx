@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointInterpolatedArrays.h"
+#include "Output/vtkIsopointInterpolatedArrays.h"
 
+#include "Input/vtkIsopointAllocation.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
-#include "vtkIsopointAllocation.h"
-#include "vtkIsopointOutput.h"
+#include "Output/vtkIsopointOutput.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"

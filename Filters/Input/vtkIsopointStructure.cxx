@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointStructure.h"
+#include "Input/vtkIsopointStructure.h"
 
+#include "Input/vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkIsopointCompatibility.h"
-#include "vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointInputState.h"
+#include "Input/vtkIsopointInputState.h"
 
-#include "vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"

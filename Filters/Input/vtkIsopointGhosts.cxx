@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointGhosts.h"
+#include "Input/vtkIsopointGhosts.h"
 
-#include "vtkIsopointAllocation.h"
+#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"

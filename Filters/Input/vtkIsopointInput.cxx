@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointInput.h"
+#include "Input/vtkIsopointInput.h"
 
+#include "Input/vtkIsopointBlock.h"
 #include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
-#include "vtkIsopointBlock.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
@@ -54,23 +54,13 @@ const unsigned char* ghostsOf(const vtkIsopointBlock& block)
   return block.Ghosts ? block.Ghosts->GetPointer(0) : nullptr;
 }
 
-template <class Coordinate, class Value, class Reader>
-void loadOrReplace(const isopoint::Execution& execution, std::size_t count, const Reader& read,
-  isopoint::IsosurfaceExtractor& extractor)
-{
-  if (!extractor.replaceValues<Coordinate, Value>(execution, count, read))
-  {
-    extractor.load<Coordinate, Value>(execution, count, read);
-  }
-}
-
-/// Reads a block whose arrays are packed, their types known to the compiler, as
+/// Reads a block whose arrays are packed, their type known to the compiler, as
 /// IsosurfaceExtractor::load() calls for.
-template <class TCoordinate, class TValue>
+template <class T>
 struct PackedReader
 {
-  const TCoordinate* Coordinates;
-  const TValue* Values;
+  const T* Coordinates;
+  const T* Values;
   const unsigned char* Ghosts;
 
   template <class TOut, class TOutValue>
@@ -81,30 +71,11 @@ struct PackedReader
       return false;
     }
     std::transform(this->Coordinates + 3 * point, this->Coordinates + 3 * point + 3, position,
-      [](TCoordinate coordinate) { return static_cast<TOut>(coordinate); });
+      [](T coordinate) { return static_cast<TOut>(coordinate); });
     value = static_cast<TOutValue>(this->Values[point]);
     return true;
   }
 };
-
-/// Loads a block if its arrays are packed and of these types.
-/// @returns whether it did
-template <class TCoordinate, class TValue>
-bool loadPacked(const isopoint::Execution& execution, const vtkIsopointBlock& block,
-  isopoint::IsosurfaceExtractor& extractor)
-{
-  vtkDataArray* const points = coordinatesOf(block.Positions);
-  const TCoordinate* const coordinates = points ? packedArray<TCoordinate>(points) : nullptr;
-  const TValue* const values = packedArray<TValue>(block.Scalars);
-  if (!coordinates || !values)
-  {
-    return false;
-  }
-  loadOrReplace<TCoordinate, TValue>(execution,
-    static_cast<std::size_t>(block.GetNumberOfSamples()),
-    PackedReader<TCoordinate, TValue>{ coordinates, values, ghostsOf(block) }, extractor);
-  return true;
-}
 
 /// Positions of any kind, determined at run time.
 class AnyPositions
@@ -235,45 +206,16 @@ double errorOfValues(bool areIntegers)
   return areIntegers ? 1.0 / std::sqrt(12.0) : 0.0;
 }
 
-void loadBlocks(const isopoint::Execution& execution, const std::vector<vtkIsopointBlock>& blocks,
-  isopoint::IsosurfaceExtractor& extractor)
-{
-  const BlockReader read(blocks);
-  const bool floatPositions = vtkHaveFloatPositions(blocks);
-  const bool floatValues = haveFloatValues(blocks);
-  const auto load = [&](auto coordinate, auto value) {
-    loadOrReplace<decltype(coordinate), decltype(value)>(execution, read.count(), read, extractor);
-  };
-  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
-                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
-}
-
 } // namespace
 
-void vtkLoadIsopointInput(const isopoint::Execution& execution,
+void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor)
-{
-  const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
-  const bool isLoaded = single && (loadPacked<float, float>(execution, *single, extractor) ||
-                                    loadPacked<float, double>(execution, *single, extractor) ||
-                                    loadPacked<double, float>(execution, *single, extractor) ||
-                                    loadPacked<double, double>(execution, *single, extractor));
-  if (!isLoaded)
-  {
-    loadBlocks(execution, blocks, extractor);
-  }
-  extractor.setValueError(errorOfValues(haveIntegers(blocks)));
-}
-
-void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
-  const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
-  isopoint::IsosurfaceExtractor& extractor)
 {
   const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   const bool floatValues = !team.isAny(!haveFloatValues(blocks));
   const double valueError = errorOfValues(!team.isAny(!haveIntegers(blocks)));
   // A rank alone may have dropped its samples, as for lack of memory.
-  const bool areHeld = !team.isAny(!extractor.isOnRanks());
+  const bool areHeld = !team.isAny(extractor.isOnRanks() != (team.size() > 1));
   const auto loadWith = [&](std::size_t count, const auto& read)
   {
     const auto load = [&](auto coordinate, auto value)
@@ -286,22 +228,27 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
     };
     floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                    : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
-    extractor.setValueError(valueError);
   };
   const vtkIsopointBlock* const single = blocks.size() == 1 ? &blocks.front() : nullptr;
   vtkDataArray* const points = single ? coordinatesOf(single->Positions) : nullptr;
-  const float* const coordinates = points ? packedArray<float>(points) : nullptr;
-  const float* const values = single ? packedArray<float>(single->Scalars) : nullptr;
-  if (coordinates && values) // the commonest types are known to the compiler
+  const auto loadPacked = [&](auto zero)
   {
-    loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
-      PackedReader<float, float>{ coordinates, values, ghostsOf(*single) });
-  }
-  else
+    using T = decltype(zero);
+    const T* const coordinates = points ? packedArray<T>(points) : nullptr;
+    const T* const values = single ? packedArray<T>(single->Scalars) : nullptr;
+    if (coordinates && values)
+    {
+      loadWith(static_cast<std::size_t>(single->GetNumberOfSamples()),
+        PackedReader<T>{ coordinates, values, ghostsOf(*single) });
+    }
+    return coordinates && values;
+  };
+  if (!loadPacked(0.0f) && !loadPacked(0.0))
   {
     const BlockReader read(blocks);
     loadWith(read.count(), read);
   }
+  extractor.setValueError(valueError);
 }
 
 bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)

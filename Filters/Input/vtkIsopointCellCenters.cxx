@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointCellCenters.h"
+#include "Input/vtkIsopointCellCenters.h"
 
+#include "Input/vtkIsopointAllocation.h"
+#include "Input/vtkIsopointBlock.h"
+#include "Input/vtkIsopointGhosts.h"
 #include "Isopoint/Base/Execution.h"
-#include "vtkIsopointAllocation.h"
-#include "vtkIsopointBlock.h"
-#include "vtkIsopointGhosts.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

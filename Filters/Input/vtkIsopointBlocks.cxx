@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointBlocks.h"
+#include "Input/vtkIsopointBlocks.h"
 
+#include "Input/vtkIsopointCellCenters.h"
+#include "Input/vtkIsopointGhosts.h"
+#include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Execution.h"
-#include "vtkIsopointCellCenters.h"
-#include "vtkIsopointGhosts.h"
-#include "vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -114,14 +114,13 @@ vtkAbstractArray* vtkIsopointArrayChoice::Find(vtkDataSetAttributes* attributes)
                             : attributes->GetAbstractArray(this->Name.c_str());
 }
 
-std::string vtkIsopointArrayChoice::DescribeMissing() const
+std::string vtkIsopointArrayChoice::Describe() const
 {
   const std::string element = !this->MayBeOfPoints() ? "cell"
                               : this->MayBeOfCells() ? "point or cell"
                                                      : "point";
-  return this->Name.empty()
-           ? "The input has no active " + element + " scalars."
-           : "The input has no " + element + " array named \"" + this->Name + "\".";
+  return this->Name.empty() ? "active " + element + " scalars"
+                            : element + " array named \"" + this->Name + "\"";
 }
 
 void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObject* input,
@@ -129,17 +128,18 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
 {
   this->ReleaseInput();
   std::string remedy;
+  std::size_t leaves = 0;
   vtkForEachIsopointLeaf(input,
     [&](vtkDataObject* leaf, std::size_t number)
     {
-      this->LeafCount = number + 1;
+      leaves = number + 1;
       if (elementCount(leaf) > 0)
       {
         remedy = remedy.empty() ? remedyFor(leaf) : remedy;
         this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
       }
     });
-  this->KeptCenters.erase(this->KeptCenters.lower_bound(this->LeafCount), this->KeptCenters.end());
+  this->KeptCenters.erase(this->KeptCenters.lower_bound(leaves), this->KeptCenters.end());
   if (remedy.empty())
   {
     throw vtkIsopointNothingError(
@@ -147,7 +147,7 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
   }
   if (this->Blocks.empty())
   {
-    throw vtkIsopointNothingError(choice.DescribeMissing() + remedy);
+    throw vtkIsopointNothingError("The input has no " + choice.Describe() + "." + remedy);
   }
 }
 
@@ -242,7 +242,6 @@ void vtkIsopointBlocks::ReleaseInput()
 {
   this->Blocks.clear();
   this->States.clear();
-  this->LeafCount = 0;
   this->PointsWithoutArray = 0;
 }
 

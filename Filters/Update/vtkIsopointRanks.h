@@ -15,16 +15,17 @@
 class vtkMultiProcessController;
 
 /**
- * The ranks of a controller of VTK, as the core sees them. Messages may have any size: they are
- * sent in parts.
+ * The ranks of a controller of VTK, as the core sees them; without one, this rank alone. Messages
+ * may have any size: they are sent in parts.
  */
 class vtkIsopointCommunicator : public isopoint::Communicator
 {
 public:
-  explicit vtkIsopointCommunicator(vtkMultiProcessController* controller);
+  vtkIsopointCommunicator();
   ~vtkIsopointCommunicator() override;
 
-  vtkMultiProcessController* GetController() const { return this->Controller; }
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const;
 
   int rank() const override;
   int size() const override;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointExecution.h"
+#include "Update/vtkIsopointExecution.h"
 
-#include "vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointEndSamples.h"
+#include "Output/vtkIsopointEndSamples.h"
 
+#include "Input/vtkIsopointAllocation.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkIsopointAllocation.h"
-#include "vtkIsopointArrayBytes.h"
+#include "Output/vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"

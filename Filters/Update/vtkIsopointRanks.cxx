@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointRanks.h"
+#include "Update/vtkIsopointRanks.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
@@ -16,32 +16,45 @@ namespace
 
 constexpr int tag = 72671; // of messages between the ranks of one filter
 
-constexpr std::size_t reducedAtOnce = std::size_t{ 1 } << 15;
+constexpr std::size_t reducedAtOnce = std::size_t{ 1 } << 13;
 
 } // namespace
 
-vtkIsopointCommunicator::vtkIsopointCommunicator(vtkMultiProcessController* controller)
-  : Controller(controller)
-  , OwnNumbers(reducedAtOnce)
+vtkIsopointCommunicator::vtkIsopointCommunicator()
+  : OwnNumbers(reducedAtOnce)
   , AllNumbers(reducedAtOnce)
 {
 }
 
 vtkIsopointCommunicator::~vtkIsopointCommunicator() = default;
 
+void vtkIsopointCommunicator::SetController(vtkMultiProcessController* controller)
+{
+  this->Controller = controller;
+}
+
+vtkMultiProcessController* vtkIsopointCommunicator::GetController() const
+{
+  return this->Controller;
+}
+
 int vtkIsopointCommunicator::rank() const
 {
-  return this->Controller->GetLocalProcessId();
+  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
 }
 
 int vtkIsopointCommunicator::size() const
 {
-  return this->Controller->GetNumberOfProcesses();
+  return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
 void vtkIsopointCommunicator::allReduce(
   std::uint64_t* numbers, std::size_t count, isopoint::Reduction reduction)
 {
+  if (this->size() == 1)
+  {
+    return;
+  }
   const int operation =
     reduction == isopoint::Reduction::Sum ? vtkCommunicator::SUM_OP : vtkCommunicator::MAX_OP;
   for (std::size_t done = 0; done < count; done += reducedAtOnce)
@@ -116,6 +129,10 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
 
 std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
 {
+  if (team.size() == 1)
+  {
+    return 1;
+  }
   vtksys::SystemInformation system;
   system.RunOSCheck();
   const char* const name = system.GetHostname();
@@ -126,6 +143,10 @@ std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
 
 std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem)
 {
+  if (team.size() == 1)
+  {
+    return problem;
+  }
   const auto size = static_cast<std::uint64_t>(team.size());
   const auto own = static_cast<std::uint64_t>(team.rank());
   const std::uint64_t lowest = size - team.maximum(problem.empty() ? 0 : size - own);

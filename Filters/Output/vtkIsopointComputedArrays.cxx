@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointComputedArrays.h"
+#include "Output/vtkIsopointComputedArrays.h"
 
+#include "Input/vtkIsopointAllocation.h"
 #include "Isopoint/Base/Vector.h"
-#include "vtkIsopointAllocation.h"
 
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"

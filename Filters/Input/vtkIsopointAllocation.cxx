@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointAllocation.h"
+#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"

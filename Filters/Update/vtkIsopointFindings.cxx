@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointFindings.h"
+#include "Update/vtkIsopointFindings.h"
 
+#include "Input/vtkIsopointBlock.h"
 #include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Team.h"
-#include "vtkIsopointBlock.h"
+#include "Isopoint/IsosurfaceExtractor.h"
+#include "Update/vtkIsopointOptions.h"
 
-#include "vtkDataArray.h"
-#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkType.h"
 #include "vtkUnsignedCharArray.h"
@@ -28,13 +28,6 @@ constexpr unsigned char excluding =
 bool isExcluded(const vtkIsopointBlock& block, vtkIdType sample)
 {
   return block.Ghosts && (block.Ghosts->GetValue(sample) & excluding) != 0;
-}
-
-bool isFinite(const vtkIsopointBlock& block, vtkIdType sample)
-{
-  double position[3];
-  block.Positions->GetPoint(sample, position);
-  return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
 }
 
 std::string describeArray(const vtkIsopointFindings& findings)
@@ -168,7 +161,7 @@ vtkIsopointMessage describeSkipped(const vtkIsopointFindings& findings)
     { findings.WithoutArray, "in blocks without " + describeArray(findings) },
     { findings.Ghosts, "ghost or hidden" },
   };
-  const std::uint64_t skipped = findings.NotFinite + findings.WithoutArray + findings.Ghosts;
+  const std::uint64_t skipped = findings.GetNumberOfSkippedSamples();
   std::vector<std::string> parts;
   for (const auto& [count, reason] : reasons)
   {
@@ -192,7 +185,7 @@ vtkIsopointMessage describeSkipped(const vtkIsopointFindings& findings)
 vtkIsopointMessage describeUnprojected(const vtkIsopointFindings& findings)
 {
   const std::uint64_t points = findings.GetNumberOfPoints();
-  if (2 * findings.UnprojectedPoints <= points)
+  if (!findings.AreProjected || 2 * findings.UnprojectedPoints <= points)
   {
     return {};
   }
@@ -221,11 +214,15 @@ std::vector<vtkIsopointMessage> describeReplacedArrays(const vtkIsopointFindings
 
 } // namespace
 
-void vtkIsopointFindings::Start(const std::set<double>& isovalues)
+void vtkIsopointFindings::Start(const vtkIsopointOptions& options)
 {
   *this = vtkIsopointFindings();
+  const std::set<double> isovalues = options.GetSortedIsovalues();
   this->Isovalues.assign(isovalues.begin(), isovalues.end());
   this->Points.assign(isovalues.size(), 0);
+  this->AreTriangles = options.Triangles;
+  this->DropsGaps = options.DropGaps;
+  this->AreProjected = options.Projection != 0;
 }
 
 std::uint64_t vtkIsopointFindings::GetNumberOfPoints() const
@@ -233,10 +230,18 @@ std::uint64_t vtkIsopointFindings::GetNumberOfPoints() const
   return std::accumulate(this->Points.begin(), this->Points.end(), std::uint64_t{ 0 });
 }
 
-void vtkIsopointFindings::CountSamples(
-  const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped)
+std::uint64_t vtkIsopointFindings::GetNumberOfSkippedSamples() const
 {
-  this->NotFinite += skipped;
+  return this->NotFinite + this->Ghosts + this->WithoutArray;
+}
+
+void vtkIsopointFindings::CountSamples(
+  const std::vector<vtkIsopointBlock>& blocks, const isopoint::IsosurfaceExtractor& extractor)
+{
+  this->NotFinite += extractor.skippedCount();
+  const auto [least, greatest] = extractor.valueRange();
+  this->Least = std::min(this->Least, least);
+  this->Greatest = std::max(this->Greatest, greatest);
   for (const vtkIsopointBlock& block : blocks)
   {
     const vtkIdType count = block.GetNumberOfSamples();
@@ -251,53 +256,22 @@ void vtkIsopointFindings::CountSamples(
   }
 }
 
-void vtkFindIsopointRange(
-  const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings)
+void vtkIsopointFindings::Share(isopoint::Team& team)
 {
-  if (std::all_of(findings.Points.begin(), findings.Points.end(),
-        [](std::uint64_t count) { return count > 0; }))
-  {
-    return;
-  }
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    const vtkIdType count = block.GetNumberOfSamples();
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const double value = block.Scalars->GetComponent(i, 0);
-      const bool isWider = value < findings.Least || value > findings.Greatest;
-      if (isWider && std::isfinite(value) && !isExcluded(block, i) && isFinite(block, i))
-      {
-        findings.Least = std::min(findings.Least, value);
-        findings.Greatest = std::max(findings.Greatest, value);
-      }
-    }
-  }
-}
-
-void vtkShareIsopointFindings(
-  isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings)
-{
-  team.sum(findings.Points); // of as many isovalues on all ranks
-  for (std::uint64_t* const count : { &findings.UnprojectedPoints, &findings.Samples,
-         &findings.NotFinite, &findings.Ghosts, &findings.WithoutArray })
+  team.sum(this->Points); // of as many isovalues on all ranks
+  for (std::uint64_t* const count : { &this->UnprojectedPoints, &this->DroppedInGaps,
+         &this->Samples, &this->NotFinite, &this->Ghosts, &this->WithoutArray })
   {
     *count = team.sum(*count);
   }
   const std::vector<std::vector<char>> names =
-    team.gather(std::vector<char>(findings.Array.begin(), findings.Array.end()));
-  team.together(
-    [&]()
-    {
-      for (auto name = names.begin(); name != names.end() && findings.Array.empty(); ++name)
-      {
-        findings.Array.assign(name->begin(), name->end()); // a rank without blocks has none
-      }
-      vtkFindIsopointRange(blocks, findings);
-    });
-  findings.Least = isopoint::fromOrderedKey(~team.maximum(~isopoint::orderedKey(findings.Least)));
-  findings.Greatest =
-    isopoint::fromOrderedKey(team.maximum(isopoint::orderedKey(findings.Greatest)));
+    team.gather(std::vector<char>(this->Array.begin(), this->Array.end()));
+  for (auto name = names.begin(); name != names.end() && this->Array.empty(); ++name)
+  {
+    this->Array.assign(name->begin(), name->end()); // a rank without blocks has none
+  }
+  this->Least = isopoint::fromOrderedKey(~team.maximum(~isopoint::orderedKey(this->Least)));
+  this->Greatest = isopoint::fromOrderedKey(team.maximum(isopoint::orderedKey(this->Greatest)));
 }
 
 std::vector<vtkIsopointMessage> vtkDescribeIsopointFindings(const vtkIsopointFindings& findings)

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointFindings_h
 #define vtkIsopointFindings_h
 
-#include "vtkIsopointBlock.h"
+#include "Input/vtkIsopointBlock.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +13,10 @@
 
 namespace isopoint
 {
+class IsosurfaceExtractor;
 class Team;
-}
+} // namespace isopoint
+struct vtkIsopointOptions;
 
 /**
  * What the user of a filter is told.
@@ -40,40 +42,36 @@ struct vtkIsopointFindings
   std::vector<std::uint64_t> Points;    // for each isovalue
   bool AreTriangles = false;            // whether points are connected
   bool DropsGaps = false;               // whether what lies in gaps is left out
-  std::uint64_t UnprojectedPoints = 0;  // that no fit moved, where fits were to
+  bool AreProjected = false;            // whether fits were to move points
+  std::uint64_t UnprojectedPoints = 0;  // that no fit moved
+  std::uint64_t DroppedInGaps = 0;      // edges, or tetrahedra, that were left out
   std::uint64_t Samples = 0;            // those that were left out included
   std::uint64_t NotFinite = 0;          // samples with such a coordinate or value
   std::uint64_t Ghosts = 0;             // ghost and hidden samples
   std::uint64_t WithoutArray = 0;       // samples of blocks without the contoured array
   std::string Array;                    // its name, perhaps empty
   std::set<std::string> ReplacedArrays; // input arrays with the name of a computed one
-  /// The range of the samples that take part, known where an isovalue has no points; else, and if
-  /// there are no such samples, empty.
+  /// The range of the samples that take part, empty without any.
   double Least = std::numeric_limits<double>::infinity();
   double Greatest = -std::numeric_limits<double>::infinity();
 
-  /// Nothing yet, of these isovalues. @throws std::bad_alloc
-  void Start(const std::set<double>& isovalues);
+  /// Nothing yet, with these options. @throws std::bad_alloc
+  void Start(const vtkIsopointOptions& options);
 
   /// Of all isovalues.
   std::uint64_t GetNumberOfPoints() const;
 
-  /// Counts the samples of some blocks, of which the extractor left out this many.
-  void CountSamples(const std::vector<vtkIsopointBlock>& blocks, std::size_t skipped);
+  /// Those that took no part, for any reason.
+  std::uint64_t GetNumberOfSkippedSamples() const;
+
+  /// Counts the samples of some blocks, which the extractor has loaded.
+  void CountSamples(
+    const std::vector<vtkIsopointBlock>& blocks, const isopoint::IsosurfaceExtractor& extractor);
+
+  /// Adds what the other ranks have found. Collective.
+  /// @throws std::bad_alloc or FailedElsewhere
+  void Share(isopoint::Team& team);
 };
-
-/**
- * Looks for the range of the blocks' samples, if any isovalue has no points.
- */
-void vtkFindIsopointRange(
-  const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings);
-
-/**
- * The same of all ranks together, whose findings are summed. Collective.
- * @throws std::bad_alloc or FailedElsewhere
- */
-void vtkShareIsopointFindings(
-  isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks, vtkIsopointFindings& findings);
 
 /**
  * A message for each cause. Ghosts alone are none.

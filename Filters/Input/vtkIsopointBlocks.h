@@ -2,8 +2,8 @@
 #ifndef vtkIsopointBlocks_h
 #define vtkIsopointBlocks_h
 
-#include "vtkIsopointBlock.h"
-#include "vtkIsopointInputState.h"
+#include "Input/vtkIsopointBlock.h"
+#include "Input/vtkIsopointInputState.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -30,6 +30,7 @@ class vtkPoints;
 class vtkIsopointArrayChoice
 {
 public:
+  vtkIsopointArrayChoice() = default;
   explicit vtkIsopointArrayChoice(vtkInformation* inputArray);
 
   /// Whether the array may be a point array, and a cell array. If it may be either, a point array
@@ -41,13 +42,13 @@ public:
   /// scalars by default); null if there is none.
   vtkAbstractArray* Find(vtkDataSetAttributes* attributes) const;
 
-  /// The cause, for an error message, if no leaf of an input has the array.
-  std::string DescribeMissing() const;
+  /// Which array it is, for messages and comparisons, as in "point array named ...".
+  std::string Describe() const;
 
 private:
-  int Association;
+  int Association = 0;
   std::string Name; // empty: the active attribute
-  int Attribute;
+  int Attribute = 0;
 };
 
 /**
@@ -72,9 +73,6 @@ public:
   /// The state of the input that the blocks [begin, end) present.
   vtkIsopointInputState GetState(std::size_t begin, std::size_t end) const;
 
-  /// The number of leaves of the input that are not null, including those without samples.
-  std::size_t GetNumberOfLeaves() const { return this->LeafCount; }
-
   /// The number of points (or cells, where there are more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
@@ -95,7 +93,6 @@ private:
 
   std::vector<vtkIsopointBlock> Blocks;
   std::vector<vtkIsopointInputState> States; // one for each block
-  std::size_t LeafCount = 0;
   vtkIdType PointsWithoutArray = 0;
   std::map<std::size_t, Centers> KeptCenters; // by leaf
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointArrayBytes.h"
+#include "Output/vtkIsopointArrayBytes.h"
 
-#include "vtkIsopointAllocation.h"
+#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"

@@ -2,8 +2,8 @@
 #ifndef vtkIsopointEndSamples_h
 #define vtkIsopointEndSamples_h
 
+#include "Input/vtkIsopointBlock.h"
 #include "Isopoint/ExtractionRequest.h"
-#include "vtkIsopointBlock.h"
 
 #include "vtkSmartPointer.h"
 
