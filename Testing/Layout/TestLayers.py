@@ -49,7 +49,7 @@ FOLDERS = {
 # folders that may have them.
 OTHERS = {
     r"Eigen/": CORE + "/(Fit|Splat)",
-    r"CGAL/": CORE + "/(Splat|Tetrahedra)",
+    r"CGAL/": CORE + "/Tetrahedra",
     r"embree[34]/": TRACER,
     r"vtk": rf"(?!{CORE}|{TRACER})",
     r"vtk(PV|SM(?!P[A-Z])|SI(?!L)|ClientServer|ProcessModule|ParaView)|pq[A-Z]": "Plugin",

@@ -7,6 +7,7 @@
 #include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Tree/NodeMarks.h"
+#include "Isopoint/Tree/TreeRefinement.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
 
 #include <algorithm>
@@ -130,7 +131,12 @@ private:
     }
     if (unfinished > 0)
     {
-      this->finish(front, bottom);
+      std::vector<std::size_t> tops;
+      for (const BandNode& node : front)
+      {
+        tops.push_back(node.nodeIndex);
+      }
+      splitCompletely(this->Run, this->Tree, tops);
     }
     return true;
   }
@@ -320,34 +326,6 @@ private:
     }
     return this->unfinishedSamples(this->Tree.nodes[node.lowerNode()], levels - 1) +
            this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
-  }
-
-  /// Splits everything below the front down to leaves, whether the surface is near or not.
-  /// @param depth to which it has been split
-  void finish(const std::vector<BandNode>& front, int depth)
-  {
-    std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
-    while (!unfinished.empty())
-    {
-      throwIfAborted(this->Run);
-      const int bottom = depth + treeletLevels;
-      this->splitFront(unfinished, depth, bottom);
-      unfinished = this->unfinishedBelow(unfinished, bottom);
-      depth = bottom;
-    }
-  }
-
-  /// The nodes of a depth below the front that are no leaves.
-  std::vector<BandNode> unfinishedBelow(const std::vector<BandNode>& front, int depth)
-  {
-    return this->collectBelow(front, depth,
-      [this](const Path& below, std::vector<BandNode>& unfinished)
-      {
-        if (!this->Tree.nodes[below.nodeIndex()].isLeaf)
-        {
-          unfinished.push_back({ below.index, below.nodeIndex(), true });
-        }
-      });
   }
 
   /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is

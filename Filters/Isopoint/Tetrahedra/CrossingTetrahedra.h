@@ -199,7 +199,7 @@ private:
   /// Inserts all samples.
   void insertAll()
   {
-    splitCompletely(this->Run, this->Tree);
+    splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
     std::vector<std::size_t> leaves;
     Path path = pathToRoot(this->Tree);
     forEachBelow(this->Tree, path, maximumDepth,

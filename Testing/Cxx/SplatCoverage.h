@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef AccuracySplats_h
-#define AccuracySplats_h
+#ifndef SplatCoverage_h
+#define SplatCoverage_h
 
 #include "AnalyticSurface.h"
-
-#include "vtkType.h"
 
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-class vtkDataArray;
 class vtkPolyData;
 
-namespace accuracy
+namespace splatcoverage
 {
 
 /// A fan of triangles in space: between its center and each two consecutive corners.
@@ -26,12 +23,8 @@ struct Splat
   double radius() const; // the distance of the farthest corner
 };
 
-/// An array's tuple of three components.
-analytic::Vector tupleOf(vtkDataArray* array, vtkIdType i);
-
-/// The splats of a point cloud with normals and the arrays "SplatAxis" and "SplatPolygon", or
-/// "Radius": then polygons of sixteen corners on a circle. Empty without normals, or without all of
-/// these arrays.
+/// The splats of a point cloud with normals and the arrays "SplatAxis" and "SplatPolygon"; none
+/// without them.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Determines whether splats cover places.
@@ -63,6 +56,6 @@ private:
   std::vector<Level> Levels;
 };
 
-} // namespace accuracy
+} // namespace splatcoverage
 
 #endif

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "AccuracySplats.h"
-
-#include "AnalyticFields.h"
+#include "SplatCoverage.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -11,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace accuracy
+namespace splatcoverage
 {
 namespace
 {
@@ -22,31 +20,10 @@ using analytic::dot;
 using analytic::length;
 using analytic::Vector;
 
-/// Two unit vectors perpendicular to a normal and to each other.
-std::array<Vector, 2> axesAcross(const Vector& normal)
+/// An array's tuple of three components.
+Vector tupleOf(vtkDataArray* array, vtkIdType i)
 {
-  const auto least = std::min_element(
-    normal.begin(), normal.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  Vector helper{ 0.0, 0.0, 0.0 };
-  helper[static_cast<std::size_t>(least - normal.begin())] = 1.0;
-  const Vector first = analytic::directionOf(cross(normal, helper));
-  return { first, cross(normal, first) };
-}
-
-/// The corners on a circle.
-std::vector<Vector> circleAround(const Vector& center, const Vector& normal, double radius)
-{
-  constexpr int count = 16;
-  const auto [first, second] = axesAcross(normal);
-  std::vector<Vector> corners;
-  for (int i = 0; i < count; ++i)
-  {
-    const double angle = 2.0 * analytic::pi * i / count;
-    corners.push_back(
-      analytic::sum(analytic::sum(center, analytic::scaled(first, radius * std::cos(angle))),
-        analytic::scaled(second, radius * std::sin(angle))));
-  }
-  return corners;
+  return { array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2) };
 }
 
 /// The corners that a tuple of "SplatPolygon" describes.
@@ -80,11 +57,6 @@ std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
 
 } // namespace
 
-Vector tupleOf(vtkDataArray* array, vtkIdType i)
-{
-  return { array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2) };
-}
-
 double Splat::radius() const
 {
   double farthest = 0.0;
@@ -99,11 +71,10 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
 {
   vtkPointData* const data = points->GetPointData();
   vtkDataArray* const normals = data->GetNormals();
-  vtkDataArray* const radii = data->GetArray("Radius");
   vtkDataArray* const axes = data->GetArray("SplatAxis");
   vtkDataArray* const polygons = data->GetArray("SplatPolygon");
   std::vector<Splat> splats;
-  if (!normals || !(radii || (axes && polygons)))
+  if (!normals || !axes || !polygons)
   {
     return splats;
   }
@@ -112,9 +83,7 @@ std::vector<Splat> splatsOf(vtkPolyData* points)
     Splat splat;
     points->GetPoint(i, splat.center.data());
     splat.normal = tupleOf(normals, i);
-    splat.corners = axes && polygons
-                      ? cornersOf(splat.center, splat.normal, tupleOf(axes, i), polygons, i)
-                      : circleAround(splat.center, splat.normal, radii->GetComponent(i, 0));
+    splat.corners = cornersOf(splat.center, splat.normal, tupleOf(axes, i), polygons, i);
     splats.push_back(splat);
   }
   return splats;
@@ -196,4 +165,4 @@ bool Coverage::covers(const Vector& place, const Vector& normal) const
   return false;
 }
 
-} // namespace accuracy
+} // namespace splatcoverage
