@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointRayTracer.h"
 
+#include "Isopoint/Base/Threads.h"
 #include "vtkIsopointTracedDisplay.h"
 #include "vtkIsopointTracedScene.h"
 #include "vtkIsopointTracedView.h"
@@ -31,11 +32,11 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <new>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkIsopointRayTracer);
 
@@ -247,10 +248,15 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   illuminants.hasShadows = self->Shadows != 0;
   illuminants.mostBounces = self->MaximumNumberOfBounces;
 
-  const auto threads = static_cast<std::size_t>(
-    self->NumberOfThreads > 0
-      ? self->NumberOfThreads
-      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  isopoint::Execution execution;
+  isopoint::useThreads(execution, self->NumberOfThreads > 0
+                                    ? static_cast<std::size_t>(self->NumberOfThreads)
+                                    : isopoint::availableThreads());
+  execution.progress = [self](double share)
+  { self->InvokeEvent(vtkCommand::ProgressEvent, &share); };
+  execution.aborted = [self, window]()
+  { return self->AbortExecute || (window && window->CheckAbortStatus()); };
   std::ostringstream state;
   state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
         << self->SamplesPerPixel << ' ' << self->AmbientLight << ' ' << self->AmbientDistance << ' '
@@ -261,20 +267,14 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
       static_cast<std::uint32_t>(size[1]), static_cast<std::uint32_t>(self->SamplesPerPixel));
-    this->Picture->findDistances(this->View->Camera, this->Scene.Get(), threads);
+    this->Picture->findDistances(execution, this->View->Camera, this->Scene.Get());
     this->PictureState = state.str();
     this->PictureCamera = this->View->Camera;
     this->Shown = { 0, 0, this->Picture->getWidth(), this->Picture->getHeight() };
   }
   const raytracing::PathTracer tracer(this->Scene.Get(), illuminants);
-  vtkRenderWindow* const window = renderer->GetRenderWindow();
-  const auto goesOn = [self, window](double share)
-  {
-    self->InvokeEvent(vtkCommand::ProgressEvent, &share);
-    return !self->AbortExecute && !(window && window->CheckAbortStatus());
-  };
-  const bool isDone = this->Picture->addSamples(this->PictureCamera, tracer,
-    this->Picture->getSamples() + static_cast<std::uint32_t>(samples), threads, goesOn);
+  const bool isDone = this->Picture->addSamples(execution, this->PictureCamera, tracer,
+    this->Picture->getSamples() + static_cast<std::uint32_t>(samples));
   self->NumberOfSamples = static_cast<int>(this->Picture->getSamples());
   return isDone;
 }

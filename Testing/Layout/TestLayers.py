@@ -32,8 +32,8 @@ CORE_FOLDERS = {
 FOLDERS = {
     "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
     "Rendering": ["Rendering/*.h"],
-    "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h"],
-    TRACER: [TRACER + "/*.h"],
+    "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h", CORE + "/Base/*.h"],
+    TRACER: [TRACER + "/*.h", CORE + "/Base/*.h"],
     "Plugin/Window": [
         "Plugin/Window/*.h", "Plugin/Exporter/vtkIsopointRayTracingExporter.h",
         "Plugin/Representation/vtkSMIsopointRepresentationDomain.h"],
