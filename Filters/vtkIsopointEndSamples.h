@@ -3,11 +3,12 @@
 #define vtkIsopointEndSamples_h
 
 #include "Isopoint/ExtractionRequest.h"
+#include "Isopoint/Ranks/ByteBuffer.h"
 #include "vtkIsopointBlock.h"
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace isopoint
@@ -52,8 +53,10 @@ public:
   vtkDataArray* GetScalars() const { return this->Scalars; }
 
 private:
-  void CopyFromRanks(isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks,
-    const std::vector<std::uint64_t>& ids);
+  /// Uses the samples that ranks sent, so many in total.
+  void Join(const std::vector<isopoint::ByteBuffer>& arrived, std::size_t count);
+  /// Uses copies, the last of which is the contoured array.
+  void Use(vtkPointData* copied);
 
   vtkSmartPointer<vtkPointData> Copied; // null for a single block
   vtkDataSetAttributes* Attributes = nullptr;

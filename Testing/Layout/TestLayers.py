@@ -30,7 +30,7 @@ CORE_FOLDERS = {
 
 # The other folders with sources, and the headers of the project that they may include.
 FOLDERS = {
-    "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h"],
+    "Filters": ["Filters/*.h", CORE + "/*.h", CORE + "/Base/*.h", CORE + "/Ranks/ByteBuffer.h"],
     "Rendering": ["Rendering/*.h"],
     "RayTracing": ["RayTracing/*.h", TRACER + "/*.h", "Rendering/*.h", CORE + "/Base/*.h"],
     TRACER: [TRACER + "/*.h", CORE + "/Base/*.h"],
