@@ -7,122 +7,62 @@
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "vtkUniformGrid.h"
 #include "vtkUniformGridAMR.h"
-
-#include <cstdlib>
 
 namespace
 {
 
-// The same of all composites that are trees.
-
-unsigned int countOf(vtkMultiBlockDataSet* tree)
+/// A composite that is a tree, or null. An AMR is none, though a collection from VTK 9.5 on.
+vtkDataObjectTree* treeOf(vtkDataObject* object)
 {
-  return tree->GetNumberOfBlocks();
-}
-unsigned int countOf(vtkPartitionedDataSetCollection* tree)
-{
-  return tree->GetNumberOfPartitionedDataSets();
-}
-unsigned int countOf(vtkPartitionedDataSet* tree)
-{
-  return tree->GetNumberOfPartitions();
+  return vtkUniformGridAMR::SafeDownCast(object) ? nullptr
+                                                 : vtkDataObjectTree::SafeDownCast(object);
 }
 
-void setCount(vtkMultiBlockDataSet* tree, unsigned int count)
+/// Calls visit(iterator) at each child of a tree, null or not.
+template <class Visit>
+void forChildren(vtkDataObjectTree* tree, const Visit& visit)
 {
-  tree->SetNumberOfBlocks(count);
-}
-void setCount(vtkPartitionedDataSetCollection* tree, unsigned int count)
-{
-  tree->SetNumberOfPartitionedDataSets(count);
-}
-void setCount(vtkPartitionedDataSet* tree, unsigned int count)
-{
-  tree->SetNumberOfPartitions(count);
-}
-
-vtkDataObject* childOf(vtkMultiBlockDataSet* tree, unsigned int i)
-{
-  return tree->GetBlock(i);
-}
-vtkDataObject* childOf(vtkPartitionedDataSetCollection* tree, unsigned int i)
-{
-  return tree->GetPartitionedDataSet(i);
-}
-vtkDataObject* childOf(vtkPartitionedDataSet* tree, unsigned int i)
-{
-  return tree->GetPartitionAsDataObject(i);
-}
-
-void setChild(vtkMultiBlockDataSet* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetBlock(i, child);
-}
-void setChild(vtkPartitionedDataSetCollection* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetPartitionedDataSet(i, vtkPartitionedDataSet::SafeDownCast(child));
-}
-void setChild(vtkPartitionedDataSet* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetPartition(i, child);
-}
-
-/// Calls action(tree), with the tree's own type; does nothing for other objects, an AMR among them,
-/// which is a collection from VTK 9.5 on.
-template <class Action>
-void withTree(vtkDataObject* object, const Action& action)
-{
-  if (vtkUniformGridAMR::SafeDownCast(object))
+  const auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  iterator->TraverseSubTreeOff();
+  iterator->VisitOnlyLeavesOff();
+  iterator->SkipEmptyNodesOff();
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
-    return;
-  }
-  if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
-  {
-    action(blocks);
-  }
-  else if (auto* const collection = vtkPartitionedDataSetCollection::SafeDownCast(object))
-  {
-    action(collection);
-  }
-  else if (auto* const partitions = vtkPartitionedDataSet::SafeDownCast(object))
-  {
-    action(partitions);
+    visit(iterator.Get());
   }
 }
 
-template <class Tree>
-std::string nameOf(Tree* tree, unsigned int i)
+void setCount(vtkDataObjectTree* tree, unsigned int count)
 {
-  vtkInformation* const data = tree->HasMetaData(i) ? tree->GetMetaData(i) : nullptr;
+  if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(tree))
+  {
+    blocks->SetNumberOfBlocks(count);
+  }
+  else if (auto* const collection = vtkPartitionedDataSetCollection::SafeDownCast(tree))
+  {
+    collection->SetNumberOfPartitionedDataSets(count);
+  }
+  else if (auto* const partitions = vtkPartitionedDataSet::SafeDownCast(tree))
+  {
+    partitions->SetNumberOfPartitions(count);
+  }
+}
+
+std::string nameOf(vtkDataObjectTreeIterator* child)
+{
+  vtkInformation* const data = child->HasCurrentMetaData() ? child->GetCurrentMetaData() : nullptr;
   return data && data->Has(vtkCompositeDataSet::NAME())
            ? std::string(data->Get(vtkCompositeDataSet::NAME()))
            : std::string();
-}
-
-/// Calls visit(child, name) for each child of a tree, or level or box of an AMR, null or not.
-/// @returns whether the object is one of these
-template <class Visit>
-bool forChildren(vtkDataObject* object, const Visit& visit)
-{
-  bool isTree = false;
-  withTree(object,
-    [&](auto* tree)
-    {
-      isTree = true;
-      for (unsigned int i = 0; i < countOf(tree); ++i)
-      {
-        visit(childOf(tree, i), nameOf(tree, i));
-      }
-    });
-  return isTree;
 }
 
 /// The boxes of a level of an AMR, null or not.
@@ -147,13 +87,17 @@ bool isInPieces(int type)
 vtkIsopointStructure::vtkIsopointStructure(vtkDataObject* object)
   : Type(object ? leaf : nothing)
 {
-  const bool isTree = forChildren(object,
-    [this](vtkDataObject* child, const std::string& name)
-    {
-      this->Children.emplace_back(child);
-      this->Children.back().Name = name;
-    });
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
+  if (auto* const tree = treeOf(object))
+  {
+    this->Type = tree->GetDataObjectType();
+    forChildren(tree,
+      [this](vtkDataObjectTreeIterator* child)
+      {
+        this->Children.emplace_back(child->GetCurrentDataObject());
+        this->Children.back().Name = nameOf(child);
+      });
+  }
+  else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
     this->Type = levels->GetDataObjectType();
     for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
@@ -166,10 +110,6 @@ vtkIsopointStructure::vtkIsopointStructure(vtkDataObject* object)
       }
       this->Children.push_back(boxes);
     }
-  }
-  else if (isTree)
-  {
-    this->Type = object->GetDataObjectType();
   }
 }
 
@@ -204,9 +144,12 @@ void vtkIsopointStructure::AddNumbers(
     return;
   }
   std::size_t visited = 0;
-  forChildren(object, [&](vtkDataObject* child, const std::string&)
-    { this->Children[visited++].AddNumbers(child, next, numbers); });
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
+  if (auto* const tree = treeOf(object))
+  {
+    forChildren(tree, [&](vtkDataObjectTreeIterator* child)
+      { this->Children[visited++].AddNumbers(child->GetCurrentDataObject(), next, numbers); });
+  }
+  else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
     for (; visited < levels->GetNumberOfLevels(); ++visited)
     {
@@ -279,74 +222,51 @@ void vtkIsopointStructure::Fill(vtkDataObject* input,
 void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
   std::size_t& next, vtkDataObject* output) const
 {
-  withTree(output,
-    [&](auto* tree)
+  vtkDataObjectTree* const tree = treeOf(output);
+  setCount(tree, static_cast<unsigned int>(this->Children.size()));
+  auto nextChild = this->Children.begin();
+  forChildren(tree,
+    [&](vtkDataObjectTreeIterator* place)
     {
-      setCount(tree, static_cast<unsigned int>(this->Children.size()));
-      for (unsigned int i = 0; i < this->Children.size(); ++i)
+      const vtkIsopointStructure& child = *nextChild++;
+      if (!child.Name.empty() && nameOf(place).empty())
       {
-        const vtkIsopointStructure& child = this->Children[i];
-        if (!child.Name.empty() && nameOf(tree, i).empty())
-        {
-          tree->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
-        }
-        if (!child.IsComposite())
-        {
-          setChild(tree, i, surfaces[next++]);
-          continue;
-        }
-        if (!childOf(tree, i))
-        {
-          setChild(tree, i,
-            vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
-        }
-        child.FillChildren(surfaces, next, childOf(tree, i));
+        place->GetCurrentMetaData()->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
       }
+      if (!child.IsComposite())
+      {
+        tree->SetDataSet(place, surfaces[next++]);
+        return;
+      }
+      if (!place->GetCurrentDataObject())
+      {
+        tree->SetDataSet(place,
+          vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
+      }
+      child.FillChildren(surfaces, next, place->GetCurrentDataObject());
     });
 }
 
-std::vector<char> vtkIsopointStructure::Write() const
+void vtkIsopointStructure::Write(isopoint::ByteBuffer& bytes) const
 {
-  std::string text;
-  this->Write(text);
-  return { text.begin(), text.end() };
-}
-
-void vtkIsopointStructure::Write(std::string& text) const
-{
-  text += std::to_string(this->Type) + ' ' + std::to_string(this->Children.size()) + ' ' +
-          std::to_string(this->Name.size()) + ' ' + this->Name;
+  isopoint::append(bytes, this->Type);
+  isopoint::append(bytes, this->Name);
+  isopoint::append(bytes, this->Children.size());
   for (const vtkIsopointStructure& child : this->Children)
   {
-    child.Write(text);
+    child.Write(bytes);
   }
 }
 
-namespace
-{
-
-/// One number of what was written.
-long nextNumber(const char*& text)
-{
-  char* end = nullptr;
-  const long number = std::strtol(text, &end, 10);
-  text = end + 1;
-  return number;
-}
-
-} // namespace
-
-vtkIsopointStructure vtkIsopointStructure::Read(const char*& text)
+vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
 {
   vtkIsopointStructure structure;
-  structure.Type = static_cast<int>(nextNumber(text));
-  structure.Children.resize(static_cast<std::size_t>(nextNumber(text)));
-  const long length = nextNumber(text);
-  structure.Name.assign(text, static_cast<std::size_t>(length));
-  text += length;
+  structure.Type = bytes.read<int>();
+  structure.Name = bytes.readText();
+  structure.Children.resize(bytes.read<std::size_t>());
   for (vtkIsopointStructure& child : structure.Children)
   {
-    child = Read(text);
+    child = Read(bytes);
   }
   return structure;
 }
@@ -355,14 +275,14 @@ vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObj
 {
   // The first rank merges, so that what the others receive does not grow with their number.
   const auto size = static_cast<std::size_t>(team.size());
-  std::vector<std::vector<char>> messages;
+  std::vector<isopoint::ByteBuffer> messages;
   team.together(
     [&]()
     {
       messages.resize(size);
-      messages.front() = vtkIsopointStructure(input).Write();
+      vtkIsopointStructure(input).Write(messages.front());
     });
-  const std::vector<std::vector<char>> arrived = team.exchange(messages);
+  const std::vector<isopoint::ByteBuffer> arrived = team.exchange(messages);
   team.together(
     [&]()
     {
@@ -370,21 +290,22 @@ vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObj
       if (team.rank() == 0)
       {
         vtkIsopointStructure merged;
-        for (const std::vector<char>& bytes : arrived)
+        for (const isopoint::ByteBuffer& bytes : arrived)
         {
-          const char* text = bytes.data();
-          merged.Merge(vtkIsopointStructure::Read(text));
+          isopoint::ByteReader reader(bytes);
+          merged.Merge(vtkIsopointStructure::Read(reader));
         }
-        messages.assign(size, merged.Write());
+        merged.Write(messages.front());
+        messages.assign(size, isopoint::ByteBuffer(messages.front()));
       }
     });
-  const std::vector<std::vector<char>> merged = team.exchange(messages);
+  const std::vector<isopoint::ByteBuffer> merged = team.exchange(messages);
   vtkIsopointStructure result;
   team.together(
     [&]()
     {
-      const char* text = merged.front().data();
-      result = vtkIsopointStructure::Read(text);
+      isopoint::ByteReader reader(merged.front());
+      result = vtkIsopointStructure::Read(reader);
     });
   return result;
 }

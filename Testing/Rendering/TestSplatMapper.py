@@ -69,7 +69,7 @@ def an_infinite_point_changes_nothing():
         data = polydata([*points, *extra], [UP] * (3 + len(extra)))
         actor = actor_of(data)
         # Of an automatic radius that depends on the number of points.
-        actor.GetMapper().SetRadiusScale(np.sqrt((3 + len(extra)) / 3) * 0.2)
+        actor.GetMapper().GetPolygons().SetRadiusScale(np.sqrt((3 + len(extra)) / 3) * 0.2)
         scene = Scene(actor)
         scene.renderer.ResetCamera()
         images.append(scene.image())
@@ -106,15 +106,15 @@ def has_the_given_size():
     scene.camera.SetParallelScale(1.0)
     expected = 2 * np.sqrt(2) * 150**2  # of an octagon
     check(abs(area(scene.image()) / expected - 1) < 0.02, "an octagon of 300 pixels")
-    mapper = scene.renderer.GetActors().GetLastActor().GetMapper()
-    mapper.SetRadiusScale(0.5)
+    polygons = scene.renderer.GetActors().GetLastActor().GetMapper().GetPolygons()
+    polygons.SetRadiusScale(0.5)
     check(abs(area(scene.image()) / expected - 0.25) < 0.01, "half its radius")
-    mapper.SetRadiusScale(1.0)
-    mapper.SetRadiusArrayName("nothing")
-    mapper.SetRadius(0.25)
+    polygons.SetRadiusScale(1.0)
+    polygons.SetRadiusArrayName("nothing")
+    polygons.SetRadius(0.25)
     check(abs(area(scene.image()) / expected - 0.25) < 0.01, "a constant radius")
-    mapper.SetRadius(0.0)
-    mapper.SetRadiusArrayName(None)
+    polygons.SetRadius(0.0)
+    polygons.SetRadiusArrayName(None)
     check(area(scene.image()) > 0, "an automatic radius")
 
 
@@ -215,7 +215,7 @@ def follows_changes():
     source.SetPhiResolution(100)
     mapper = vtkIsopointSplatMapper()
     mapper.SetInputConnection(source.GetOutputPort())
-    mapper.SetRadius(0.05)
+    mapper.GetPolygons().SetRadius(0.05)
     actor = vtkActor()
     actor.SetMapper(mapper)
     scene = Scene(actor)
@@ -276,18 +276,20 @@ def does_not_disturb_other_actors():
 
 def defaults_and_ranges():
     mapper = vtkIsopointSplatMapper()
-    check(mapper.GetRadiusArrayName() == "Radius", "RadiusArrayName")
+    polygons = mapper.GetPolygons()
+    check(polygons.GetRadiusArrayName() == "Radius", "RadiusArrayName")
     for name, default in (("Radius", 0.0), ("RadiusScale", 1.0)):
-        get, set_to = getattr(mapper, "Get" + name), getattr(mapper, "Set" + name)
+        get, set_to = getattr(polygons, "Get" + name), getattr(polygons, "Set" + name)
         check(get() == default, "default of " + name)
         set_to(-5)
         check(get() == 0.0, "least " + name)
         set_to(2.0)
-    mapper.SetRadiusArrayName("size")
+    polygons.SetRadiusArrayName("size")
     other = vtkIsopointSplatMapper()
     other.ShallowCopy(mapper)
-    check(other.GetRadius() == 2.0 and other.GetRadiusScale() == 2.0, "ShallowCopy")
-    check(other.GetRadiusArrayName() == "size", "ShallowCopy of names")
+    copied = other.GetPolygons()
+    check(copied.GetRadius() == 2.0 and copied.GetRadiusScale() == 2.0, "ShallowCopy")
+    check(copied.GetRadiusArrayName() == "size", "ShallowCopy of names")
     check("RadiusScale" in str(mapper), "PrintSelf")
 
 
@@ -303,9 +305,9 @@ def bounds():
         blocks_of(disk((-1, 0, 0), normal=high), None, disk((2, 3, 4), normal=high))
     )
     check(are([-1.3, 2.3, -0.3, 3.3, 0, 4]), "bounds of blocks")
-    mapper.SetRadiusScale(2.0)
+    mapper.GetPolygons().SetRadiusScale(2.0)
     check(are([-1.6, 2.6, -0.6, 3.6, 0, 4]), "bounds of larger splats")
-    mapper.SetRadiusScale(1.0)
+    mapper.GetPolygons().SetRadiusScale(1.0)
     for bad in (np.nan, np.inf, -np.inf):
         points = [(-1, 0, 1), (bad, 7, 7), (1, 2, 3), (8, bad, 8), (9, 9, bad)]
         data = polydata(points, [high] * 5, Radius=np.ones(5))
