@@ -238,12 +238,13 @@ void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPol
         tree->SetDataSet(place, surfaces[next++]);
         return;
       }
-      if (!place->GetCurrentDataObject())
+      vtkSmartPointer<vtkDataObject> inner = place->GetCurrentDataObject();
+      if (!inner)
       {
-        tree->SetDataSet(place,
-          vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
+        inner.TakeReference(vtkDataObjectTypes::NewDataObject(child.Type));
+        tree->SetDataSet(place, inner);
       }
-      child.FillChildren(surfaces, next, place->GetCurrentDataObject());
+      child.FillChildren(surfaces, next, inner);
     });
 }
 

@@ -42,7 +42,8 @@
 #include "vtkRenderPass.h"
 #include "vtkScatteredIsopointRayTracingModule.h" // for the export macro
 
-#include <memory> // for std::unique_ptr
+#include <functional> // for std::function
+#include <memory>     // for std::unique_ptr
 
 class vtkImageData;
 class vtkRenderer;
@@ -182,6 +183,9 @@ protected:
 private:
   vtkIsopointRayTracer(const vtkIsopointRayTracer&) = delete;
   void operator=(const vtkIsopointRayTracer&) = delete;
+
+  /// Does work, and reports what it throws. @returns whether it was done
+  bool Safely(const std::function<void()>& work);
 
   class Internals;
   std::unique_ptr<Internals> Internal;

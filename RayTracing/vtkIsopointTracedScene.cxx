@@ -3,16 +3,19 @@
 
 #include "vtkIsopointCompositeMapper.h"
 #include "vtkIsopointTracedBlocks.h"
+#include "vtkIsopointTracedSurfaces.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkScalarsToColors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 

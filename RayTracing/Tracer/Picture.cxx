@@ -25,14 +25,12 @@ bool isFinite(const Radiance& radiance)
 //------------------------------------------------------------------------------
 Ray Camera::through(double x, double y, float& skipped) const
 {
-  Position origin;
-  Position offset;
+  const Window::Position origin = this->near.at(x, y);
+  Window::Position offset = this->far.at(x, y);
   double length = 0.0;
   for (std::size_t axis = 0; axis < origin.size(); ++axis)
   {
-    origin[axis] = this->nearCorner[axis] + x * this->nearRight[axis] + y * this->nearUp[axis];
-    offset[axis] =
-      this->farCorner[axis] + x * this->farRight[axis] + y * this->farUp[axis] - origin[axis];
+    offset[axis] -= origin[axis];
     length = std::hypot(length, offset[axis]);
   }
   // The scene lies within a unit sphere around the origin: before that nothing is met.

@@ -13,18 +13,33 @@
 namespace raytracing
 {
 
-/// Where the rays of a picture begin, and where they pass: places on the near and far plane of what
-/// the window shows, in the scene's coordinates.
-struct Camera
+/// A rectangle in a scene.
+struct Window
 {
   using Position = std::array<double, 3>;
 
-  Position nearCorner{}; // the lower left one
-  Position nearRight{};  // from there to the lower right one
-  Position nearUp{};     // from there to the upper left one
-  Position farCorner{};
-  Position farRight{};
-  Position farUp{};
+  Position corner{}; // the lower left one
+  Position right{};  // from there to the lower right one
+  Position up{};     // from there to the upper left one
+
+  /// A place on it, 0 to 1 from left to right and from bottom to top.
+  Position at(double x, double y) const
+  {
+    Position place{};
+    for (std::size_t axis = 0; axis < place.size(); ++axis)
+    {
+      place[axis] = this->corner[axis] + x * this->right[axis] + y * this->up[axis];
+    }
+    return place;
+  }
+};
+
+/// Where the rays of a picture begin, and where they pass: what the window shows of the near and of
+/// the far plane.
+struct Camera
+{
+  Window near;
+  Window far;
 
   /// The ray through a place of the window, 0 to 1 from left to right and from bottom to top. It
   /// begins where it comes near the scene.

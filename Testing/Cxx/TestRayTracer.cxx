@@ -36,12 +36,10 @@ std::shared_ptr<Surface> squareOf(float side, float height)
 /// A camera that looks along -z at a square of this width.
 Camera cameraOf(double width)
 {
-  Camera camera;
-  camera.nearCorner = { -0.5 * width, -0.5 * width, 2.0 };
-  camera.farCorner = { -0.5 * width, -0.5 * width, -2.0 };
-  camera.nearRight = camera.farRight = { width, 0.0, 0.0 };
-  camera.nearUp = camera.farUp = { 0.0, width, 0.0 };
-  return camera;
+  const auto windowAt = [width](double z) {
+    return Window{ { -0.5 * width, -0.5 * width, z }, { width, 0.0, 0.0 }, { 0.0, width, 0.0 } };
+  };
+  return { windowAt(2.0), windowAt(-2.0) };
 }
 
 } // namespace
