@@ -267,7 +267,7 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
 
 void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
-  isopoint::Communicator& communicator, isopoint::IsosurfaceExtractor& extractor)
+  isopoint::IsosurfaceExtractor& extractor)
 {
   const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
   const bool floatValues = !team.isAny(!haveFloatValues(blocks));
@@ -278,11 +278,10 @@ void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
   {
     const auto load = [&](auto coordinate, auto value)
     {
-      if (!areHeld || !extractor.replaceValuesOnRanks<decltype(coordinate), decltype(value)>(
-                        execution, count, read))
+      if (!areHeld ||
+          !extractor.replaceValues<decltype(coordinate), decltype(value)>(execution, count, read))
       {
-        extractor.loadOnRanks<decltype(coordinate), decltype(value)>(
-          execution, communicator, count, read);
+        extractor.load<decltype(coordinate), decltype(value)>(execution, team, count, read);
       }
     };
     floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))

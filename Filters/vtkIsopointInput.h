@@ -23,14 +23,13 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution,
 
 /**
  * Loads the samples of the blocks of all ranks as one cloud, the blocks of one rank after those of
- * the other, or replaces the values alone. Collective. Throws what
- * IsosurfaceExtractor::loadOnRanks() throws.
+ * the other, or replaces the values alone. Collective. Throws what IsosurfaceExtractor::load()
+ * throws.
  * @param blocks of this rank, perhaps none
- * @param team of the same ranks as the communicator
  */
 void vtkLoadIsopointInputOnRanks(const isopoint::Execution& execution,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::Team& team,
-  isopoint::Communicator& communicator, isopoint::IsosurfaceExtractor& extractor);
+  isopoint::IsosurfaceExtractor& extractor);
 
 /**
  * Whether the positions of all blocks are stored as float.

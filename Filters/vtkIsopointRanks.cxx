@@ -128,10 +128,7 @@ std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& pr
 {
   const auto size = static_cast<std::uint64_t>(team.size());
   const auto own = static_cast<std::uint64_t>(team.rank());
-  // The others may still be in Team::together(), and then learn that this rank has failed.
-  constexpr std::uint64_t failure = isopoint::Team::failed;
-  const std::uint64_t most = team.maximum(problem.empty() ? failure : failure + size - own);
-  const std::uint64_t lowest = size + failure - most;
+  const std::uint64_t lowest = size - team.maximum(problem.empty() ? 0 : size - own);
   if (lowest == size)
   {
     return {};

@@ -214,7 +214,7 @@ void vtkScatteredIsopointFilter::ExtractSafely(vtkDataObject* input, vtkDataObje
   {
     if (this->Kept->Link)
     {
-      this->ExtractOnRanks(input, output);
+      this->Kept->Team->together([&]() { this->ExtractOnRanks(input, output); });
     }
     else
     {
@@ -262,8 +262,8 @@ void vtkScatteredIsopointFilter::ReportProblem(const std::string& problem)
   {
     try
     {
-      isopoint::Team team(*this->Kept->Link);
-      message = vtkGatherIsopointProblem(team, problem);
+      isopoint::Team& team = *this->Kept->Team;
+      team.together([&]() { message = vtkGatherIsopointProblem(team, problem); });
     }
     catch (const std::exception&)
     {

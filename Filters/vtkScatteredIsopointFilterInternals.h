@@ -2,6 +2,7 @@
 #ifndef vtkScatteredIsopointFilterInternals_h
 #define vtkScatteredIsopointFilterInternals_h
 
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "vtkIsopointBlocks.h"
 #include "vtkIsopointFindings.h"
@@ -34,6 +35,7 @@ class vtkScatteredIsopointFilter::Internals
 public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<vtkIsopointCommunicator> Link; // to other ranks, if there are any
+  std::unique_ptr<isopoint::Team> Team;          // of them
   int GhostLevels = 0;                           // that are requested of the output
   vtkIsopointBlocks Input;
   vtkIsopointFindings Findings;            // of the current update

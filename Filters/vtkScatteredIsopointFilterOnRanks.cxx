@@ -45,12 +45,13 @@ void vtkScatteredIsopointFilter::ConnectRanks()
   {
     this->Kept->Clear(); // what is kept belongs to other ranks
     this->Kept->Link = isShared ? std::make_unique<vtkIsopointCommunicator>(controller) : nullptr;
+    this->Kept->Team = isShared ? std::make_unique<isopoint::Team>(*this->Kept->Link) : nullptr;
   }
 }
 
 void vtkScatteredIsopointFilter::ExtractOnRanks(vtkDataObject* input, vtkDataObject* output)
 {
-  isopoint::Team team(*this->Kept->Link);
+  isopoint::Team& team = *this->Kept->Team;
   const Execution execution =
     vtkMakeIsopointExecution(this, this->UseAllCores != 0, vtkCountIsopointRanksOnHost(team));
   team.together([this]() { vtkCheckIsopointOptions(this); });
@@ -157,8 +158,8 @@ void vtkScatteredIsopointFilter::ExtractBlocksOnRanks(isopoint::Team& team,
     });
   if (isNew)
   {
-    vtkLoadIsopointInputOnRanks(isopoint::partOf(execution, 0.0, progress.front()), blocks, team,
-      *this->Kept->Link, kept->Extractor);
+    vtkLoadIsopointInputOnRanks(
+      isopoint::partOf(execution, 0.0, progress.front()), blocks, team, kept->Extractor);
   }
   this->CountSkippedSamples(blocks, kept->Extractor.skippedCount());
   std::vector<isopoint::ExtractedIsosurface> surfaces =

@@ -9,20 +9,14 @@ namespace isopoint
 void IsosurfaceExtractor::clear()
 {
   this->Held = SampleCloud<FloatSample>();
-  this->Ranks.reset();
+  this->Group = nullptr;
   this->ItemCount = 0;
   this->ItemCounts.clear();
 }
 
 std::size_t IsosurfaceExtractor::sampleCount() const
 {
-  return std::visit(
-    [](const auto& cloud)
-    {
-      return cloud.tree.isPartial ? cloud.tree.ownEnd - cloud.tree.ownBegin
-                                  : cloud.tree.samples.size();
-    },
-    this->Held);
+  return std::visit([](const auto& cloud) { return cloud.tree.ownCount(); }, this->Held);
 }
 
 std::size_t IsosurfaceExtractor::skippedCount() const
@@ -58,11 +52,8 @@ double IsosurfaceExtractor::extractionWork(
 ExtractedIsosurface IsosurfaceExtractor::extract(
   const Execution& execution, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
-  return std::visit(
-    [&](auto& cloud) {
-      return extractFromCloud(
-        execution, cloud, this->ItemCount, this->Ranks.get(), request, ghosts);
-    },
+  return std::visit([&](auto& cloud)
+    { return extractFromCloud(execution, cloud, this->ItemCount, this->Group, request, ghosts); },
     this->Held);
 }
 

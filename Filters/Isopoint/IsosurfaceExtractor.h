@@ -2,7 +2,6 @@
 #ifndef isopoint_IsosurfaceExtractor_h
 #define isopoint_IsosurfaceExtractor_h
 
-#include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/ExtractionRequest.h"
@@ -14,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <numeric>
 #include <type_traits>
 #include <variant>
@@ -58,31 +56,33 @@ public:
     this->ItemCount = count;
   }
 
-  /// Loads this rank's items of a cloud that is distributed over the ranks of a communicator. Ids
-  /// are those of the concatenation of all ranks' items, in the order of the ranks. Collective, and
-  /// so is each extract() that follows.
-  /// @param communicator must outlive this extractor, or the next clear()
-  /// @param count of this rank's items, read as load() does with local ids from 0 on
-  /// @throws what load() throws, or FailedElsewhere; then no rank holds samples
+  /// Loads this rank's items of a cloud that is distributed over the ranks of a team, which may be
+  /// one. Ids are those of the concatenation of all ranks' items, in the order of the ranks.
+  /// Collective, and so are extract() and replaceValues() from then on; see Team::together().
+  /// @param team must outlive this extractor, or the next load() or clear()
+  /// @param count of this rank's items, read as above with local ids from 0 on
   template <class TCoordinate, class TValue, class Reader>
-  void loadOnRanks(
-    const Execution& execution, Communicator& communicator, std::size_t count, const Reader& read)
+  void load(const Execution& execution, Team& team, std::size_t count, const Reader& read)
   {
+    if (team.size() == 1)
+    {
+      this->load<TCoordinate, TValue>(execution, count, read);
+      return;
+    }
     this->clear();
-    auto team = std::make_unique<Team>(communicator);
-    const std::vector<std::uint64_t> counts = team->gather(count);
+    const std::vector<std::uint64_t> counts = team.gather(std::uint64_t{ count });
     const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
     if (isNarrow(all))
     {
-      this->loadShared<SampleFor<TCoordinate, TValue>>(execution, *team, counts, all, read);
+      this->loadShared<SampleFor<TCoordinate, TValue>>(execution, team, counts, all, read);
     }
     else
     {
-      this->loadShared<WideSample>(execution, *team, counts, all, read);
+      this->loadShared<WideSample>(execution, team, counts, all, read);
     }
     this->ItemCount = all;
     this->ItemCounts = counts;
-    this->Ranks = std::move(team);
+    this->Group = &team;
   }
 
   /// States the standard error that the values of the loaded samples have at least, as by rounding:
@@ -90,38 +90,22 @@ public:
   /// @param error finite, not negative
   void setValueError(double error);
 
-  /// Replaces the values as replaceValues() does, provided that positions, types and the items that
-  /// take part are those of the last loadOnRanks() on all ranks; otherwise nothing changes. All
-  /// ranks have to hold what that loaded; see isOnRanks().
-  /// Collective. A digest stands for positions: others pass for the same once in 2^64 cases.
-  /// @returns whether it did
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere, and then no rank holds samples
-  template <class TCoordinate, class TValue, class Reader>
-  bool replaceValuesOnRanks(const Execution& execution, std::size_t count, const Reader& read)
-  {
-    return isNarrow(this->ItemCount)
-             ? this->replaceSharedValues<SampleFor<TCoordinate, TValue>>(execution, count, read)
-             : this->replaceSharedValues<WideSample>(execution, count, read);
-  }
-
-  /// Whether samples that loadOnRanks() loaded are held.
-  bool isOnRanks() const { return this->Ranks != nullptr; }
-
-  /// What this rank has exchanged with others since loadOnRanks(); null without.
-  const Traffic* traffic() const { return this->Ranks ? &this->Ranks->traffic() : nullptr; }
-
   /// Replaces the values, provided that positions, types and the items that take part are those of
-  /// the last load(); the tree is kept. Otherwise nothing changes.
+  /// the last load(); the tree is kept. Otherwise nothing changes. All ranks have to hold what they
+  /// loaded last. There a digest stands for positions: others pass for the same once in 2^64 cases.
   /// @returns whether it did
   /// @throws Aborted, the former values kept or all samples dropped; std::bad_alloc, and then holds
   /// no samples
   template <class TCoordinate, class TValue, class Reader>
   bool replaceValues(const Execution& execution, std::size_t count, const Reader& read)
   {
-    return isNarrow(count)
+    return isNarrow(this->Group ? this->ItemCount : count)
              ? this->replaceValuesAs<SampleFor<TCoordinate, TValue>>(execution, count, read)
              : this->replaceValuesAs<WideSample>(execution, count, read);
   }
+
+  /// Whether the samples are those of several ranks.
+  bool isOnRanks() const { return this->Group != nullptr; }
 
   /// Drops all samples and frees their memory.
   void clear();
@@ -157,50 +141,14 @@ private:
   void loadShared(const Execution& execution, Team& team, const std::vector<std::uint64_t>& counts,
     std::uint64_t all, const Reader& read)
   {
-    SampleTree<TSample> loaded;
-    team.together(
-      [&]()
-      {
-        const auto own = counts.begin() + team.rank();
-        const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
-        loaded = loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
-        this->Positions = digestOf(execution, loaded.samples, first);
-      });
+    const auto own = counts.begin() + team.rank();
+    const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
+    SampleTree<TSample> loaded =
+      loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
+    this->Positions = digestOf(execution, loaded.samples, first);
     SharedTree<TSample> shared =
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
     this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
-  }
-
-  template <class TSample, class Reader>
-  bool replaceSharedValues(const Execution& execution, std::size_t count, const Reader& read)
-  {
-    auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Held);
-    if (!cloud || cloud->tree.isEmpty()) // on all ranks
-    {
-      return false;
-    }
-    bool isSame = false;
-    this->Ranks->together(
-      [&]()
-      {
-        isSame = count == this->ItemCounts[static_cast<std::size_t>(this->Ranks->rank())] &&
-                 digestOf<TSample>(execution, count, read) == this->Positions;
-      });
-    if (this->Ranks->isAny(!isSame))
-    {
-      return false;
-    }
-    try
-    {
-      ValueExchange<TSample>(*this->Ranks, cloud->tree, cloud->begins, this->ItemCounts)
-        .replace(execution, read);
-    }
-    catch (...)
-    {
-      this->clear(); // values and ranges may disagree
-      throw;
-    }
-    return true;
   }
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
@@ -209,14 +157,28 @@ private:
   bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
   {
     auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Held);
-    if (!cloud || cloud->tree.isEmpty() || count != this->ItemCount ||
-        !holdsPositions(execution, cloud->tree, count, read))
+    if (!cloud || cloud->tree.isEmpty()) // on all ranks
+    {
+      return false;
+    }
+    const bool isSame =
+      this->Group ? this->holdsPositionsOnRanks<TSample>(execution, count, read)
+                  : count == this->ItemCount && holdsPositions(execution, cloud->tree, count, read);
+    if (!isSame)
     {
       return false;
     }
     try
     {
-      isopoint::replaceValues(execution, cloud->tree, read);
+      if (this->Group)
+      {
+        ValueExchange<TSample>(*this->Group, cloud->tree, cloud->begins, this->ItemCounts)
+          .replace(execution, read);
+      }
+      else
+      {
+        isopoint::replaceValues(execution, cloud->tree, read);
+      }
     }
     catch (...)
     {
@@ -226,12 +188,20 @@ private:
     return true;
   }
 
+  template <class TSample, class Reader>
+  bool holdsPositionsOnRanks(const Execution& execution, std::size_t count, const Reader& read)
+  {
+    const auto own = static_cast<std::size_t>(this->Group->rank());
+    return !this->Group->isAny(count != this->ItemCounts[own] ||
+                               !(digestOf<TSample>(execution, count, read) == this->Positions));
+  }
+
   std::variant<SampleCloud<FloatSample>, SampleCloud<FloatSampleOfDouble>,
     SampleCloud<DoubleSampleOfFloat>, SampleCloud<WideSample>>
     Held;
   std::size_t ItemCount = 0; // of all ranks
   // Of a cloud on ranks:
-  std::unique_ptr<Team> Ranks;
+  Team* Group = nullptr;
   std::vector<std::uint64_t> ItemCounts; // of each rank
   PositionDigest Positions;              // of this rank's items
 };

@@ -8,6 +8,7 @@
  */
 #include "ThreadRanks.h"
 
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 
 #include <algorithm>
@@ -64,8 +65,8 @@ struct Reader
 class Step
 {
 public:
-  explicit Step(const isopoint::IsosurfaceExtractor& extractor)
-    : Extractor(extractor)
+  explicit Step(const isopoint::Team& team)
+    : Team(team)
   {
   }
 
@@ -73,8 +74,7 @@ public:
   void print(const char* what, int rank)
   {
     const double now = seconds();
-    const isopoint::Traffic* const traffic = this->Extractor.traffic();
-    const isopoint::Traffic all = traffic ? *traffic : isopoint::Traffic();
+    const isopoint::Traffic all = this->Team.traffic();
     std::printf("rank %d, %s: %.3f s, %.2f MB sent, %llu exchanges\n", rank, what,
       now - this->Begin, 1e-6 * static_cast<double>(all.sent - this->Former.sent),
       static_cast<unsigned long long>(all.rounds - this->Former.rounds));
@@ -83,27 +83,31 @@ public:
   }
 
 private:
-  const isopoint::IsosurfaceExtractor& Extractor;
+  const isopoint::Team& Team;
   isopoint::Traffic Former;
   double Begin = seconds();
 };
 
-template <class Replace>
-void extract(isopoint::IsosurfaceExtractor& extractor, const isopoint::ExtractionRequest& first,
-  Step& step, int rank, const Replace& replace)
+void extract(isopoint::Team& team, std::size_t samples, const isopoint::ExtractionRequest& first)
 {
-  step.print("loading", rank);
-  const std::size_t count = extractor.extract(isopoint::Execution(), first).surface.size();
-  step.print("isovalue", rank);
+  const isopoint::Execution execution;
+  const std::size_t own = samples / static_cast<std::size_t>(team.size());
+  const std::size_t begin = static_cast<std::size_t>(team.rank()) * own;
+  isopoint::IsosurfaceExtractor extractor;
+  Step step(team);
+  extractor.load<float, float>(execution, team, own, Reader{ begin, 0.0 });
+  step.print("loading", team.rank());
+  const std::size_t count = extractor.extract(execution, first).surface.size();
+  step.print("isovalue", team.rank());
   isopoint::ExtractionRequest another = first;
   another.isosurface.isovalue = 0.35;
-  extractor.extract(isopoint::Execution(), another);
-  step.print("another", rank);
-  replace();
-  step.print("replacing", rank);
-  extractor.extract(isopoint::Execution(), first);
-  step.print("replaced", rank);
-  std::printf("rank %d: %zu samples, %zu points\n", rank, extractor.sampleCount(), count);
+  extractor.extract(execution, another);
+  step.print("another", team.rank());
+  extractor.replaceValues<float, float>(execution, own, Reader{ begin, 0.01 });
+  step.print("replacing", team.rank());
+  extractor.extract(execution, first);
+  step.print("replaced", team.rank());
+  std::printf("rank %d: %zu samples, %zu points\n", team.rank(), extractor.sampleCount(), count);
 }
 
 } // namespace
@@ -130,33 +134,12 @@ int main(int argc, char** argv)
     request.splats = isopoint::SplatOptions();
   }
   request.triangles = hasWord("triangles");
-  if (ranks == 1)
-  {
-    isopoint::IsosurfaceExtractor extractor;
-    Step step(extractor);
-    extractor.load<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.0 });
-    extract(extractor, request, step, 0,
-      [&]() {
-        extractor.replaceValues<float, float>(isopoint::Execution(), samples, Reader{ 0, 0.01 });
-      });
-    return 0;
-  }
-  ThreadRanks team(ranks);
-  team.run(
+  ThreadRanks threads(ranks);
+  threads.run(
     [&](isopoint::Communicator& communicator)
     {
-      const std::size_t own = samples / static_cast<std::size_t>(ranks);
-      const auto rank = static_cast<std::size_t>(communicator.rank());
-      isopoint::IsosurfaceExtractor extractor;
-      Step step(extractor);
-      extractor.loadOnRanks<float, float>(
-        isopoint::Execution(), communicator, own, Reader{ rank * own, 0.0 });
-      extract(extractor, request, step, communicator.rank(),
-        [&]()
-        {
-          extractor.replaceValuesOnRanks<float, float>(
-            isopoint::Execution(), own, Reader{ rank * own, 0.01 });
-        });
+      isopoint::Team team(communicator);
+      team.together([&]() { extract(team, samples, request); });
     });
   return 0;
 }

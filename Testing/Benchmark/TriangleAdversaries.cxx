@@ -3,7 +3,7 @@
 // tetrahedrization of all samples.
 #include "Clouds.h"
 
-#include "Isopoint/Tetrahedra/SingleRank.h"
+#include "Isopoint/Extraction/SingleRank.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 

@@ -5,6 +5,7 @@
 #include "Clouds.h"
 #include "ThreadRanks.h"
 
+#include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 
 #include <gtest/gtest.h>
@@ -181,6 +182,19 @@ inline clouds::Cloud withOtherValues(clouds::Cloud cloud)
   return cloud;
 }
 
+/// Does work on ranks that are threads: work(team) on each of them.
+template <class Work>
+void onRanks(std::size_t size, const Work& work)
+{
+  ThreadRanks threads(static_cast<int>(size));
+  threads.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      isopoint::Team team(communicator);
+      team.together([&]() { work(team); });
+    });
+}
+
 /// Extracts, one after the other, on ranks that are threads. @returns the points of all ranks, by
 /// request
 template <class TCoordinate = double, class TValue = double>
@@ -190,30 +204,25 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
 {
   std::vector<Description> all(requests.size());
   std::mutex mutex;
-  ThreadRanks team(static_cast<int>(pieces.size()));
-  team.run(
-    [&](isopoint::Communicator& communicator)
+  onRanks(pieces.size(),
+    [&](isopoint::Team& team)
     {
-      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(team.rank())];
       const isopoint::Execution execution = clouds::executionOn(threads);
       isopoint::IsosurfaceExtractor extractor;
       const clouds::Cloud first = values == Values::Loaded ? piece : withOtherValues(piece);
-      extractor.loadOnRanks<TCoordinate, TValue>(
-        execution, communicator, first.size(), clouds::readerOf(first));
+      extractor.load<TCoordinate, TValue>(execution, team, first.size(), clouds::readerOf(first));
       if (values == Values::Replaced)
       {
         extractor.extract(execution, requests.front());
-        const bool isReplaced = extractor.replaceValuesOnRanks<TCoordinate, TValue>(
+        const bool isReplaced = extractor.replaceValues<TCoordinate, TValue>(
           execution, piece.size(), clouds::readerOf(piece));
         EXPECT_TRUE(isReplaced || concatenated(pieces).size() == 0);
       }
       for (std::size_t i = 0; i < requests.size(); ++i)
       {
         const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
-        const auto byEnds = [](const isopoint::IsopointEdge& a, const isopoint::IsopointEdge& b)
-        { return a.first != b.first ? a.first < b.first : a.second < b.second; };
-        EXPECT_TRUE(
-          std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end(), byEnds));
+        EXPECT_TRUE(std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end()));
         const Description own = described(extracted);
         const std::lock_guard<std::mutex> lock(mutex);
         all[i].insert(all[i].end(), own.begin(), own.end());
@@ -234,14 +243,13 @@ inline std::vector<RankPoints> extractWithGhosts(
   const std::vector<clouds::Cloud>& pieces, const isopoint::ExtractionRequest& request)
 {
   std::vector<RankPoints> all(pieces.size());
-  ThreadRanks team(static_cast<int>(pieces.size()));
-  team.run(
-    [&](isopoint::Communicator& communicator)
+  onRanks(pieces.size(),
+    [&](isopoint::Team& team)
     {
-      const auto rank = static_cast<std::size_t>(communicator.rank());
+      const auto rank = static_cast<std::size_t>(team.rank());
       isopoint::IsosurfaceExtractor extractor;
-      extractor.loadOnRanks<double, double>(
-        isopoint::Execution(), communicator, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+      extractor.load<double, double>(
+        isopoint::Execution(), team, pieces[rank].size(), clouds::readerOf(pieces[rank]));
       all[rank].own = extractor.extract(isopoint::Execution(), request, &all[rank].ghosts);
     });
   return all;

@@ -167,9 +167,10 @@ private:
 template <class TExtents = HalfSpace>
 std::vector<Splat> splatsOf(const Points& points, const TExtents* extents = nullptr)
 {
+  isopoint::AllPoints all(points.positions.size());
   const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
     { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
-    extents, isopoint::SplatOptions());
+    extents, isopoint::SplatOptions(), all);
   EXPECT_EQ(splats.size(), points.positions.size());
   return splats;
 }

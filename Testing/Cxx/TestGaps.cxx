@@ -6,9 +6,9 @@
 
 #include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
-#include "Isopoint/Tetrahedra/TreeRefinement.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleBounds.h"
+#include "Isopoint/Tree/TreeRefinement.h"
 
 #include <gtest/gtest.h>
 

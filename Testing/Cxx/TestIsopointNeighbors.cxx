@@ -4,6 +4,7 @@
 
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
+#include "Isopoint/Extraction/SingleRank.h"
 #include "Isopoint/Tree/Loading.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +49,9 @@ struct Extracted
     request.angle = isopoint::defaultAngle;
     const isopoint::Execution execution = clouds::executionOn(1);
     isopoint::WorkProgress progress(execution);
+    isopoint::SingleRank<TSample> rank(this->tree);
     this->surface = isopoint::extractIsosurface(
-      execution, this->tree, this->known, cloud.size(), request, progress, 0.0);
+      execution, this->tree, rank, this->known, cloud.size(), request, progress, 0.0);
     for (const isopoint::EdgeLeaves& leaves : this->surface.leaves)
     {
       this->Ends.push_back({ leaves.first, leaves.second });

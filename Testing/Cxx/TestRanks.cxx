@@ -202,23 +202,22 @@ TEST(Ranks, NewValuesAreFewerBytesThanSamples)
 {
   const std::vector<Cloud> pieces =
     ranks::dealOut(clouds::uniform(20000, 31), 3, ranks::Deal::RoundRobin);
-  ThreadRanks team(3);
-  team.run(
-    [&](isopoint::Communicator& communicator)
+  ranks::onRanks(3,
+    [&](isopoint::Team& team)
     {
-      const auto rank = static_cast<std::size_t>(communicator.rank());
+      const auto rank = static_cast<std::size_t>(team.rank());
       const Cloud& piece = pieces[rank];
       isopoint::IsosurfaceExtractor extractor;
-      extractor.loadOnRanks<float, float>(
-        isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
-      const std::uint64_t loading = extractor.traffic()->sent;
+      extractor.load<float, float>(
+        isopoint::Execution(), team, piece.size(), clouds::readerOf(piece));
+      const std::uint64_t loading = team.traffic().sent;
       const auto replace = [&](const Cloud& cloud)
       {
-        return extractor.replaceValuesOnRanks<float, float>(
+        return extractor.replaceValues<float, float>(
           isopoint::Execution(), cloud.size(), clouds::readerOf(cloud));
       };
       EXPECT_TRUE(replace(ranks::withOtherValues(piece)));
-      EXPECT_LT(extractor.traffic()->sent - loading, loading / 2);
+      EXPECT_LT(team.traffic().sent - loading, loading / 2);
       // One sample that moves, leaves or changes its type on one rank is enough.
       Cloud moved = piece;
       Cloud fewer = piece;
@@ -232,7 +231,7 @@ TEST(Ranks, NewValuesAreFewerBytesThanSamples)
       Cloud mirrored = piece;
       std::swap(mirrored.positions[0], mirrored.positions[3]);
       EXPECT_FALSE(replace(mirrored));
-      EXPECT_FALSE((extractor.replaceValuesOnRanks<double, float>(
+      EXPECT_FALSE((extractor.replaceValues<double, float>(
         isopoint::Execution(), piece.size(), clouds::readerOf(piece))));
       EXPECT_TRUE(replace(piece));
     });

@@ -7,7 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstddef>
+#include <functional>
+#include <mutex>
 #include <new>
+#include <vector>
 
 namespace
 {
@@ -35,93 +39,115 @@ void wait(isopoint::Communicator& communicator)
   communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
 }
 
-/// Loads, extracts with ghosts and replaces the values on several ranks while the n-th large
-/// allocation of both fails, then again.
-/// @returns whether there were that many
-bool failsAt(long n, const std::vector<clouds::Cloud>& pieces,
-  const isopoint::ExtractionRequest& request, const ranks::Description& expected)
+/// What came of work on several ranks while an allocation failed.
+struct Outcome
 {
   std::atomic<int> failures{ 0 };
   std::atomic<int> others{ 0 };
   std::atomic<bool> wasReached{ false };
-  ranks::Description found;
-  std::mutex mutex;
-  ThreadRanks team(static_cast<int>(pieces.size()));
-  team.run(
-    [&](isopoint::Communicator& communicator)
-    {
-      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
-      isopoint::IsosurfaceExtractor extractor;
-      const auto load = [&]()
-      {
-        extractor.loadOnRanks<double, double>(
-          isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
-      };
-      bool isLoaded = false;
-      if (communicator.rank() == 0)
-      {
-        failingallocator::failAt(n, false);
-      }
-      wait(communicator);
-      try
-      {
-        load();
-        isLoaded = true;
-        isopoint::ExtractedIsosurface ghosts;
-        extractor.extract(isopoint::Execution(), request, &ghosts);
-        isLoaded = false;
-        extractor.replaceValuesOnRanks<double, double>(
-          isopoint::Execution(), piece.size(), clouds::readerOf(piece));
-        isLoaded = true;
-      }
-      catch (const std::bad_alloc&)
-      {
-        ++failures;
-      }
-      catch (const isopoint::FailedElsewhere&)
-      {
-        ++others;
-      }
-      wait(communicator);
-      if (communicator.rank() == 0)
-      {
-        wasReached = failingallocator::stop() >= n;
-      }
-      wait(communicator);
-      if (!isLoaded)
-      {
-        load();
-      }
-      const auto extracted = extractor.extract(isopoint::Execution(), request);
-      const ranks::Description own = ranks::described(extracted);
-      const std::lock_guard<std::mutex> lock(mutex);
-      found.insert(found.end(), own.begin(), own.end());
-    });
-  std::sort(found.begin(), found.end());
-  EXPECT_TRUE(failures + others == 0 || failures + others == static_cast<int>(pieces.size()));
-  EXPECT_LE(failures, 1);
-  EXPECT_TRUE(found == expected);
-  return wasReached;
+
+  void expectAllOrNone(int ranks) const
+  {
+    EXPECT_TRUE(this->failures + this->others == 0 || this->failures + this->others == ranks);
+    EXPECT_LE(this->failures, 1);
+  }
+};
+
+/// Does work on all ranks while the n-th allocation of at least some bytes of one of them fails.
+template <class Work>
+void failingAt(long n, std::size_t bytes, int failingRank, isopoint::Communicator& communicator,
+  isopoint::Team& team, Outcome& outcome, const Work& work)
+{
+  wait(communicator);
+  if (communicator.rank() == failingRank)
+  {
+    failingallocator::failAt(n, false, bytes);
+  }
+  wait(communicator);
+  try
+  {
+    team.together(work);
+  }
+  catch (const std::bad_alloc&)
+  {
+    ++outcome.failures;
+  }
+  catch (const isopoint::FailedElsewhere&)
+  {
+    ++outcome.others;
+  }
+  wait(communicator);
+  if (communicator.rank() == failingRank)
+  {
+    outcome.wasReached = failingallocator::stop() >= n;
+  }
+  wait(communicator);
 }
 
-} // namespace
-
-namespace
+/// Loads, extracts with ghosts and replaces the values on several ranks while the n-th allocation
+/// of at least some bytes fails, then again.
+/// @returns whether there were that many
+bool failsAt(long n, std::size_t bytes, const std::vector<clouds::Cloud>& pieces,
+  const isopoint::ExtractionRequest& request, const ranks::Description& expected)
 {
+  Outcome outcome;
+  ranks::Description found;
+  std::mutex mutex;
+  ThreadRanks threads(static_cast<int>(pieces.size()));
+  threads.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      isopoint::Team team(communicator);
+      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(team.rank())];
+      const auto read = clouds::readerOf(piece);
+      const isopoint::Execution execution = clouds::executionOn(1);
+      isopoint::IsosurfaceExtractor extractor;
+      bool isLoaded = false;
+      failingAt(n, bytes, 0, communicator, team, outcome,
+        [&]()
+        {
+          extractor.load<double, double>(execution, team, piece.size(), read);
+          isLoaded = true;
+          isopoint::ExtractedIsosurface ghosts;
+          extractor.extract(execution, request, &ghosts);
+          isLoaded = false;
+          extractor.replaceValues<double, double>(execution, piece.size(), read);
+          isLoaded = true;
+        });
+      team.together(
+        [&]()
+        {
+          if (team.isAny(!isLoaded))
+          {
+            extractor.load<double, double>(execution, team, piece.size(), read);
+          }
+          const auto extracted = extractor.extract(execution, request);
+          const ranks::Description own = ranks::described(extracted);
+          const std::lock_guard<std::mutex> lock(mutex);
+          found.insert(found.end(), own.begin(), own.end());
+        });
+    });
+  std::sort(found.begin(), found.end());
+  outcome.expectAllOrNone(static_cast<int>(pieces.size()));
+  EXPECT_TRUE(found == expected);
+  return outcome.wasReached;
+}
 
-/// Lets each large allocation fail in turn.
-void expectFailuresEndTheWorkOfAll(const isopoint::ExtractionRequest& request)
+/// Lets each allocation of at least some bytes fail in turn.
+/// @param step after the first 200
+void expectFailuresEndTheWorkOfAll(
+  const isopoint::ExtractionRequest& request, std::size_t samples, std::size_t bytes, long step)
 {
-  const std::vector<clouds::Cloud> pieces =
-    ranks::dealOut(clouds::coincident(clouds::uniform(1500, 1), 0.05), 3, ranks::Deal::RoundRobin);
+  const std::vector<clouds::Cloud> pieces = ranks::dealOut(
+    clouds::coincident(clouds::uniform(samples, 1), 0.05), 3, ranks::Deal::RoundRobin);
   ranks::Description expected = ranks::extractOnRanks(pieces, { request }).front();
   std::sort(expected.begin(), expected.end());
   ASSERT_FALSE(expected.empty());
   long n = 1;
-  while (failsAt(n, pieces, request, expected) && !testing::Test::HasFailure())
+  while (failsAt(n, bytes, pieces, request, expected) && !testing::Test::HasFailure())
   {
     SCOPED_TRACE(n);
-    n += n < 200 ? 1 : 7;
+    n += n < 200 ? 1 : step;
   }
   EXPECT_GT(n, 100);
 }
@@ -130,25 +156,29 @@ void expectAbortsEndTheWorkOfAll(const isopoint::ExtractionRequest& request)
 {
   const std::vector<clouds::Cloud> pieces =
     ranks::dealOut(clouds::uniform(3000, 2), 3, ranks::Deal::Even);
-  const std::vector<ranks::Description> expected = ranks::extractOnRanks(pieces, { request });
   for (int last = 0; last < 40; ++last)
   {
     std::atomic<int> aborts{ 0 };
     std::atomic<int> finished{ 0 };
-    ThreadRanks team(3);
-    team.run(
+    ThreadRanks threads(3);
+    threads.run(
       [&](isopoint::Communicator& communicator)
       {
-        const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
+        isopoint::Team team(communicator);
+        const clouds::Cloud& piece = pieces[static_cast<std::size_t>(team.rank())];
         isopoint::Execution execution;
         int questions = 0;
-        execution.aborted = [&]() { return communicator.rank() == 1 && questions++ >= last; };
+        execution.aborted = [&]() { return team.rank() == 1 && questions++ >= last; };
         isopoint::IsosurfaceExtractor extractor;
         try
         {
-          extractor.loadOnRanks<double, double>(
-            execution, communicator, piece.size(), clouds::readerOf(piece));
-          extractor.extract(execution, request);
+          team.together(
+            [&]()
+            {
+              extractor.load<double, double>(
+                execution, team, piece.size(), clouds::readerOf(piece));
+              extractor.extract(execution, request);
+            });
           ++finished;
         }
         catch (const isopoint::Aborted&)
@@ -165,12 +195,22 @@ void expectAbortsEndTheWorkOfAll(const isopoint::ExtractionRequest& request)
 
 TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
 {
-  expectFailuresEndTheWorkOfAll(everythingOfPoints());
+  expectFailuresEndTheWorkOfAll(everythingOfPoints(), 1500, failingallocator::largeSize, 7);
 }
 
 TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheTrianglesOfAll)
 {
-  expectFailuresEndTheWorkOfAll(triangles());
+  expectFailuresEndTheWorkOfAll(triangles(), 1500, failingallocator::largeSize, 7);
+}
+
+TEST(RanksFaults, LackOfAFewBytesEndsTheWorkOfAll)
+{
+  expectFailuresEndTheWorkOfAll(everythingOfPoints(), 200, 1, 97);
+}
+
+TEST(RanksFaults, LackOfAFewBytesEndsTheTrianglesOfAll)
+{
+  expectFailuresEndTheWorkOfAll(triangles(), 200, 1, 97);
 }
 
 TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
@@ -183,71 +223,47 @@ TEST(RanksFaults, AnAbortOnOneRankEndsTheTrianglesOfAll)
   expectAbortsEndTheWorkOfAll(triangles());
 }
 
-namespace
+/// A rank that throws anywhere makes the next collective function of all others throw, whichever
+/// that is, and the team works again afterwards.
+TEST(RanksFaults, EachCollectiveFunctionLearnsOfAFailure)
 {
-
-/// Lets the n-th allocation of one rank fail, however small, while triangles are extracted.
-/// @returns whether there were that many
-bool extractionFailsAt(long n, const std::vector<clouds::Cloud>& pieces)
-{
-  std::atomic<int> failures{ 0 };
-  std::atomic<int> others{ 0 };
-  std::atomic<bool> wasReached{ false };
-  ThreadRanks team(static_cast<int>(pieces.size()));
-  team.run(
+  using Step = std::function<void(isopoint::Team&)>;
+  const std::vector<Step> steps{
+    [](isopoint::Team& team) { team.isAny(true); },
+    [](isopoint::Team& team) { team.maximum(~std::uint64_t{ 0 }); },
+    [](isopoint::Team& team) { team.sum(~std::uint64_t{ 0 }); },
+    [](isopoint::Team& team) { team.gather(std::uint64_t{ 1 }); },
+    [](isopoint::Team& team) { team.gather(std::vector<int>(5, 1)); },
+    [](isopoint::Team& team) {
+      team.exchange(std::vector<std::vector<int>>(3, { 1, 2 }));
+    },
+    [](isopoint::Team& /*team*/) {} // none: what follows is the end of the work
+  };
+  ThreadRanks threads(3);
+  threads.run(
     [&](isopoint::Communicator& communicator)
     {
-      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(communicator.rank())];
-      isopoint::IsosurfaceExtractor extractor;
-      extractor.loadOnRanks<double, double>(
-        isopoint::Execution(), communicator, piece.size(), clouds::readerOf(piece));
-      isopoint::ExtractionRequest request;
-      request.isosurface.isovalue = 0.3;
-      request.isosurface.dropsGaps = true;
-      request.triangles = true;
-      request.ghostRings = 1;
-      const isopoint::Execution execution;
-      wait(communicator);
-      if (communicator.rank() == 1)
+      isopoint::Team team(communicator);
+      for (const Step& step : steps)
       {
-        failingallocator::failAt(n, false, 1);
+        const auto work = [&]()
+        {
+          team.sum(1);
+          if (team.rank() == 2)
+          {
+            throw std::bad_alloc();
+          }
+          step(team);
+        };
+        if (team.rank() == 2)
+        {
+          EXPECT_THROW(team.together(work), std::bad_alloc);
+        }
+        else
+        {
+          EXPECT_THROW(team.together(work), isopoint::FailedElsewhere);
+        }
+        team.together([&]() { EXPECT_EQ(team.sum(2), 6u); });
       }
-      wait(communicator);
-      try
-      {
-        extractor.extract(execution, request);
-      }
-      catch (const std::bad_alloc&)
-      {
-        ++failures;
-      }
-      catch (const isopoint::FailedElsewhere&)
-      {
-        ++others;
-      }
-      wait(communicator);
-      if (communicator.rank() == 1)
-      {
-        wasReached = failingallocator::stop() >= n;
-      }
-      wait(communicator);
     });
-  EXPECT_TRUE(failures + others == 0 || failures + others == static_cast<int>(pieces.size()));
-  return wasReached;
-}
-
-} // namespace
-
-/// No allocation stands between two exchanges where its failure would leave other ranks waiting.
-TEST(RanksFaults, LackOfAFewBytesEndsTheTrianglesOfAll)
-{
-  const std::vector<clouds::Cloud> pieces =
-    ranks::dealOut(clouds::uniform(300, 3), 2, ranks::Deal::RoundRobin);
-  long n = 1;
-  while (extractionFailsAt(n, pieces) && !HasFailure())
-  {
-    SCOPED_TRACE(n);
-    ++n;
-  }
-  EXPECT_GT(n, 500);
 }

@@ -62,15 +62,14 @@ std::vector<std::vector<ExtractedIsosurface>> trianglesOnRanks(const std::vector
 {
   std::vector<std::vector<ExtractedIsosurface>> all(
     requests.size(), std::vector<ExtractedIsosurface>(pieces.size()));
-  ThreadRanks team(static_cast<int>(pieces.size()));
-  team.run(
-    [&](isopoint::Communicator& communicator)
+  ranks::onRanks(pieces.size(),
+    [&](isopoint::Team& team)
     {
-      const auto rank = static_cast<std::size_t>(communicator.rank());
+      const auto rank = static_cast<std::size_t>(team.rank());
       const isopoint::Execution execution = clouds::executionOn(threads);
       isopoint::IsosurfaceExtractor extractor;
-      extractor.loadOnRanks<double, double>(
-        execution, communicator, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+      extractor.load<double, double>(
+        execution, team, pieces[rank].size(), clouds::readerOf(pieces[rank]));
       for (std::size_t i = 0; i < requests.size(); ++i)
       {
         all[i][rank] = extractor.extract(execution, requests[i]);

@@ -3,6 +3,7 @@
 #include "Clouds.h"
 
 #include "Isopoint/Extraction/NarrowBand.h"
+#include "Isopoint/Extraction/SingleRank.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
@@ -322,8 +323,9 @@ TEST(SameResult, ForVeryDeepTrees)
     isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
   int deepest = 0;
   isopoint::WorkProgress progress(execution);
+  isopoint::SingleRank<isopoint::WideSample> rank(tree);
   for (const isopoint::BinaryIndex index :
-    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution, progress, 0.0).refine())
+    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution, progress, 0.0).refine(rank))
   {
     deepest = std::max(deepest, isopoint::depthOf(index));
   }

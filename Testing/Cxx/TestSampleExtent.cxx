@@ -6,6 +6,7 @@
 #include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/NarrowBand.h"
+#include "Isopoint/Extraction/SingleRank.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Tree/Loading.h"
 
@@ -131,7 +132,9 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
     {
       const isopoint::Execution execution = clouds::executionOn(2);
       isopoint::WorkProgress progress(execution);
-      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution, progress, 0.0).refine();
+      isopoint::SingleRank<isopoint::WideSample> rank(tree);
+      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution, progress, 0.0)
+        .refine(rank);
       const isopoint::SampleExtents extents(tree);
       for (const ExtentQuery& query : queries)
       {

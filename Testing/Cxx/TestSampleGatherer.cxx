@@ -5,6 +5,7 @@
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Extraction/SampleGatherer.h"
+#include "Isopoint/Extraction/SingleRank.h"
 
 #include <gtest/gtest.h>
 
@@ -54,11 +55,12 @@ Seen expectTheDefinition(Cloud cloud, double isovalue)
   const isopoint::Execution execution;
   auto tree = isopoint::loadSamples<Sample>(execution, cloud.size(), clouds::readerOf(cloud));
   isopoint::WorkProgress progress(execution);
+  isopoint::SingleRank<Sample> rank(tree);
   const auto nodes =
-    isopoint::NarrowBand<Sample>(tree, isovalue, execution, progress, 0.0).refine();
+    isopoint::NarrowBand<Sample>(tree, isovalue, execution, progress, 0.0).refine(rank);
   isopoint::NeighborhoodCache<Sample::Id> neighborhoods;
   isopoint::ExtractionContext<Sample> context(tree, neighborhoods, isovalue);
-  auto found = isopoint::findEdges(execution, context, { isovalue }, nodes);
+  auto found = isopoint::findEdges(execution, context, rank, { isovalue }, nodes);
   std::sort(found.edges.begin(), found.edges.end());
   found.edges.erase(std::unique(found.edges.begin(), found.edges.end()), found.edges.end());
   Seen seen;

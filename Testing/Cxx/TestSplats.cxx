@@ -180,9 +180,10 @@ TEST(Splats, PlanesAreFittedToAsManyPointsAsRequested)
     isopoint::SplatOptions options;
     options.neighborCount = count;
     options.fieldNormals = false;
+    isopoint::AllPoints all(points.positions.size());
     const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
       { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
-      static_cast<const HalfSpace*>(nullptr), options);
+      static_cast<const HalfSpace*>(nullptr), options, all);
     double slope = 0.0;
     for (int i = 15; i <= 25; ++i)
     {

@@ -4,7 +4,7 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/Tetrahedra/SingleRank.h"
+#include "Isopoint/Extraction/SingleRank.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 
@@ -188,11 +188,11 @@ inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
   const isopoint::Execution execution;
   auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
   isopoint::WorkProgress progress(execution);
+  isopoint::SingleRank<TSample> rank(tree);
   std::vector<isopoint::BinaryIndex> nodes =
-    isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine();
+    isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine(rank);
   nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
   isopoint::SharedLeafMeans<TSample> means(tree);
-  isopoint::SingleRank<TSample> rank(tree);
   isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
     execution, tree, rank, means, isovalue);
   Found found;

@@ -105,13 +105,15 @@ inline void forRanges(
   }
 }
 
+/// Called after each batch with the share of the items that are done.
+using BatchDone = std::function<void(double share)>;
+
 /// forRanges() in batches, between which the execution may be stopped.
 /// @param batchPerThread items of a batch, for each thread
-/// @param batchDone called after each batch with the share of the items that are done
 /// @throws Aborted, and what the task throws
 inline void forBatches(
   const Execution& execution, std::size_t count, std::size_t batchPerThread, std::size_t grain,
-  const RangeTask& task, const std::function<void(double share)>& batchDone = [](double) {})
+  const RangeTask& task, const BatchDone& batchDone = [](double) {})
 {
   const std::size_t batch = batchPerThread * execution.threads;
   for (std::size_t done = 0; done < count; done += batch)
@@ -121,6 +123,36 @@ inline void forBatches(
     throwIfAborted(execution);
     batchDone(std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(count)));
   }
+}
+
+/// Items in batches of ranges; see forBatches().
+struct ItemBatches
+{
+  std::size_t count;
+  std::size_t batchPerThread;
+  std::size_t grain;
+};
+
+/// Works on the items 0 .. batches.count - 1.
+/// @param makeWorker() what one thread needs to work on a range of items
+/// @param work(worker, item)
+/// @throws Aborted, and what the work throws
+template <class MakeWorker, class Work>
+void forEachItem(
+  const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+  const Work& work, const BatchDone& batchDone = [](double) {})
+{
+  forBatches(
+    execution, batches.count, batches.batchPerThread, batches.grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      auto worker = makeWorker();
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        work(worker, i);
+      }
+    },
+    batchDone);
 }
 
 /// What the ranges of [0, count) yield together, in any order.

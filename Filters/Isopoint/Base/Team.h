@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <exception>
-#include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 namespace isopoint
@@ -42,160 +40,109 @@ inline std::size_t rankAt(const std::vector<std::uint64_t>& begins, std::uint64_
     std::upper_bound(begins.begin(), begins.end(), number) - begins.begin() - 1);
 }
 
-/// Ranks that work together: none of them goes on where another one fails, so that all of them
-/// reach the same exchanges. All functions are collective.
+/// Ranks that work together. Work runs inside together(); all other functions but rank(), size()
+/// and traffic() are collective, and are called from there.
+///
+/// A rank may throw anywhere. Every collective function begins with a maximum of one number for
+/// each rank, in which a rank that threw takes part in its place, with a number above all others:
+/// the ranks that reach the function throw as well, before anything is sent. A team of one rank
+/// costs next to nothing.
 class Team
 {
 public:
   explicit Team(Communicator& communicator)
-    : Link(communicator)
+    : Channel(communicator)
   {
   }
 
-  /// What together() tells the other ranks of a failure. A step in its place tells this or more.
-  static constexpr std::uint64_t failed = 2;
-
-  int rank() const { return this->Link.rank(); }
-  int size() const { return this->Link.size(); }
+  int rank() const { return this->Channel.rank(); }
+  int size() const { return this->Channel.size(); }
   const Traffic& traffic() const { return this->Counted; }
 
-  /// Does this rank's share of some work, without any exchange in it, and returns once that of all
-  /// ranks is done.
+  /// Does work that all ranks do, with collective functions in any place.
   /// @throws what the work throws; else, if that of any other rank threw, Aborted if it was aborted
-  /// or FailedElsewhere
+  /// or FailedElsewhere. So it throws on all ranks, or on none
   template <class Work>
   void together(const Work& work)
   {
-    std::exception_ptr own;
-    std::uint64_t failure = none;
+    this->IsOver = false;
     try
     {
       work();
+      this->agree();
     }
     catch (const Aborted&)
     {
-      own = std::current_exception();
-      failure = aborted;
+      this->tell(aborted);
+      throw;
     }
     catch (...)
     {
-      own = std::current_exception();
-      failure = failed;
-    }
-    this->Link.allReduce(&failure, 1, Reduction::Maximum);
-    // What is larger is of a rank that failed between such steps.
-    if (failure >= failed && own)
-    {
-      std::rethrow_exception(own);
-    }
-    if (failure >= failed)
-    {
-      throw FailedElsewhere();
-    }
-    if (failure == aborted)
-    {
-      throw Aborted();
+      this->tell(failed);
+      throw;
     }
   }
 
-  void sum(std::vector<std::uint64_t>& numbers)
-  {
-    this->Link.allReduce(numbers.data(), numbers.size(), Reduction::Sum);
-  }
-  void maximum(std::vector<std::uint64_t>& numbers)
-  {
-    this->Link.allReduce(numbers.data(), numbers.size(), Reduction::Maximum);
-  }
-  std::uint64_t sum(std::uint64_t number)
-  {
-    this->Link.allReduce(&number, 1, Reduction::Sum);
-    return number;
-  }
-  std::uint64_t maximum(std::uint64_t number)
-  {
-    this->Link.allReduce(&number, 1, Reduction::Maximum);
-    return number;
-  }
-  bool isAny(bool mine) { return this->maximum(mine ? 1 : 0) != 0; }
+  bool isAny(bool mine) { return this->agree(mine ? 1 : 0) != 0; }
+
+  void maximum(std::vector<std::uint64_t>& numbers) { this->reduce(numbers, Reduction::Maximum); }
+  void sum(std::vector<std::uint64_t>& numbers) { this->reduce(numbers, Reduction::Sum); }
+  std::uint64_t maximum(std::uint64_t number) { return this->reduced(number, Reduction::Maximum); }
+  std::uint64_t sum(std::uint64_t number) { return this->reduced(number, Reduction::Sum); }
 
   /// The number of each rank.
   std::vector<std::uint64_t> gather(std::uint64_t number)
   {
-    std::vector<std::uint64_t> all(static_cast<std::size_t>(this->size()), 0);
-    all[static_cast<std::size_t>(this->rank())] = number;
+    std::vector<std::uint64_t> all(this->count(), 0);
+    all[this->index()] = number;
     this->sum(all);
     return all;
   }
 
   /// Sends a list to each rank. @returns the lists of each rank for this one
-  /// @param outgoing one list for each rank, of trivially copyable elements
-  /// @throws std::bad_alloc or FailedElsewhere, before anything is sent
+  /// @param outgoing one list for each rank
   template <class T>
   std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& outgoing)
   {
-    const std::size_t count = outgoing.size();
-    std::vector<std::vector<T>> received;
-    std::vector<std::uint64_t> outgoingSizes;
-    std::vector<std::uint64_t> sizes;
-    std::vector<OutgoingBytes> from;
-    std::vector<IncomingBytes> to;
-    this->together(
-      [&]()
-      {
-        sizes.resize(count);
-        from.resize(count);
-        to.resize(count);
-        received.resize(count);
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          outgoingSizes.push_back(outgoing[i].size());
-        }
-      });
-    this->exchangeSizes(outgoingSizes, sizes, from, to);
-    this->together(
-      [&]()
-      {
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          received[i].resize(static_cast<std::size_t>(sizes[i]));
-          from[i] = { outgoing[i].data(), outgoing[i].size() * sizeof(T) };
-          to[i] = { received[i].data(), received[i].size() * sizeof(T) };
-        }
-      });
+    static_assert(std::is_trivially_copyable_v<T>, "elements are sent by their bytes");
+    const std::size_t count = this->count();
+    std::vector<std::uint64_t> ownSizes(count);
+    std::vector<std::uint64_t> sizes(count);
+    std::vector<OutgoingBytes> from(count);
+    std::vector<IncomingBytes> to(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      ownSizes[i] = outgoing[i].size();
+      from[i] = { &ownSizes[i], sizeof(std::uint64_t) };
+      to[i] = { &sizes[i], sizeof(std::uint64_t) };
+    }
+    this->agree();
+    this->Channel.exchange(from, to);
+    std::vector<std::vector<T>> received(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      received[i].resize(static_cast<std::size_t>(sizes[i]));
+      from[i] = { outgoing[i].data(), outgoing[i].size() * sizeof(T) };
+      to[i] = { received[i].data(), received[i].size() * sizeof(T) };
+    }
     this->exchange(from, to);
     return received;
   }
 
   /// Sends a list to all ranks. @returns the lists of all ranks, in their order
-  /// @param own of trivially copyable elements
-  /// @throws std::bad_alloc or FailedElsewhere, before anything is sent
   template <class T>
   std::vector<std::vector<T>> gather(const std::vector<T>& own)
   {
-    std::vector<std::vector<T>> all;
-    std::vector<std::uint64_t> sizes;
-    std::vector<OutgoingBytes> from;
-    std::vector<IncomingBytes> to;
-    this->together(
-      [&]()
-      {
-        const auto count = static_cast<std::size_t>(this->size());
-        all.resize(count);
-        sizes.resize(count, 0);
-        from.resize(count, { own.data(), own.size() * sizeof(T) });
-        to.resize(count);
-      });
-    sizes[static_cast<std::size_t>(this->rank())] = own.size();
-    this->sum(sizes);
-    this->together(
-      [&]()
-      {
-        for (std::size_t i = 0; i < all.size(); ++i)
-        {
-          all[i].resize(static_cast<std::size_t>(sizes[i]));
-          to[i] = { all[i].data(), all[i].size() * sizeof(T) };
-        }
-      });
+    static_assert(std::is_trivially_copyable_v<T>, "elements are sent by their bytes");
+    const std::vector<std::uint64_t> sizes = this->gather(std::uint64_t{ own.size() });
+    const std::vector<OutgoingBytes> from(sizes.size(), { own.data(), own.size() * sizeof(T) });
+    std::vector<IncomingBytes> to(sizes.size());
+    std::vector<std::vector<T>> all(sizes.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i].resize(static_cast<std::size_t>(sizes[i]));
+      to[i] = { all[i].data(), all[i].size() * sizeof(T) };
+    }
     this->exchange(from, to);
     return all;
   }
@@ -204,36 +151,69 @@ public:
   void exchange(
     const std::vector<OutgoingBytes>& outgoing, const std::vector<IncomingBytes>& incoming)
   {
+    this->agree();
     for (std::size_t i = 0; i < outgoing.size(); ++i)
     {
-      if (i != static_cast<std::size_t>(this->rank()))
+      if (i != this->index())
       {
         this->Counted.sent += outgoing[i].count;
         this->Counted.received += incoming[i].count;
       }
     }
     ++this->Counted.rounds;
-    this->Link.exchange(outgoing, incoming);
+    this->Channel.exchange(outgoing, incoming);
   }
 
 private:
-  static constexpr std::uint64_t none = 0;
-  static constexpr std::uint64_t aborted = 1;
+  static constexpr std::uint64_t aborted = std::uint64_t{ 1 } << 63;
+  static constexpr std::uint64_t failed = aborted + 1;
 
-  void exchangeSizes(const std::vector<std::uint64_t>& outgoing,
-    std::vector<std::uint64_t>& incoming, std::vector<OutgoingBytes>& from,
-    std::vector<IncomingBytes>& to)
+  std::size_t index() const { return static_cast<std::size_t>(this->rank()); }
+  std::size_t count() const { return static_cast<std::size_t>(this->size()); }
+
+  /// Lets the next collective function of the other ranks throw, unless they have.
+  void tell(std::uint64_t failure)
   {
-    for (std::size_t i = 0; i < outgoing.size(); ++i)
+    if (!this->IsOver)
     {
-      from[i] = { &outgoing[i], sizeof(std::uint64_t) };
-      to[i] = { &incoming[i], sizeof(std::uint64_t) };
+      this->Channel.allReduce(&failure, 1, Reduction::Maximum);
+      this->IsOver = true;
     }
-    this->Link.exchange(from, to);
   }
 
-  Communicator& Link;
+  /// The maximum of all ranks' numbers, unless a rank has failed.
+  /// @param number below `aborted`
+  std::uint64_t agree(std::uint64_t number = 0)
+  {
+    this->Channel.allReduce(&number, 1, Reduction::Maximum);
+    this->IsOver = number >= aborted;
+    if (number == failed)
+    {
+      throw FailedElsewhere();
+    }
+    if (number == aborted)
+    {
+      throw Aborted();
+    }
+    return number;
+  }
+
+  std::uint64_t reduced(std::uint64_t number, Reduction reduction)
+  {
+    this->agree();
+    this->Channel.allReduce(&number, 1, reduction);
+    return number;
+  }
+
+  void reduce(std::vector<std::uint64_t>& numbers, Reduction reduction)
+  {
+    this->agree();
+    this->Channel.allReduce(numbers.data(), numbers.size(), reduction);
+  }
+
+  Communicator& Channel;
   Traffic Counted;
+  bool IsOver = false; // all ranks know that the work has failed
 };
 
 } // namespace isopoint

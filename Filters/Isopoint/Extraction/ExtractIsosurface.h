@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Base/SingleTeam.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
@@ -16,7 +15,6 @@
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/Path.h"
 
 #include <algorithm>
@@ -96,15 +94,39 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
   return left;
 }
 
-/// The crossing edges of all leaves below the given nodes, none of which is missing.
+/// The crossing edges that end in at least one of this rank's leaves below the given nodes.
+/// @param ranks SingleRank, or SharedRanks, all of which call this
 /// @throws Aborted, std::bad_alloc
-template <class TSample>
+template <class TSample, class TRanks>
 FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSample>& context,
-  const IsosurfaceRequest& request, const std::vector<BinaryIndex>& nodes)
+  TRanks& ranks, const IsosurfaceRequest& request, std::vector<BinaryIndex> nodes)
 {
   FoundEdges<TSample> found;
-  addEdges(execution, context, request, nodes, found);
+  MissingWork left;
+  do
+  {
+    left = addEdges(execution, context, request, nodes, found);
+    nodes = std::move(left.leaves);
+  } while (ranks.fetchNodes(left.missing, maximumDepth + 1));
+  ranks.shareEdges(found.edges);
   return found;
+}
+
+/// Drops the edges that lie in gaps. @returns how many of them are counted on this rank
+/// @param gapEdges see FoundEdges
+template <class TSample, class TRanks>
+std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
+  const std::vector<CrossingEdge<TSample>>& gapEdges, std::vector<CrossingEdge<TSample>>& edges)
+{
+  const std::vector<char> isInGap = edgesInGaps(execution, tree, ranks, edges, gapEdges);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
+    count += isInGap[i] && tree.isOwn(firstPlaceOf(tree, leaves)) ? 1 : 0;
+  }
+  dropMarked(isInGap, edges);
+  return count;
 }
 
 /// The isosurface of edges: positions where the fits put them, or else where linear interpolation
@@ -169,53 +191,52 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
   }
 }
 
-/// The canonical isosurface (docs/algorithm.md), refining the tree as far as needed.
+/// The canonical isosurface (docs/algorithm.md), without coincident samples, refining the tree as
+/// far as needed. On one of several ranks, the isopoints on edges with an end in one of its leaves,
+/// those of edges between two ranks on both.
+/// @param ranks SingleRank, or SharedRanks, all of which call this
 /// @param neighborhoods of the tree's leaves that are known; those found are added
 /// @param idCount above every id
 /// @param progress divided among the band, the edges, the fits and what follows
 /// @param laterWork that follows for each isopoint
 /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighborhoods
 /// can be used again afterwards
-template <class TSample>
-Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree,
+template <class TSample, class TRanks>
+Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
   NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,
   const IsosurfaceRequest& request, WorkProgress& progress, double laterWork)
 {
-  if (tree.isEmpty())
+  Isosurface surface;
+  surface.isovalue = request.isovalue;
+  if (tree.isEmpty()) // that of all ranks
   {
-    return {};
+    return surface;
   }
   const double fitting = request.fit ? work::fitting : 0.0;
   const double afterEdges = work::placing + fitting + laterWork;
-  const std::vector<BinaryIndex> crossing =
-    NarrowBand<TSample>(tree, request.isovalue, execution, progress, work::finding + afterEdges)
-      .refine();
+  NarrowBand<TSample> band(tree, request.isovalue, execution, progress, work::finding + afterEdges);
+  const std::vector<BinaryIndex> crossing = band.refine(ranks);
   const auto partFor = [&progress](double isopointCount, double work, double left)
   { return progress.part(isopointCount * work, isopointCount * left); };
   const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
   ExtractionContext<TSample> context(tree, neighborhoods, request.isovalue);
   FoundEdges<TSample> found =
-    findEdges(partFor(expected, work::finding, afterEdges), context, request, crossing);
+    findEdges(partFor(expected, work::finding, afterEdges), context, ranks, request, crossing);
   keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
   std::vector<CrossingEdge<TSample>> edges = sortedUnique(
     execution, found.edges, idCount, [](const CrossingEdge<TSample>& edge) { return edge.first; });
-  const std::size_t crossingCount = edges.size();
-  if (request.dropsGaps)
-  {
-    SingleTeam team;
-    dropMarked(edgesInGaps(execution, tree, team, edges, found.gapEdges), edges);
-  }
+  const std::size_t dropped =
+    request.dropsGaps ? dropGapEdges(execution, tree, ranks, found.gapEdges, edges) : 0;
   const auto count = static_cast<double>(edges.size());
   std::vector<LocalFit> fits;
   if (request.fit)
   {
     fits = fitNeighborhoods(
-      partFor(count, fitting, work::placing + laterWork), context, *request.fit, edges);
+      partFor(count, fitting, work::placing + laterWork), context, ranks, *request.fit, edges);
   }
-  Isosurface surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
+  surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
     std::move(fits), request.fit && request.fit->move);
-  surface.coincident = coincidentEnds(tree, surface.leaves);
-  surface.droppedEdges = crossingCount - edges.size();
+  surface.droppedEdges = dropped;
   return surface;
 }
 

@@ -31,7 +31,7 @@ struct ExtractionContext
     , bounds(tree)
     , leafMeans(tree)
     , listBudget(tree.isPartial ? unlimited : tree.samples.size())
-    , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(2 * tree.samples.size())))
+    , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(2 * tree.ownCount())))
   {
   }
 

@@ -29,6 +29,12 @@ public:
   std::size_t size() const { return this->Edges.size(); }
   bool isCounted(std::size_t) const { return true; }
 
+  template <class TRanks>
+  void unite(TRanks& ranks, std::vector<std::size_t>& found) const
+  {
+    ranks.uniteEdges(this->Edges, found);
+  }
+
   template <class Test>
   bool anyEdge(std::size_t edge, const Test& test) const
   {
@@ -80,7 +86,7 @@ private:
 /// share the tree, this is collective.
 /// @param edges ordered, each once
 /// @param strong those over the strong gap criterion, in any order, with repetitions
-/// @param ranks SingleTeam, or EdgeTeam
+/// @param ranks SingleRank, or SharedRanks
 /// @throws std::bad_alloc, Aborted, FailedElsewhere
 template <class TSample, class TRanks>
 std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSample>& tree,
@@ -90,18 +96,14 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
   EdgeParts<TSample> parts(edges);
   GapSpread<TSample, TRanks, EdgeParts<TSample>> spread(execution, tree, ranks, parts);
   std::vector<std::size_t> seeds;
-  ranks.together(
-    [&]()
-    {
-      for (const CrossingEdge<TSample>& edge : strong)
-      {
-        const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
-        seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
-      }
-      std::sort(seeds.begin(), seeds.end());
-      seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-    });
-  ranks.unite(seeds);
+  for (const CrossingEdge<TSample>& edge : strong)
+  {
+    const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+    seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
+  }
+  std::sort(seeds.begin(), seeds.end());
+  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  parts.unite(ranks, seeds);
   spread.spread(std::move(seeds));
   return spread.takeInGap();
 }

@@ -30,6 +30,10 @@ struct IsopointEdge
   {
     return this->first == other.first && this->second == other.second;
   }
+  bool operator<(const IsopointEdge& other) const
+  {
+    return this->first != other.first ? this->first < other.first : this->second < other.second;
+  }
 };
 
 /// The node indices of the two leaves that an edge connects.
@@ -38,6 +42,15 @@ struct EdgeLeaves
   std::size_t first;
   std::size_t second;
 };
+
+/// The place in the order of the tree of the leaf that comes first there: the rank that has it is
+/// the one to which the isopoint of the edge belongs.
+template <class TSample>
+std::size_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leaves)
+{
+  return static_cast<std::size_t>(
+    std::min(tree.nodes[leaves.first].begin, tree.nodes[leaves.second].begin));
+}
 
 /// The isopoints of one isovalue, ordered by the ends (first, second) of their edges, each edge
 /// once.

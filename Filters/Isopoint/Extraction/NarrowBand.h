@@ -12,7 +12,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <numeric>
 #include <vector>
@@ -42,32 +41,6 @@ bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
          touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
 }
 
-/// The other ranks that share a tree, as the band of one of them needs them. All functions are
-/// collective.
-class BandPeers
-{
-public:
-  BandPeers() = default;
-  BandPeers(const BandPeers&) = delete;
-  BandPeers& operator=(const BandPeers&) = delete;
-  virtual ~BandPeers() = default;
-
-  /// See Team. Takes no memory itself, for lack of which one rank alone would fail.
-  template <class Work>
-  void together(const Work& work)
-  {
-    this->runTogether(std::cref(work));
-  }
-  virtual bool isAny(bool mine) = 0;
-
-  /// Fetches the nodes of a depth below the missing ones, as far as they touch their boxes, with
-  /// their ranges of values. Empties the list. @returns whether any rank lacked any
-  virtual bool fetchNodes(std::vector<MissingNode>& missing, int depth) = 0;
-
-private:
-  virtual void runTogether(const std::function<void()>& work) = 0;
-};
-
 /// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
 /// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, section 9).
 template <class TSample>
@@ -84,86 +57,48 @@ public:
     , Progress(progress)
     , WorkForIsopoint(workForIsopoint)
     , Forecast(tree.samples.size())
-    , ListBudget(tree.samples.size())
+    , ListBudget(tree.ownCount())
   {
   }
 
+  /// On one of several ranks, nodes of which no sample is this rank's are not split; they count as
+  /// the others' ranges of values, which are fetched where they matter.
+  /// @param ranks SingleRank, or SharedRanks, all of which call this
   /// @returns nodes below which every node is split down to leaves, and so is everything that
-  /// touches such a leaf: every leaf with a crossing edge is among those below them
+  /// touches such a leaf: every leaf with a crossing edge is among those below them. On several
+  /// ranks, as far as leaves are this rank's
   /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
   /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
   /// than 2^31 samples in nested groups of coincident ones, or has more nodes than its ids can
   /// number
-  std::vector<BinaryIndex> refine()
+  template <class TRanks>
+  std::vector<BinaryIndex> refine(TRanks& ranks)
   {
     std::vector<BandNode> front;
     const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
-    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue)
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
     {
       front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
     }
-    for (int depth = 0; !front.empty();)
+    bool isDone = front.empty();
+    for (int depth = 0; ranks.isAny(!isDone);)
     {
       const int bottom = treeletBottom(depth, root.count());
-      this->splitFront(front, depth, bottom);
-      if (this->finishIfFew(front, depth, bottom))
+      if (!isDone)
       {
-        break;
+        this->splitFront(front, depth, bottom);
+        isDone = this->finishIfFew(front, depth, bottom);
       }
-      this->mark(front, bottom);
-      front = this->neededBelow(front, bottom);
+      this->mark(ranks, isDone ? std::vector<BandNode>() : front, bottom);
+      if (!isDone)
+      {
+        front = this->neededBelow(front, bottom);
+        isDone = front.empty();
+      }
       depth = bottom;
       throwIfAborted(this->Run);
     }
     return crossingOf(front);
-  }
-
-  /// The same on one of several ranks, which all call it. Nodes of which no sample is this rank's
-  /// are not split; they count as the others' ranges of values, which are fetched where they
-  /// matter. So everything that touches a leaf of a crossing edge is split to leaves only as far as
-  /// it is this rank's and touches one of its own nodes that are crossing.
-  std::vector<BinaryIndex> refine(BandPeers& peers)
-  {
-    std::vector<BandNode> front;
-    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
-    const bool isCrossed =
-      root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root);
-    peers.together(
-      [&]()
-      {
-        if (isCrossed)
-        {
-          front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
-        }
-      });
-    bool isDone = front.empty();
-    for (int depth = 0; peers.isAny(!isDone);)
-    {
-      const int bottom = treeletBottom(depth, root.count());
-      peers.together(
-        [&]()
-        {
-          if (!isDone)
-          {
-            this->splitFront(front, depth, bottom);
-            isDone = this->finishIfFew(front, depth, bottom);
-          }
-        });
-      this->markWith(peers, front, isDone, bottom);
-      peers.together(
-        [&]()
-        {
-          if (!isDone)
-          {
-            front = this->neededBelow(front, bottom);
-            isDone = front.empty();
-          }
-        });
-      depth = bottom;
-    }
-    std::vector<BinaryIndex> crossing;
-    peers.together([&]() { crossing = crossingOf(front); });
-    return crossing;
   }
 
 private:
@@ -415,42 +350,21 @@ private:
   }
 
   /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
-  /// crossing.
-  void mark(const std::vector<BandNode>& front, int depth)
+  /// crossing. What touches nodes that are not known is put aside, until they have been fetched.
+  template <class TRanks>
+  void mark(TRanks& ranks, std::vector<BandNode> front, int depth)
   {
-    this->Marks = std::vector<std::atomic<Mark>>(this->Tree.nodes.size());
-    this->markBelowFront(front, depth);
-  }
-
-  /// The same on one of several ranks. What touches nodes that are not known is put aside, until
-  /// they have been fetched.
-  /// @param isDone whether this rank has nothing to mark any more
-  void markWith(BandPeers& peers, const std::vector<BandNode>& allOfFront, bool isDone, int depth)
-  {
-    std::vector<BandNode> front;
+    this->Marks = std::vector<std::atomic<Mark>>();
     std::vector<MissingNode> missing;
-    peers.together(
-      [&]()
-      {
-        this->Marks = std::vector<std::atomic<Mark>>();
-        if (!isDone)
-        {
-          front = allOfFront;
-        }
-      });
     do
     {
-      peers.together(
-        [&]()
-        {
-          this->keepMarks();
-          this->Aside.clear();
-          this->markBelowFront(front, depth);
-          front = this->Aside;
-          missing.swap(this->Missing);
-          this->Missing.clear();
-        });
-    } while (peers.fetchNodes(missing, depth));
+      this->keepMarks();
+      this->Aside.clear();
+      this->markBelowFront(front, depth);
+      front = this->Aside;
+      missing.swap(this->Missing);
+      this->Missing.clear();
+    } while (ranks.fetchNodes(missing, depth));
   }
 
   /// Makes room for the marks of nodes that were added.

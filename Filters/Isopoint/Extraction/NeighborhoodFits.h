@@ -116,32 +116,35 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
 
-/// Fits to the samples around each edge (see SampleGatherer and LocalFitter), as they follow each
-/// other in the tree: what is found for one edge is often that of the next. Each fit depends
-/// on its samples alone.
-/// @returns one fit for each edge
+/// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter), as
+/// they follow each other in the tree: what is found for one edge is often that of the next. Each
+/// fit depends on its samples alone.
+/// @param ranks SingleRank, or SharedRanks
+/// @param fits one for each edge, of which those at the places are set
 /// @throws Aborted, std::bad_alloc
-template <class TSample>
+template <class TSample, class TRanks>
+void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRanks& ranks,
+  FitRequest request, const std::vector<CrossingEdge<TSample>>& edges,
+  const std::vector<TreePlace>& places, std::vector<LocalFit>& fits)
+{
+  // Batches are small: where cells touch hundreds of others, a fit takes long.
+  constexpr std::size_t grain = 256;
+  ranks.forEach(
+    execution, { places.size(), 4 * grain, grain },
+    [&]() { return NeighborhoodFitter<TSample>(context, request); },
+    [&](NeighborhoodFitter<TSample>& fitter, std::size_t i)
+    { fits[places[i].edge] = fitter.fit(edges[places[i].edge]); },
+    execution.progress);
+}
+
+/// Fits to the samples around each edge; see fitAt(). @returns one fit for each
+template <class TSample, class TRanks>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
-  ExtractionContext<TSample>& context, FitRequest request,
+  ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
   const std::vector<CrossingEdge<TSample>>& edges)
 {
   std::vector<LocalFit> fits(edges.size());
-  const std::vector<TreePlace> places = placesOf(execution, context.tree, edges);
-  // Batches are small: where cells touch hundreds of others, a fit takes long.
-  constexpr std::size_t grain = 256;
-  forBatches(
-    execution, places.size(), 4 * grain, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      NeighborhoodFitter<TSample> fitter(context, request);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const std::size_t edge = places[i].edge;
-        fits[edge] = fitter.fit(edges[edge]);
-      }
-    },
-    execution.progress);
+  fitAt(execution, context, ranks, request, edges, placesOf(execution, context.tree, edges), fits);
   return fits;
 }
 

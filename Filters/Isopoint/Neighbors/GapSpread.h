@@ -47,12 +47,12 @@ void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
 /// Finds which parts of a surface, its edges or tetrahedra, lie in gaps of the cloud: those over
 /// the weak gap criterion that are connected with a seed through others over it. Where several
 /// ranks share the tree, all functions are collective.
-/// @tparam TRanks SingleTeam or TeamOfTree with unite(parts), which adds those that other ranks
-/// found, and orders them
+/// @tparam TRanks SingleRank, or SharedRanks
 /// @tparam TParts has
 /// - size();
 /// - anyEdge(part, test), whether test(leaf, otherLeaf) is true of any edge of a part;
 /// - isCounted(part), whether this rank is to look at it;
+/// - unite(ranks, parts), which adds those that other ranks found, and orders them;
 /// - forEachNeighbor(part, visit), the parts that are connected with it
 template <class TSample, class TRanks, class TParts>
 class GapSpread
@@ -73,25 +73,21 @@ public:
   std::vector<std::size_t> over(
     const GapCriterion& criterion, const std::vector<std::size_t>& candidates)
   {
-    std::vector<char> marks;
-    this->Ranks.together([&]() { marks.resize(candidates.size(), 0); });
+    constexpr std::size_t grain = 256;
+    std::vector<char> marks(candidates.size(), 0);
     this->Ranks.forEach(
-      this->Run, candidates.size(), []() { return 0; },
+      this->Run, { candidates.size(), 8 * grain, grain }, []() { return 0; },
       [&](int, std::size_t i)
       {
         const std::size_t part = candidates[i];
         marks[i] = this->Parts.isCounted(part) && this->isOver(criterion, part) ? 1 : 0;
       });
     std::vector<std::size_t> found;
-    this->Ranks.together(
-      [&]()
-      {
-        for (const std::size_t i : markedOf(marks))
-        {
-          found.push_back(candidates[i]);
-        }
-      });
-    this->Ranks.unite(found);
+    for (const std::size_t i : markedOf(marks))
+    {
+      found.push_back(candidates[i]);
+    }
+    this->Parts.unite(this->Ranks, found);
     return found;
   }
 
@@ -99,20 +95,15 @@ public:
   /// @param front the seeds, each once
   void spread(std::vector<std::size_t> front)
   {
-    this->Ranks.together(
-      [&]()
-      {
-        this->IsReached.resize(this->Parts.size(), 0);
-        this->IsInGap.resize(this->Parts.size(), 0);
-        for (const std::size_t part : front)
-        {
-          this->IsReached[part] = 1;
-        }
-      });
+    this->IsReached.resize(this->Parts.size(), 0);
+    this->IsInGap.resize(this->Parts.size(), 0);
+    for (const std::size_t part : front)
+    {
+      this->IsReached[part] = 1;
+    }
     while (this->Ranks.isAny(!front.empty()))
     {
-      const std::vector<std::size_t> weak = this->over(GapCriterion::weak(), front);
-      this->Ranks.together([&]() { front = this->next(weak); });
+      front = this->next(this->over(GapCriterion::weak(), front));
     }
   }
 

@@ -45,7 +45,7 @@ public:
   /// @param samples this rank's; they must not move meanwhile
   /// @param idCount above every id
   MedianSearch(Team& team, const TSample* samples, std::uint64_t idCount)
-    : Ranks(team)
+    : Group(team)
     , Samples(samples)
     , IdCount(idCount)
   {
@@ -57,29 +57,25 @@ public:
   /// @throws std::bad_alloc, FailedElsewhere
   std::vector<MiddleSample> find(const std::vector<DealtNode>& nodes)
   {
-    this->Ranks.together([&]() { this->begin(nodes); });
+    this->begin(nodes);
     for (;;)
     {
       std::vector<std::size_t> open;
       std::vector<std::uint64_t> counts;
-      this->Ranks.together(
-        [&]()
+      for (std::size_t i = 0; i < this->Searches.size(); ++i)
+      {
+        if (this->Searches[i].size > 1)
         {
-          for (std::size_t i = 0; i < this->Searches.size(); ++i)
-          {
-            if (this->Searches[i].size > 1)
-            {
-              open.push_back(i);
-            }
-          }
-          this->count(open, counts);
-        });
+          open.push_back(i);
+        }
+      }
+      this->count(open, counts);
       if (open.empty())
       {
         return this->middles();
       }
-      this->Ranks.sum(counts);
-      this->Ranks.together([&]() { this->narrow(open, counts); });
+      this->Group.sum(counts);
+      this->narrow(open, counts);
     }
   }
 
@@ -231,22 +227,17 @@ private:
   std::vector<MiddleSample> middles()
   {
     std::vector<std::uint64_t> keys;
-    std::vector<MiddleSample> result;
-    this->Ranks.together(
-      [&]()
+    for (const Search& search : this->Searches)
+    {
+      for (int stage = 0; stage <= idStage; ++stage)
       {
-        for (const Search& search : this->Searches)
-        {
-          for (int stage = 0; stage <= idStage; ++stage)
-          {
-            keys.push_back(search.candidates.empty()
-                             ? 0
-                             : keyOf(this->Samples[search.candidates.front()], search, stage));
-          }
-        }
-        result.resize(this->Searches.size());
-      });
-    this->Ranks.sum(keys);
+        keys.push_back(search.candidates.empty()
+                         ? 0
+                         : keyOf(this->Samples[search.candidates.front()], search, stage));
+      }
+    }
+    this->Group.sum(keys);
+    std::vector<MiddleSample> result(this->Searches.size());
     for (std::size_t i = 0; i < result.size(); ++i)
     {
       result[i].axis = this->Searches[i].axis;
@@ -255,7 +246,7 @@ private:
     return result;
   }
 
-  Team& Ranks;
+  Team& Group;
   const TSample* Samples;
   std::uint64_t IdCount;
   int Bits = 0;

@@ -90,7 +90,7 @@ private:
   void write(Path& path, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
   {
     const std::size_t nodeIndex = path.nodeIndex();
-    if (path.depth<depth&& this->Tree.nodes[nodeIndex].count()> fewSamples)
+    if ((path.depth < depth) && this->Tree.nodes[nodeIndex].count() > fewSamples)
     {
       this->splitOnce(path);
     }

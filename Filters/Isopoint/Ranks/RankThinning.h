@@ -17,44 +17,41 @@
 namespace isopoint
 {
 
-/// Which isopoints of a rank remain when those of all ranks are thinned, taken in the order of the
-/// whole surface. That order runs through all ranks, so one rank does it for all: it takes memory
-/// for all isopoints. Collective.
-/// @param surface with fits, each isopoint on one rank or on several
-/// @returns for each of this rank's isopoints whether it stays
-/// @throws std::bad_alloc, Aborted, FailedElsewhere
+/// Thins the isopoints of all ranks (see thin()), taken in the order of the whole surface. That
+/// order runs through all ranks, so one rank does it for all: it takes memory for all isopoints.
+/// Collective.
 class RankThinning
 {
 public:
   RankThinning(const Execution& execution, Team& team, double minimumSpacing)
     : Run(execution)
-    , Ranks(team)
+    , Group(team)
     , MinimumSpacing(minimumSpacing)
   {
   }
 
-  std::vector<bool> kept(const Isosurface& surface)
+  /// @param surface with fits, each isopoint on one rank or on several
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  void thinOut(Isosurface& surface)
   {
-    std::vector<std::vector<Candidate>> outgoing;
-    this->Ranks.together(
-      [&]()
+    std::vector<std::vector<Candidate>> outgoing(static_cast<std::size_t>(this->Group.size()));
+    for (std::size_t i = 0; i < surface.size() && !surface.fits.empty(); ++i)
+    {
+      const LocalFit& fit = surface.fits[i];
+      outgoing.front().push_back(
+        { surface.edges[i], fit.position, fit.gradient, fit.spacing, fit.isSmooth ? 1u : 0u });
+    }
+    const std::vector<std::vector<unsigned char>> isKept =
+      this->Group.exchange(this->answer(this->Group.exchange(outgoing)));
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < isKept.front().size(); ++i)
+    {
+      if (isKept.front()[i] != 0)
       {
-        outgoing.resize(static_cast<std::size_t>(this->Ranks.size()));
-        for (std::size_t i = 0; i < surface.size() && !surface.fits.empty(); ++i)
-        {
-          const LocalFit& fit = surface.fits[i];
-          outgoing.front().push_back(
-            { surface.edges[i], fit.position, fit.gradient, fit.spacing, fit.isSmooth ? 1u : 0u });
-        }
-      });
-    const std::vector<std::vector<Candidate>> arrived = this->Ranks.exchange(outgoing);
-    std::vector<std::vector<unsigned char>> answers;
-    this->Ranks.together([&]() { answers = this->answer(arrived); });
-    const std::vector<std::vector<unsigned char>> received = this->Ranks.exchange(answers);
-    std::vector<bool> result;
-    this->Ranks.together(
-      [&]() { result.assign(received.front().begin(), received.front().end()); });
-    return result;
+        kept.push_back(i);
+      }
+    }
+    surface = chosenIsopoints(surface, kept);
   }
 
 private:
@@ -68,11 +65,6 @@ private:
     std::uint64_t isSmooth;
   };
 
-  static bool isBefore(const IsopointEdge& a, const IsopointEdge& b)
-  {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  }
-
   std::vector<std::vector<unsigned char>> answer(
     const std::vector<std::vector<Candidate>>& arrived) const
   {
@@ -85,7 +77,7 @@ private:
         [&whole](const Candidate& candidate)
         {
           return static_cast<unsigned char>(
-            std::binary_search(whole.edges.begin(), whole.edges.end(), candidate.edge, isBefore));
+            std::binary_search(whole.edges.begin(), whole.edges.end(), candidate.edge));
         });
     }
     return answers;
@@ -100,7 +92,7 @@ private:
       all.insert(all.end(), list.begin(), list.end());
     }
     std::sort(all.begin(), all.end(),
-      [](const Candidate& a, const Candidate& b) { return isBefore(a.edge, b.edge); });
+      [](const Candidate& a, const Candidate& b) { return a.edge < b.edge; });
     all.erase(std::unique(all.begin(), all.end(),
                 [](const Candidate& a, const Candidate& b) { return a.edge == b.edge; }),
       all.end());
@@ -121,7 +113,7 @@ private:
   }
 
   const Execution& Run;
-  Team& Ranks;
+  Team& Group;
   const double MinimumSpacing;
 };
 

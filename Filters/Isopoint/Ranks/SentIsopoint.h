@@ -4,6 +4,7 @@
 
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -20,6 +21,37 @@ struct SentEnd
 {
   std::uint64_t place;
   Vector position;
+};
+
+template <class TSample>
+SentEnd sentEnd(const SampleTree<TSample>& tree, std::size_t leaf)
+{
+  const std::size_t begin = tree.nodes[leaf].begin;
+  return { begin, positionOf(tree.samples[begin]) };
+}
+
+/// The leaf of an end in this rank's tree.
+/// @throws MissingNode if this rank does not hold it as a leaf. O(depth)
+template <class TSample>
+std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
+{
+  std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+  while (tree.nodes[nodeIndex].isSplit())
+  {
+    const Node<TSample>& node = tree.nodes[nodeIndex];
+    nodeIndex = tree.child(node, end.place >= tree.nodes[node.upperNode()].begin);
+  }
+  requireLeaf(tree, nodeIndex, Region{ end.position, end.position });
+  return nodeIndex;
+}
+
+/// A crossing edge as ranks send it to each other.
+struct SentEdge
+{
+  std::uint64_t first;
+  std::uint64_t second;
+  double crossing;
+  SentEnd ends[2];
 };
 
 /// An isopoint of another rank.
@@ -75,8 +107,7 @@ void appendIsopoint(ByteBuffer& buffer, const SampleTree<TSample>& tree, const I
   append(buffer, surface.decreasingEdges[isopoint]);
   for (const std::size_t leaf : { surface.leaves[isopoint].first, surface.leaves[isopoint].second })
   {
-    const std::size_t begin = tree.nodes[leaf].begin;
-    append(buffer, SentEnd{ begin, positionOf(tree.samples[begin]) });
+    append(buffer, sentEnd(tree, leaf));
   }
   if (!surface.fits.empty())
   {

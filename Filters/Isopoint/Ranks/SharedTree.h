@@ -38,7 +38,7 @@ public:
   /// alone
   /// @param idCount of the whole cloud
   SharedTreeBuilder(Team& team, SampleTree<TSample> loaded, std::uint64_t idCount)
-    : Ranks(team)
+    : Group(team)
     , Loaded(std::move(loaded))
     , IdCount(idCount)
   {
@@ -48,13 +48,13 @@ public:
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   SharedTree<TSample> build(const Execution& execution)
   {
-    const std::uint64_t count = this->Ranks.sum(this->Loaded.samples.size());
+    const std::uint64_t count = this->Group.sum(this->Loaded.samples.size());
     this->Result.tree.isPartial = true;
     this->Result.tree.skipped = this->Loaded.skipped;
     if (count > 0)
     {
       this->makeSharedRoot(count);
-      const int depth = topDepth(this->Ranks.size());
+      const int depth = topDepth(this->Group.size());
       for (int level = 0; level < depth; ++level)
       {
         this->splitLevel(execution);
@@ -77,34 +77,24 @@ private:
 
   void makeSharedRoot(std::uint64_t count)
   {
-    std::vector<std::uint64_t> keys;
-    this->Ranks.together(
-      [&]()
-      {
-        keys.assign(6, 0); // greatest and, inverted, least coordinates
-        for (std::size_t axis = 0; axis < 3 && !this->Loaded.isEmpty(); ++axis)
-        {
-          keys[axis] = orderedKey(this->Loaded.region.upper[axis]);
-          keys[3 + axis] = ~orderedKey(this->Loaded.region.lower[axis]);
-        }
-        SampleTree<TSample>& tree = this->Result.tree;
-        tree.nodes.resize(2);
-        tree.usedPairs = 1;
-        tree.nodes[SampleTree<TSample>::rootNode] = makeNode<TSample>(0, count);
-      });
-    this->Ranks.maximum(keys);
+    std::vector<std::uint64_t> keys(6, 0); // greatest and, inverted, least coordinates
+    for (std::size_t axis = 0; axis < 3 && !this->Loaded.isEmpty(); ++axis)
+    {
+      keys[axis] = orderedKey(this->Loaded.region.upper[axis]);
+      keys[3 + axis] = ~orderedKey(this->Loaded.region.lower[axis]);
+    }
     SampleTree<TSample>& tree = this->Result.tree;
+    tree.nodes.resize(2);
+    tree.usedPairs = 1;
+    tree.nodes[SampleTree<TSample>::rootNode] = makeNode<TSample>(0, count);
+    this->Group.maximum(keys);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       tree.region.upper[axis] = fromOrderedKey(keys[axis]);
       tree.region.lower[axis] = fromOrderedKey(~keys[3 + axis]);
     }
-    this->Ranks.together(
-      [&]()
-      {
-        this->Level.push_back(
-          { SampleTree<TSample>::rootNode, tree.region, 0, this->Loaded.samples.size(), count });
-      });
+    this->Level.push_back(
+      { SampleTree<TSample>::rootNode, tree.region, 0, this->Loaded.samples.size(), count });
   }
 
   /// How the samples of a node stand to its middle sample.
@@ -175,22 +165,17 @@ private:
   std::vector<Sides> sidesOf(
     const std::vector<DealtNode>& nodes, const std::vector<MiddleSample>& middles)
   {
-    std::vector<Sides> all;
     std::vector<std::uint64_t> sums;
     std::vector<std::uint64_t> maxima;
-    this->Ranks.together(
-      [&]()
-      {
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-        {
-          const Sides sides = this->sidesOf(nodes[i], middles[i]);
-          sums.insert(sums.end(), { sides.less, sides.equalBelow, sides.greater });
-          maxima.insert(maxima.end(), { sides.last, sides.notFirst });
-        }
-        all.resize(nodes.size());
-      });
-    this->Ranks.sum(sums);
-    this->Ranks.maximum(maxima);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const Sides sides = this->sidesOf(nodes[i], middles[i]);
+      sums.insert(sums.end(), { sides.less, sides.equalBelow, sides.greater });
+      maxima.insert(maxima.end(), { sides.last, sides.notFirst });
+    }
+    this->Group.sum(sums);
+    this->Group.maximum(maxima);
+    std::vector<Sides> all(nodes.size());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       all[i] = { sums[3 * i], sums[3 * i + 1], sums[3 * i + 2], maxima[2 * i], maxima[2 * i + 1] };
@@ -201,41 +186,32 @@ private:
   /// Splits all nodes of the present level that are no leaves.
   void splitLevel(const Execution& execution)
   {
+    throwIfAborted(execution);
     std::vector<DealtNode> nodes;
-    this->Ranks.together(
-      [&]()
-      {
-        throwIfAborted(execution);
-        std::copy_if(this->Level.begin(), this->Level.end(), std::back_inserter(nodes),
-          [this](const DealtNode& node)
-          { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
-      });
+    std::copy_if(this->Level.begin(), this->Level.end(), std::back_inserter(nodes),
+      [this](const DealtNode& node) { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
     if (nodes.empty())
     {
       return;
     }
-    MedianSearch<TSample> search(this->Ranks, this->Loaded.samples.data(), this->IdCount);
+    MedianSearch<TSample> search(this->Group, this->Loaded.samples.data(), this->IdCount);
     const std::vector<MiddleSample> middles = search.find(nodes);
     const std::vector<Sides> sides = this->sidesOf(nodes, middles);
-    this->Ranks.together(
-      [&]()
+    std::vector<DealtNode> below;
+    std::size_t next = 0;
+    for (const DealtNode& node : this->Level)
+    {
+      if (this->Result.tree.nodes[node.nodeIndex].isLeaf)
       {
-        std::vector<DealtNode> below;
-        std::size_t next = 0;
-        for (const DealtNode& node : this->Level)
-        {
-          if (this->Result.tree.nodes[node.nodeIndex].isLeaf)
-          {
-            below.push_back(node);
-          }
-          else
-          {
-            this->splitNode(node, middles[next], sides[next], below);
-            ++next;
-          }
-        }
-        this->Level.swap(below);
-      });
+        below.push_back(node);
+      }
+      else
+      {
+        this->splitNode(node, middles[next], sides[next], below);
+        ++next;
+      }
+    }
+    this->Level.swap(below);
   }
 
   /// Splits a node by the definition (docs/algorithm.md, section 3).
@@ -289,23 +265,18 @@ private:
   void computeRanges()
   {
     using Value = typename TSample::Value;
-    std::vector<std::uint64_t> keys;
-    this->Ranks.together(
-      [&]()
+    std::vector<std::uint64_t> keys(2 * this->Level.size(), 0);
+    for (std::size_t i = 0; i < this->Level.size(); ++i)
+    {
+      for (std::size_t sample = this->Level[i].begin; sample < this->Level[i].end; ++sample)
       {
-        keys.assign(2 * this->Level.size(), 0);
-        for (std::size_t i = 0; i < this->Level.size(); ++i)
-        {
-          for (std::size_t sample = this->Level[i].begin; sample < this->Level[i].end; ++sample)
-          {
-            const std::uint64_t key =
-              orderedKey(static_cast<double>(this->Loaded.samples[sample].value));
-            keys[2 * i] = std::max(keys[2 * i], key);
-            keys[2 * i + 1] = std::max(keys[2 * i + 1], ~key);
-          }
-        }
-      });
-    this->Ranks.maximum(keys);
+        const std::uint64_t key =
+          orderedKey(static_cast<double>(this->Loaded.samples[sample].value));
+        keys[2 * i] = std::max(keys[2 * i], key);
+        keys[2 * i + 1] = std::max(keys[2 * i + 1], ~key);
+      }
+    }
+    this->Group.maximum(keys);
     SampleTree<TSample>& tree = this->Result.tree;
     for (std::size_t i = 0; i < this->Level.size(); ++i)
     {
@@ -326,42 +297,36 @@ private:
     const auto begin = static_cast<double>(this->Result.tree.nodes[node.nodeIndex].begin);
     const double middle =
       (begin + 0.5 * static_cast<double>(node.count)) / static_cast<double>(all);
-    const auto ranks = static_cast<std::size_t>(this->Ranks.size());
+    const auto ranks = static_cast<std::size_t>(this->Group.size());
     return std::min(ranks - 1, static_cast<std::size_t>(middle * static_cast<double>(ranks)));
   }
 
   /// Sends each sample to the rank that gets its subtree.
   void dealOut(std::uint64_t all)
   {
-    const auto ranks = static_cast<std::size_t>(this->Ranks.size());
-    const auto own = static_cast<std::size_t>(this->Ranks.rank());
+    const auto ranks = static_cast<std::size_t>(this->Group.size());
+    const auto own = static_cast<std::size_t>(this->Group.rank());
     SampleTree<TSample>& tree = this->Result.tree;
-    std::vector<std::vector<std::size_t>> partsOf; // of each rank, in Level
-    std::vector<std::vector<std::uint64_t>> counts;
-    this->Ranks.together(
-      [&]()
-      {
-        partsOf.resize(ranks);
-        counts.resize(ranks);
-        this->Result.begins.assign(ranks + 1, 0);
-        for (std::size_t i = 0; i < this->Level.size(); ++i)
-        {
-          const DealtNode& node = this->Level[i];
-          const std::size_t owner = this->ownerOf(node, all);
-          partsOf[owner].push_back(i);
-          counts[owner].push_back(node.end - node.begin);
-          this->Result.begins[owner + 1] += node.count;
-          tree.nodes[node.nodeIndex].isAbsent = owner != own;
-        }
-        for (std::size_t rank = 0; rank < ranks; ++rank)
-        {
-          this->Result.begins[rank + 1] += this->Result.begins[rank];
-        }
-        tree.ownBegin = this->Result.begins[own];
-        tree.ownEnd = this->Result.begins[own + 1];
-        tree.samples.spread(all, tree.ownBegin, tree.ownEnd - tree.ownBegin);
-      });
-    const std::vector<std::vector<std::uint64_t>> arriving = this->Ranks.exchange(counts);
+    std::vector<std::vector<std::size_t>> partsOf(ranks); // of each rank, in Level
+    std::vector<std::vector<std::uint64_t>> counts(ranks);
+    this->Result.begins.assign(ranks + 1, 0);
+    for (std::size_t i = 0; i < this->Level.size(); ++i)
+    {
+      const DealtNode& node = this->Level[i];
+      const std::size_t owner = this->ownerOf(node, all);
+      partsOf[owner].push_back(i);
+      counts[owner].push_back(node.end - node.begin);
+      this->Result.begins[owner + 1] += node.count;
+      tree.nodes[node.nodeIndex].isAbsent = owner != own;
+    }
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      this->Result.begins[rank + 1] += this->Result.begins[rank];
+    }
+    tree.ownBegin = this->Result.begins[own];
+    tree.ownEnd = this->Result.begins[own + 1];
+    tree.samples.spread(all, tree.ownBegin, tree.ownEnd - tree.ownBegin);
+    const std::vector<std::vector<std::uint64_t>> arriving = this->Group.exchange(counts);
     std::size_t rounds = 0;
     for (const std::vector<std::size_t>& parts : partsOf)
     {
@@ -378,12 +343,8 @@ private:
         this->sendParts(partsOf, arriving, round, { slice, slices });
       }
     }
-    this->Ranks.together(
-      [&]()
-      {
-        this->Loaded = SampleTree<TSample>();
-        this->sortLeaves(partsOf[own]);
-      });
+    this->Loaded = SampleTree<TSample>();
+    this->sortLeaves(partsOf[own]);
   }
 
   /// One of several slices of a list.
@@ -405,38 +366,32 @@ private:
   void sendParts(const std::vector<std::vector<std::size_t>>& partsOf,
     const std::vector<std::vector<std::uint64_t>>& arriving, std::size_t round, const Slice& slice)
   {
-    const auto own = static_cast<std::size_t>(this->Ranks.rank());
+    const auto own = static_cast<std::size_t>(this->Group.rank());
     SampleTree<TSample>& tree = this->Result.tree;
-    std::vector<OutgoingBytes> from;
-    std::vector<IncomingBytes> to;
-    this->Ranks.together(
-      [&]()
+    std::vector<OutgoingBytes> from(partsOf.size());
+    std::vector<IncomingBytes> to(partsOf.size());
+    for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
+    {
+      if (round < partsOf[rank].size())
       {
-        from.resize(partsOf.size());
-        to.resize(partsOf.size());
-        for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
-        {
-          if (round < partsOf[rank].size())
-          {
-            const DealtNode& node = this->Level[partsOf[rank][round]];
-            const std::size_t count = node.end - node.begin;
-            from[rank] = { this->Loaded.samples.data() + node.begin + slice.begin(count),
-              slice.length(count) * sizeof(TSample) };
-          }
-        }
-        if (round < partsOf[own].size())
-        {
-          std::size_t next = tree.nodes[this->Level[partsOf[own][round]].nodeIndex].begin;
-          for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
-          {
-            const auto count = static_cast<std::size_t>(arriving[rank][round]);
-            to[rank] = { tree.samples.data() + next + slice.begin(count),
-              slice.length(count) * sizeof(TSample) };
-            next += count;
-          }
-        }
-      });
-    this->Ranks.exchange(from, to);
+        const DealtNode& node = this->Level[partsOf[rank][round]];
+        const std::size_t count = node.end - node.begin;
+        from[rank] = { this->Loaded.samples.data() + node.begin + slice.begin(count),
+          slice.length(count) * sizeof(TSample) };
+      }
+    }
+    if (round < partsOf[own].size())
+    {
+      std::size_t next = tree.nodes[this->Level[partsOf[own][round]].nodeIndex].begin;
+      for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
+      {
+        const auto count = static_cast<std::size_t>(arriving[rank][round]);
+        to[rank] = { tree.samples.data() + next + slice.begin(count),
+          slice.length(count) * sizeof(TSample) };
+        next += count;
+      }
+    }
+    this->Group.exchange(from, to);
     for (std::size_t rank = 0; rank < partsOf.size() && slice.count > 1; ++rank)
     {
       if (round < partsOf[rank].size())
@@ -464,7 +419,7 @@ private:
     }
   }
 
-  Team& Ranks;
+  Team& Group;
   SampleTree<TSample> Loaded;
   std::uint64_t IdCount;
   SharedTree<TSample> Result;

@@ -3,19 +3,22 @@
 #define isopoint_SurfaceHalo_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
-#include "Isopoint/Ranks/NodeExchange.h"
-#include "Isopoint/Ranks/RankSurface.h"
-#include "Isopoint/Ranks/Rounds.h"
 #include "Isopoint/Ranks/SentIsopoint.h"
+#include "Isopoint/Ranks/SharedRanks.h"
+#include "Isopoint/Splat/Splat.h"
+#include "Isopoint/Splat/SplatCell.h"
 #include "Isopoint/Tree/Path.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 #include <unordered_set>
 #include <utility>
@@ -26,93 +29,150 @@ namespace isopoint
 
 /// This rank's isopoints and those of others within some rings around them, in the order of the
 /// whole surface. Each ring adds those whose edges end in or next to an end of one of the ring
-/// before: one ring more than IsopointNeighbors are asked for has all that these find. All
-/// functions are collective.
+/// before: one ring more than IsopointNeighbors are asked for has all that these find. gather(),
+/// forEach() and what begins with share are collective.
 template <class TSample>
 class SurfaceHalo
 {
 public:
   using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
 
-  /// @param own the isopoints on edges with an end in this rank's leaves
+  /// @param own the isopoints on edges with an end in this rank's leaves, those of edges between
+  /// two ranks on both
   /// @param hasFits whether surfaces have them, which an empty one does not show
-  SurfaceHalo(const Execution& execution, NodeExchange<TSample>& exchange,
-    const Neighborhoods& known, const Isosurface& own, bool hasFits)
+  SurfaceHalo(const Execution& execution, SharedRanks<TSample>& ranks,
+    const SampleTree<TSample>& tree, const Neighborhoods& known, Isosurface own, bool hasFits)
     : Run(execution)
-    , Tree(exchange.tree())
-    , Exchange(exchange)
+    , Tree(tree)
+    , Ranks(ranks)
     , Known(known)
-    , Own(own)
+    , Own(std::move(own))
     , HasFits(hasFits)
   {
   }
 
-  /// Gathers this many rings, three or more.
+  /// Gathers this many rings: none, or three or more.
+  /// @param isShared whether what is computed for this rank's isopoints will be sent to the ranks
+  /// in whose halo they are; otherwise those have normals alone there
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
-  void gather(int rings)
+  void gather(int rings, bool isShared)
   {
-    std::vector<std::size_t> ends;
-    this->Exchange.together(
-      [&]()
-      {
-        this->indexOwn();
-        this->Received.resize(static_cast<std::size_t>(this->Exchange.team().size()));
-        this->Given.resize(this->Received.size());
-        ends = endsOf(this->Own.leaves);
-      });
+    this->indexOwn();
+    this->Received.resize(static_cast<std::size_t>(this->Ranks.team().size()));
+    this->Given.resize(this->Received.size());
+    std::vector<std::size_t> ends = endsOf(this->Own.leaves);
     for (int ring = 0; ring < rings; ++ring)
     {
       this->requestIn(this->withTouching(ends));
-      this->Exchange.together(
-        [&]()
+      for (const std::vector<SentIsopoint>& list : this->Received)
+      {
+        for (const SentIsopoint& isopoint : list)
         {
-          for (const std::vector<SentIsopoint>& list : this->Received)
+          ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
+          if (ring == std::min(2, rings - 2)) // those of the rings before among them
           {
-            for (const SentIsopoint& isopoint : list)
-            {
-              ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-              if (ring == std::min(2, rings - 2)) // those of the rings before among them
-              {
-                this->Surrounded.push_back(isopoint.edge);
-              }
-            }
+            this->Surrounded.push_back(isopoint.edge);
           }
-          keepUnique(ends);
-        });
+        }
+      }
+      keepUnique(ends);
     }
-    this->Exchange.together([&]() { this->unite(); });
+    this->unite();
+    this->chooseOwn(isShared);
   }
 
   /// All of them, each once, without coincident samples.
   const Isosurface& surface() const { return this->All; }
 
-  /// Where this rank's own isopoints are among them.
-  const std::vector<std::size_t>& ownIndices() const { return this->OwnIndices; }
+  /// Their numbers among points at one position: as they are listed.
+  std::vector<std::size_t> numbers() const { return {}; }
 
   /// Whether each is one of this rank's or in the first ring, so that its own first ring is
   /// complete.
-  const std::vector<bool>& isInner() const { return this->IsInner; }
+  const std::vector<bool>* inner() const { return &this->IsInner; }
+
+  /// Those that are counted on this rank, and all others.
+  std::vector<std::size_t> home() const { return this->chosen(true); }
+  std::vector<std::size_t> elsewhere() const { return this->chosen(false); }
+
+  /// The surface of home().
+  Isosurface takeHome() const { return chosenIsopoints(this->All, this->home()); }
+
+  // What computeSplats() needs; see AllPoints.
+
+  const std::vector<std::size_t>& own() const { return this->OwnInTreeOrder; }
+  const std::vector<std::size_t>& shaped() const { return this->Shaped; }
+
+  void keepOwn(std::vector<std::size_t>& points) const
+  {
+    std::vector<std::size_t> kept;
+    std::set_intersection(points.begin(), points.end(), this->OwnIndices.begin(),
+      this->OwnIndices.end(), std::back_inserter(kept));
+    points.swap(kept);
+  }
+
+  template <class MakeWorker, class Work>
+  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone)
+  {
+    this->Ranks.forEach(execution, batches, makeWorker, work, batchDone);
+  }
+
+  void shareNormals(std::vector<Splat>& splats)
+  {
+    std::vector<Vector> normals;
+    for (const Splat& splat : splats)
+    {
+      normals.push_back(splat.normal);
+    }
+    this->share(normals);
+    // The ends of an edge between two ranks yield the same normal on both.
+    for (std::size_t i = 0; i < splats.size(); ++i)
+    {
+      splats[i].normal = normals[i];
+    }
+  }
+
+  void shareCells(std::vector<SplatCell>& cells)
+  {
+    std::vector<SentCell> sent(cells.size());
+    for (const std::size_t i : this->OwnIndices)
+    {
+      sent[i].cell = cells[i];
+      for (std::size_t k = 0; k < cells[i].count; ++k)
+      {
+        const std::size_t beyond = cells[i].corners[k].beyond;
+        sent[i].beyond[k] = beyond == SplatCell::none ? IsopointEdge{} : this->All.edges[beyond];
+      }
+    }
+    this->share(sent);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      cells[i] = sent[i].cell;
+      for (std::size_t k = 0; k < cells[i].count; ++k)
+      {
+        std::size_t& beyond = cells[i].corners[k].beyond;
+        const std::size_t found =
+          beyond == SplatCell::none ? this->All.size() : this->find(sent[i].beyond[k]);
+        beyond = found < this->All.size() ? found : SplatCell::none;
+      }
+    }
+  }
 
   /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
-  /// @param ofAll one trivially copyable entry for each isopoint of surface(); those of the halo
-  /// are set
+  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
   template <class T>
   void share(std::vector<T>& ofAll)
   {
-    std::vector<std::vector<T>> outgoing;
-    this->Exchange.together(
-      [&]()
+    std::vector<std::vector<T>> outgoing(this->Given.size());
+    for (std::size_t rank = 0; rank < this->Given.size(); ++rank)
+    {
+      for (const std::size_t isopoint : this->Given[rank])
       {
-        outgoing.resize(this->Given.size());
-        for (std::size_t rank = 0; rank < this->Given.size(); ++rank)
-        {
-          for (const std::size_t isopoint : this->Given[rank])
-          {
-            outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
-          }
-        }
-      });
-    const std::vector<std::vector<T>> arrived = this->Exchange.team().exchange(outgoing);
+        outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
+      }
+    }
+    const std::vector<std::vector<T>> arrived = this->Ranks.team().exchange(outgoing);
     for (std::size_t rank = 0; rank < arrived.size(); ++rank)
     {
       for (std::size_t i = 0; i < arrived[rank].size(); ++i)
@@ -122,14 +182,14 @@ public:
     }
   }
 
-  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
-  std::size_t find(const IsopointEdge& edge) const
-  {
-    const std::size_t index = this->indexOf(edge);
-    return index < this->All.size() && this->All.edges[index] == edge ? index : this->All.size();
-  }
-
 private:
+  /// A cell as ranks send it to each other.
+  struct SentCell
+  {
+    SplatCell cell;
+    std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
+  };
+
   struct OwnEnd
   {
     std::uint64_t place; // of a leaf
@@ -141,11 +201,6 @@ private:
                                         : this->isopoint < other.isopoint;
     }
   };
-
-  static bool isBefore(const IsopointEdge& a, const IsopointEdge& b)
-  {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  }
 
   template <class T>
   static void keepUnique(std::vector<T>& list)
@@ -182,11 +237,10 @@ private:
   std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
   {
     constexpr std::size_t most = 256; // see IsopointNeighbors
-    std::vector<std::size_t> all;
+    std::vector<std::size_t> all = leaves;
     std::mutex mutex;
-    this->Exchange.together([&]() { all = leaves; });
-    inRounds(
-      this->Run, this->Exchange, leaves.size(), []() { return std::vector<std::size_t>(); },
+    this->Ranks.forEach(
+      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<std::size_t>(); },
       [&](std::vector<std::size_t>& touching, std::size_t i)
       {
         touching.clear();
@@ -214,7 +268,7 @@ private:
           all.insert(all.end(), touching.begin(), touching.end());
         }
       });
-    this->Exchange.together([&]() { keepUnique(all); });
+    keepUnique(all);
     return all;
   }
 
@@ -222,41 +276,28 @@ private:
   /// that was done before.
   void requestIn(const std::vector<std::size_t>& leaves)
   {
-    std::vector<std::vector<std::uint64_t>> questions;
-    this->Exchange.together(
-      [&]()
+    std::vector<std::vector<std::uint64_t>> questions(this->Received.size());
+    for (const std::size_t leaf : leaves)
+    {
+      const Node<TSample>& node = this->Tree.nodes[leaf];
+      if (!this->Tree.hasOwn(node) && this->Requested.insert(leaf).second)
       {
-        questions.resize(this->Received.size());
-        for (const std::size_t leaf : leaves)
-        {
-          const Node<TSample>& node = this->Tree.nodes[leaf];
-          if (!this->Tree.hasOwn(node) && this->Requested.insert(leaf).second)
-          {
-            questions[this->Exchange.ownerOf(node.begin)].push_back(node.begin);
-          }
-        }
-      });
-    const std::vector<std::vector<std::uint64_t>> asked = this->Exchange.team().exchange(questions);
-    std::vector<ByteBuffer> answers;
-    this->Exchange.together(
-      [&]()
-      {
-        answers.resize(asked.size());
-        for (std::size_t rank = 0; rank < asked.size(); ++rank)
-        {
-          this->answer(asked[rank], rank, answers[rank]);
-        }
-      });
-    const std::vector<ByteBuffer> arrived = this->Exchange.team().exchange(answers);
-    std::vector<SentIsopoint*> added;
-    this->Exchange.together([&]() { added = this->receive(arrived); });
-    inRounds(
-      Execution(), this->Exchange, added.size(), []() { return 0; },
+        questions[this->Ranks.ownerOf(node.begin)].push_back(node.begin);
+      }
+    }
+    const std::vector<std::vector<std::uint64_t>> asked = this->Ranks.team().exchange(questions);
+    std::vector<ByteBuffer> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      this->answer(asked[rank], rank, answers[rank]);
+    }
+    const std::vector<SentIsopoint*> added = this->receive(this->Ranks.team().exchange(answers));
+    this->Ranks.forEach(
+      Execution(), { added.size(), 1024, 256 }, []() { return 0; },
       [&](int, std::size_t i)
       {
         const auto& ends = added[i]->ends;
-        added[i]->leaves = { leafAt(this->Tree, ends[0].place, ends[0].position),
-          leafAt(this->Tree, ends[1].place, ends[1].position) };
+        added[i]->leaves = { leafAt(this->Tree, ends[0]), leafAt(this->Tree, ends[1]) };
       });
   }
 
@@ -323,11 +364,11 @@ private:
       }
     }
     std::stable_sort(sources.begin(), sources.end(),
-      [](const Source& a, const Source& b) { return isBefore(a.edge, b.edge); });
+      [](const Source& a, const Source& b) { return a.edge < b.edge; });
     sources.erase(std::unique(sources.begin(), sources.end(),
                     [](const Source& a, const Source& b) { return a.edge == b.edge; }),
       sources.end());
-    std::sort(this->Surrounded.begin(), this->Surrounded.end(), isBefore);
+    std::sort(this->Surrounded.begin(), this->Surrounded.end());
     this->All = Isosurface();
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
@@ -348,24 +389,69 @@ private:
       {
         this->All.fits.push_back(isOwn ? this->Own.fits[source.own] : source.received->fit);
       }
-      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
-                                         this->Surrounded.end(), source.edge, isBefore));
+      this->IsInner.push_back(
+        isOwn || std::binary_search(this->Surrounded.begin(), this->Surrounded.end(), source.edge));
       this->All.edges.push_back(source.edge);
     }
+  }
+
+  /// Notes where this rank's own isopoints are: which of them are counted here, and in which order
+  /// their cells are cut.
+  void chooseOwn(bool isShared)
+  {
+    this->IsHome.assign(this->All.size(), false);
+    std::vector<bool> isOwn(this->All.size(), false);
+    for (const std::size_t i : this->OwnIndices)
+    {
+      isOwn[i] = true;
+      this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      // Either rank of an edge between two sends such a ghost.
+      if (this->IsHome[i] || isShared)
+      {
+        this->Shaped.push_back(i);
+      }
+    }
+    for (const std::size_t i : inOrderOfLeaves(this->All.leaves, this->Tree.nodes.size()))
+    {
+      if (isOwn[i])
+      {
+        this->OwnInTreeOrder.push_back(i);
+      }
+    }
+  }
+
+  std::vector<std::size_t> chosen(bool areHome) const
+  {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < this->IsHome.size(); ++i)
+    {
+      if (this->IsHome[i] == areHome)
+      {
+        indices.push_back(i);
+      }
+    }
+    return indices;
+  }
+
+  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
+  std::size_t find(const IsopointEdge& edge) const
+  {
+    const std::size_t index = this->indexOf(edge);
+    return index < this->All.size() && this->All.edges[index] == edge ? index : this->All.size();
   }
 
   std::size_t indexOf(const IsopointEdge& edge) const
   {
     return static_cast<std::size_t>(
-      std::lower_bound(this->All.edges.begin(), this->All.edges.end(), edge, isBefore) -
+      std::lower_bound(this->All.edges.begin(), this->All.edges.end(), edge) -
       this->All.edges.begin());
   }
 
   const Execution& Run;
   const SampleTree<TSample>& Tree;
-  NodeExchange<TSample>& Exchange;
+  SharedRanks<TSample>& Ranks;
   const Neighborhoods& Known;
-  const Isosurface& Own;
+  const Isosurface Own;
   const bool HasFits;
   std::vector<OwnEnd> OwnEnds;
   std::unordered_set<std::size_t> Requested;       // leaves
@@ -373,8 +459,11 @@ private:
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
   std::vector<IsopointEdge> Surrounded; // received with the first three rings, or two of three
   Isosurface All;
-  std::vector<std::size_t> OwnIndices;
+  std::vector<std::size_t> OwnIndices; // of this rank's own isopoints among all
+  std::vector<std::size_t> OwnInTreeOrder;
+  std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
+  std::vector<bool> IsHome;
 };
 
 } // namespace isopoint

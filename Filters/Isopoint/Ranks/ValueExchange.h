@@ -123,7 +123,7 @@ public:
   /// @param counts of the items of each rank
   ValueExchange(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins,
     const std::vector<std::uint64_t>& counts)
-    : Ranks(team)
+    : Group(team)
     , Tree(tree)
     , Begins(begins)
     , FirstIds(counts.size() + 1, 0)
@@ -136,38 +136,23 @@ public:
   template <class Reader>
   void replace(const Execution& execution, const Reader& read)
   {
-    std::vector<std::vector<Id>> questions;
-    this->Ranks.together(
-      [&]()
-      {
-        throwIfAborted(execution);
-        Path path = pathToRoot(this->Tree);
-        this->visit(path);
-        questions = this->questions();
-      });
-    const std::vector<std::vector<Id>> asked = this->Ranks.exchange(questions);
+    throwIfAborted(execution);
+    Path path = pathToRoot(this->Tree);
+    this->visit(path);
+    const std::vector<std::vector<Id>> asked = this->Group.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
-    this->Ranks.together(
-      [&]()
-      {
-        questions.clear();
-        for (const std::vector<Id>& ids : asked)
-        {
-          answers.push_back(valuesOf(execution, ids, read));
-        }
-      });
-    const std::vector<std::vector<Value>> values = this->Ranks.exchange(answers);
-    this->Ranks.together(
-      [&]()
-      {
-        answers.clear();
-        this->setValues(values);
-        for (const std::size_t node : this->Whole)
-        {
-          throwIfAborted(execution);
-          recomputeRanges(this->Tree, this->Tree.nodes[node], maximumDepth + 1);
-        }
-      });
+    for (const std::vector<Id>& ids : asked)
+    {
+      answers.push_back(valuesOf(execution, ids, read));
+    }
+    const std::vector<std::vector<Value>> values = this->Group.exchange(answers);
+    answers.clear();
+    this->setValues(values);
+    for (const std::size_t node : this->Whole)
+    {
+      throwIfAborted(execution);
+      recomputeRanges(this->Tree, this->Tree.nodes[node], maximumDepth + 1);
+    }
     this->fetchRanges();
     this->uniteFrom(SampleTree<TSample>::rootNode);
   }
@@ -263,37 +248,26 @@ private:
   /// Asks for the ranges of absent nodes.
   void fetchRanges()
   {
-    std::vector<std::vector<BinaryIndex>> questions;
-    std::vector<std::vector<std::size_t>> nodes;
-    this->Ranks.together(
-      [&]()
+    std::vector<std::vector<BinaryIndex>> questions(this->FirstIds.size() - 1);
+    std::vector<std::vector<std::size_t>> nodes(questions.size());
+    for (std::size_t i = 0; i < this->Absent.size(); ++i)
+    {
+      const std::size_t node = this->AbsentNodes[i];
+      const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
+      questions[owner].push_back(this->Absent[i]);
+      nodes[owner].push_back(node);
+    }
+    const std::vector<std::vector<BinaryIndex>> asked = this->Group.exchange(questions);
+    std::vector<std::vector<Range>> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      for (const BinaryIndex& index : asked[rank])
       {
-        questions.resize(this->FirstIds.size() - 1);
-        nodes.resize(questions.size());
-        for (std::size_t i = 0; i < this->Absent.size(); ++i)
-        {
-          const std::size_t node = this->AbsentNodes[i];
-          const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
-          questions[owner].push_back(this->Absent[i]);
-          nodes[owner].push_back(node);
-        }
-      });
-    const std::vector<std::vector<BinaryIndex>> asked = this->Ranks.exchange(questions);
-    std::vector<std::vector<Range>> answers;
-    this->Ranks.together(
-      [&]()
-      {
-        answers.resize(asked.size());
-        for (std::size_t rank = 0; rank < asked.size(); ++rank)
-        {
-          for (const BinaryIndex& index : asked[rank])
-          {
-            const Node<TSample>& node = this->Tree.nodes[pathTo(this->Tree, index).nodeIndex()];
-            answers[rank].push_back({ node.minimum, node.maximum });
-          }
-        }
-      });
-    const std::vector<std::vector<Range>> ranges = this->Ranks.exchange(answers);
+        const Node<TSample>& node = this->Tree.nodes[pathTo(this->Tree, index).nodeIndex()];
+        answers[rank].push_back({ node.minimum, node.maximum });
+      }
+    }
+    const std::vector<std::vector<Range>> ranges = this->Group.exchange(answers);
     for (std::size_t rank = 0; rank < ranges.size(); ++rank)
     {
       for (std::size_t i = 0; i < ranges[rank].size(); ++i)
@@ -318,7 +292,7 @@ private:
     }
   }
 
-  Team& Ranks;
+  Team& Group;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
   std::vector<std::uint64_t> FirstIds;  // of each rank's items, and the end

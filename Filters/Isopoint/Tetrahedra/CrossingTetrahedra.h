@@ -8,8 +8,8 @@
 #include "Isopoint/Tetrahedra/NodeMarks.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
-#include "Isopoint/Tetrahedra/TreeRefinement.h"
 #include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/TreeRefinement.h"
 
 #include <algorithm>
 #include <atomic>
@@ -38,7 +38,7 @@ struct TetrahedraCounts
 ///
 /// Where several ranks share the tree, all functions are collective. Every rank tetrahedrizes the
 /// band of all, searches spheres for samples of its own, and finds all crossing tetrahedra.
-/// @tparam TRanks SingleRank, or TriangleRanks
+/// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
 class CrossingTetrahedraFinder
 {
@@ -85,9 +85,7 @@ public:
       }
     }
     this->Counts.inserted = this->Band.size() - this->Counts.band;
-    std::vector<CrossingTetrahedron<Id>> found;
-    this->Ranks.together([&]() { found = this->crossing(); });
-    return found;
+    return this->crossing();
   }
 
   const TetrahedraCounts& counts() const { return this->Counts; }
@@ -123,7 +121,8 @@ private:
     const auto makeSearch = [this]() {
       return LeafSearch{ { this->Tree, this->Means }, pathToRoot(this->Tree), {} };
     };
-    this->Ranks.forEach(this->Run, nodes.size(), makeSearch,
+    constexpr std::size_t grain = 256;
+    this->Ranks.forEach(this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
       [&](LeafSearch& search, std::size_t i)
       {
         search.found.clear();
@@ -157,16 +156,12 @@ private:
   void insert(std::vector<std::size_t> leaves)
   {
     this->Ranks.gatherLeaves(leaves);
-    this->Ranks.together(
-      [&]()
+    this->Marks.grow(this->Tree.nodes.size());
+    this->Band.insert(this->newSites(leaves),
+      [this](double share)
       {
-        this->Marks.grow(this->Tree.nodes.size());
-        this->Band.insert(this->newSites(leaves),
-          [this](double share)
-          {
-            throwIfAborted(this->Run);
-            this->report(share);
-          });
+        throwIfAborted(this->Run);
+        this->report(share);
       });
   }
 
@@ -203,20 +198,16 @@ private:
   /// Inserts all samples.
   void insertAll()
   {
+    splitCompletely(this->Run, this->Tree);
     std::vector<std::size_t> leaves;
-    this->Ranks.together(
-      [&]()
+    Path path = pathToRoot(this->Tree);
+    forEachBelow(this->Tree, path, maximumDepth,
+      [&](const Path& leaf)
       {
-        splitCompletely(this->Run, this->Tree);
-        Path path = pathToRoot(this->Tree);
-        forEachBelow(this->Tree, path, maximumDepth,
-          [&](const Path& leaf)
-          {
-            if (this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
-            {
-              leaves.push_back(leaf.nodeIndex());
-            }
-          });
+        if (this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
+        {
+          leaves.push_back(leaf.nodeIndex());
+        }
       });
     this->insert(std::move(leaves));
     this->Counts.isWhole = true;
@@ -227,21 +218,16 @@ private:
   {
     while (this->Band.size() > 0 && this->Band.dimension() < 3)
     {
-      std::optional<std::size_t> node;
+      const std::optional<std::size_t> node = this->nodeOffBand();
       std::vector<std::size_t> leaves;
-      this->Ranks.together(
-        [&]()
-        {
-          node = this->nodeOffBand();
-          if (node && this->Tree.nodes[*node].isLeaf)
-          {
-            leaves.push_back(*node);
-          }
-          else if (node)
-          {
-            this->split({ *node });
-          }
-        });
+      if (node && this->Tree.nodes[*node].isLeaf)
+      {
+        leaves.push_back(*node);
+      }
+      else if (node)
+      {
+        this->split({ *node });
+      }
       if (!this->Ranks.isAny(node.has_value()))
       {
         return;
@@ -283,19 +269,13 @@ private:
   /// @returns whether cells remain to be certified
   bool certify()
   {
-    std::size_t openCount = 0;
-    SearchResult result;
-    this->Ranks.together(
-      [&]()
-      {
-        throwIfAborted(this->Run);
-        openCount = this->Band.listOpenCells();
-        this->Visits += this->Band.cellCount();
-        result = this->searchSpheres(openCount);
-      });
+    throwIfAborted(this->Run);
+    const std::size_t openCount = this->Band.listOpenCells();
+    this->Visits += this->Band.cellCount();
+    SearchResult result = this->searchSpheres(openCount);
     if (!this->Ranks.isAny(this->isSpent()))
     {
-      this->Ranks.together([&]() { this->split(result.unsplit); });
+      this->split(result.unsplit);
       this->insert(std::move(result.leaves));
     }
     return this->Ranks.isAny(openCount > 0);
@@ -339,20 +319,15 @@ private:
   /// @returns whether there were any
   bool checkSides()
   {
+    SideCheck<TSample> check(this->Run, this->Tree, this->Band, this->Marks, this->Means);
     std::vector<std::size_t> leaves;
-    bool isAnyWrong = false;
-    this->Ranks.together(
-      [&]()
-      {
-        SideCheck<TSample> check(this->Run, this->Tree, this->Band, this->Marks, this->Means);
-        std::vector<std::size_t> unsplit;
-        for (const std::size_t node : check.find(this->Isovalue))
-        {
-          (this->Tree.nodes[node].isLeaf ? leaves : unsplit).push_back(node);
-        }
-        isAnyWrong = !leaves.empty() || !unsplit.empty();
-        this->split(unsplit);
-      });
+    std::vector<std::size_t> unsplit;
+    for (const std::size_t node : check.find(this->Isovalue))
+    {
+      (this->Tree.nodes[node].isLeaf ? leaves : unsplit).push_back(node);
+    }
+    const bool isAnyWrong = !leaves.empty() || !unsplit.empty();
+    this->split(unsplit);
     this->insert(std::move(leaves));
     return this->Ranks.isAny(isAnyWrong);
   }
@@ -376,7 +351,8 @@ private:
   }
 
   /// Whether searches took so long that it is better to insert all samples. Long searches, as in
-  /// huge spheres through voids, promise more of their kind: they get less.
+  /// huge spheres through voids, promise more of their kind: they get less. On several ranks each
+  /// would insert the samples of all.
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;

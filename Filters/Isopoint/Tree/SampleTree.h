@@ -90,6 +90,15 @@ struct SampleTree
     return node.begin < this->ownEnd && node.end > this->ownBegin;
   }
 
+  /// Whether a place in the order of the samples is this rank's own.
+  bool isOwn(std::size_t place) const { return place >= this->ownBegin && place < this->ownEnd; }
+
+  /// The number of samples that are this rank's own.
+  std::size_t ownCount() const
+  {
+    return this->isPartial ? this->ownEnd - this->ownBegin : this->samples.size();
+  }
+
   std::size_t child(const NodeType& node, bool upper) const
   {
     return upper ? node.upperNode() : node.lowerNode();

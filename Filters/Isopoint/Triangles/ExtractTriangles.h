@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,7 +42,7 @@ public:
   using Id = typename TSample::Id;
 
   /// @param tree will be refined
-  /// @param ranks SingleRank, or TriangleRanks
+  /// @param ranks SingleRank, or SharedRanks
   /// @param neighborhoods of the tree's leaves that are known
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     const NeighborhoodCache<Id>& neighborhoods, const IsosurfaceRequest& request)
@@ -73,17 +72,11 @@ public:
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->Ranks.fit(
+      fits = this->Ranks.fitShared(
         progress.part(count * fitting, count * laterWork), context, *this->Request.fit, mesh.edges);
     }
-    TriangleSurface surface;
-    this->Ranks.together(
-      [&]()
-      {
-        surface = this->place(
-          progress.part(count * work::placing, count * laterWork), context, mesh, std::move(fits));
-      });
-    return surface;
+    return this->place(
+      progress.part(count * work::placing, count * laterWork), context, mesh, std::move(fits));
   }
 
   /// The crossing tetrahedra of the Delaunay tetrahedrization of all samples.
@@ -95,14 +88,13 @@ public:
     }
     NarrowBand<TSample> band(
       this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrizing + laterWork);
-    const std::vector<BinaryIndex> nodes = this->Ranks.refine(band);
+    const std::vector<BinaryIndex> nodes = band.refine(this->Ranks);
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrizing, count * laterWork);
-    std::optional<CrossingTetrahedraFinder<TSample, TRanks>> finder;
-    this->Ranks.together([&]()
-      { finder.emplace(part, this->Tree, this->Ranks, this->Means, this->Request.isovalue); });
-    std::vector<CrossingTetrahedron<Id>> found = finder->find(nodes);
-    this->Counts = finder->counts();
+    CrossingTetrahedraFinder<TSample, TRanks> finder(
+      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue);
+    std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
+    this->Counts = finder.counts();
     return found;
   }
 
@@ -117,21 +109,15 @@ private:
     {
       this->dropGaps(found);
     }
-    EdgeTriangles<TSample> mesh;
-    this->Ranks.together(
-      [&]()
-      {
-        mesh = MarchingTetrahedra<TSample>(
-          this->Run, this->Tree, this->Means, this->Request.isovalue, found)
-                 .march();
-      });
-    return mesh;
+    return MarchingTetrahedra<TSample>(
+      this->Run, this->Tree, this->Means, this->Request.isovalue, found)
+      .march();
   }
 
   /// Drops tetrahedra in gaps of the cloud.
   void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
   {
-    this->Ranks.together([&]() { this->Ranks.order(found); });
+    this->Ranks.order(found);
     const std::size_t count = found.size();
     dropMarked(
       GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(),

@@ -19,17 +19,14 @@ namespace isopoint
 
 /// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common
 /// are connected.
-/// @tparam TRanks SingleRank, or TriangleRanks
-template <class TSample, class TRanks>
+template <class TSample>
 class TetrahedronParts
 {
 public:
   using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
 
-  TetrahedronParts(const SampleTree<TSample>& tree, const TRanks& ranks,
-    const std::vector<Tetrahedron>& tetrahedra)
+  TetrahedronParts(const SampleTree<TSample>& tree, const std::vector<Tetrahedron>& tetrahedra)
     : Tree(tree)
-    , Ranks(ranks)
     , Tetrahedra(tetrahedra)
   {
   }
@@ -40,9 +37,18 @@ public:
   bool isCounted(std::size_t tetrahedron) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    return this->Ranks.isHome(
-      static_cast<std::size_t>(*std::min_element(corners.begin(), corners.end(),
-        [this](auto a, auto b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; })));
+    std::size_t place = this->Tree.nodes[corners[0]].begin;
+    for (const auto leaf : corners)
+    {
+      place = std::min(place, static_cast<std::size_t>(this->Tree.nodes[leaf].begin));
+    }
+    return this->Tree.isOwn(place);
+  }
+
+  template <class TRanks>
+  void unite(TRanks& ranks, std::vector<std::size_t>& found) const
+  {
+    ranks.unite(found);
   }
 
   template <class Test>
@@ -74,14 +80,13 @@ public:
 
 private:
   const SampleTree<TSample>& Tree;
-  const TRanks& Ranks;
   const std::vector<Tetrahedron>& Tetrahedra;
   std::optional<CrossingFacets> Facets; // once there is a gap
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
 /// Where several ranks share the tree, all functions are collective.
-/// @tparam TRanks SingleRank, or TriangleRanks
+/// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
 class GapTetrahedraFinder
 {
@@ -96,7 +101,7 @@ public:
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
-    , Parts(tree, ranks, tetrahedra)
+    , Parts(tree, tetrahedra)
     , Spread(execution, tree, ranks, this->Parts)
   {
   }
@@ -106,9 +111,7 @@ public:
   std::vector<char> find()
   {
     this->Spread.spread(this->seeds());
-    std::vector<char> isInGap;
-    this->Ranks.together([&]() { isInGap = this->withFragments(this->Spread.isInGap()); });
-    return isInGap;
+    return this->withFragments(this->Spread.isInGap());
   }
 
 private:
@@ -119,33 +122,25 @@ private:
   {
     std::vector<std::size_t> candidates;
     const std::vector<char> isCrowded = this->crowdedLeaves();
-    this->Ranks.together(
-      [&]()
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      const auto& corners = this->Tetrahedra[i].corners;
+      if (std::count_if(corners.begin(), corners.end(),
+            [&](Id leaf) { return isCrowded[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
       {
-        for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-        {
-          const auto& corners = this->Tetrahedra[i].corners;
-          if (std::count_if(corners.begin(), corners.end(),
-                [&](Id leaf) { return isCrowded[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
-          {
-            candidates.push_back(i);
-          }
-        }
-      });
+        candidates.push_back(i);
+      }
+    }
     std::vector<std::size_t> seeds = this->Spread.over(GapCriterion::strong(), candidates);
-    this->Ranks.together(
-      [&]()
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      if (this->Tetrahedra[i].isAtHull)
       {
-        for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-        {
-          if (this->Tetrahedra[i].isAtHull)
-          {
-            seeds.push_back(i);
-          }
-        }
-        std::sort(seeds.begin(), seeds.end());
-        seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-      });
+        seeds.push_back(i);
+      }
+    }
+    std::sort(seeds.begin(), seeds.end());
+    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     return seeds;
   }
 
@@ -153,49 +148,38 @@ private:
   /// criterion. In clouds without gaps these are few, so that next to no edge is looked at.
   std::vector<char> crowdedLeaves()
   {
-    std::vector<double> longest;      // edge at each leaf, by node
-    std::vector<std::size_t> corners; // in the same order on all ranks
-    std::vector<char> marks;          // of these
-    this->Ranks.together(
-      [&]()
+    const std::vector<double> longest = this->longestEdges(); // at each leaf, by node
+    std::vector<std::size_t> corners;                         // in the same order on all ranks
+    for (std::size_t leaf = 0; leaf < longest.size(); ++leaf)
+    {
+      if (longest[leaf] > 0.0)
       {
-        longest = this->longestEdges();
-        for (std::size_t leaf = 0; leaf < longest.size(); ++leaf)
-        {
-          if (longest[leaf] > 0.0)
-          {
-            corners.push_back(leaf);
-          }
-        }
-        std::sort(corners.begin(), corners.end(),
-          [this](std::size_t a, std::size_t b)
-          { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
-        marks.resize(corners.size(), 0);
-      });
+        corners.push_back(leaf);
+      }
+    }
+    std::sort(corners.begin(), corners.end(),
+      [this](std::size_t a, std::size_t b)
+      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    std::vector<char> marks(corners.size(), 0);
+    constexpr std::size_t grain = 256;
     this->Ranks.forEach(
-      this->Run, corners.size(), []() { return 0; },
+      this->Run, { corners.size(), 8 * grain, grain }, []() { return 0; },
       [&](int, std::size_t i)
       {
         const std::size_t leaf = corners[i];
-        marks[i] = this->Ranks.isHome(leaf) &&
+        marks[i] = this->Tree.hasOwn(this->Tree.nodes[leaf]) &&
                        GapCriterion::strong().mayDrop(this->Tree, pathToLeaf(this->Tree, leaf),
                          this->sampleOf(leaf), longest[leaf])
                      ? 1
                      : 0;
       });
-    std::vector<std::size_t> crowded;
-    this->Ranks.together([&]() { crowded = markedOf(marks); });
+    std::vector<std::size_t> crowded = markedOf(marks);
     this->Ranks.unite(crowded);
-    std::vector<char> marksOfNodes;
-    this->Ranks.together(
-      [&]()
-      {
-        marksOfNodes.resize(longest.size(), 0);
-        for (const std::size_t i : crowded)
-        {
-          marksOfNodes[corners[i]] = 1;
-        }
-      });
+    std::vector<char> marksOfNodes(longest.size(), 0);
+    for (const std::size_t i : crowded)
+    {
+      marksOfNodes[corners[i]] = 1;
+    }
     return marksOfNodes;
   }
 
@@ -280,8 +264,8 @@ private:
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const std::vector<Tetrahedron>& Tetrahedra;
-  TetrahedronParts<TSample, TRanks> Parts;
-  GapSpread<TSample, TRanks, TetrahedronParts<TSample, TRanks>> Spread;
+  TetrahedronParts<TSample> Parts;
+  GapSpread<TSample, TRanks, TetrahedronParts<TSample>> Spread;
 };
 
 } // namespace isopoint
