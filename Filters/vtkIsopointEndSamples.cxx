@@ -234,28 +234,14 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
   const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
     [](std::uint64_t sum, const vtkIsopointBlock& block)
     { return sum + static_cast<std::uint64_t>(countOf(block)); });
-  const std::vector<std::uint64_t> counts = team.gather(ownCount);
-  std::vector<std::uint64_t> ids;
-  std::vector<std::vector<std::uint64_t>> questions;
-  team.together(
-    [&]()
-    {
-      ids = idsOf(surfaces);
-      questions = idsByRank(ids, counts);
-    });
-  const std::vector<std::vector<std::uint64_t>> asked = team.exchange(questions);
+  const std::vector<std::uint64_t> ids = idsOf(surfaces);
   std::vector<isopoint::ByteBuffer> answers;
-  team.together(
-    [&]()
-    {
-      for (const std::vector<std::uint64_t>& wanted : asked)
-      {
-        answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
-                                         : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
-      }
-    });
-  const std::vector<isopoint::ByteBuffer> arrived = team.exchange(answers);
-  team.together([&]() { this->Join(arrived, ids.size()); });
+  for (const auto& wanted : team.exchange(idsByRank(ids, team.gather(ownCount))))
+  {
+    answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
+                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
+  }
+  this->Join(team.exchange(answers), ids.size());
   renumber(surfaces, ids);
 }
 

@@ -8,17 +8,24 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
 
 namespace
 {
+
+/// What trees of all kinds have in common, which VTK keeps for derived classes.
+struct Tree : vtkDataObjectTree
+{
+  static constexpr auto getCount = &Tree::GetNumberOfChildren;
+  static constexpr auto setCount = &Tree::SetNumberOfChildren;
+  static constexpr auto getChild = &Tree::GetChild;
+  static constexpr auto setChild = &Tree::SetChild;
+  static constexpr auto hasInformation = &Tree::HasChildMetaData;
+  static constexpr auto getInformation = &Tree::GetChildMetaData;
+};
 
 /// A composite that is a tree, or null. An AMR is none, though a collection from VTK 9.5 on.
 vtkDataObjectTree* treeOf(vtkDataObject* object)
@@ -27,39 +34,10 @@ vtkDataObjectTree* treeOf(vtkDataObject* object)
                                                  : vtkDataObjectTree::SafeDownCast(object);
 }
 
-/// Calls visit(iterator) at each child of a tree, null or not.
-template <class Visit>
-void forChildren(vtkDataObjectTree* tree, const Visit& visit)
+std::string nameOf(vtkDataObjectTree* tree, unsigned int child)
 {
-  const auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  iterator->TraverseSubTreeOff();
-  iterator->VisitOnlyLeavesOff();
-  iterator->SkipEmptyNodesOff();
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    visit(iterator.Get());
-  }
-}
-
-void setCount(vtkDataObjectTree* tree, unsigned int count)
-{
-  if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(tree))
-  {
-    blocks->SetNumberOfBlocks(count);
-  }
-  else if (auto* const collection = vtkPartitionedDataSetCollection::SafeDownCast(tree))
-  {
-    collection->SetNumberOfPartitionedDataSets(count);
-  }
-  else if (auto* const partitions = vtkPartitionedDataSet::SafeDownCast(tree))
-  {
-    partitions->SetNumberOfPartitions(count);
-  }
-}
-
-std::string nameOf(vtkDataObjectTreeIterator* child)
-{
-  vtkInformation* const data = child->HasCurrentMetaData() ? child->GetCurrentMetaData() : nullptr;
+  vtkInformation* const data =
+    (tree->*Tree::hasInformation)(child) ? (tree->*Tree::getInformation)(child) : nullptr;
   return data && data->Has(vtkCompositeDataSet::NAME())
            ? std::string(data->Get(vtkCompositeDataSet::NAME()))
            : std::string();
@@ -90,12 +68,11 @@ vtkIsopointStructure::vtkIsopointStructure(vtkDataObject* object)
   if (auto* const tree = treeOf(object))
   {
     this->Type = tree->GetDataObjectType();
-    forChildren(tree,
-      [this](vtkDataObjectTreeIterator* child)
-      {
-        this->Children.emplace_back(child->GetCurrentDataObject());
-        this->Children.back().Name = nameOf(child);
-      });
+    for (unsigned int i = 0; i < (tree->*Tree::getCount)(); ++i)
+    {
+      this->Children.emplace_back((tree->*Tree::getChild)(i));
+      this->Children.back().Name = nameOf(tree, i);
+    }
   }
   else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
@@ -146,8 +123,11 @@ void vtkIsopointStructure::AddNumbers(
   std::size_t visited = 0;
   if (auto* const tree = treeOf(object))
   {
-    forChildren(tree, [&](vtkDataObjectTreeIterator* child)
-      { this->Children[visited++].AddNumbers(child->GetCurrentDataObject(), next, numbers); });
+    for (; visited < (tree->*Tree::getCount)(); ++visited)
+    {
+      this->Children[visited].AddNumbers(
+        (tree->*Tree::getChild)(static_cast<unsigned int>(visited)), next, numbers);
+    }
   }
   else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
@@ -223,29 +203,26 @@ void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPol
   std::size_t& next, vtkDataObject* output) const
 {
   vtkDataObjectTree* const tree = treeOf(output);
-  setCount(tree, static_cast<unsigned int>(this->Children.size()));
-  auto nextChild = this->Children.begin();
-  forChildren(tree,
-    [&](vtkDataObjectTreeIterator* place)
+  (tree->*Tree::setCount)(static_cast<unsigned int>(this->Children.size()));
+  for (unsigned int i = 0; i < this->Children.size(); ++i)
+  {
+    const vtkIsopointStructure& child = this->Children[i];
+    if (!child.Name.empty() && nameOf(tree, i).empty())
     {
-      const vtkIsopointStructure& child = *nextChild++;
-      if (!child.Name.empty() && nameOf(place).empty())
-      {
-        place->GetCurrentMetaData()->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
-      }
-      if (!child.IsComposite())
-      {
-        tree->SetDataSet(place, surfaces[next++]);
-        return;
-      }
-      vtkSmartPointer<vtkDataObject> inner = place->GetCurrentDataObject();
-      if (!inner)
-      {
-        inner.TakeReference(vtkDataObjectTypes::NewDataObject(child.Type));
-        tree->SetDataSet(place, inner);
-      }
-      child.FillChildren(surfaces, next, inner);
-    });
+      (tree->*Tree::getInformation)(i)->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
+    }
+    if (!child.IsComposite())
+    {
+      (tree->*Tree::setChild)(i, surfaces[next++]);
+      continue;
+    }
+    if (!(tree->*Tree::getChild)(i))
+    {
+      (tree->*Tree::setChild)(
+        i, vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
+    }
+    child.FillChildren(surfaces, next, (tree->*Tree::getChild)(i));
+  }
 }
 
 void vtkIsopointStructure::Write(isopoint::ByteBuffer& bytes) const
@@ -275,38 +252,21 @@ vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
 vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObject* input)
 {
   // The first rank merges, so that what the others receive does not grow with their number.
-  const auto size = static_cast<std::size_t>(team.size());
-  std::vector<isopoint::ByteBuffer> messages;
-  team.together(
-    [&]()
-    {
-      messages.resize(size);
-      vtkIsopointStructure(input).Write(messages.front());
-    });
+  std::vector<isopoint::ByteBuffer> messages(static_cast<std::size_t>(team.size()));
+  vtkIsopointStructure(input).Write(messages.front());
   const std::vector<isopoint::ByteBuffer> arrived = team.exchange(messages);
-  team.together(
-    [&]()
+  isopoint::ByteBuffer merged;
+  if (team.rank() == 0)
+  {
+    vtkIsopointStructure structure;
+    for (const isopoint::ByteBuffer& bytes : arrived)
     {
-      messages.assign(size, {});
-      if (team.rank() == 0)
-      {
-        vtkIsopointStructure merged;
-        for (const isopoint::ByteBuffer& bytes : arrived)
-        {
-          isopoint::ByteReader reader(bytes);
-          merged.Merge(vtkIsopointStructure::Read(reader));
-        }
-        merged.Write(messages.front());
-        messages.assign(size, isopoint::ByteBuffer(messages.front()));
-      }
-    });
-  const std::vector<isopoint::ByteBuffer> merged = team.exchange(messages);
-  vtkIsopointStructure result;
-  team.together(
-    [&]()
-    {
-      isopoint::ByteReader reader(merged.front());
-      result = vtkIsopointStructure::Read(reader);
-    });
-  return result;
+      isopoint::ByteReader reader(bytes);
+      structure.Merge(vtkIsopointStructure::Read(reader));
+    }
+    structure.Write(merged);
+  }
+  const isopoint::ByteBuffer ofFirst = team.gather(merged).front();
+  isopoint::ByteReader reader(ofFirst);
+  return vtkIsopointStructure::Read(reader);
 }
