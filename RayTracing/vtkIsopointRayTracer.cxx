@@ -4,6 +4,7 @@
 #include "Isopoint/Base/Threads.h"
 #include "vtkIsopointTracedDisplay.h"
 #include "vtkIsopointTracedScene.h"
+#include "vtkIsopointTracedState.h"
 #include "vtkIsopointTracedView.h"
 
 #include "vtkActor.h"
@@ -12,7 +13,6 @@
 #include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkLightsPass.h"
-#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -33,7 +33,6 @@
 #include <cstddef>
 #include <functional>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,11 +54,6 @@ public:
 };
 vtkStandardNewMacro(vtkIsopointFunctionPass);
 
-void describe(const raytracing::Vector& vector, std::ostream& state)
-{
-  state << vector.x << ' ' << vector.y << ' ' << vector.z << ' ';
-}
-
 /// Part of a picture: where it begins, in pixels from the lower left.
 struct Tile
 {
@@ -70,11 +64,11 @@ struct Tile
 };
 
 /// How far along a direction an offset reaches, as a share of the direction's length.
-double shareOf(const raytracing::Window::Position& from, const raytracing::Window::Position& to,
-  const raytracing::Window::Position& direction)
+double shareOf(
+  const isopoint::Vector& from, const isopoint::Vector& to, const isopoint::Vector& direction)
 {
-  const double offset[3] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
-  return vtkMath::Dot(offset, direction.data()) / vtkMath::Dot(direction.data(), direction.data());
+  return isopoint::dot(isopoint::difference(to, from), direction) /
+         isopoint::dot(direction, direction);
 }
 
 /// Whether a window is a part of another one, but for a small part of a pixel. What grabs the
@@ -84,7 +78,7 @@ bool isPart(const raytracing::Window& part, const raytracing::Window& whole, dou
   double width, double height)
 {
   constexpr double most = 1e-6; // of the window's width and height
-  const raytracing::Window::Position corner = whole.at(x, y);
+  const isopoint::Vector corner = whole.at(x, y);
   double size = 0.0;
   double difference = 0.0;
   for (std::size_t axis = 0; axis < corner.size(); ++axis)
@@ -138,27 +132,27 @@ std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
 /// Differs where another picture is seen by the same camera.
 std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
 {
-  std::ostringstream state;
-  state << std::hexfloat;
+  vtkIsopointTracedState state;
+  const auto addVectors = [&state](const std::vector<raytracing::Vector>& vectors)
+  {
+    for (const raytracing::Vector& vector : vectors)
+    {
+      state.Add(vector.x, vector.y, vector.z);
+    }
+  };
   for (const raytracing::Light& light : view.Lights)
   {
-    for (const raytracing::Vector& vector :
-      { light.position, light.towards, light.diffuse, light.specular, light.attenuation })
-    {
-      describe(vector, state);
-    }
-    state << light.isPositional << light.coneCosine << ' ' << light.exponent << ' ' << light.extent
-          << '\n';
+    addVectors({ light.position, light.towards, light.diffuse, light.specular, light.attenuation });
+    state.Add(light.isPositional, light.coneCosine, light.exponent, light.extent);
   }
-  describe(view.Environment.bottom, state);
-  describe(view.Environment.top, state);
-  state << renderer->GetTexturedBackground();
+  addVectors({ view.Environment.bottom, view.Environment.top });
+  state.Add(renderer->GetTexturedBackground());
   for (vtkTexture* const texture :
     { renderer->GetBackgroundTexture(), renderer->GetEnvironmentTexture() })
   {
-    state << texture << ' ' << (texture ? texture->GetMTime() : 0) << '\n';
+    state.Add(texture, texture ? texture->GetMTime() : 0);
   }
-  return state.str();
+  return state.Get();
 }
 
 } // namespace
@@ -242,18 +236,17 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   { self->InvokeEvent(vtkCommand::ProgressEvent, &share); };
   execution.aborted = [self, window]()
   { return self->AbortExecute || (window && window->CheckAbortStatus()); };
-  std::ostringstream state;
-  state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
-        << self->SamplesPerPixel << ' ' << self->AmbientLight << ' ' << self->AmbientDistance << ' '
-        << self->Shadows << ' ' << self->MaximumNumberOfBounces;
-  if (isNewScene || !this->Picture || this->PictureState != state.str() ||
+  vtkIsopointTracedState state;
+  state.Add(stateOf(*this->View, renderer), self->SamplesPerPixel, self->AmbientLight,
+    self->AmbientDistance, self->Shadows, self->MaximumNumberOfBounces);
+  if (isNewScene || !this->Picture || this->PictureState != state.Get() ||
       !isPart(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
   {
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
       static_cast<std::uint32_t>(size[1]), static_cast<std::uint32_t>(self->SamplesPerPixel));
     this->Picture->findDistances(execution, this->View->Camera, this->Scene.Get());
-    this->PictureState = state.str();
+    this->PictureState = state.Get();
     this->PictureCamera = this->View->Camera;
     this->Shown = { 0, 0, this->Picture->getWidth(), this->Picture->getHeight() };
   }

@@ -18,13 +18,6 @@
 namespace
 {
 
-using Position = raytracing::Window::Position;
-
-Position difference(const Position& a, const Position& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
 raytracing::Color scaledColor(double factor, const double* color)
 {
   return static_cast<float>(factor) * vtkIsopointTracedVector(color);
@@ -99,13 +92,13 @@ void vtkIsopointTracedView::SetCamera(
     const double clip[4] = { x, y, z, 1.0 };
     double point[4];
     clipToScene->MultiplyPoint(clip, point);
-    return Position{ point[0] / point[3], point[1] / point[3], point[2] / point[3] };
+    return isopoint::Vector{ point[0] / point[3], point[1] / point[3], point[2] / point[3] };
   };
   const auto windowAt = [&](double z)
   {
-    const Position corner = place(-1.0, -1.0, z);
-    return raytracing::Window{ corner, difference(place(1.0, -1.0, z), corner),
-      difference(place(-1.0, 1.0, z), corner) };
+    const isopoint::Vector corner = place(-1.0, -1.0, z);
+    return raytracing::Window{ corner, isopoint::difference(place(1.0, -1.0, z), corner),
+      isopoint::difference(place(-1.0, 1.0, z), corner) };
   };
   this->Camera = { windowAt(-1.0), windowAt(1.0) };
 }
@@ -197,8 +190,8 @@ double vtkIsopointTracedView::GetDepth(double x, double y, double distance) cons
   {
     return 1.0;
   }
-  const Position near = this->Camera.near.at(x, y);
-  const Position offset = difference(this->Camera.far.at(x, y), near);
+  const isopoint::Vector near = this->Camera.near.at(x, y);
+  const isopoint::Vector offset = isopoint::difference(this->Camera.far.at(x, y), near);
   const double scale = distance / vtkMath::Norm(offset.data());
   const double place[4] = { near[0] + scale * offset[0], near[1] + scale * offset[1],
     near[2] + scale * offset[2], 1.0 };

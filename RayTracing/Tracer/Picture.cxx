@@ -25,14 +25,9 @@ bool isFinite(const Radiance& radiance)
 //------------------------------------------------------------------------------
 Ray Camera::through(double x, double y, float& skipped) const
 {
-  const Window::Position origin = this->near.at(x, y);
-  Window::Position offset = this->far.at(x, y);
-  double length = 0.0;
-  for (std::size_t axis = 0; axis < origin.size(); ++axis)
-  {
-    offset[axis] -= origin[axis];
-    length = std::hypot(length, offset[axis]);
-  }
+  const isopoint::Vector origin = this->near.at(x, y);
+  isopoint::Vector offset = isopoint::difference(this->far.at(x, y), origin);
+  const double length = std::hypot(std::hypot(offset[0], offset[1]), offset[2]);
   // The scene lies within a unit sphere around the origin: before that nothing is met.
   double along = -1.0;
   for (std::size_t axis = 0; axis < origin.size(); ++axis)

@@ -3,9 +3,9 @@
 #define raytracing_Picture_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Vector.h"
 #include "Tracer/PathTracer.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,21 +16,14 @@ namespace raytracing
 /// A rectangle in a scene.
 struct Window
 {
-  using Position = std::array<double, 3>;
-
-  Position corner{}; // the lower left one
-  Position right{};  // from there to the lower right one
-  Position up{};     // from there to the upper left one
+  isopoint::Vector corner{}; // the lower left one
+  isopoint::Vector right{};  // from there to the lower right one
+  isopoint::Vector up{};     // from there to the upper left one
 
   /// A place on it, 0 to 1 from left to right and from bottom to top.
-  Position at(double x, double y) const
+  isopoint::Vector at(double x, double y) const
   {
-    Position place{};
-    for (std::size_t axis = 0; axis < place.size(); ++axis)
-    {
-      place[axis] = this->corner[axis] + x * this->right[axis] + y * this->up[axis];
-    }
-    return place;
+    return isopoint::sum(isopoint::sum(this->corner, x, this->right), y, this->up);
   }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Tracer/Scene.h"
 
-#include "Tracer/Absorption.h"
 #include "Tracer/Embree.h"
 
 #include <algorithm>
@@ -14,23 +13,15 @@ namespace raytracing
 namespace
 {
 
-/// The surfaces that a ray sees.
-namespace masks
-{
-constexpr unsigned int opaque = 1; // no light passes
-constexpr unsigned int transparent = 2;
-constexpr unsigned int all = opaque | transparent;
-} // namespace masks
-
-unsigned int maskOf(const Surface& surface)
+Scene::Mask maskOf(const Surface& surface)
 {
   const bool isOpaque = surface.material.transmission() <= 0.0f &&
                         std::all_of(surface.colors.begin(), surface.colors.end(),
                           [](const ColorBytes& c) { return c[3] == 255; });
-  return isOpaque ? masks::opaque : masks::transparent;
+  return isOpaque ? Scene::Opaque : Scene::Transparent;
 }
 
-RTCRay rayOf(const Ray& ray, unsigned int mask)
+RTCRay rayOf(const Ray& ray, Scene::Mask mask)
 {
   RTCRay result{};
   result.org_x = ray.origin.x;
@@ -153,7 +144,7 @@ Color passing(const Hit& hit, const Ray& ray)
 Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 {
   const bool hasTransparent = std::any_of(surfaces.begin(), surfaces.end(),
-    [](const auto& surface) { return maskOf(*surface) == masks::transparent; });
+    [](const auto& surface) { return maskOf(*surface) == Scene::Transparent; });
   this->Content = std::make_unique<Parts>(std::move(surfaces));
   this->Content->hasTransparent = hasTransparent;
 }
@@ -161,13 +152,7 @@ Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 Scene::~Scene() = default;
 
 //------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray) const
-{
-  return this->closest(ray, masks::all);
-}
-
-//------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray, unsigned int mask) const
+Hit Scene::closest(const Ray& ray, Mask mask) const
 {
   embree::Context context;
   embree::initialize(context);
@@ -203,7 +188,7 @@ bool Scene::isOccluded(const Ray& ray) const
 {
   embree::Context context;
   embree::initialize(context);
-  RTCRay embree = rayOf(ray, masks::opaque);
+  RTCRay embree = rayOf(ray, Scene::Opaque);
   embree::occlude(this->Content->scene.get(), context, embree);
   return embree.tfar < 0.0f;
 }
@@ -222,7 +207,7 @@ Color Scene::transmittance(const Ray& ray) const
   for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
        ++i)
   {
-    const Hit hit = this->closest(rest, masks::transparent);
+    const Hit hit = this->closest(rest, Scene::Transparent);
     if (!hit.surface)
     {
       break;

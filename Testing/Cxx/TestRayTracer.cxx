@@ -3,7 +3,6 @@
 #include "TracedSphere.h"
 
 #include "Isopoint/Base/Threads.h"
-#include "Tracer/Absorption.h"
 #include "Tracer/Picture.h"
 
 #include <gtest/gtest.h>
