@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsosurfaceFilter.h"
 
+#include "Update/vtkIsopointOptions.h"
+
 #include "vtkObjectFactory.h"
 
 vtkStandardNewMacro(vtkScatteredIsosurfaceFilter);
 
 vtkScatteredIsosurfaceFilter::vtkScatteredIsosurfaceFilter()
 {
-  this->SetProgressText("Scattered Isosurface");
+  this->SetProgressText("Scattered Isosurface"); // as in ParaView's menu
+}
+
+void vtkScatteredIsosurfaceFilter::FillOptions(vtkIsopointOptions& options)
+{
+  this->Superclass::FillOptions(options);
+  options.Triangles = true;
 }

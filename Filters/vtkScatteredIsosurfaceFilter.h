@@ -39,9 +39,6 @@
  * convex hull or with a tetrahedron with an edge longer than four times that. docs/triangles.md has
  * the rule.
  *
- * Angle, MinimumSpacing, NumberOfNeighbors and ComputeSplats
- * have no effect.
- *
  * Samples that are all coplanar have no tetrahedra: the output is then empty.
  *
  * On several ranks (see SetController()) each triangle of one process is in the output of one rank,
@@ -60,24 +57,21 @@
 #ifndef vtkScatteredIsosurfaceFilter_h
 #define vtkScatteredIsosurfaceFilter_h
 
-#include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredContourFilter.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
 
 class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsosurfaceFilter
-  : public vtkScatteredIsopointFilter
+  : public vtkScatteredContourFilter
 {
 public:
   static vtkScatteredIsosurfaceFilter* New();
-  vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredIsopointFilter);
-
-  /**
-   * True.
-   */
-  bool ExtractsTriangles() const override { return true; }
+  vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredContourFilter);
 
 protected:
   vtkScatteredIsosurfaceFilter();
   ~vtkScatteredIsosurfaceFilter() override = default;
+
+  void FillOptions(vtkIsopointOptions& options) override;
 
 private:
   vtkScatteredIsosurfaceFilter(const vtkScatteredIsosurfaceFilter&) = delete;

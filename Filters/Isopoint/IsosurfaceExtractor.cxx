@@ -3,6 +3,8 @@
 
 #include "Isopoint/Extraction/ExpectedWork.h"
 
+#include <limits>
+
 namespace isopoint
 {
 
@@ -22,6 +24,23 @@ std::size_t IsosurfaceExtractor::sampleCount() const
 std::size_t IsosurfaceExtractor::skippedCount() const
 {
   return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Held);
+}
+
+std::pair<double, double> IsosurfaceExtractor::valueRange() const
+{
+  return std::visit(
+    [](const auto& cloud)
+    {
+      using Range = std::pair<double, double>;
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      if (cloud.tree.isEmpty())
+      {
+        return Range(infinity, -infinity);
+      }
+      const auto& root = cloud.tree.nodes[cloud.tree.rootNode];
+      return Range(root.minimum, root.maximum);
+    },
+    this->Held);
 }
 
 void IsosurfaceExtractor::setValueError(double error)

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -116,6 +117,10 @@ public:
   /// The number of items that do not.
   std::size_t skippedCount() const;
 
+  /// The least and the greatest value of the samples that take part, of all ranks; infinity and its
+  /// negative without any.
+  std::pair<double, double> valueRange() const;
+
   /// What load() and extract() are expected to take for this many items, in nanoseconds of one
   /// thread: their ratio is good to a factor of about two, to divide progress.
   /// @param isTreeKept whether the cloud has been extracted from before
@@ -145,7 +150,7 @@ private:
     const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
     SampleTree<TSample> loaded =
       loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
-    this->Positions = digestOf(execution, loaded.samples, first);
+    this->Positions = digestOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared =
       SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
     this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
@@ -193,7 +198,7 @@ private:
   {
     const auto own = static_cast<std::size_t>(this->Group->rank());
     return !this->Group->isAny(count != this->ItemCounts[own] ||
-                               !(digestOf<TSample>(execution, count, read) == this->Positions));
+                               digestOfItems<TSample>(execution, count, read) != this->Positions);
   }
 
   std::variant<SampleCloud<FloatSample>, SampleCloud<FloatSampleOfDouble>,
@@ -203,7 +208,7 @@ private:
   // Of a cloud on ranks:
   Team* Group = nullptr;
   std::vector<std::uint64_t> ItemCounts; // of each rank
-  PositionDigest Positions;              // of this rank's items
+  std::uint64_t Positions = 0;           // of this rank's items, a digest
 };
 
 } // namespace isopoint

@@ -14,7 +14,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 
-from .vtkScatteredIsopointFilters import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from .vtkScatteredIsopointFilters import (
+    vtkScatteredContourFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter)
 
 
 @dataclass(frozen=True)
@@ -180,7 +181,7 @@ def _samples(positions: Any, values: Any, arrays: Mapping[str, Any]) -> vtkPolyD
     return data
 
 
-def _set_input(isopoints: vtkScatteredIsopointFilter, data: vtkDataObject, values: Any) -> None:
+def _set_input(isopoints: vtkScatteredContourFilter, data: vtkDataObject, values: Any) -> None:
     points, cells = vtkDataObject.FIELD_ASSOCIATION_POINTS, vtkDataObject.FIELD_ASSOCIATION_CELLS
     if values is None:
         isopoints.SetInputData(data)
@@ -245,7 +246,7 @@ def _as_vtk(array: np.ndarray):
     return numpy_to_vtk(array)
 
 
-def _options_of(isopoints: vtkScatteredIsopointFilter) -> dict[str, str]:
+def _options_of(isopoints: vtkScatteredContourFilter) -> dict[str, str]:
     """The methods that set the filter's properties, by the properties' names in snake case."""
     base = next(c for c in type(isopoints).__mro__ if not c.__name__.startswith("vtkScattered"))
     inherited = set(dir(base))
@@ -264,7 +265,7 @@ _CONSTANTS = {
 }
 
 
-def _set_option(isopoints: vtkScatteredIsopointFilter, name: str, value: Any) -> None:
+def _set_option(isopoints: vtkScatteredContourFilter, name: str, value: Any) -> None:
     methods = _options_of(isopoints)
     if name not in methods:
         raise TypeError(f"unknown option {name}; there are {', '.join(sorted(methods))}")
@@ -279,7 +280,7 @@ def _set_option(isopoints: vtkScatteredIsopointFilter, name: str, value: Any) ->
         raise ValueError(f"{name} cannot be {given!r}")
 
 
-def _update(isopoints: vtkScatteredIsopointFilter) -> None:
+def _update(isopoints: vtkScatteredContourFilter) -> None:
     """Runs the filter. @throws RuntimeError with what it reports"""
     errors: list[str] = []
     cautions: list[str] = []

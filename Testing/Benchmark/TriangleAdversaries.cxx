@@ -10,6 +10,9 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -18,6 +21,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,14 +35,15 @@ using clouds::Random;
 constexpr double largestShare = 1.5;
 
 constexpr const char* usage =
-  "usage: TriangleAdversaries [--samples N] [--threads N] [--only NAME]\n"
+  "usage: TriangleAdversaries [--samples N] [--threads N] [--only NAME] [--cgal-threads N]\n"
   "Finds the crossing tetrahedra of clouds that are hard on the search for them, and prints a Markdown\n"
-  "table of the times, as shares of that of CGAL's tetrahedrization of all samples on one thread and\n"
-  "one pass over its cells. Exits with 1 if any share is above 1.5.\n"
+  "table of the times, as shares of that of CGAL's tetrahedrization of all samples and one pass over\n"
+  "its cells. Exits with 1 if any share is above 1.5.\n"
   "  --samples N   of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
   "                tenth or less\n"
   "  --threads N   times are processor seconds of one thread (the default), else elapsed seconds\n"
-  "  --only NAME   only clouds whose name contains this\n";
+  "  --only NAME   only clouds whose name contains this\n"
+  "  --cgal-threads N  of CGAL (default: 1)\n";
 
 double distanceFrom(double x, double y, double z)
 {
@@ -242,20 +247,16 @@ std::vector<Adversary> adversaries()
 }
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Sites = std::vector<std::pair<Kernel::Point_3, bool>>; // true: below the isovalue
+
+template <class Concurrency>
 using Full = CGAL::Delaunay_triangulation_3<Kernel,
   CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_with_info_3<bool, Kernel>,
-    CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+    CGAL::Delaunay_triangulation_cell_base_3<Kernel>, Concurrency>>;
 
-/// The number of crossing tetrahedra, by a tetrahedrization of all samples.
-std::size_t countInFull(const Cloud& cloud, double isovalue)
+template <class Concurrency>
+std::size_t countCrossing(const Full<Concurrency>& full)
 {
-  std::vector<std::pair<Kernel::Point_3, bool>> points;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    points.emplace_back(Kernel::Point_3(p[0], p[1], p[2]), cloud.values[i] < isovalue);
-  }
-  const Full full(points.begin(), points.end());
   std::size_t count = 0;
   for (const auto cell : full.finite_cell_handles())
   {
@@ -267,6 +268,32 @@ std::size_t countInFull(const Cloud& cloud, double isovalue)
     count += below > 0 && below < 4 ? 1 : 0;
   }
   return count;
+}
+
+/// The number of crossing tetrahedra, by a tetrahedrization of all samples.
+std::size_t countInFull(const Cloud& cloud, double isovalue, std::size_t threads)
+{
+  Sites sites;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    sites.emplace_back(Kernel::Point_3(p[0], p[1], p[2]), cloud.values[i] < isovalue);
+  }
+#ifdef CGAL_LINKED_WITH_TBB
+  if (threads > 1)
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CGAL::Bbox_3 bounds;
+    for (const auto& [place, isBelow] : sites)
+    {
+      bounds += place.bbox();
+    }
+    constexpr int locksOfAnAxis = 50;
+    Full<CGAL::Parallel_tag>::Lock_data_structure locks(bounds, locksOfAnAxis);
+    return countCrossing<CGAL::Parallel_tag>({ sites.begin(), sites.end(), &locks });
+  }
+#endif
+  return countCrossing<CGAL::Sequential_tag>({ sites.begin(), sites.end() });
 }
 
 struct Found
@@ -295,6 +322,7 @@ struct Options
 {
   std::size_t samples = 200000;
   std::size_t threads = 1;
+  std::size_t cgalThreads = 1;
   std::string only;
 };
 
@@ -302,7 +330,7 @@ double seconds(const Options& options, const std::function<void()>& work)
 {
   const auto now = [&options]()
   {
-    if (options.threads == 1)
+    if (options.threads == 1 && options.cgalThreads == 1)
     {
       return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     }
@@ -327,7 +355,8 @@ double measure(const Adversary& adversary, const Options& options)
   for (int run = 0; run < runs; ++run)
   {
     full = std::min(
-      full, seconds(options, [&]() { expected = countInFull(cloud, adversary.isovalue); }));
+      full, seconds(options,
+              [&]() { expected = countInFull(cloud, adversary.isovalue, options.cgalThreads); }));
     ours = std::min(
       ours, seconds(options, [&]() { found = find(cloud, adversary.isovalue, options.threads); }));
   }
@@ -341,6 +370,8 @@ double measure(const Adversary& adversary, const Options& options)
 
 bool parse(int argumentCount, char** arguments, Options& options)
 {
+  const std::map<std::string, std::size_t*> numbers{ { "--samples", &options.samples },
+    { "--threads", &options.threads }, { "--cgal-threads", &options.cgalThreads } };
   for (int i = 1; i + 1 < argumentCount; i += 2)
   {
     const std::string name = arguments[i];
@@ -351,9 +382,9 @@ bool parse(int argumentCount, char** arguments, Options& options)
     {
       options.only = value;
     }
-    else if ((name == "--samples" || name == "--threads") && *end == '\0' && number >= 1.0)
+    else if (numbers.count(name) > 0 && *end == '\0' && number >= 1.0)
     {
-      (name == "--samples" ? options.samples : options.threads) = static_cast<std::size_t>(number);
+      *numbers.at(name) = static_cast<std::size_t>(number);
     }
     else
     {

@@ -80,7 +80,11 @@ def torus(_):
         outwards = unit(positions - center)
         return center + 0.25 * outwards, -outwards[:, None]
 
-    return Surface(lambda positions: length(positions - on_circle(positions)), 0.25, feet)
+    def value(positions):
+        x, y, z = positions.T
+        return np.hypot(np.hypot(x, y) - 0.6, z)
+
+    return Surface(value, 0.25, feet)
 
 
 def gyroid(_):
@@ -109,6 +113,49 @@ def gaussian_mixture(_):
         return -((parts / widths**2)[..., None] * offsets).sum(axis=1)
 
     return _smooth(lambda positions: bells(positions)[1].sum(axis=1), gradient, 0.5)
+
+
+def marschner_lobb(_):
+    """The test signal of [ML94]: the graph of a function of the distance to the axis, in ripples."""
+    def ripple(r):
+        return np.cos(12 * np.pi * np.cos(0.5 * np.pi * r))
+
+    def height(r):
+        return 2 / np.pi * np.arcsin(0.25 * ripple(r))
+
+    def value(positions):
+        radial = 0.25 * (1 + ripple(np.hypot(positions[:, 0], positions[:, 1])))
+        return (1 - np.sin(0.5 * np.pi * positions[:, 2]) + radial) / 2.5
+
+    def nearest(r, z):
+        """The distance to the axis at the foot."""
+        def distance(s):
+            return np.hypot(s - r, height(s) - z)
+
+        # The foot is no farther than the graph at the position's own r.
+        reach, parts = distance(r), 200
+        best = r
+        for part in np.arange(-parts, parts + 1) / parts:
+            s = np.maximum(r + part * reach, 0)
+            best = np.where(distance(s) < distance(best), s, best)
+        lower, upper = best - reach / parts, best + reach / parts
+        for _ in range(40):
+            third = (upper - lower) / 3
+            is_lower = distance(lower + third) < distance(upper - third)
+            lower, upper = np.where(is_lower, lower, lower + third), np.where(is_lower, upper - third, upper)
+        return np.maximum(0.5 * (lower + upper), 0)
+
+    def feet(positions):
+        own = np.hypot(positions[:, 0], positions[:, 1])
+        away = unit(positions * [1, 1, 0])
+        r = nearest(own, positions[:, 2])
+        slope = np.sin(12 * np.pi * np.cos(0.5 * np.pi * r)) * 6 * np.pi**2 * np.sin(0.5 * np.pi * r)
+        axis = np.array([0, 0, 1])
+        foot = r[:, None] * away + height(r)[:, None] * axis
+        upwards = 0.5 * np.pi * np.cos(0.5 * np.pi * foot[:, 2])
+        return foot, unit(upwards[:, None] * axis - 0.25 * slope[:, None] * away)[:, None]
+
+    return Surface(value, 0.5, feet)
 
 
 _CUBE_AXES = np.array([[24, -32, 30], [40, 30, 0], [-18, 24, 40]]) / 50

@@ -87,7 +87,8 @@ def main(count, everything, kind):
     if not everything:
         isopoints.SetProjection(0)
         isopoints.ComputeNormalsOff()
-        isopoints.ComputeSplatsOff()
+        if hasattr(isopoints, "ComputeSplatsOff"):
+            isopoints.ComputeSplatsOff()
     isopoints.SetValue(0, 1.0 / 3.0)
     timed("first", isopoints)
     isopoints.SetValue(0, 0.35)

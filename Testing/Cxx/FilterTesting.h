@@ -81,7 +81,7 @@ public:
   std::string Last;
 };
 
-inline vtkSmartPointer<ErrorWatcher> watchErrors(vtkScatteredIsopointFilter* filter)
+inline vtkSmartPointer<ErrorWatcher> watchErrors(vtkScatteredContourFilter* filter)
 {
   const auto watcher = vtkSmartPointer<ErrorWatcher>::Take(ErrorWatcher::New());
   filter->AddObserver(vtkCommand::ErrorEvent, watcher);

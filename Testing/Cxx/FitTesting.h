@@ -118,28 +118,6 @@ inline Vector gradientOf(const Field& field, const Vector& p)
       field({ p[0], p[1], p[2] + step }) - value });
 }
 
-/// The mean distance of isopoints from a gyroid, estimated as the error of the field over the
-/// length of its gradient, away from the cloud's border. There is one sample per unit of volume.
-inline double meanDistanceFromGyroid(double waveNumber, std::optional<FitOrder> highest)
-{
-  const Field field = gyroid(waveNumber);
-  constexpr double isovalue = 0.3;
-  const isopoint::Isosurface surface =
-    extractFitted(cloudOf(field, 20000, 27.0), isovalue, true, 2, highest);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const LocalFit& fit : surface.fits)
-  {
-    const Vector& p = fit.position;
-    if (std::abs(p[0]) < 11.0 && std::abs(p[1]) < 11.0 && std::abs(p[2]) < 11.0)
-    {
-      sum += std::abs(field(p) - isovalue) / lengthOf(gradientOf(field, p));
-      ++count;
-    }
-  }
-  return sum / static_cast<double>(count);
-}
-
 } // namespace fittesting
 
 #endif

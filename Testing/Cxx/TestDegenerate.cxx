@@ -4,16 +4,6 @@
 
 using namespace degeneratetesting;
 
-TEST(Degenerate, NoSamplesYieldAnErrorAndAnEmptyOutput)
-{
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  const auto errors = watchErrors(filter);
-  filter->SetInputData(cloudOf({}));
-  filter->Update();
-  EXPECT_EQ(errors->Count, 1);
-  expectEmpty(filter->GetOutput());
-}
-
 TEST(Degenerate, OneSampleHasNoSurface)
 {
   EXPECT_EQ(contour({ { 1.0, 2.0, 3.0, 0.5 } }, 0.5).count(), 0);
@@ -156,43 +146,5 @@ TEST(Degenerate, AConstantFieldHasNoSurface)
   for (const double isovalue : { 5.0, 4.9, 5.1 })
   {
     EXPECT_EQ(contour(samples, isovalue).count(), 0);
-  }
-}
-
-// Positions, not ids, determine the tree unless samples coincide.
-TEST(Degenerate, TheOrderOfTheInputDoesNotChangeTheSurface)
-{
-  const std::vector<Sample> samples = distances(5000);
-  const auto sortedPoints = [](const Surface& surface)
-  {
-    std::vector<std::array<double, 3>> points;
-    for (vtkIdType i = 0; i < surface.count(); ++i)
-    {
-      points.push_back(surface.point(i));
-    }
-    std::sort(points.begin(), points.end());
-    return points;
-  };
-  const auto expected = sortedPoints(contour(samples, 0.7));
-  EXPECT_GT(expected.size(), 300u);
-  std::vector<Sample> ascending = samples;
-  std::sort(ascending.begin(), ascending.end());
-  std::vector<Sample> organPipe = ascending; // ascending, then descending
-  for (std::size_t i = 0; i < organPipe.size(); ++i)
-  {
-    organPipe[i] = ascending[i < organPipe.size() / 2 ? 2 * i : 2 * (organPipe.size() - i) - 1];
-  }
-  for (const std::vector<Sample>& order :
-    { ascending, std::vector<Sample>(ascending.rbegin(), ascending.rend()), organPipe })
-  {
-    const auto found = sortedPoints(contour(order, 0.7));
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        ASSERT_NEAR(found[i][axis], expected[i][axis], 1e-12);
-      }
-    }
   }
 }

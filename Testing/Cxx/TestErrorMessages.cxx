@@ -92,7 +92,7 @@ TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
   }
   filter->SetAngle(54.7);
   filter->SetMinimumSpacing(std::numeric_limits<double>::quiet_NaN());
-  expectError("minimum spacing");
+  expectError("within 0 and 1");
   filter->SetMinimumSpacing(0.0);
   filter->SetNumberOfContours(2);
   filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());

@@ -113,17 +113,6 @@ TEST(ExtremeNumbers, InfiniteIsovaluesAndThoseOutOfRangeHaveNoSurface)
   }
 }
 
-TEST(ExtremeNumbers, ANaNIsovalueYieldsAnErrorAndAnEmptyOutput)
-{
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  const auto errors = watchErrors(filter);
-  filter->SetInputData(cloudOf(distances(100)));
-  filter->SetValue(0, notANumber);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 1);
-  expectEmpty(filter->GetOutput());
-}
-
 TEST(ExtremeNumbers, SamplesThatAreNotFiniteAreLeftOutAndCounted)
 {
   const std::vector<Sample> finite = distances(2000);

@@ -116,6 +116,14 @@ TEST(FitDefinition, OnNoise)
   EXPECT_GT(steps.stayed, 20u);
 }
 
+TEST(FitDefinition, OnDetailOfFewSamples)
+{
+  const Steps steps = expectTheDefinition(cloudOf(gyroid(1.6), 500, 8.0), 0.3, FitOrder::Cubic);
+  EXPECT_GT(steps.cubic, 300u);
+  EXPECT_GT(steps.quadratic, 10u); // where the cubic does not hold
+  EXPECT_GT(steps.stayed, 100u);
+}
+
 TEST(FitDefinition, OnRoundedValues)
 {
   const auto stairs = [](double step)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What fits and splats depend on: the samples around them alone (docs/algorithm.md, section 10),
-// not on samples elsewhere, threads, isovalues extracted before, or ids.
+// not on samples elsewhere, or on ids.
 #include "FitTesting.h"
 #include "RingDefinition.h"
 
@@ -61,23 +61,18 @@ bool areSameBits(const std::vector<double>& a, const std::vector<double>& b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-isopoint::IsosurfaceExtractor loaded(const clouds::Cloud& cloud, std::size_t threads = 1)
+using Ends = std::pair<std::uint64_t, std::uint64_t>;
+
+/// What an extraction yields for each edge, fits and splats.
+using Numbers = std::map<Ends, std::vector<double>>;
+
+Numbers extracted(const clouds::Cloud& cloud, double isovalue, FitOrder order, bool withSplats)
 {
+  const isopoint::Execution execution;
   isopoint::IsosurfaceExtractor extractor;
   const auto read = [all = clouds::readerOf(cloud)](std::size_t id, auto* position, auto& value)
   { return all(id, position, value) && !std::isnan(value); };
-  extractor.load<double, double>(clouds::executionOn(threads), cloud.size(), read);
-  return extractor;
-}
-
-using Ends = std::pair<std::uint64_t, std::uint64_t>;
-
-/// What a request yields for each edge, fits and splats.
-using Numbers = std::map<Ends, std::vector<double>>;
-
-Numbers extracted(isopoint::IsosurfaceExtractor& extractor, double isovalue, FitOrder order,
-  bool withSplats, std::size_t threads = 1)
-{
+  extractor.load<double, double>(execution, cloud.size(), read);
   isopoint::ExtractionRequest request;
   request.isosurface.isovalue = isovalue;
   request.isosurface.fit = FitRequest{ order, true };
@@ -85,8 +80,7 @@ Numbers extracted(isopoint::IsosurfaceExtractor& extractor, double isovalue, Fit
   {
     request.splats = isopoint::SplatOptions();
   }
-  const isopoint::ExtractedIsosurface found =
-    extractor.extract(clouds::executionOn(threads), request);
+  const isopoint::ExtractedIsosurface found = extractor.extract(execution, request);
   Numbers all;
   for (std::size_t i = 0; i < found.surface.size(); ++i)
   {
@@ -100,12 +94,6 @@ Numbers extracted(isopoint::IsosurfaceExtractor& extractor, double isovalue, Fit
     all[{ found.surface.edges[i].first, found.surface.edges[i].second }] = numbers;
   }
   return all;
-}
-
-Numbers extracted(const clouds::Cloud& cloud, double isovalue, FitOrder order, bool withSplats)
-{
-  isopoint::IsosurfaceExtractor extractor = loaded(cloud);
-  return extracted(extractor, isovalue, order, withSplats);
 }
 
 /// A cell with all that a fit may see of it.
@@ -169,131 +157,6 @@ double noisyDistance(const Vector& p, clouds::Random& random)
   return lengthOf(p) + 0.3 * (random() - 0.5);
 }
 
-/// Two clusters of equal counts, far apart along x, with interleaved ids. One of them has as many
-/// items again that take no part. Its sample nearest to the other cluster and two opposite corners
-/// are fixed, so that the tree stays as it is in the other one as long as the counts are equal.
-class Clusters
-{
-public:
-  static constexpr std::size_t count = 700; // in each
-  static constexpr std::size_t fixedCount = 3;
-
-  explicit Clusters(std::uint64_t seed)
-    : Generator(seed)
-    , Side(seed % 2 == 0 ? 1.0 : -1.0)
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const Vector p = this->placeIn(6.0);
-      this->All.add(p[0], p[1], p[2], noisyDistance(p, this->Generator));
-      for (const bool takesPart : { true, false })
-      {
-        if (i >= fixedCount)
-        {
-          this->Far.push_back(this->All.size());
-        }
-        const Vector q = this->farPlace(i);
-        this->All.add(q[0], q[1], q[2], takesPart ? this->farValue(q) : missing);
-      }
-    }
-  }
-
-  const clouds::Cloud& cloud() const { return this->All; }
-
-  /// Whether both ends are in the cluster that nothing happens to.
-  bool isNear(const Ends& edge) const { return edge.first % 3 == 0 && edge.second % 3 == 0; }
-
-  /// Gives samples of the far cluster new values, lets some take no part, and as many others do.
-  void change()
-  {
-    std::vector<std::size_t> present;
-    std::vector<std::size_t> absent;
-    for (const std::size_t id : this->Far)
-    {
-      (std::isnan(this->All.values[id]) ? absent : present).push_back(id);
-    }
-    for (const std::size_t id : present)
-    {
-      if (this->Generator() < 0.5)
-      {
-        this->All.values[id] = 6.0 * this->Generator();
-      }
-    }
-    const auto swapped = static_cast<std::size_t>(0.2 * count * this->Generator());
-    for (std::size_t i = 0; i < swapped; ++i)
-    {
-      const std::size_t leaving = present[(i * 7) % present.size()];
-      const std::size_t coming = absent[(i * 11) % absent.size()];
-      if (!std::isnan(this->All.values[leaving]) && std::isnan(this->All.values[coming]))
-      {
-        this->All.values[coming] = 6.0 * this->Generator();
-        this->All.values[leaving] = missing;
-      }
-    }
-  }
-
-private:
-  Vector placeIn(double side)
-  {
-    return { side * (this->Generator() - 0.5), side * (this->Generator() - 0.5),
-      side * (this->Generator() - 0.5) };
-  }
-
-  /// The first three are fixed; the others lie in a ball, or on two skew lines, whose cells have
-  /// many neighbors.
-  Vector farPlace(std::size_t number)
-  {
-    constexpr double x = 200.0;
-    switch (number)
-    {
-      case 0:
-        return { this->Side * (x - 40.0), 0.0, 0.0 };
-      case 1:
-        return { this->Side * (x + 40.0), 40.0, 40.0 };
-      case 2:
-        return { this->Side * (x + 40.0), -40.0, -40.0 };
-      default:
-        break;
-    }
-    Vector p = this->placeIn(60.0);
-    if (number % 2 == 0)
-    {
-      p[1] = number % 4 == 0 ? 3.0 : p[1];
-      p[2] = number % 4 == 0 ? -9.0 : 9.0;
-      p[0] = number % 4 == 0 ? p[0] : 2.0;
-    }
-    return { this->Side * (x + p[0]), p[1], p[2] };
-  }
-
-  double farValue(const Vector& p) { return 0.1 * std::abs(p[1]) + this->Generator(); }
-
-  clouds::Random Generator;
-  double
-    Side; // of the cluster that changes: 1 at higher x, behind the other one in the tree, or -1
-  clouds::Cloud All;
-  std::vector<std::size_t> Far; // ids of what may change
-};
-
-/// Expects the near cluster's numbers, wherever others are there as well. @returns how many
-std::size_t expectSameNear(const Clusters& clusters, const Numbers& expected, const Numbers& found)
-{
-  std::size_t count = 0;
-  for (const auto& [edge, numbers] : expected)
-  {
-    if (clusters.isNear(edge))
-    {
-      const auto same = found.find(edge);
-      EXPECT_TRUE(same != found.end() && areSameBits(numbers, same->second))
-        << edge.first << ' ' << edge.second;
-      ++count;
-    }
-  }
-  const auto foundCount = std::count_if(
-    found.begin(), found.end(), [&](const auto& entry) { return clusters.isNear(entry.first); });
-  EXPECT_EQ(count, static_cast<std::size_t>(foundCount));
-  return count;
-}
-
 } // namespace
 
 // Values change in one corner, where noise, steps and isopoints come and go.
@@ -347,31 +210,6 @@ TEST(FitLocality, SamplesBeyondTwoRingsDoNotCount)
     }
     const FitOrder order = seed % 2 == 0 ? FitOrder::Crease : FitOrder::Cubic;
     EXPECT_GT(expectSameWhereNothingChanged(before, after, 3.0, order), 10u);
-  }
-}
-
-TEST(FitLocality, ClustersFarApartDoNotCount)
-{
-  for (const std::uint64_t seed : { 1, 2, 3, 4 })
-  {
-    SCOPED_TRACE(seed);
-    const FitOrder order = seed > 2 ? FitOrder::Crease : FitOrder::Cubic;
-    Clusters clusters(seed);
-    const Numbers expected = extracted(clusters.cloud(), 2.0, order, true);
-    for (int round = 0; round < 4; ++round)
-    {
-      SCOPED_TRACE(round);
-      clusters.change();
-      isopoint::IsosurfaceExtractor extractor = loaded(clusters.cloud(), 2);
-      // Isovalues before that refine other parts of the tree, and fill what is kept of it.
-      for (int i = 0; i < round % 3; ++i)
-      {
-        extracted(extractor, i == 0 ? 3.0 : 1.6, order, true);
-      }
-      const auto threads = static_cast<std::size_t>(1 + round % 4);
-      EXPECT_GT(
-        expectSameNear(clusters, expected, extracted(extractor, 2.0, order, true, threads)), 100u);
-    }
   }
 }
 

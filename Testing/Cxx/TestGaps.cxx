@@ -54,7 +54,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
   const bruteforce::Tree expected(cloud);
   auto tree =
     isopoint::loadSamples<isopoint::WideSample>({}, cloud.size(), clouds::readerOf(cloud));
-  isopoint::splitCompletely({}, tree);
+  isopoint::splitCompletely({}, tree, { isopoint::SampleTree<isopoint::WideSample>::rootNode });
   isopoint::SampleBounds<isopoint::WideSample> bounds(tree);
   std::map<std::uint64_t, std::size_t> leafOf; // by id
   isopoint::Path path = isopoint::pathToRoot(tree);

@@ -16,9 +16,7 @@
 #include "vtkSTLWriter.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
-#include <sstream>
 
 namespace
 {
@@ -181,35 +179,6 @@ TEST(IsosurfaceFilter, TakesSeveralIsovalues)
   EXPECT_EQ(countFeatureEdges(output), 0);
 }
 
-TEST(IsosurfaceFilter, KeepsItsTree)
-{
-  const vtkSmartPointer<vtkPolyData> cloud = newCloud(20000);
-  const auto filter = newFilter(cloud, 0.4);
-  filter->Update();
-  for (const double isovalue : { 0.7, 0.75, 0.4 })
-  {
-    filter->SetValue(0, isovalue);
-    filter->Update();
-    const auto fresh = newFilter(cloud, isovalue);
-    fresh->KeepTreeOff();
-    fresh->Update();
-    EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
-    EXPECT_EQ(trianglesOf(filter->GetOutput()), trianglesOf(fresh->GetOutput()));
-  }
-  // New values at the same positions.
-  auto* const values = vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetArray("distance"));
-  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
-  {
-    values->SetValue(i, 1.2 - values->GetValue(i));
-  }
-  values->Modified();
-  filter->Update();
-  const auto fresh = newFilter(cloud, 0.4);
-  fresh->Update();
-  EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
-  EXPECT_EQ(trianglesOf(filter->GetOutput()), trianglesOf(fresh->GetOutput()));
-}
-
 TEST(IsosurfaceFilter, ComputesArrays)
 {
   const auto filter = newFilter(newCloud(20000), 0.7);
@@ -217,8 +186,6 @@ TEST(IsosurfaceFilter, ComputesArrays)
   filter->ComputeScalarsOff();
   filter->ComputeGradientsOn();
   filter->ComputeProjectionOrdersOn();
-  filter->SetMinimumSpacing(0.5);
-  filter->SetAngle(10.0);
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->Update();
   vtkPointData* const data = filter->GetOutput()->GetPointData();
@@ -229,7 +196,6 @@ TEST(IsosurfaceFilter, ComputesArrays)
   }
   EXPECT_EQ(names, (std::set<std::string>{ "x", "position", "Gradients", "ProjectionOrder" }));
   EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
-  // What has no effect has none.
   const auto plain = newFilter(newCloud(20000), 0.7);
   plain->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   plain->Update();
@@ -288,95 +254,6 @@ TEST(IsosurfaceFilter, ContoursBlocks)
   EXPECT_EQ(countFeatureEdges(filter->GetOutput()), 0);
 }
 
-TEST(IsosurfaceFilter, ReportsProgressAndStops)
-{
-  const auto filter = newFilter(newCloud(60000), 0.7);
-  struct Watcher : vtkCommand
-  {
-    void Execute(vtkObject* caller, unsigned long, void* data) override
-    {
-      this->Shares.push_back(*static_cast<double*>(data));
-      EXPECT_STREQ(static_cast<vtkAlgorithm*>(caller)->GetProgressText(), "Scattered Isosurface");
-      if (this->Shares.back() >= this->StopAt)
-      {
-        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-      }
-    }
-    std::vector<double> Shares;
-    double StopAt = 2.0; // never
-  };
-  const auto watcher = vtkSmartPointer<Watcher>::Take(new Watcher);
-  filter->AddObserver(vtkCommand::ProgressEvent, watcher);
-  filter->Update();
-  const std::vector<double> expected = pointsOf(filter->GetOutput());
-  const std::vector<double> shares = watcher->Shares;
-  EXPECT_GT(shares.size(), 20u);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_EQ(shares.back(), 1.0);
-  const auto errors = watchErrors(filter);
-  // Shares rather than numbers of reports, which depend on the time that the work takes.
-  for (const double share : { 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9 })
-  {
-    watcher->StopAt = share;
-    filter->SetAbortExecute(0);
-    filter->KeepTreeOff();
-    filter->Modified();
-    filter->Update();
-    filtertesting::expectEmpty(filter->GetOutput());
-  }
-  watcher->StopAt = 2.0;
-  filter->SetAbortExecute(0);
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(pointsOf(filter->GetOutput()), expected);
-  EXPECT_EQ(errors->Count, 0);
-}
-
-TEST(IsosurfaceFilter, ReportsErrors)
-{
-  const auto filter = newFilter(newCloud(100), 0.7);
-  const auto errors = watchErrors(filter);
-  filter->SetAngle(-1.0);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 1);
-  filtertesting::expectEmpty(filter->GetOutput());
-  filter->SetAngle(54.7);
-  filter->SetValue(0, std::nan(""));
-  filter->Update();
-  EXPECT_EQ(errors->Count, 2);
-  filter->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
-  filter->SetValue(0, 0.7);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 3);
-  filter->SetInputDataObject(newCloud(5000));
-  filter->Update();
-  EXPECT_EQ(errors->Count, 3);
-  EXPECT_EQ(countFeatureEdges(filter->GetOutput()), 0);
-  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
-}
-
-TEST(IsosurfaceFilter, OfDegenerateCloudsIsEmpty)
-{
-  for (const vtkIdType count : { 1, 2, 3, 100 })
-  {
-    const vtkSmartPointer<vtkPolyData> cloud = newCloud(count);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      double p[3];
-      cloud->GetPoint(i, p);
-      cloud->GetPoints()->SetPoint(i, p[0], p[1], 0.5);
-    }
-    for (const double isovalue : { 0.7, 5.0, HUGE_VAL })
-    {
-      const auto filter = newFilter(cloud, isovalue);
-      const auto errors = watchErrors(filter);
-      filter->Update();
-      EXPECT_EQ(errors->Count, 0);
-      filtertesting::expectEmpty(filter->GetOutput());
-    }
-  }
-}
-
 TEST(IsosurfaceFilter, DropsTrianglesAcrossGaps)
 {
   const vtkSmartPointer<vtkPolyData> cloud = newCloud(20000);
@@ -400,12 +277,4 @@ TEST(IsosurfaceFilter, DropsTrianglesAcrossGaps)
   EXPECT_GT(filter->GetNumberOfDroppedInGaps(), 0);
   EXPECT_LT(filter->GetOutput()->GetNumberOfPolys(), all);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 4);
-}
-
-TEST(IsosurfaceFilter, PrintsItself)
-{
-  std::ostringstream text;
-  newFilter(newCloud(10), 0.5)->Print(text);
-  EXPECT_NE(text.str().find("vtkScatteredIsosurfaceFilter"), std::string::npos);
-  EXPECT_NE(text.str().find("DropGaps"), std::string::npos);
 }

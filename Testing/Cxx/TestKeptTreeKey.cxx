@@ -3,7 +3,7 @@
 // although the modification time of the data set itself stays as it was.
 #include "InputTesting.h"
 
-#include "vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkIdList.h"
 #include "vtkMappedUnstructuredGrid.h"

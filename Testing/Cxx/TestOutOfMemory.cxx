@@ -19,10 +19,8 @@ using namespace filtertesting;
 namespace
 {
 
-using Prepare = std::function<void(vtkScatteredIsopointFilter*)>;
-
 /// @returns positions and arrays of the output, of all blocks
-std::vector<double> everythingOf(vtkScatteredIsopointFilter* filter)
+std::vector<double> everythingOf(vtkScatteredContourFilter* filter)
 {
   std::vector<double> all;
   const auto append = [&all](vtkPolyData* surface)
@@ -54,7 +52,7 @@ std::vector<double> everythingOf(vtkScatteredIsopointFilter* filter)
 
 /// Makes the n-th large allocation of the update after `prepare` fail, for each n.
 /// @param prepare sets a filter up, ready to be updated
-template <class TFilter = vtkScatteredIsopointFilter>
+template <class TFilter = vtkScatteredIsopointFilter, class Prepare>
 void failEach(const Prepare& prepare)
 {
   vtkNew<TFilter> undisturbed;
@@ -190,7 +188,7 @@ TEST(OutOfMemory, Triangles)
 {
   const vtkSmartPointer<vtkPolyData> cloud = newCloud(4000);
   failEach<vtkScatteredIsosurfaceFilter>(
-    [&](vtkScatteredIsopointFilter* filter)
+    [&](vtkScatteredIsosurfaceFilter* filter)
     {
       filter->SetInputData(cloud);
       filter->SetValue(0, 0.6);
@@ -202,7 +200,7 @@ TEST(OutOfMemory, TrianglesOfNoise)
 {
   const vtkSmartPointer<vtkPolyData> cloud = newCloud(1500);
   failEach<vtkScatteredIsosurfaceFilter>(
-    [&](vtkScatteredIsopointFilter* filter)
+    [&](vtkScatteredIsosurfaceFilter* filter)
     {
       filter->SetInputData(cloud);
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "x");

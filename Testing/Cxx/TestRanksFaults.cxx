@@ -2,15 +2,20 @@
 // What fails on one rank ends the work of all; none of them waits forever, and the next call
 // works.
 #include "FailingAllocator.h"
+#include "RandomRequests.h"
 #include "RankTesting.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <new>
+#include <string>
 #include <vector>
 
 namespace
@@ -211,6 +216,32 @@ TEST(RanksFaults, LackOfAFewBytesEndsTheWorkOfAll)
 TEST(RanksFaults, LackOfAFewBytesEndsTheTrianglesOfAll)
 {
   expectFailuresEndTheWorkOfAll(triangles(), 200, 1, 97);
+}
+
+/// The environment variables RANKS_FIRST_SEED and RANKS_SEEDS choose other clouds, options, ranks
+/// and faults.
+TEST(RanksFaults, ByChanceEndTheWorkOfAll)
+{
+  const std::uint64_t first = clouds::numberFrom("RANKS_FIRST_SEED", 1);
+  const std::uint64_t count = clouds::numberFrom("RANKS_SEEDS", 20);
+  for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    clouds::Dice dice(seed);
+    const std::vector<clouds::Cloud> pieces =
+      ranks::dealOut(clouds::randomCloud(dice, seed), 2 + dice(4), ranks::allDeals[dice(6)]);
+    isopoint::ExtractionRequest request = clouds::randomRequest(dice);
+    request.triangles = dice(2) == 0;
+    request.ghostRings = static_cast<int>(dice(3));
+    ranks::Description expected = ranks::extractOnRanks(pieces, { request }).front();
+    std::sort(expected.begin(), expected.end());
+    for (int fault = 0; fault < 10 && !HasFailure(); ++fault)
+    {
+      const auto most = static_cast<std::size_t>(std::pow(10.0, 1.0 + 3.5 * dice.real()));
+      const std::size_t bytes = dice(2) == 0 ? 1 : failingallocator::largeSize;
+      failsAt(1 + static_cast<long>(dice(most)), bytes, pieces, request, expected);
+    }
+  }
 }
 
 TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)

@@ -3,6 +3,8 @@
 // side.
 #include "FilterTesting.h"
 
+#include "vtkScatteredIsosurfaceFilter.h"
+
 #include "vtkCellData.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
@@ -26,7 +28,8 @@ public:
   void Execute(vtkObject* caller, unsigned long, void* progress) override
   {
     this->Seen.push_back(*static_cast<double*>(progress));
-    EXPECT_STREQ(static_cast<vtkAlgorithm*>(caller)->GetProgressText(), "Scattered Isopoints");
+    EXPECT_STREQ(static_cast<vtkAlgorithm*>(caller)->GetProgressText(),
+      caller->IsA("vtkScatteredIsosurfaceFilter") ? "Scattered Isosurface" : "Scattered Isopoints");
     if (this->Seen.size() == this->AbortAt)
     {
       static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
@@ -50,7 +53,7 @@ vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
   return grid;
 }
 
-/// Filters with inputs of points, of cells and of blocks.
+/// Filters with inputs of points, of cells and of blocks, and the one of triangles.
 std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filtersOfEveryInput()
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -70,6 +73,9 @@ std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filtersOfEveryInput()
     filters.back()->GenerateValues(3, 0.5, 0.8);
   }
   filters.back()->ContourBlocksOn();
+  filters.push_back(vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New());
+  filters.back()->SetInputData(inputs[0]);
+  filters.back()->GenerateValues(3, 0.5, 0.8);
   return filters;
 }
 

@@ -285,8 +285,8 @@ TEST(Tetrahedra, AreTheSameFromSeveralThreads)
     expectSameTetrahedra(withNoise(sphere, 0.5, 25), 0.5, threads);
     expectSameTetrahedra(clouds::coarse(20000, 40, 26), 4.5, threads);
   }
-  constexpr std::size_t tooMany = 300; // for the locks
-  expectSameTetrahedra(withNoise(clouds::uniform(5000, 27), 0.5, 27), 0.5, tooMany);
+  constexpr std::size_t manyThreads = 300;
+  expectSameTetrahedra(withNoise(clouds::uniform(5000, 27), 0.5, 27), 0.5, manyThreads);
 }
 
 /// Wherever the band begins, all pieces of the surface are found: samples on the wrong side of what

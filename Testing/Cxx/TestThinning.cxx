@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thinning against the definition (docs/algorithm.md, section 11); threads and aborts.
+// Thinning against the definition (docs/algorithm.md, section 11).
 #include "ThinningTesting.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <set>
 
 using namespace thinningtesting;
 
@@ -43,13 +41,6 @@ std::vector<std::size_t> keptByDefinition(const std::vector<LocalFit>& fits, dou
     }
   }
   return kept;
-}
-
-/// Compares bytes, so that NaN equals itself.
-template <class T>
-bool isSame(const T& a, const T& b)
-{
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
 /// @returns the share of points that thinning with the minimum spacing 0.5 keeps
@@ -120,7 +111,7 @@ TEST(Thinning, FollowsTheDefinition)
     expectTheDefinition(extracted(clouds::coincident(clouds::uniform(count, 65), 0.3), 0.3, order));
     expectTheDefinition(extracted(clouds::flattened(clouds::uniform(count, 66), 2), 0.4, order));
   }
-  expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, 1, false));
+  expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, false));
   // Affine functions indicate no sheet.
   EXPECT_EQ(expectTheDefinition(extracted(clouds::uniform(count, 62), 0.3, FitOrder::Linear)), 1.0);
   EXPECT_TRUE(thinned(extracted(clouds::uniform(count, 67), 9.0), 1.0).edges.empty());
@@ -222,70 +213,4 @@ TEST(Thinning, DropsNothingAtZeroOrWithoutFits)
   EXPECT_EQ(thinned(surface, 0.0).edges.size(), 1000u);
   surface.fits.clear();
   EXPECT_EQ(thinned(surface, 1.0).edges.size(), 1000u);
-}
-
-TEST(Thinning, KeepsTheCoincidentSamplesAtTheEndsOfEdges)
-{
-  const clouds::Cloud cloud = clouds::coarse(4000, 12, 72);
-  clouds::Cloud smooth = cloud;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    smooth.values[i] = cloud.positions[3 * i] + 0.3 * cloud.positions[3 * i + 1];
-  }
-  const Isosurface surface = extracted(smooth, 6.1);
-  const Isosurface few = thinned(surface, 1.0);
-  ASSERT_LT(few.edges.size(), surface.edges.size());
-  std::set<std::uint64_t> ends;
-  for (const isopoint::IsopointEdge& edge : few.edges)
-  {
-    ends.insert({ edge.first, edge.second });
-  }
-  std::vector<std::vector<std::uint64_t>> expected;
-  for (const isopoint::CoincidentSamples& group : surface.coincident)
-  {
-    if (ends.count(group.ids.front()) > 0)
-    {
-      expected.push_back(group.ids);
-    }
-  }
-  ASSERT_FALSE(expected.empty());
-  ASSERT_LT(expected.size(), surface.coincident.size());
-  ASSERT_EQ(few.coincident.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    EXPECT_EQ(few.coincident[i].ids, expected[i]);
-  }
-}
-
-TEST(Thinning, IsTheSameForAnyNumberOfThreads)
-{
-  const clouds::Cloud cloud = clouds::uniform(60000, 73);
-  const Isosurface expected = thinned(extracted(cloud, 0.3, FitOrder::Cubic, 1), 0.5);
-  EXPECT_FALSE(expected.edges.empty());
-  for (const std::size_t threads : { 2, 3 })
-  {
-    Isosurface found = extracted(cloud, 0.3, FitOrder::Cubic, threads);
-    isopoint::thin(clouds::executionOn(threads), 0.5, found);
-    ASSERT_EQ(found.edges.size(), expected.edges.size());
-    for (std::size_t i = 0; i < expected.edges.size(); ++i)
-    {
-      ASSERT_TRUE(isSame(found.edges[i], expected.edges[i]));
-      ASSERT_TRUE(isSame(found.fits[i].position, expected.fits[i].position));
-    }
-  }
-}
-
-TEST(Thinning, AnAbortLeavesTheSurfaceAsItWas)
-{
-  const Isosurface all = surfaceOf(randomFits(20000, 1.0, 10.0, 74));
-  for (int abortAt = 0; abortAt < 2; ++abortAt)
-  {
-    Isosurface surface = all;
-    isopoint::Execution aborting;
-    int queries = 0;
-    aborting.aborted = [&]() { return queries++ >= abortAt; };
-    EXPECT_THROW(isopoint::thin(aborting, 0.5, surface), isopoint::Aborted);
-    EXPECT_EQ(surface.edges.size(), all.edges.size());
-    EXPECT_EQ(surface.fits.size(), all.fits.size());
-  }
 }

@@ -2,7 +2,7 @@
 // Adaptive grids: AMR and hyper trees.
 #include "InputTesting.h"
 
-#include "vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointCompatibility.h"
 #include "vtkStructuredData.h"
 
 #include <cmath>

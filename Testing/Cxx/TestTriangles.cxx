@@ -153,19 +153,6 @@ double largestDistance(const ExtractedIsosurface& extracted, double (*distance)(
   return largest;
 }
 
-void expectSame(const ExtractedIsosurface& a, const ExtractedIsosurface& b)
-{
-  EXPECT_TRUE(a.triangles == b.triangles);
-  EXPECT_TRUE(a.surface.edges == b.surface.edges);
-  EXPECT_TRUE(a.surface.positions == b.surface.positions);
-  ASSERT_EQ(a.splats.size(), b.splats.size());
-  for (std::size_t i = 0; i < a.splats.size(); ++i)
-  {
-    EXPECT_EQ(a.splats[i].normal, b.splats[i].normal);
-    EXPECT_EQ(a.surface.edges[i].parameter, b.surface.edges[i].parameter);
-  }
-}
-
 } // namespace
 
 TEST(Triangles, OfASphereAreClosed)
@@ -379,32 +366,6 @@ TEST(Triangles, DropWhatSpansGaps)
   }
 }
 
-TEST(Triangles, AreTheSameForAnyThreadsAndFormerUpdates)
-{
-  for (const Cloud& cloud : { withField(clouds::uniform(20000, 6), distanceFromTorus),
-         withField(clouds::clustered(5000, 7), distanceFromTorus), clouds::lattice(20, 20, 20),
-         clouds::coarse(5000, 10, 8), clouds::lines(3000, 20, 0, 9) })
-  {
-    const isopoint::ExtractionRequest request = requestOf(0.1, isopoint::FitOrder::Cubic);
-    const ExtractedIsosurface expected = trianglesOf(cloud, request);
-    expectSame(expected, trianglesOf(cloud, request, 2));
-    expectSame(expected, trianglesOf(cloud, request, 5));
-    isopoint::IsosurfaceExtractor extractor = extractorOf(cloud);
-    isopoint::ExtractionRequest points;
-    points.isosurface.isovalue = 0.2;
-    extractor.extract({}, points);
-    extractor.extract({}, requestOf(0.05));
-    expectSame(expected, extractor.extract({}, request));
-    // And triangles leave no trace in points.
-    points.isosurface.isovalue = 0.1;
-    points.isosurface.fit = isopoint::FitRequest{ isopoint::FitOrder::Cubic, true };
-    const isopoint::Isosurface after = extractor.extract({}, points).surface;
-    const isopoint::Isosurface alone = extractorOf(cloud).extract({}, points).surface;
-    EXPECT_TRUE(after.edges == alone.edges);
-    EXPECT_TRUE(after.positions == alone.positions);
-  }
-}
-
 TEST(Triangles, OfDegenerateCloudsAreNone)
 {
   EXPECT_TRUE(trianglesOf(Cloud(), requestOf(0.0)).triangles.empty());
@@ -415,26 +376,5 @@ TEST(Triangles, OfDegenerateCloudsAreNone)
         requestOf(0.5, isopoint::FitOrder::Cubic));
     EXPECT_TRUE(extracted.triangles.empty());
     EXPECT_EQ(extracted.surface.size(), 0u);
-  }
-}
-
-TEST(Triangles, StopWhenAborted)
-{
-  const Cloud cloud = withField(clouds::uniform(30000, 11), distanceFromSphere);
-  isopoint::IsosurfaceExtractor extractor = extractorOf(cloud);
-  const isopoint::ExtractionRequest request = requestOf(0.0, isopoint::FitOrder::Cubic);
-  int asked = 0;
-  isopoint::Execution counting;
-  counting.aborted = [&asked]() { return ++asked < 0; };
-  const ExtractedIsosurface expected = extractor.extract(counting, request);
-  ASSERT_GT(asked, 20);
-  for (int last = 0; last < asked; last += 7)
-  {
-    isopoint::IsosurfaceExtractor fresh = extractorOf(cloud);
-    int left = last;
-    isopoint::Execution aborting;
-    aborting.aborted = [&left]() { return left-- <= 0; };
-    EXPECT_THROW(fresh.extract(aborting, request), isopoint::Aborted);
-    expectSame(expected, fresh.extract({}, request));
   }
 }

@@ -32,7 +32,7 @@ public:
   std::vector<std::string> All;
 };
 
-std::vector<std::string> messagesOf(vtkScatteredIsopointFilter* filter, unsigned long kind)
+std::vector<std::string> messagesOf(vtkScatteredContourFilter* filter, unsigned long kind)
 {
   const auto watcher = vtkSmartPointer<WarningWatcher>::Take(WarningWatcher::New());
   const unsigned long tag = filter->AddObserver(kind, watcher);
@@ -42,12 +42,12 @@ std::vector<std::string> messagesOf(vtkScatteredIsopointFilter* filter, unsigned
   return watcher->All;
 }
 
-std::vector<std::string> warningsOf(vtkScatteredIsopointFilter* filter)
+std::vector<std::string> warningsOf(vtkScatteredContourFilter* filter)
 {
   return messagesOf(filter, vtkCommand::WarningEvent);
 }
 
-std::vector<std::string> notesOf(vtkScatteredIsopointFilter* filter)
+std::vector<std::string> notesOf(vtkScatteredContourFilter* filter)
 {
   return messagesOf(filter, vtkCommand::MessageEvent);
 }
@@ -61,13 +61,13 @@ void expectOne(const std::vector<std::string>& messages, const std::vector<std::
   }
 }
 
-void expectWarning(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+void expectWarning(vtkScatteredContourFilter* filter, const std::vector<std::string>& parts)
 {
   expectOne(warningsOf(filter), parts);
   EXPECT_TRUE(warningsOf(filter).empty()) << "the same again";
 }
 
-void expectNote(vtkScatteredIsopointFilter* filter, const std::vector<std::string>& parts)
+void expectNote(vtkScatteredContourFilter* filter, const std::vector<std::string>& parts)
 {
   expectOne(notesOf(filter), parts);
 }
@@ -92,8 +92,8 @@ TEST(Warnings, AnIsovalueOutsideTheRangeIsNamedWithTheRange)
   const auto filter = newFilterOf(cloud);
   EXPECT_TRUE(warningsOf(filter).empty());
   const auto surface = newFilterOf<vtkScatteredIsosurfaceFilter>(cloud);
-  for (vtkScatteredIsopointFilter* const any :
-    std::initializer_list<vtkScatteredIsopointFilter*>{ filter, surface })
+  for (vtkScatteredContourFilter* const any :
+    std::initializer_list<vtkScatteredContourFilter*>{ filter, surface })
   {
     any->SetNumberOfContours(1);
     any->SetValue(0, 8.25);

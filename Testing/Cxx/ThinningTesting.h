@@ -31,10 +31,10 @@ inline Isosurface thinned(Isosurface surface, double minimumSpacing)
   return surface;
 }
 
-inline Isosurface extracted(const clouds::Cloud& cloud, double isovalue,
-  FitOrder order = FitOrder::Cubic, std::size_t threads = 1, bool move = true)
+inline Isosurface extracted(
+  const clouds::Cloud& cloud, double isovalue, FitOrder order = FitOrder::Cubic, bool move = true)
 {
-  const isopoint::Execution execution = clouds::executionOn(threads);
+  const isopoint::Execution execution;
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>(execution, cloud.size(), clouds::readerOf(cloud));
   return clouds::extractFrom(

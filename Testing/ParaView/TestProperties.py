@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The XML of the plugin against its classes: TestProperties.py PLUGIN REPRESENTATION_XML FILTER_XML...
+"""The XML of the plugin against its classes and the document of the properties:
+TestProperties.py PLUGIN PROPERTIES_MD REPRESENTATION_XML FILTER_XML...
 
-Properties offer the ranges that the classes accept and have their defaults, and help mentions only
-representations that exist."""
+Properties offer the ranges that the classes accept and have their defaults, and so does the document;
+help mentions only representations that exist."""
 
 import re
 import sys
@@ -101,7 +102,16 @@ def check_groups(proxy):
     check([group.get("label") for group in groups] == labels, "groups")
 
 
-def check_filter(root):
+def check_documented(name, element, default, documented):
+    """documented: the defaults in the tables of the document, by property."""
+    check(name in documented, f"{name} in {sorted(documented)}")
+    if element.find("EnumerationDomain") is None:
+        text = documented[name].split()[0]
+        check({"on": 1.0, "off": 0.0}.get(text) == default or text == f"{default:g}",
+              f"{name}: the default {default}, in the document {text}")
+
+
+def check_filter(root, documented):
     proxy = root.find(".//*[@class]")
     contours = proxy.tag == "IsopointSourceProxy"
     if contours:
@@ -114,6 +124,8 @@ def check_filter(root):
         check(value == default, f"{name}: the default {default}, in the class {value}")
         if element.tag != "StringVectorProperty":
             check_range(name, element, filter_accepts(filter_class(), name_in_class))
+        if contours:
+            check_documented(name, element, default, documented)
         names.append(name)
     check(len(names) >= (10 if contours else 3), f"properties of the filter: {names}")
 
@@ -177,12 +189,14 @@ def check_mentioned_representations(roots):
         check(name in known, f"{name} among the representations {known}")
 
 
-def main(plugin, *files):
+def main(plugin, document, *files):
     simple.LoadPlugin(plugin)
+    with open(document) as text:
+        documented = dict(re.findall(r"^\| `(\w+)`[^|]*\| ([^|]+) \|", text.read(), re.MULTILINE))
     of_representation, *of_filters = roots = [ElementTree.parse(file).getroot() for file in files]
     check(len(of_filters) == 3, "all filters")
     for of_filter in of_filters:
-        check_filter(of_filter)
+        check_filter(of_filter, documented)
     check_representation(of_representation)
     check_mentioned_representations(roots)
 

@@ -1,43 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All ranks yield together what one process does: mpirun -n N pvbatch --symmetric TestRanks.py"""
+"""The filters under MPI: all ranks yield together what one process does.
+
+    mpirun -n N pvbatch --symmetric TestRanks.py
+
+Testing/Cxx/TestRanks*.cxx tests clouds, options and deals of samples on ranks that are threads. This
+is about what VTK's data and controllers add: arrays, blocks, pieces, ghosts, messages."""
 
 import os
+import pickle
+import re
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter as dsa
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import (
+    vtkIdTypeArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import (
     vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from scatteredisopoints import vtkScatteredIsopointFilter
+from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
 SIZE = RANKS.GetNumberOfProcesses()
-
-# How many of n samples each rank gets, and the order in which they are dealt out.
-DEALS = ("even", "first", "last", "skewed", "round robin", "spatial")
-
-
-def ranks_of(points, deal):
-    count = len(points)
-    number = np.arange(count)
-    if deal == "even":
-        return number * SIZE // max(count, 1)
-    if deal == "first":
-        return np.zeros(count, int)
-    if deal == "last":
-        return np.full(count, SIZE - 1)
-    if deal == "skewed":
-        return np.minimum((SIZE * (number / max(count, 1)) ** 4).astype(int), SIZE - 1)
-    if deal == "round robin":
-        return number % SIZE
-    return np.minimum((SIZE * np.clip(points[:, 0], 0, 1)).astype(int), SIZE - 1)
+FILTERS = (vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter)
+GHOSTS = vtkDataSetAttributes.GhostArrayName()
+ALL_ARRAYS = dict(ComputeGradients=1, ComputeProjectionOrders=1)
 
 
 def field(points):
@@ -45,27 +36,21 @@ def field(points):
     return np.sin(7 * x) + np.cos(5 * y + x) + np.sin(6 * z - 2 * y)
 
 
-def cloud(kind, count, seed):
-    random = np.random.default_rng(seed)
-    points = random.random((count, 3))
-    if kind == "lattice":
-        side = int(round(count ** (1 / 3)))
-        points = np.stack(np.meshgrid(*3 * [np.arange(side)], indexing="ij"), -1).reshape(-1, 3) / side
-    elif kind == "duplicates":
-        points = np.round(20 * points) / 20
-    elif kind == "clusters":
-        points = 0.5 + (points - 0.5) * 10.0 ** (-3 * random.random((count, 1)))
-    elif kind == "lines":
-        points[:, 1] = np.round(4 * points[:, 1]) / 4
-        points[:, 2] = np.round(4 * points[:, 2]) / 4
-    return points
+def uniform(count, seed):
+    return np.random.default_rng(seed).random((count, 3))
 
 
-def poly_data(points, numbers, dtype=np.float32):
+def owners(count):
+    """The rank of each of some samples, which stand in the order of ranks; the middle ranks have few."""
+    share = np.arange(count) / count
+    return np.minimum((SIZE * np.where(share < 0.6, 0.1 * share, share)).astype(int), SIZE - 1)
+
+
+def poly_data(points, numbers, values=None):
     """A vtkPolyData of points with arrays of several kinds."""
     result = vtkPolyData()
     place = vtkPoints()
-    place.SetData(numpy_to_vtk(points.astype(dtype), deep=True))
+    place.SetData(numpy_to_vtk(points.astype(np.float32), deep=True))
     result.SetPoints(place)
     if len(points) == 0:
         return result
@@ -76,7 +61,7 @@ def poly_data(points, numbers, dtype=np.float32):
         result.GetPointData().AddArray(array)
         return array
 
-    add("value", field(points).astype(dtype))
+    add("value", field(points).astype(np.float32) if values is None else values)
     add("vector", np.cross(points, [1.0, 2.0, 3.0]))
     add("short", (1000 * np.nan_to_num(points)).astype(np.int16))
     add("long", numbers.astype(np.int64) * 3000000000 - 7)
@@ -85,31 +70,30 @@ def poly_data(points, numbers, dtype=np.float32):
     tensor.SetComponentName(1, "second")
     names = vtkStringArray()
     names.SetName("name")
-    for number in numbers:
-        names.InsertNextValue("sample %d" % number)
-    result.GetPointData().AddArray(names)
     ids = vtkIdTypeArray()
     ids.SetName("pedigree")
     for number in numbers:
+        names.InsertNextValue("sample %d" % number)
         ids.InsertNextValue(int(number) * 5)
+    result.GetPointData().AddArray(names)
     result.GetPointData().SetPedigreeIds(ids)
     result.GetPointData().SetActiveScalars("value")
     return result
 
 
-def described(output):
+def described_points(output):
     """What the arrays are, and one byte string for each point: position and all arrays."""
     count = output.GetNumberOfPoints()
     kinds = []
     columns = []
-    arrays = [output.GetPointData().GetAbstractArray(i)
-              for i in range(output.GetPointData().GetNumberOfArrays())]
+    data = output.GetPointData()
+    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
     if output.GetPoints():
         arrays.append(output.GetPoints().GetData())
     for i, array in enumerate(arrays):
         kinds.append((array.GetName() or "", array.GetDataType(), array.GetNumberOfComponents(),
                       array.GetComponentName(0) or "",
-                      output.GetPointData().IsArrayAnAttribute(i) if i + 1 < len(arrays) else -1))
+                      data.IsArrayAnAttribute(i) if i + 1 < len(arrays) else -1))
         if isinstance(array, vtkStringArray):
             columns.append([array.GetValue(j).encode() for j in range(count)])
         else:
@@ -119,47 +103,59 @@ def described(output):
     return sorted(map(repr, kinds)), rows
 
 
-def contour(data, controller, values=(0.3,), watch=None, **options):
-    isopoints = vtkScatteredIsopointFilter()
+def described(output):
+    """The same for each triangle, by its points, where there are triangles."""
+    kinds, rows = described_points(output)
+    if output.GetNumberOfPolys() > 0:
+        corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        rows = [b"#".join(rows[i] for i in triangle) for triangle in corners]
+    return kinds, rows
+
+
+def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, watch=None, cells=None,
+            **options):
+    """The filter after its update. watch(text): what each error, warning and message is passed to."""
+    isopoints = kind()
     isopoints.SetController(controller)
     isopoints.SetInputData(data)
-    return run(isopoints, values, watch, **options)
+    if cells:
+        isopoints.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, cells)
+    if watch:
+        def note(_object, _event, text):
+            watch(text)
+
+        note.CallDataType = "string0"
+        for event in ("ErrorEvent", "WarningEvent", "MessageEvent"):
+            isopoints.AddObserver(event, note)
+    for name, value in options.items():
+        getattr(isopoints, "Set" + name)(value)
+    return run(isopoints, values, levels)
 
 
-def run(isopoints, values=(0.3,), watch=None, **options):
+def run(isopoints, values, levels=0):
     isopoints.SetNumberOfContours(len(values))
     for i, value in enumerate(values):
         isopoints.SetValue(i, value)
-    for name, value in options.items():
-        getattr(isopoints, "Set" + name)(value)
-    if watch is not None:
-        isopoints.AddObserver("ErrorEvent", lambda *_: watch.append("error"))
-    isopoints.Update()
+    if isopoints.GetController():
+        isopoints.UpdatePiece(RANK, SIZE, levels)
+    else:
+        isopoints.Update()
     return isopoints
 
 
 def gather(value):
     """The values of all ranks, on rank 0."""
-    import pickle
-    name = f"{SHARED}/{gather.count}.{RANK}"
-    gather.count += 1
-    with open(name, "wb") as file:
-        pickle.dump(value, file)
-    RANKS.Barrier()
+    tag = 1
     if RANK > 0:
+        message = np.frombuffer(pickle.dumps(value), np.uint8)
+        RANKS.Send(numpy_to_vtk(message, deep=True), 0, tag)
         return None
-    values = []
-    for rank in range(SIZE):
-        with open(name[:-1] + str(rank), "rb") as file:
-            values.append(pickle.load(file))
+    values = [value]
+    for rank in range(1, SIZE):
+        message = vtkUnsignedCharArray()
+        RANKS.Receive(message, rank, tag)
+        values.append(pickle.loads(vtk_to_numpy(message).tobytes()))
     return values
-
-
-gather.count = 0
-
-ALL_ARRAYS = dict(ComputeGradients=1,
-                  ComputeProjectionOrders=1)
-POINTS_ALONE = dict(Projection=0, ComputeNormals=0, ComputeSplats=0)
 
 
 class RanksTestCase(unittest.TestCase):
@@ -178,149 +174,92 @@ class RanksTestCase(unittest.TestCase):
                 failure = f"{len(found)} rows instead of {len(rows)}, or others"
         self.assertEqual(failure, "")
 
-    def errors(self, data, **options):
-        """The number of errors of each rank, on rank 0."""
-        watch = []
-        result = contour(data, RANKS, watch=watch, **options)
-        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT), 0)
-        return gather(len(watch))
-
     def check_one_error(self, data, **options):
-        counts = self.errors(data, **options)
+        """Expects the first rank to report an error, the others none, and all to be without output."""
+        errors = []
+        result = contour(data, RANKS, watch=errors.append, **options)
+        self.assertEqual(result.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT), 0)
+        counts = gather(len(errors))
         if RANK == 0:
             self.assertEqual(counts, [1] + (SIZE - 1) * [0])
 
 
 class RanksTest(RanksTestCase):
-    def check(self, points, deal, dtype=np.float32, **options):
-        owner = ranks_of(points, deal)
-        order = np.argsort(owner, kind="stable")  # one rank's samples after the other's
-        points, owner = points[order], owner[order]
+    def dealt(self, points, values=None):
+        """This rank's samples, and those of all ranks in their order."""
         numbers = np.arange(len(points))
-        mine = owner == RANK
-        result = contour(poly_data(points[mine], numbers[mine], dtype), RANKS, **options)
-        self.same(result.GetOutput(),
-                  lambda: contour(poly_data(points, numbers, dtype), None, **options).GetOutput())
-        return result
+        mine = owners(len(points)) == RANK
+        own = values[mine] if values is not None else None
+        return poly_data(points[mine], numbers[mine], own), poly_data(points, numbers, values)
 
-    def test_deals(self):
-        for deal in DEALS:
-            with self.subTest(deal=deal):
-                self.check(cloud("uniform", 4000, 1), deal, **ALL_ARRAYS)
+    def check(self, data, **options):
+        mine, whole = data
+        result = contour(mine, RANKS, **options)
+        expected = contour(whole, None, **options)
+        self.same(result.GetOutput(), expected.GetOutput)
+        self.assertEqual(result.GetNumberOfSkippedSamples(), expected.GetNumberOfSkippedSamples())
+        self.assertEqual(result.GetNumberOfUnprojectedPoints(),
+                         expected.GetNumberOfUnprojectedPoints())
 
-    def test_clouds(self):
-        for kind in ("lattice", "duplicates", "clusters", "lines"):
-            for dtype in (np.float32, np.float64):
-                with self.subTest(kind=kind, dtype=dtype):
-                    self.check(cloud(kind, 3000, 2), "round robin", dtype, **ALL_ARRAYS)
+    def test_arrays_of_every_kind(self):
+        for kind in FILTERS:
+            self.check(self.dealt(uniform(3000, 1)), kind=kind, values=(0.1, 1.1), **ALL_ARRAYS)
 
-    def test_options(self):
-        points = cloud("uniform", 3000, 3)
-        for options in (
-                POINTS_ALONE, dict(Projection=0), dict(Projection=1), dict(Projection=2),
-                dict(Projection=4, **ALL_ARRAYS), dict(NormalMethod=1), dict(DropGaps=1),
-                dict(MinimumSpacing=0.5), dict(Angle=20.0), dict(values=(0.1, -0.5, 1.1)),
-                dict(OutputPointsPrecision=1), dict(ComputeScalars=0), dict(KeepTree=0)):
-            with self.subTest(options=options):
-                self.check(points, "skewed", **options)
-
-    def test_more_ranks_than_samples(self):
-        points = np.array([[0.0, 0.0, 0.0], [1.0, 0.2, 0.1]])
-        self.check(points, "last", values=(float(field(points).mean()),))
+    def test_ranks_without_samples(self):
+        points = uniform(1500, 2)
+        numbers = np.arange(len(points))
+        mine = numbers[: len(points) if RANK == SIZE - 1 else 0]
+        for kind in FILTERS:
+            self.check((poly_data(points[mine], mine), poly_data(points, numbers)), kind=kind)
 
     def test_counts_are_summed(self):
-        points = cloud("uniform", 2000, 4)
+        points = uniform(2000, 4)
         points[::7, 1] = np.nan
-        result = self.check(points, "even", **POINTS_ALONE)
-        self.assertEqual(result.GetNumberOfSkippedSamples(), len(points[::7]))
-        total = sum(gather(result.GetOutput().GetNumberOfPoints()) or [0])
-        if RANK == 0:
-            self.assertEqual(result.GetNumberOfUnprojectedPoints(), total)
-
-    def test_further_isovalues_and_values(self):
-        points = cloud("uniform", 3000, 5)
-        owner = np.sort(ranks_of(points, "even"))
-        mine = owner == RANK
-        numbers = np.arange(len(points))
-        data = poly_data(points[mine], numbers[mine])
-        whole = poly_data(points, numbers)
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(data)
-        for values in ((0.2,), (-0.4, 0.9), (0.2,)):
-            run(isopoints, values)
-            self.same(isopoints.GetOutput(), lambda: contour(whole, None, values).GetOutput())
-        for object, selection in ((data, mine), (whole, numbers >= 0)):
-            array = object.GetPointData().GetArray("value")
-            vtk_to_numpy(array)[:] = field(points[selection][:, ::-1])
-            array.Modified()
-            object.Modified()
-        run(isopoints)
-        self.same(isopoints.GetOutput(), lambda: contour(whole, None).GetOutput())
-
-    def test_a_rank_may_have_dropped_its_tree(self):
-        points = cloud("uniform", 3000, 9)
-        numbers = np.arange(len(points))
-        mine = np.sort(ranks_of(points, "even")) == RANK
-        data = poly_data(points[mine], numbers[mine])
-        whole = poly_data(points, numbers)
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(data)
-        isopoints.SetKeepTree(RANK > 0)
-        for values in ((0.2,), (-0.4, 0.9)):
-            run(isopoints, values)
-            self.same(isopoints.GetOutput(), lambda: contour(whole, None, values).GetOutput())
+        for kind in FILTERS:
+            self.check(self.dealt(points), kind=kind, Projection=0)
 
     def test_integers_are_rounded_values(self):
-        points = cloud("uniform", 3000, 6)
-        numbers = np.arange(len(points))
-        mine = ranks_of(points, "last") == RANK
+        points = uniform(3000, 6)
+        values = np.rint(20 * field(points)).astype(np.int32)
+        self.check(self.dealt(points, values), values=(6.1,))
 
-        def rounded(selection):
-            data = poly_data(points[selection], numbers[selection])
-            values = np.rint(20 * field(points[selection])).astype(np.int32)
-            array = numpy_to_vtk(values, deep=True)
-            array.SetName("value")
-            data.GetPointData().SetScalars(array)
-            return data
-
-        result = contour(rounded(mine), RANKS, (6.1,))
-        self.same(result.GetOutput(),
-                  lambda: contour(rounded(numbers >= 0), None, (6.1,)).GetOutput())
+    def test_further_isovalues_and_values(self):
+        """Even where ranks have dropped their trees."""
+        points = uniform(3000, 5)
+        for kind in FILTERS:
+            mine, whole = self.dealt(points)
+            isopoints = contour(mine, RANKS, kind, KeepTree=RANK != 1)
+            for values in ((-0.4, 0.9), (0.2,)):
+                run(isopoints, values)
+                self.same(
+                    isopoints.GetOutput(), lambda: contour(whole, None, kind, values).GetOutput())
+            for data, chosen in ((mine, owners(len(points)) == RANK), (whole, slice(None))):
+                array = data.GetPointData().GetArray("value")
+                vtk_to_numpy(array)[:] = field(points[chosen][:, ::-1])
+                array.Modified()
+                data.Modified()
+            run(isopoints, (0.3,))
+            self.same(isopoints.GetOutput(), lambda: contour(whole, None, kind).GetOutput())
 
     def test_blocks_and_cells(self):
         """Cells of images, several on each rank, as one cloud."""
-        def image(number):
-            result = vtkImageData()
-            result.SetDimensions(6, 7, 8)
-            result.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
-            result.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
-            corners = dsa.WrapDataObject(result)
-            centers = np.array([np.mean(np.reshape(result.GetCell(i).GetBounds(), (3, 2)), axis=1)
-                                for i in range(result.GetNumberOfCells())])
-            corners.CellData.append(field(centers), "value")
-            return result
-
         def blocks(numbers):
             result = vtkMultiBlockDataSet()
             for i, number in enumerate(numbers):
-                result.SetBlock(i, image(number))
+                image = vtkImageData()
+                image.SetDimensions(6, 7, 8)
+                image.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
+                image.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
+                dsa.WrapDataObject(image).CellData.append(field(centers_of(image)), "value")
+                result.SetBlock(i, image)
             return result
 
-        def prepared(data, controller):
-            isopoints = vtkScatteredIsopointFilter()
-            isopoints.SetController(controller)
-            isopoints.SetInputData(data)
-            isopoints.SetInputArrayToProcess(
-                0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "value")
-            return run(isopoints)
-
         mine = [number for number in range(8) if number * SIZE // 8 == RANK]
-        self.same(prepared(blocks(mine), RANKS).GetOutput(),
-                  lambda: prepared(blocks(range(8)), None).GetOutput())
+        self.check((blocks(mine), blocks(range(8))), cells="value")
 
     def test_pieces_of_an_image(self):
         """Consecutive pieces both have the points between them, which count once."""
-        def isopoints_of_image(controller, piece, pieces):
+        def positions(controller, piece, pieces):
             image = vtkRTAnalyticSource()
             image.SetWholeExtent(-9, 8, -7, 9, -8, 8)
             isopoints = vtkScatteredIsopointFilter()
@@ -328,177 +267,150 @@ class RanksTest(RanksTestCase):
             isopoints.SetInputConnection(image.GetOutputPort())
             isopoints.SetValue(0, 150.0)
             isopoints.UpdatePiece(piece, pieces, 0)
-            return isopoints
+            # The samples have another order, on which the last bits depend.
+            found = vtk_to_numpy(isopoints.GetOutput().GetPoints().GetData())
+            return [tuple(position) for position in np.round(found, 4) + 0.0]
 
-        isopoints = isopoints_of_image(RANKS, RANK, SIZE)
-        # The samples have another order, on which the last bits depend.
-        parts = gather(vtk_to_numpy(isopoints.GetOutput().GetPoints().GetData()).tolist())
+        parts = gather(positions(RANKS, RANK, SIZE))
         if RANK == 0:
-            whole = isopoints_of_image(None, 0, 1).GetOutput()
-            expected = vtk_to_numpy(whole.GetPoints().GetData()).tolist()
-            self.assertEqual(sorted(tuple(np.round(p, 4) + 0.0) for part in parts for p in part),
-                             sorted(tuple(np.round(p, 4) + 0.0) for p in expected))
-
-    def with_ghosts(self, data, controller, piece, pieces, levels, values=(0.1, 0.5)):
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetController(controller)
-        isopoints.SetInputData(data)
-        for i, value in enumerate(values):
-            isopoints.SetValue(i, value)
-        for name, value in ALL_ARRAYS.items():
-            getattr(isopoints, "Set" + name)(value)
-        isopoints.UpdatePiece(piece, pieces, levels)
-        return isopoints
+            self.assertEqual(sorted(sum(parts, [])), sorted(positions(None, 0, 1)))
 
     def test_ghosts_for_what_follows(self):
-        """They stand behind the rank's own points, which are those without ghosts."""
-        points = cloud("uniform", 3000, 9)
-        owner = np.sort(ranks_of(points, "round robin"))
-        numbers = np.arange(len(points))
-        mine = poly_data(points[owner == RANK], numbers[owner == RANK])
-        without = self.with_ghosts(mine, RANKS, RANK, SIZE, 0)
-        name = vtkDataSetAttributes.GhostArrayName()
-        self.assertFalse(without.GetOutput().GetPointData().HasArray(name))
-        self.assertFalse(without.GetOutput().GetCellData().HasArray(name))
-        isopoints = self.with_ghosts(mine, RANKS, RANK, SIZE, 1)
-        self.assertEqual(isopoints.GetNumberOfUnprojectedPoints(),
-                         without.GetNumberOfUnprojectedPoints())
-        # Nothing is computed again for fewer levels.
-        time = isopoints.GetOutput().GetMTime()
-        isopoints.UpdatePiece(RANK, SIZE, 0)
-        self.assertEqual(isopoints.GetOutput().GetMTime(), time)
-        output = isopoints.GetOutput()
-        if SIZE == 1:
-            self.assertEqual(described(output), described(without.GetOutput()))
-            return
-        count = without.GetOutput().GetNumberOfPoints()
-        ghosts = vtk_to_numpy(output.GetPointData().GetArray(name))
-        self.assertEqual(len(ghosts), output.GetNumberOfPoints())
-        self.assertFalse(ghosts[:count].any())
-        self.assertTrue((ghosts[count:] == vtkDataSetAttributes.DUPLICATEPOINT).all())
-        cells = vtk_to_numpy(output.GetCellData().GetArray(name))
+        """They stand behind the rank's own points, or triangles of an isovalue: those without ghosts."""
+        for kind, values in zip(FILTERS, ((0.1, 0.5), (0.3,))):
+            data = poly_data(uniform(3000 // SIZE, 10 + RANK), np.arange(3000 // SIZE))
+            isopoints = contour(data, RANKS, kind, values, **ALL_ARRAYS)
+            without = vtkPolyData()
+            without.ShallowCopy(isopoints.GetOutput())
+            self.assertFalse(without.GetPointData().HasArray(GHOSTS))
+            isopoints.Modified()
+            # One rank that asks for ghosts gives them to all.
+            isopoints.UpdatePiece(RANK, SIZE, 1 if RANK == SIZE - 1 else 0)
+            output = isopoints.GetOutput()
+            # Nothing is computed again for fewer levels.
+            time = output.GetMTime()
+            isopoints.UpdatePiece(RANK, SIZE, 0)
+            self.assertEqual(output.GetMTime(), time)
+            if SIZE == 1:
+                self.assertEqual(described(output), described(without))
+                continue
+            self.check_ghosts(output, without)
+
+    def check_ghosts(self, output, without):
+        count = without.GetNumberOfCells()
+        cells = vtk_to_numpy(output.GetCellData().GetArray(GHOSTS))
         self.assertFalse(cells[:count].any())
         self.assertTrue((cells[count:] == vtkDataSetAttributes.DUPLICATECELL).all())
-        output.GetPointData().RemoveArray(name)
+        points = vtk_to_numpy(output.GetPointData().GetArray(GHOSTS))
+        self.assertTrue(np.isin(points, (0, vtkDataSetAttributes.DUPLICATEPOINT)).all())
+        output.GetPointData().RemoveArray(GHOSTS)
         kinds, rows = described(output)
-        self.assertEqual((kinds, rows[:count]), described(without.GetOutput()))
-        parts = gather((rows[:count], rows[count:]))
+        self.assertEqual((kinds, rows[:count]), described(without))
+        # Each point is no duplicate on one rank.
+        owned = [row for row, ghost in zip(described_points(output)[1], points) if not ghost]
+        parts = gather((rows[:count], rows[count:], owned))
         if RANK == 0:
             everything = {row: rank for rank, part in enumerate(parts) for row in part[0]}
-            for rank, (_, found) in enumerate(parts):
-                self.assertGreater(len(found), 20)
-                self.assertEqual(len(set(found)), len(found))
-                self.assertTrue(all(everything.get(row, rank) != rank for row in found))
-
-    @unittest.skipIf(SIZE == 1, "one rank has no ghosts")
-    def test_one_rank_that_asks_for_ghosts_gives_them_to_all(self):
-        data = poly_data(cloud("uniform", 2000, 10 + RANK), np.arange(2000))
-        isopoints = self.with_ghosts(data, RANKS, RANK, SIZE, 1 if RANK == SIZE - 1 else 0)
-        self.assertTrue(isopoints.GetOutput().GetPointData().HasArray(
-            vtkDataSetAttributes.GhostArrayName()))
+            for rank, (_, ghosts, _) in enumerate(parts):
+                self.assertGreater(len(ghosts), 10)
+                self.assertEqual(len(set(ghosts)), len(ghosts))
+                self.assertTrue(all(everything.get(row, rank) != rank for row in ghosts))
+            everyone = [row for part in parts for row in part[2]]
+            self.assertEqual(len(everyone), len(set(everyone)))
 
     def test_ghosts_are_left_out(self):
-        points = cloud("uniform", 2000, 6)
-        owner = ranks_of(points, "spatial")
-        order = np.argsort(owner, kind="stable")
-        points, owner = points[order], owner[order]
+        points = uniform(2000, 6)
+        points = points[np.argsort(points[:, 0])]
+        owner = np.minimum((SIZE * points[:, 0]).astype(int), SIZE - 1)
+        near = (owner != RANK) & (np.abs(points[:, 0] * SIZE - RANK - 0.5) < 0.7)
+        chosen = (owner == RANK) | near
         numbers = np.arange(len(points))
-        mine = owner == RANK
-        near = ~mine & (np.abs(points[:, 0] * SIZE - RANK - 0.5) < 0.7)
-        chosen = mine | near
         data = poly_data(points[chosen], numbers[chosen])
         ghosts = numpy_to_vtk(near[chosen].astype(np.uint8), deep=True)  # DUPLICATEPOINT is 1
-        ghosts.SetName(vtkDataSetAttributes.GhostArrayName())
+        ghosts.SetName(GHOSTS)
         data.GetPointData().AddArray(ghosts)
-        whole = poly_data(points, numbers)
-        self.same_positions(contour(data, RANKS).GetOutput(), lambda: contour(whole, None).GetOutput())
-
-    def same_positions(self, output, expected):
-        """Ids differ where ghosts stand between, and so does the order in which points are dealt."""
-        parts = gather(vtk_to_numpy(output.GetPoints().GetData()).tolist())
-        if RANK == 0:
-            wanted = vtk_to_numpy(expected().GetPoints().GetData()).tolist()
-            self.assertEqual(sorted(point for part in parts for point in part), sorted(wanted))
+        # Ids differ where ghosts stand between.
+        self.same(contour(data, RANKS).GetOutput(),
+                  lambda: contour(poly_data(points, numbers), None).GetOutput(),
+                  lambda output: ("", vtk_to_numpy(output.GetPoints().GetData()).tolist()))
 
     def test_errors_of_one_rank_end_the_update_of_all(self):
-        points = cloud("uniform", 500, 7)
-        good = poly_data(points, np.arange(500))
-        bad = poly_data(points, np.arange(500))
-        bad.GetPointData().SetActiveScalars("vector")
-        bad.GetPointData().RemoveArray("value")
-        vector = bad.GetPointData().GetArray("vector")
-        vector.SetName("value")
+        points = uniform(500, 7)
+        numbers = np.arange(500)
+        good = poly_data(points, numbers)
+        bad = poly_data(points, numbers, np.cross(points, [1.0, 2.0, 3.0]))
         for rank in range(SIZE):
             self.check_one_error(bad if rank == RANK else good)
         self.check_one_error(good, Angle=200.0)
+        self.check_one_error(vtkPolyData())
+        self.check_one_error(poly_data(points[:0], numbers[:0]))
         if SIZE > 1:
             self.check_one_error(good, Angle=10.0 + RANK)
-            self.assertEqual(self.errors_with_array(good, "value" if RANK else "missing"), 1)
-        self.check_one_error(vtkPolyData())
-        self.check_one_error(poly_data(points[:0], points[:0]))
-        self.check(points, "even")
+            self.check_one_error(good, cells="missing" if RANK else None)
+        self.check(self.dealt(uniform(1000, 7)))
 
     def test_warnings_are_of_all_samples_and_come_once(self):
-        points = cloud("uniform", 2000, 4)
-        owner = np.sort(ranks_of(points, "skewed"))
-        data = poly_data(points[owner == RANK], np.flatnonzero(owner == RANK))
-        for values, bad, expected in (
-                ((9.0,), 0, f"No isosurface at 9: \"value\" is from"
-                 f" {field(points).min():.6g} to {field(points).max():.6g}."),
-                ((0.3,), 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
-            more = poly_data(cloud("uniform", 10, 20 + RANK), np.arange(10))
-            vtk_to_numpy(more.GetPointData().GetArray("value"))[:] = 0.25
-            vtk_to_numpy(more.GetPointData().GetArray("value"))[:bad] = np.nan
+        points = uniform(2000, 4)
+        mine, _ = self.dealt(points)
+        least, most = field(points).min(), field(points).max()
+        for value, bad, expected in (
+                (9.0, 0, f"No isosurface at 9: \"value\" is from {least:.6g} to {most:.6g}."),
+                (0.3, 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
+            values = np.full(10, 0.25, np.float32)
+            values[:bad] = np.nan
             blocks = vtkMultiBlockDataSet()
-            blocks.SetBlock(0, data)
-            blocks.SetBlock(1, more)
-            isopoints = vtkScatteredIsopointFilter()
-            isopoints.SetInputData(blocks)
-            isopoints.SetInputArrayToProcess(0, 0, 0, 0, "value")
-            warnings = []
-
-            def warned(_object, _event, message, warnings=warnings):
-                warnings.append(message)
-
-            warned.CallDataType = "string0"
-            isopoints.AddObserver("WarningEvent", warned)
-            isopoints.AddObserver("MessageEvent", warned)
-            run(isopoints, values)
-            everything = gather(warnings)
+            blocks.SetBlock(0, mine)
+            blocks.SetBlock(1, poly_data(uniform(10, 20 + RANK), np.arange(10), values))
+            texts = []
+            contour(blocks, RANKS, values=(value,), watch=texts.append)
+            everything = gather(texts)
             if RANK == 0:
                 self.assertEqual([len(each) for each in everything], [1] + (SIZE - 1) * [0])
                 self.assertIn(expected, everything[0][0])
 
-    def errors_with_array(self, data, name):
-        """How many errors all ranks report together; on the others than rank 0, the expected one."""
-        watch = []
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(data)
-        isopoints.SetInputArrayToProcess(0, 0, 0, 0, name)
-        run(isopoints, watch=watch)
-        counts = gather(len(watch))
-        return sum(counts) if RANK == 0 else 1
+    def test_points_of_warnings_are_counted_once(self):
+        """Ghosts and vertices of several ranks are not counted again."""
+        noise = np.random.default_rng(9).normal(size=3000)  # no fit holds
+        mine, whole = self.dealt(uniform(3000, 9), noise)
+
+        def counts(data, controller, levels):
+            texts = []
+            contour(data, controller, FILTERS[1], (0.1,), levels, texts.append)
+            return [re.search(r"\d+ of \d+ points", text).group() for text in texts]
+
+        for levels in (0, 3):
+            parts = gather(counts(mine, RANKS, levels))
+            if RANK == 0:
+                self.assertEqual(sum(parts, []), counts(whole, None, 0))
+                self.assertEqual(len(parts[0]), 1)
 
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
-        data = poly_data(cloud("uniform", 20000, 8), np.arange(20000))
-        isopoints = vtkScatteredIsopointFilter()
-        isopoints.SetInputData(data)
-        watch = []
-        if RANK == SIZE - 1:
-            isopoints.AddObserver("ProgressEvent", lambda *_: isopoints.SetAbortExecute(1))
-        run(isopoints, watch=watch)
-        self.assertEqual(isopoints.GetOutput().GetNumberOfPoints(), 0)
-        self.assertEqual(watch, [])
-        isopoints.RemoveAllObservers()
-        isopoints.SetAbortExecute(0)
-        isopoints.Modified()
-        isopoints.Update()
-        counts = gather(isopoints.GetOutput().GetNumberOfPoints())
-        if RANK == 0:
-            self.assertGreater(sum(counts), 1000)
+        data = poly_data(uniform(20000, 8), np.arange(20000))
+        for kind in FILTERS:
+            isopoints = kind()
+            isopoints.SetInputData(data)
+            texts = []
+            isopoints.AddObserver("ErrorEvent", lambda *_: texts.append(""))  # noqa: B023
+            if RANK == SIZE - 1:
+                isopoints.AddObserver(
+                    "ProgressEvent", lambda *_: isopoints.SetAbortExecute(1))  # noqa: B023
+            run(isopoints, (0.3,))
+            self.assertEqual(isopoints.GetOutput().GetNumberOfPoints(), 0)
+            self.assertEqual(texts, [])
+            isopoints.RemoveAllObservers()
+            isopoints.SetAbortExecute(0)
+            isopoints.Modified()
+            run(isopoints, (0.3,))
+            counts = gather(isopoints.GetOutput().GetNumberOfPoints())
+            if RANK == 0:
+                self.assertGreater(sum(counts), 1000)
 
 
-SHARED = sys.argv.pop(1) if len(sys.argv) > 1 and "/" in sys.argv[1] else tempfile.gettempdir()
+def centers_of(data):
+    """The centers of cells, which are boxes."""
+    return np.array([np.mean(np.reshape(data.GetCell(i).GetBounds(), (3, 2)), axis=1)
+                     for i in range(data.GetNumberOfCells())])
+
 
 def main():
     program = unittest.main(

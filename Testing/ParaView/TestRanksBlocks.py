@@ -1,26 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blocks contoured separately on several ranks:
-mpirun -n N pvbatch --symmetric TestRanksBlocks.py FOLDER"""
+mpirun -n N pvbatch --symmetric TestRanksBlocks.py"""
 
 import unittest
 
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter as dsa
 from vtkmodules.vtkCommonDataModel import (
-    vtkAMRBox, vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkMultiPieceDataSet,
-    vtkOverlappingAMR, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData,
-    vtkUniformGrid)
-from scatteredisopoints import vtkScatteredIsopointFilter
+    vtkAMRBox, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkMultiPieceDataSet, vtkOverlappingAMR,
+    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGrid)
 
 from TestRanks import (
-    RANK, RANKS, SIZE, RanksTestCase, cloud, contour, described, field, gather, main, poly_data,
-    ranks_of)
+    FILTERS, RANK, RANKS, SIZE, RanksTestCase, centers_of, contour, described, field, gather, main,
+    owners, poly_data, run, uniform)
 
 COUNT = 5  # of blocks
-
-
-def leaf_of(points, numbers):
-    return poly_data(points, numbers) if len(points) else None
 
 
 def tree(leaves):
@@ -104,60 +98,55 @@ class RanksBlocksTest(RanksTestCase):
                 failure = "no points to compare"
         self.assertEqual(failure, "")
 
-    def deal(self, deal, seed):
+    def dealt(self, seed):
         """The leaves of all ranks together and this rank's, null where it has no samples."""
         whole, mine = [], []
         for number in range(COUNT):
-            points = cloud("uniform", 400 + 300 * number, seed + number)
-            owner = ranks_of(points, deal)
+            points = uniform(400 + 300 * number, seed + number)
+            owner = owners(len(points))
             if number == 1:
                 owner[:] = SIZE - 1  # on one rank alone
-            order = np.argsort(owner, kind="stable")
-            points, owner = points[order], owner[order]
-            numbers = np.arange(len(points))
-            whole.append(leaf_of(points, numbers))
-            mine.append(leaf_of(points[owner == RANK], numbers[owner == RANK]))
+            numbers = np.flatnonzero(owner == RANK)
+            whole.append(poly_data(points, np.arange(len(points))))
+            mine.append(poly_data(points[numbers], numbers) if len(numbers) else None)
         return whole, mine
 
     def test_every_composite(self):
+        whole, mine = self.dealt(11)
         for make in (tree, partitions, collection, pieces_in_blocks):
-            for deal in ("even", "last", "round robin"):
-                with self.subTest(make=make.__name__, deal=deal):
-                    whole, mine = self.deal(deal, 11)
+            for kind in FILTERS:
+                with self.subTest(make=make.__name__, kind=kind):
                     data = make(mine)
-                    result = by_themselves(data, RANKS)
-                    output = result.GetOutputDataObject(0)
+                    output = by_themselves(data, RANKS, kind=kind).GetOutputDataObject(0)
                     self.assertEqual(output.GetClassName(), data.GetClassName())
-                    self.same_leaves(
-                        output, lambda: by_themselves(make(whole), None).GetOutputDataObject(0))
+                    expected = by_themselves(make(whole), None, kind=kind)
+                    self.same_leaves(output, lambda: expected.GetOutputDataObject(0))  # noqa: B023
 
     def test_a_rank_may_have_no_blocks_at_all(self):
-        whole, mine = self.deal("first", 12)
-        whole[1] = mine[1] = None
-        data = tree(mine) if RANK == 0 else vtkMultiBlockDataSet()
+        whole, _ = self.dealt(12)
+        whole[1] = None
+        data = tree(whole) if RANK == 0 else vtkMultiBlockDataSet()
         self.same_leaves(by_themselves(data, RANKS).GetOutputDataObject(0),
                          lambda: by_themselves(tree(whole), None).GetOutputDataObject(0))
 
     def test_trees_are_kept(self):
-        whole, mine = self.deal("skewed", 13)
+        whole, mine = self.dealt(13)
         isopoints = by_themselves(tree(mine), RANKS)
         alone = by_themselves(tree(whole), None)
         for value in (0.1, 0.6):
-            for each in (isopoints, alone):
-                each.SetValue(0, value)
-                each.Update()
+            run(isopoints, (value,))
+            run(alone, (value,))
             self.same_leaves(
                 isopoints.GetOutputDataObject(0), lambda: alone.GetOutputDataObject(0))
-        for each in (isopoints, alone):
-            each.SetContourBlocks(0)
-            each.Update()
+        isopoints.SetContourBlocks(0)
+        alone.SetContourBlocks(0)
         # The samples have another order, on which the last bits depend.
-        total = sum(gather(isopoints.GetOutput().GetNumberOfPoints()) or [0])
+        counts = gather(run(isopoints, (0.6,)).GetOutput().GetNumberOfPoints())
         if RANK == 0:
-            self.assertEqual(total, alone.GetOutput().GetNumberOfPoints())
+            self.assertEqual(sum(counts), run(alone, (0.6,)).GetOutput().GetNumberOfPoints())
 
     def test_blocks_without_the_array_are_counted(self):
-        whole, mine = self.deal("even", 14)
+        whole, mine = self.dealt(14)
         for leaves in (whole, mine):
             if leaves[2]:
                 leaves[2].GetPointData().RemoveArray("value")
@@ -187,29 +176,18 @@ class RanksBlocksTest(RanksTestCase):
                 grid.SetOrigin(origin, origin, origin)
                 grid.SetSpacing(spacing, spacing, spacing)
                 grid.SetDimensions(side + 1, side + 1, side + 1)
-                centers = np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1)
-                                    for i in range(grid.GetNumberOfCells())])
-                dsa.WrapDataObject(grid).CellData.append(field(centers), "value")
+                dsa.WrapDataObject(grid).CellData.append(field(centers_of(grid)), "value")
                 result.SetDataSet(level, index, grid)
             return result
 
-        def prepared(data, controller):
-            isopoints = vtkScatteredIsopointFilter()
-            isopoints.SetController(controller)
-            isopoints.SetInputData(data)
-            isopoints.SetContourBlocks(1)
-            isopoints.SetValue(0, 0.3)
-            isopoints.SetInputArrayToProcess(
-                0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "value")
-            isopoints.Update()
-            return isopoints.GetOutputDataObject(0)
-
-        self.same_leaves(prepared(amr(RANK), RANKS), lambda: prepared(amr(None), None))
+        self.same_leaves(
+            by_themselves(amr(RANK), RANKS, cells="value").GetOutputDataObject(0),
+            lambda: by_themselves(amr(None), None, cells="value").GetOutputDataObject(0))
 
     @unittest.skipIf(SIZE == 1, "one rank has one structure")
     def test_different_trees_are_one_error(self):
-        _, mine = self.deal("even", 15)
-        for other in (tree(mine[:3]), collection(mine), poly_data(cloud("uniform", 9, 1), np.arange(9)),
+        _, mine = self.dealt(15)
+        for other in (tree(mine[:3]), collection(mine), poly_data(uniform(9, 1), np.arange(9)),
                       tree([tree(mine)] + mine[1:])):
             data = tree(mine) if RANK == 0 else other
             self.check_one_error(data, ContourBlocks=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces that Testing/Benchmark/fits.py measures against: feet lie on the surface, no other
+"""The surfaces that Testing/Benchmark measures against: feet lie on the surface, no other
 point of it is nearer, and normals point towards decreasing values."""
 
 import os
@@ -13,7 +13,7 @@ import analytic_surfaces as surfaces  # noqa: E402
 
 SPACING = 0.05
 FIELDS = (surfaces.sphere, surfaces.torus, surfaces.gyroid, surfaces.gaussian_mixture,
-          surfaces.cube, surfaces.two_sheets, surfaces.two_balls, surfaces.step,
+          surfaces.marschner_lobb, surfaces.cube, surfaces.two_sheets, surfaces.two_balls, surfaces.step,
           surfaces.smooth_step, surfaces.plane_step)
 SAMPLINGS = (surfaces.uniform, surfaces.clustered, surfaces.lattice, surfaces.jittered,
              surfaces.slices(4), surfaces.lines)

@@ -96,6 +96,8 @@ class ContourTest(unittest.TestCase):
         self.assertIsNone(result.normals)
         with self.assertRaisesRegex(TypeError, "unknown option gap; there are .*drop_gaps"):
             contour(positions, values, 0.3, gap=2)
+        with self.assertRaisesRegex(TypeError, "unknown option angle"):
+            contour(positions, values, 0.3, triangles=True, angle=30.0)
         with self.assertRaisesRegex(ValueError, "projection cannot be 'cubes'"):
             contour(positions, values, 0.3, projection="cubes")
 
@@ -229,12 +231,6 @@ class ContourTest(unittest.TestCase):
             with self.subTest(options=options), self.assertRaisesRegex(ValueError, "cannot be"):
                 contour(positions, values, 0.3, **options)
         contour(positions, values, 0.3, normal_method="normals_from_planes")
-
-    def test_triangles_are_never_thinned(self):
-        positions, values = samples()
-        options = dict(triangles=True, projection="NO_PROJECTION")
-        self.same(contour(positions, values, 0.3, minimum_spacing=0.5, **options),
-                  contour(positions, values, 0.3, **options).polydata)
 
     def test_warnings_are_those_of_python(self):
         positions, values = samples()

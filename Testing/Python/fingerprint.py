@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints a hash of the filter's output for each of N random combinations of inputs and options.
+"""Prints hashes of the filters' outputs for each of N random combinations of inputs and options.
 
     PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 \
         Testing/Python/fingerprint.py [N] [FIRST]
 
-Two builds whose lists are equal produce the same bytes: positions, cells and all arrays in their
-order, and the numbers of skipped samples and unprojected points. Each combination depends only on
-its number, from FIRST on. See docs/testing.md.
+The first hash is of isopoints, the second of triangles. Two builds whose lists are equal produce the
+same bytes: positions, cells and all arrays in their order, and the numbers of skipped samples and
+unprojected points. Each combination depends only on its number, from FIRST on. Run by
+mpirun -n RANKS pvbatch --symmetric, the samples are dealt out in turns, images are on the first rank
+alone, and the hashes are of what all ranks put out. See docs/testing.md.
 """
 
 import argparse
 import hashlib
 
 import numpy as np
-from scatteredisopoints import vtkScatteredIsopointFilter
+from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet,
     vtkImageData,
@@ -23,6 +25,10 @@ from vtkmodules.vtkCommonDataModel import (
     vtkPolyData,
     vtkRectilinearGrid,
 )
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+RANKS = vtkMultiProcessController.GetGlobalController()
+RANK, SIZE = (RANKS.GetLocalProcessId(), RANKS.GetNumberOfProcesses()) if RANKS else (0, 1)
 
 
 def field(kind, p, random):
@@ -62,24 +68,26 @@ def positions(kind, count, random):
     return random.random((count, 3))
 
 
-def add_arrays(attributes, p, values, types, random):
-    scalars = numpy_to_vtk(np.ascontiguousarray(values.astype(types[1])), deep=True)
+def add_arrays(attributes, p, values, types, random, dealt=slice(None)):
+    def array(rows):
+        return numpy_to_vtk(np.ascontiguousarray(rows[dealt]), deep=True)
+
+    scalars = array(values.astype(types[1]))
     scalars.SetName("values")
     attributes.SetScalars(scalars)
-    vectors = numpy_to_vtk(np.ascontiguousarray(np.sin(3 * p)), deep=True)
+    vectors = array(np.sin(3 * p))
     vectors.SetName("vectors")
     attributes.AddArray(vectors)
-    counts = numpy_to_vtk((1000 * p[:, 0]).astype(np.int32), deep=True)
+    counts = array((1000 * p[:, 0]).astype(np.int32))
     counts.SetName("counts")
     attributes.AddArray(counts)
     names = vtkStringArray()
     names.SetName("names")
-    names.SetNumberOfValues(len(p))
-    for i in range(len(p)):
-        names.SetValue(i, str(i % 97))
+    for i in range(len(p))[dealt]:
+        names.InsertNextValue(str(i % 97))
     attributes.AddArray(names)
     if random.random() < 0.3:
-        ghosts = numpy_to_vtk((random.random(len(p)) < 0.02).astype(np.uint8), deep=True)
+        ghosts = array((random.random(len(p)) < 0.02).astype(np.uint8))
         ghosts.SetName("vtkGhostType")
         attributes.AddArray(ghosts)
 
@@ -90,11 +98,12 @@ def cloud(kinds, types, random, offset=0.0):
     if types[1] != np.int16 and random.random() < 0.2:
         values[random.random(len(p)) < 0.01] = np.nan
     p = p * types[2] + types[3] + offset
+    dealt = slice(RANK, None, SIZE)
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(p.astype(types[0])), deep=True))
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(p[dealt].astype(types[0])), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    add_arrays(data.GetPointData(), p, values, types, random)
+    add_arrays(data.GetPointData(), p, values, types, random, dealt)
     return data
 
 
@@ -117,7 +126,7 @@ def image(kinds, types, random):
     assert len(index) == count
     attributes = data.GetCellData() if is_of_cells else data.GetPointData()
     add_arrays(attributes, index, field(kinds[1], index, random), types, random)
-    return data, is_of_cells
+    return (data if RANK == 0 else vtkPolyData()), is_of_cells
 
 
 def blocks(kinds, types, random):
@@ -131,8 +140,8 @@ def choose(random, *options):
     return options[int(random.integers(len(options)))]
 
 
-def configured(number):
-    """The filter with the input and the options of a combination."""
+def configured(number, filter_class):
+    """The filter with the input and those options of a combination that it has."""
     random = np.random.default_rng(number)
     kinds = (
         choose(random, "uniform", "uniform", "clustered", "lattice", "coarse", "lines", "slab",
@@ -145,7 +154,7 @@ def configured(number):
         choose(random, 1.0, 1.0, 1e-9, 1e12),
         choose(random, 0.0, 0.0, 1000.0),
     )
-    isopoints = vtkScatteredIsopointFilter()
+    isopoints = filter_class()
     is_of_cells = False
     kind = choose(random, "cloud", "cloud", "cloud", "image", "blocks")
     if kind == "image":
@@ -156,17 +165,22 @@ def configured(number):
     isopoints.SetInputArrayToProcess(0, 0, 0, 1 if is_of_cells else 0, "values")
     for i in range(int(random.integers(1, 4))):
         isopoints.SetValue(i, choose(random, 0.0, 0.1, 0.3, 0.5, 1.0, float(random.normal())))
-    isopoints.SetAngle(choose(random, 54.7, 54.7, 20.0, 0.0, 90.0))
-    isopoints.SetProjection(choose(random, 3, 3, 4, 4, 2, 1, 0))
-    isopoints.SetNormalMethod(int(random.integers(2)))
-    isopoints.SetDropGaps(choose(random, 0, 0, 1, 1))
-    isopoints.SetMinimumSpacing(choose(random, 0.0, 0.0, 0.5, 1.0))
-    isopoints.SetNumberOfNeighbors(int(random.integers(3, 20)))
-    isopoints.SetOutputPointsPrecision(int(random.integers(3)))
-    isopoints.SetContourBlocks(int(random.random() < 0.3))
-    isopoints.SetKeepTree(int(random.random() < 0.8))
+    options = {
+        "Angle": choose(random, 54.7, 54.7, 20.0, 0.0, 90.0),
+        "Projection": choose(random, 3, 3, 4, 4, 2, 1, 0),
+        "NormalMethod": int(random.integers(2)),
+        "DropGaps": choose(random, 0, 0, 1, 1),
+        "MinimumSpacing": choose(random, 0.0, 0.0, 0.5, 1.0),
+        "NumberOfNeighbors": int(random.integers(3, 20)),
+        "OutputPointsPrecision": int(random.integers(3)),
+        "ContourBlocks": int(random.random() < 0.3),
+        "KeepTree": int(random.random() < 0.8),
+    }
     for name in ("Normals", "Splats", "Scalars", "Gradients", "ProjectionOrders"):
-        getattr(isopoints, "SetCompute" + name)(int(random.random() < 0.7))
+        options["Compute" + name] = int(random.random() < 0.7)
+    for name, value in options.items():
+        if hasattr(isopoints, "Set" + name):
+            getattr(isopoints, "Set" + name)(value)
     return isopoints, random
 
 
@@ -195,6 +209,8 @@ def update(isopoints, digest):
         if count == 0:
             continue
         digest.update(b"verts %d" % leaf.GetNumberOfVerts())
+        if leaf.GetNumberOfPolys() > 0:
+            digest.update(vtk_to_numpy(leaf.GetPolys().GetConnectivityArray()).tobytes())
         digest.update(str(leaf.GetPoints().GetDataType()).encode())
         digest.update(vtk_to_numpy(leaf.GetPoints().GetData()).tobytes())
         attributes = leaf.GetPointData()
@@ -209,6 +225,17 @@ def update(isopoints, digest):
     return points
 
 
+def of_all_ranks(digest):
+    """The hash of the ranks' hashes, on the first one."""
+    if SIZE == 1:
+        return digest.hexdigest()
+    own, all_of_them = vtkUnsignedCharArray(), vtkUnsignedCharArray()
+    for byte in digest.digest():
+        own.InsertNextValue(byte)
+    RANKS.Gather(own, all_of_them, 0)
+    return hashlib.sha256(vtk_to_numpy(all_of_them).tobytes()).hexdigest() if RANK == 0 else ""
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -217,13 +244,17 @@ def main():
     parser.add_argument("first", metavar="FIRST", nargs="?", type=int, default=0, help="default: 0")
     arguments = parser.parse_args()
     for number in range(arguments.first, arguments.first + arguments.count):
-        isopoints, random = configured(number)
-        digest = hashlib.sha256()
-        points = update(isopoints, digest)
-        # Another isovalue from the kept tree.
-        isopoints.SetValue(0, float(random.normal()))
-        points += update(isopoints, digest)
-        print(number, points, digest.hexdigest()[:32], flush=True)
+        line = [str(number)]
+        for filter_class in (vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter):
+            isopoints, random = configured(number, filter_class)
+            digest = hashlib.sha256()
+            points = update(isopoints, digest)
+            # Another isovalue from the kept tree.
+            isopoints.SetValue(0, float(random.normal()))
+            points += update(isopoints, digest)
+            line += [str(points), of_all_ranks(digest)[:32]]
+        if RANK == 0:
+            print(*line, flush=True)
 
 
 if __name__ == "__main__":

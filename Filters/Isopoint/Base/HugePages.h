@@ -22,10 +22,10 @@ inline std::uintptr_t pageSize()
 }
 #endif
 
-/// Asks for huge pages behind freshly allocated memory, where the system offers them and there is
-/// so much of it that it was mapped for this allocation alone: the first writes then take far fewer
-/// page faults, and reads in any order fewer page walks. Memory that is never written still takes
-/// no pages, except for the rest of a huge one.
+/// Asks for huge pages behind memory that will be written, where the system offers them and there
+/// is so much of it that it was mapped for one allocation alone: the first writes then take far
+/// fewer page faults, and reads in any order fewer page walks. Memory that is never written still
+/// takes no pages, except for the rest of a huge one.
 inline void preferHugePages(void* memory, std::size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
@@ -93,28 +93,6 @@ inline void discardPages(void* begin, std::size_t bytes)
 #else
   static_cast<void>(begin);
   static_cast<void>(bytes);
-#endif
-}
-
-/// Asks for huge pages behind a part of what reserveSpread() reserved that will be written whole.
-inline void preferHugePagesInside(
-  void* memory, std::size_t bytes, std::size_t begin, std::size_t count)
-{
-#ifdef MADV_HUGEPAGE
-  constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
-  const auto base = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = (base + begin + hugePage - 1) / hugePage * hugePage;
-  const std::uintptr_t last = (base + begin + count) / hugePage * hugePage;
-  if (first < last && last <= base + bytes)
-  {
-    static_cast<void>(
-      madvise(static_cast<char*>(memory) + (first - base), last - first, MADV_HUGEPAGE));
-  }
-#else
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
-  static_cast<void>(begin);
-  static_cast<void>(count);
 #endif
 }
 

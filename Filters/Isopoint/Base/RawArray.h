@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/HugePages.h"
 
+#include <cassert>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
@@ -54,28 +55,17 @@ public:
   }
 
   /// Makes an empty array one of this many elements of which few will be written: no memory is
-  /// taken, nor set aside, for pages that are not, as far as the system can. Its size stays.
+  /// taken, nor set aside, for pages that are not, as far as the system can. Its size must stay.
   /// @param first, count the elements that will all be written
   /// @throws std::bad_alloc
   void spread(std::size_t size, std::size_t first, std::size_t count)
   {
-    if (size > std::numeric_limits<std::size_t>::max() / sizeof(T))
-    {
-      throw std::bad_alloc();
-    }
+    const std::size_t bytes = bytesOf(size);
     this->release();
-    if (size == 0)
-    {
-      return;
-    }
-    this->Elements = static_cast<T*>(reserveSpread(size * sizeof(T)));
-    if (!this->Elements)
-    {
-      throw std::bad_alloc();
-    }
+    this->Elements = checked(reserveSpread(bytes));
     this->Size = this->Capacity = size;
-    this->SpreadBytes = size * sizeof(T);
-    preferHugePagesInside(this->Elements, this->SpreadBytes, first * sizeof(T), count * sizeof(T));
+    this->IsSpread = true;
+    preferHugePages(this->Elements + first, bytesOf(count));
   }
 
   /// Gives back the memory of some elements, as far as the system can, whose values are lost.
@@ -91,39 +81,51 @@ public:
   const T& operator[](std::size_t i) const { return this->Elements[i]; }
 
 private:
+  static std::size_t bytesOf(std::size_t count)
+  {
+    if (count > std::numeric_limits<std::size_t>::max() / sizeof(T))
+    {
+      throw std::bad_alloc();
+    }
+    return count * sizeof(T);
+  }
+
+  static T* checked(void* memory)
+  {
+    if (!memory)
+    {
+      throw std::bad_alloc();
+    }
+    return static_cast<T*>(memory);
+  }
+
   void reallocate(std::size_t capacity)
   {
-    if (capacity > std::numeric_limits<std::size_t>::max() / sizeof(T))
-    {
-      throw std::bad_alloc();
-    }
-    void* grown = std::realloc(static_cast<void*>(this->Elements), capacity * sizeof(T));
-    if (!grown)
-    {
-      throw std::bad_alloc();
-    }
-    preferHugePages(grown, capacity * sizeof(T));
-    this->Elements = static_cast<T*>(grown);
+    assert(!this->IsSpread); // its memory is not that of realloc
+    const std::size_t bytes = bytesOf(capacity);
+    this->Elements = checked(std::realloc(static_cast<void*>(this->Elements), bytes));
     this->Capacity = capacity;
+    preferHugePages(this->Elements, bytes);
   }
 
   void release()
   {
-    if (this->SpreadBytes > 0)
+    if (this->IsSpread)
     {
-      releaseSpread(this->Elements, this->SpreadBytes);
+      releaseSpread(this->Elements, this->Capacity * sizeof(T));
     }
     else
     {
       std::free(this->Elements);
     }
     this->Elements = nullptr;
-    this->Size = this->Capacity = this->SpreadBytes = 0;
+    this->Size = this->Capacity = 0;
+    this->IsSpread = false;
   }
 
   void swap(RawArray& other) noexcept
   {
-    std::swap(this->SpreadBytes, other.SpreadBytes);
+    std::swap(this->IsSpread, other.IsSpread);
     std::swap(this->Elements, other.Elements);
     std::swap(this->Size, other.Size);
     std::swap(this->Capacity, other.Capacity);
@@ -132,7 +134,7 @@ private:
   T* Elements = nullptr;
   std::size_t Size = 0;
   std::size_t Capacity = 0;
-  std::size_t SpreadBytes = 0; // of an array made by spread(), or 0
+  bool IsSpread = false; // made by spread()
 };
 
 } // namespace isopoint

@@ -56,6 +56,17 @@ class IsopointNeighbors
 public:
   using Id = typename TSample::Id;
 
+  /// A part of a list.
+  template <class T>
+  struct List
+  {
+    const T* first;
+    const T* last;
+    const T* begin() const { return this->first; }
+    const T* end() const { return this->last; }
+    std::size_t size() const { return static_cast<std::size_t>(this->last - this->first); }
+  };
+
   /// @param tree in which the leaves' neighborhoods are complete
   /// @param known neighborhoods; others are searched for
   /// @param leaves of the isopoints' edges
@@ -108,23 +119,14 @@ public:
     {
     }
 
-    /// The isopoints around one, each once, mostly itself among them.
-    struct Found
-    {
-      const std::size_t* first;
-      const std::size_t* last;
-      const std::size_t* begin() const { return this->first; }
-      const std::size_t* end() const { return this->last; }
-      std::size_t size() const { return static_cast<std::size_t>(this->last - this->first); }
-    };
-
     /// @param rings 1 or more. In the first ring are the isopoints whose edges end in or next to an
     /// end of one of the edges that begin where this one's does; each further ring adds those whose
     /// edges end in or next to an end of one of the ring before. All samples that determine which
     /// these are lie in leaves that are connected to this one's edge by no more than 2 rings + 1
     /// touching leaves.
-    /// @returns a list that holds until the next call
-    Found find(std::size_t isopoint, int rings)
+    /// @returns isopoints, each once, mostly this one among them; a list that holds until the next
+    /// call
+    List<std::size_t> find(std::size_t isopoint, int rings)
     {
       const Id leaf = this->Neighbors.Ends[isopoint][0];
       if (this->RingEnds.empty() || leaf != this->Leaf)
@@ -220,18 +222,10 @@ private:
   template <class T>
   struct Lists
   {
-    struct List
-    {
-      const T* first;
-      const T* last;
-      const T* begin() const { return this->first; }
-      const T* end() const { return this->last; }
-    };
-
     std::vector<std::size_t> ends; // of the lists; the first one is empty
     std::vector<T> all;
 
-    List at(std::size_t list) const
+    List<T> at(std::size_t list) const
     {
       return { this->all.data() + this->ends[list - 1], this->all.data() + this->ends[list] };
     }
@@ -302,14 +296,22 @@ private:
     forBatches(execution, parts.size(), batch, 1,
       [&](std::size_t begin, std::size_t end)
       {
+        std::vector<Id> memory;
         for (std::size_t part = begin; part < end; ++part)
         {
           const std::size_t last = std::min(count, (part + 1) * grain);
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
-            if (isSurrounded[leaf])
+            const NodeList<Id> touching =
+              isSurrounded[leaf] ? fewNeighborsOf(tree, known,
+                                     static_cast<std::size_t>(this->Leaves[leaf]), most, memory)
+                                 : NodeList<Id>{};
+            for (const Id node : touching)
             {
-              addTouching(tree, known, this->Leaves[leaf], numbers, parts[part]);
+              if (numbers[node] != 0)
+              {
+                parts[part].push_back(numbers[node]);
+              }
             }
             this->Touching.ends[leaf] = parts[part].size();
           }
@@ -323,38 +325,6 @@ private:
         this->Touching.ends[leaf] += this->Touching.all.size();
       }
       this->Touching.all.insert(this->Touching.all.end(), parts[part].begin(), parts[part].end());
-    }
-  }
-
-  static void addTouching(const SampleTree<TSample>& tree, const NeighborhoodCache<Id>& known,
-    Id leaf, const std::vector<Id>& numbers, std::vector<Id>& touching)
-  {
-    const std::size_t begin = touching.size();
-    const auto add = [&](std::size_t node)
-    {
-      if (numbers[node] != 0)
-      {
-        touching.push_back(numbers[node]);
-      }
-    };
-    const NodeList<Id> list = known.at(leaf);
-    std::size_t found = list.count;
-    if (!list.isEmpty() && list.count <= most)
-    {
-      std::for_each(list.begin(), list.end(), add);
-    }
-    else if (list.isEmpty())
-    {
-      visitNeighbors(tree, pathToLeaf(tree, leaf),
-        [&](std::size_t node)
-        {
-          add(node);
-          return ++found > most;
-        });
-    }
-    if (found > most)
-    {
-      touching.resize(begin);
     }
   }
 

@@ -67,7 +67,7 @@ struct Isosurface
 
   std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
 
-  std::vector<CoincidentSamples> coincident; // among the ends of the edges, by lowest id
+  std::vector<CoincidentSamples> coincident; // all at ends of the edges, and others; by lowest id
 
   std::size_t droppedEdges = 0; // crossing ones that lie in gaps
 
@@ -124,7 +124,22 @@ std::vector<CoincidentSamples> coincidentEnds(
       }
     }
   }
-  return coincidentSamplesOf(tree, std::move(leaves));
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  std::vector<CoincidentSamples> result;
+  for (const std::size_t leaf : leaves)
+  {
+    CoincidentSamples group;
+    for (std::size_t i = tree.nodes[leaf].begin; i < tree.nodes[leaf].end; ++i)
+    {
+      group.ids.push_back(tree.samples[i].id);
+    }
+    result.push_back(std::move(group));
+  }
+  std::sort(result.begin(), result.end(),
+    [](const CoincidentSamples& a, const CoincidentSamples& b)
+    { return a.ids.front() < b.ids.front(); });
+  return result;
 }
 
 /// An attribute of the samples at the ends of a surface's edges: their own or, of coincident

@@ -6,6 +6,8 @@
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tree/NodeMarks.h"
+#include "Isopoint/Tree/TreeRefinement.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
 
 #include <algorithm>
@@ -129,7 +131,12 @@ private:
     }
     if (unfinished > 0)
     {
-      this->finish(front, bottom);
+      std::vector<std::size_t> tops;
+      for (const BandNode& node : front)
+      {
+        tops.push_back(node.nodeIndex);
+      }
+      splitCompletely(this->Run, this->Tree, tops);
     }
     return true;
   }
@@ -321,61 +328,22 @@ private:
            this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
   }
 
-  /// Splits everything below the front down to leaves, whether the surface is near or not.
-  /// @param depth to which it has been split
-  void finish(const std::vector<BandNode>& front, int depth)
-  {
-    std::vector<BandNode> unfinished = this->unfinishedBelow(front, depth);
-    while (!unfinished.empty())
-    {
-      throwIfAborted(this->Run);
-      const int bottom = depth + treeletLevels;
-      this->splitFront(unfinished, depth, bottom);
-      unfinished = this->unfinishedBelow(unfinished, bottom);
-      depth = bottom;
-    }
-  }
-
-  /// The nodes of a depth below the front that are no leaves.
-  std::vector<BandNode> unfinishedBelow(const std::vector<BandNode>& front, int depth)
-  {
-    return this->collectBelow(front, depth,
-      [this](const Path& below, std::vector<BandNode>& unfinished)
-      {
-        if (!this->Tree.nodes[below.nodeIndex()].isLeaf)
-        {
-          unfinished.push_back({ below.index, below.nodeIndex(), true });
-        }
-      });
-  }
-
   /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
   /// crossing. What touches nodes that are not known is put aside, until they have been fetched.
   template <class TRanks>
   void mark(TRanks& ranks, std::vector<BandNode> front, int depth)
   {
-    this->Marks = std::vector<std::atomic<Mark>>();
+    this->Marks = NodeMarks();
     std::vector<MissingNode> missing;
     do
     {
-      this->keepMarks();
+      this->Marks.grow(this->Tree.nodes.size());
       this->Aside.clear();
       this->markBelowFront(front, depth);
       front = this->Aside;
       missing.swap(this->Missing);
       this->Missing.clear();
     } while (ranks.fetchNodes(missing, depth));
-  }
-
-  /// Makes room for the marks of nodes that were added.
-  void keepMarks()
-  {
-    std::vector<std::atomic<Mark>> marks(this->Tree.nodes.size());
-    for (std::size_t i = 0; i < this->Marks.size(); ++i)
-    {
-      marks[i].store(this->Marks[i].load(std::memory_order_relaxed), std::memory_order_relaxed);
-    }
-    this->Marks.swap(marks);
   }
 
   void markBelowFront(const std::vector<BandNode>& front, int depth)
@@ -426,7 +394,7 @@ private:
 
   void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
   {
-    this->Marks[crossing].store(Mark::Crossing, std::memory_order_relaxed);
+    this->Marks.set(crossing, needed | crossed);
     if (this->ListBudget.isSpent())
     {
       for (const FoundNode& root : surroundings)
@@ -439,23 +407,11 @@ private:
     visitTouching(this->Tree, surroundings, depth,
       [this, &count](std::size_t nodeIndex)
       {
-        this->markNeeded(nodeIndex);
+        this->Marks.set(nodeIndex, needed);
         ++count;
         return false;
       });
     this->ListBudget.spend(count);
-  }
-
-  bool isMarked(std::size_t nodeIndex) const
-  {
-    return this->Marks[nodeIndex].load(std::memory_order_relaxed) != Mark::None;
-  }
-
-  void markNeeded(std::size_t nodeIndex)
-  {
-    Mark none = Mark::None;
-    this->Marks[nodeIndex].compare_exchange_strong(
-      none, Mark::Needed, std::memory_order_relaxed, std::memory_order_relaxed);
   }
 
   /// Marks the nodes of a depth in a subtree that touch the region, and a parent once all below it
@@ -463,7 +419,7 @@ private:
   /// @returns whether all are marked
   bool markBelow(FoundNode top, int depth, const Region& region)
   {
-    if (this->isMarked(top.nodeIndex))
+    if (this->Marks.has(top.nodeIndex, needed))
     {
       return true;
     }
@@ -474,13 +430,16 @@ private:
       const FoundNode lower{ node.lowerNode(), top.depth + 1 };
       const FoundNode upper{ node.upperNode(), top.depth + 1 };
       const auto areAllIn = [&](const FoundNode& child, bool touches)
-      { return touches ? this->markBelow(child, depth, region) : this->isMarked(child.nodeIndex); };
+      {
+        return touches ? this->markBelow(child, depth, region)
+                       : this->Marks.has(child.nodeIndex, needed);
+      };
       areAll = areAllIn(lower, node.plane >= region.lower[node.axis]);
       areAll = areAllIn(upper, node.plane <= region.upper[node.axis]) && areAll;
     }
     if (areAll)
     {
-      this->markNeeded(top.nodeIndex);
+      this->Marks.set(top.nodeIndex, needed);
     }
     return areAll;
   }
@@ -489,12 +448,12 @@ private:
   std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
   {
     return this->collectBelow(front, depth,
-      [this](const Path& below, std::vector<BandNode>& needed)
+      [this](const Path& below, std::vector<BandNode>& found)
       {
-        const Mark mark = this->Marks[below.nodeIndex()].load(std::memory_order_relaxed);
-        if (mark != Mark::None)
+        const std::size_t node = below.nodeIndex();
+        if (this->Marks.has(node, needed))
         {
-          needed.push_back({ below.index, below.nodeIndex(), mark == Mark::Crossing });
+          found.push_back({ below.index, node, this->Marks.has(node, crossed) });
         }
       });
   }
@@ -530,12 +489,9 @@ private:
     return collected;
   }
 
-  enum class Mark : std::uint8_t
-  {
-    None,
-    Needed,
-    Crossing
-  };
+  // Marks of nodes.
+  static constexpr std::uint8_t needed = 1;
+  static constexpr std::uint8_t crossed = 2;
 
   SampleTree<TSample>& Tree;
   const double Isovalue;
@@ -544,7 +500,7 @@ private:
   const double WorkForIsopoint;
   BandForecast Forecast;
   NeighborListBudget ListBudget;
-  std::vector<std::atomic<Mark>> Marks; // by node index, of the present depth and above
+  NodeMarks Marks; // of nodes of the present depth and above
   std::mutex AsideMutex;
   std::vector<BandNode> Aside;      // nodes of the present depth that wait for others
   std::vector<MissingNode> Missing; // which these are

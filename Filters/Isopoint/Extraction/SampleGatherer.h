@@ -2,9 +2,9 @@
 #ifndef isopoint_SampleGatherer_h
 #define isopoint_SampleGatherer_h
 
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/LeafSet.h"
-#include "Isopoint/Extraction/SampleSpacing.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
@@ -13,11 +13,80 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace isopoint
 {
+
+/// The spacing of the samples around one of them; see docs/algorithm.md, section 10.1. Memory is
+/// kept. For one thread.
+class SampleSpacing
+{
+public:
+  /// Forgets all neighbors.
+  void clear() { this->Neighbors.clear(); }
+
+  /// Adds a neighbor at another position.
+  void add(const Vector& offset)
+  {
+    this->Neighbors.push_back({ offset, lengthOf(offset), this->Neighbors.size() });
+  }
+
+  /// The distance that two fifths of the neighbors and the sample itself do not exceed, or that at
+  /// which they span space, if that is well less. The farthest may be across a void, the nearest
+  /// all on one line or in one slice with the sample.
+  /// Complexity: O(n log n)
+  double spacing()
+  {
+    std::sort(this->Neighbors.begin(), this->Neighbors.end(),
+      [](const Neighbor& a, const Neighbor& b)
+      { return a.distance != b.distance ? a.distance < b.distance : a.number < b.number; });
+    constexpr double spanShare = 1.2;
+    const std::size_t rank = 2 * (this->Neighbors.size() + 1) / 5;
+    const double usual = rank > 0 ? this->Neighbors[rank - 1].distance : 0.0;
+    return std::min(usual, spanShare * this->distanceThatSpans());
+  }
+
+private:
+  struct Neighbor
+  {
+    Vector offset;
+    double distance;
+    std::size_t number;
+  };
+
+  /// The distance of the nearest neighbor that is more than 30 degrees off the plane of the nearest
+  /// one and the nearest that is more than 30 degrees off the line of that; infinite without any.
+  double distanceThatSpans() const
+  {
+    constexpr double sine = 0.5;
+    constexpr double cosine = 0.86602540378443865;
+    std::optional<Vector> line;
+    std::optional<Vector> normal; // of the plane
+    for (const Neighbor& neighbor : this->Neighbors)
+    {
+      const Vector direction = directionOf(neighbor.offset);
+      if (normal && std::abs(dot(direction, *normal)) > sine)
+      {
+        return neighbor.distance;
+      }
+      if (line && !normal && std::abs(dot(direction, *line)) < cosine)
+      {
+        normal = directionOf(cross(direction, *line));
+      }
+      line = line ? line : direction;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  std::vector<Neighbor> Neighbors;
+};
 
 /// Gathers the samples around edges, one edge at a time: within one ring of touching cells
 /// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept.
@@ -134,46 +203,28 @@ private:
     std::vector<Id> neighbors;
   };
 
-  /// Those of leaves whose neighborhoods are not kept for further isovalues.
-  struct FoundNeighbors
-  {
-    Id leaf = 0; // the tree's root is none
-    std::vector<Id> neighbors;
-  };
-
-  struct KnownSpacing
-  {
-    Id leaf = 0;
-    double spacing = 0.0;
-  };
-
   /// The neighbors of a leaf; none if they are too many. Valid until the next call.
   NodeList<Id> neighborsOf(Id leaf)
   {
-    const NodeList<Id> known = this->Context.neighborhoods.at(static_cast<std::size_t>(leaf));
-    if (!known.isEmpty())
+    const auto found = this->RecentlyFound.find(leaf);
+    if (found != this->RecentlyFound.end())
     {
-      return known.count <= mostNeighbors ? known : NodeList<Id>{};
+      return { found->second.data(), found->second.size() };
     }
-    FoundNeighbors& found =
-      this->RecentlyFound[static_cast<std::size_t>(leaf) % this->RecentlyFound.size()];
-    if (found.leaf != leaf)
+    std::vector<Id> memory;
+    const NodeList<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
+      static_cast<std::size_t>(leaf), mostNeighbors, memory);
+    if (!memory.empty())
     {
-      found.leaf = 0; // for as long as the list is incomplete
-      found.neighbors.clear();
-      const bool areMany = visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaf),
-        [&found](std::size_t neighbor)
-        {
-          found.neighbors.push_back(static_cast<Id>(neighbor));
-          return found.neighbors.size() > mostNeighbors;
-        });
-      if (areMany)
+      constexpr std::size_t mostLists = 4096; // or memory would grow with the surface
+      if (this->RecentlyFound.size() == mostLists)
       {
-        found.neighbors.clear();
+        this->RecentlyFound.clear();
       }
-      found.leaf = leaf;
+      memory.resize(neighbors.count);
+      this->RecentlyFound.emplace(leaf, std::move(memory)); // the elements stay where they are
     }
-    return { found.neighbors.data(), found.neighbors.size() };
+    return neighbors;
   }
 
   /// Lists some of very many neighbors: one for each subtree whose size over its distance is
@@ -190,9 +241,8 @@ private:
   /// The spacing of the samples around an end.
   double spacingAt(const End& end)
   {
-    KnownSpacing& known =
-      this->KnownSpacings[static_cast<std::size_t>(end.leaf) % this->KnownSpacings.size()];
-    if (known.leaf != end.leaf)
+    const auto [known, isNew] = this->Spacings.try_emplace(end.leaf, 0.0);
+    if (isNew)
     {
       const Vector center = this->positionOfLeaf(end.leaf);
       this->Spacing.clear();
@@ -200,9 +250,9 @@ private:
       {
         this->Spacing.add(difference(this->positionOfLeaf(neighbor), center));
       }
-      known = { end.leaf, this->Spacing.spacing() };
+      known->second = this->Spacing.spacing();
     }
-    return known.spacing;
+    return known->second;
   }
 
   bool isBelow(Id leaf)
@@ -246,8 +296,8 @@ private:
   LeafSet<Id> Known;         // leaves whose samples are taken
   std::vector<FitSample> Samples;
   bool IsWide = false;
-  std::array<FoundNeighbors, 1024> RecentlyFound{}; // by the leaf's last bits
-  std::array<KnownSpacing, 1024> KnownSpacings{};   // likewise
+  std::unordered_map<Id, std::vector<Id>> RecentlyFound; // neighbors, by leaf
+  std::unordered_map<Id, double> Spacings;               // likewise
   SampleSpacing Spacing;
 };
 

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -196,28 +195,6 @@ std::vector<std::size_t> keptPoints(
   return kept;
 }
 
-/// The coincident samples that are ends of edges.
-std::vector<CoincidentSamples> endsAmong(
-  const std::vector<CoincidentSamples>& coincident, const std::vector<IsopointEdge>& edges)
-{
-  if (coincident.empty())
-  {
-    return {};
-  }
-  std::vector<std::uint64_t> ends;
-  ends.reserve(2 * edges.size());
-  for (const IsopointEdge& edge : edges)
-  {
-    ends.insert(ends.end(), { edge.first, edge.second });
-  }
-  std::sort(ends.begin(), ends.end());
-  std::vector<CoincidentSamples> result;
-  std::copy_if(coincident.begin(), coincident.end(), std::back_inserter(result),
-    [&ends](const CoincidentSamples& group)
-    { return std::binary_search(ends.begin(), ends.end(), group.ids.front()); });
-  return result;
-}
-
 } // namespace
 
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface)
@@ -232,7 +209,7 @@ void thin(const Execution& execution, double minimumSpacing, Isosurface& surface
     return;
   }
   Isosurface thinned = chosenIsopoints(surface, kept);
-  thinned.coincident = endsAmong(surface.coincident, thinned.edges);
+  thinned.coincident = std::move(surface.coincident);
   surface = std::move(thinned);
 }
 

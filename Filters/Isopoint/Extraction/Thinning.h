@@ -17,8 +17,8 @@ namespace isopoint
 /// least `mostCreaseCosine`. So points on two sheets, or on either side of a crease, are never
 /// close: consecutive sheets of one isovalue have opposite gradients, and the next but one lies off
 /// the tangent plane. Around points with spacings beyond 1e290 nothing is close.
-/// @param surface with fits, or nothing is dropped; its coincident samples remain as far as they
-/// are ends of the remaining edges
+/// @param surface with fits, or nothing is dropped; its coincident samples remain, those at edges
+/// that are dropped included
 /// @param minimumSpacing 0, which drops nothing, up to 1
 /// @throws std::bad_alloc or Aborted, the surface then unchanged
 /// Complexity: O(n) for each power of two between the smallest and the largest spacing

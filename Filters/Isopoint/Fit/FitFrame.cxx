@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace isopoint
 {
@@ -63,44 +62,37 @@ void FitFrame::add(const FitSample* first, const FitSample* last)
   }
   else
   {
-    this->Distances.clear();
-    for (const FitSample* sample = first; sample != last; ++sample)
-    {
-      const Vector place = this->placeOf(sample->position);
-      this->Distances.push_back(dot(place, place));
-    }
-    this->addNearest(first, nearest);
-    this->addNearest(first, added - nearest);
+    this->addNearest(first, count, nearest, added);
   }
   this->MeanDistance = this->Samples.sum([this](std::size_t group)
                          { return Lanes(this->Samples.squaredDistance[group].sqrt()); }) /
                        static_cast<double>(this->Samples.count());
 }
 
-/// Adds the nearest ones of the samples that are left, and marks these as taken.
-void FitFrame::addNearest(const FitSample* samples, std::size_t count)
+/// Adds the `nearest` nearest samples in their order, and then so the nearest others, up to `most`
+/// in all.
+void FitFrame::addNearest(
+  const FitSample* samples, std::size_t count, std::size_t nearest, std::size_t most)
 {
-  constexpr double taken = std::numeric_limits<double>::infinity();
-  double limit = taken;
-  std::size_t equal = 0; // how many at that distance are to be added
-  if (count < this->Distances.size() && count > 0)
+  this->ByDistance.clear();
+  for (std::size_t i = 0; i < count; ++i)
   {
-    this->Sorted = this->Distances;
-    const auto last = this->Sorted.begin() + static_cast<std::ptrdiff_t>(count) - 1;
-    std::nth_element(this->Sorted.begin(), last, this->Sorted.end());
-    limit = *last;
-    equal = count - static_cast<std::size_t>(std::count_if(
-                      this->Sorted.begin(), last, [&](double d) { return d < limit; }));
+    const Vector place = this->placeOf(samples[i].position);
+    this->ByDistance.emplace_back(dot(place, place), i);
   }
-  for (std::size_t i = 0; i < this->Distances.size() && count > 0; ++i)
+  const auto begin = this->ByDistance.begin();
+  const auto middle = begin + static_cast<std::ptrdiff_t>(nearest);
+  const auto end = begin + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(begin, middle, this->ByDistance.end());
+  std::nth_element(middle, end, this->ByDistance.end());
+  const auto comesFirst = [](const auto& a, const auto& b) { return a.second < b.second; };
+  std::sort(begin, middle, comesFirst);
+  std::sort(middle, end, comesFirst);
+  for (auto next = begin; next != end; ++next)
   {
-    double& distance = this->Distances[i];
-    if (distance < limit || (distance == limit && distance < taken && equal > 0))
+    if (std::isfinite(next->first))
     {
-      equal -= distance == limit ? 1 : 0;
-      this->add(samples[i]);
-      distance = taken;
-      --count;
+      this->add(samples[next->second]);
     }
   }
 }

@@ -6,6 +6,8 @@
 #include "Isopoint/Fit/FrameSamples.h"
 #include "Isopoint/Fit/LocalFit.h"
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -43,7 +45,8 @@ public:
   std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
 
 private:
-  void addNearest(const FitSample* samples, std::size_t count);
+  void addNearest(
+    const FitSample* samples, std::size_t count, std::size_t nearest, std::size_t most);
   void add(const FitSample& sample)
   {
     this->Samples.add(
@@ -62,8 +65,7 @@ private:
   double Value = 1.0;  // and of values
   double MeanDistance = 0.0;
   bool IsUsable = false;
-  std::vector<double> Distances; // squared
-  std::vector<double> Sorted;
+  std::vector<std::pair<double, std::size_t>> ByDistance; // squared, and the samples
 };
 
 } // namespace isopoint

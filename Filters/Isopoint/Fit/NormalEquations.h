@@ -18,11 +18,27 @@ namespace isopoint
 /// the coefficient: about half of the digits of a double remain.
 constexpr double leastPivot = 1e-7;
 
-/// The powers of x, y, z in each coefficient's product, in the order of Polynomial.
-constexpr std::array<std::array<std::size_t, 3>, 20> exponents{ { { 0, 0, 0 }, { 1, 0, 0 },
-  { 0, 1, 0 }, { 0, 0, 1 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 },
-  { 0, 1, 1 }, { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 },
-  { 0, 2, 1 }, { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
+/// The product of coordinates that a coefficient belongs to: that of an earlier one, times a
+/// coordinate. In the order of Polynomial, the first one, 1, apart.
+struct CoordinateProduct
+{
+  std::size_t former;
+  std::size_t axis;
+};
+constexpr std::array<CoordinateProduct, 20> coordinateProducts{ { {}, { 0, 0 }, { 0, 1 }, { 0, 2 },
+  { 1, 0 }, { 2, 1 }, { 3, 2 }, { 1, 1 }, { 1, 2 }, { 2, 2 }, { 4, 0 }, { 5, 1 }, { 6, 2 },
+  { 4, 1 }, { 4, 2 }, { 5, 0 }, { 5, 2 }, { 6, 0 }, { 6, 1 }, { 7, 2 } } };
+
+/// The powers of x, y, z in a coefficient's product.
+constexpr std::array<std::size_t, 3> exponentsOf(std::size_t coefficient)
+{
+  std::array<std::size_t, 3> exponents{};
+  for (; coefficient > 0; coefficient = coordinateProducts[coefficient].former)
+  {
+    ++exponents[coordinateProducts[coefficient].axis];
+  }
+  return exponents;
+}
 
 /// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order:
 /// coefficientCount (order) of them instead of one for each pair of coefficients.
@@ -43,8 +59,8 @@ public:
   template <std::size_t First, std::size_t Second>
   double product() const
   {
-    constexpr auto first = exponents[First];
-    constexpr auto second = exponents[Second];
+    constexpr auto first = exponentsOf(First);
+    constexpr auto second = exponentsOf(Second);
     return this->Sums[first[0] + second[0]][first[1] + second[1]][first[2] + second[2]];
   }
 
@@ -131,7 +147,8 @@ public:
     this->factor(moments, std::make_index_sequence<size>());
     for (std::size_t i = 0; i < size; ++i)
     {
-      this->RightSide[i] = ofValues.at(exponents[i][0], exponents[i][1], exponents[i][2]);
+      const auto [a, b, c] = exponentsOf(i);
+      this->RightSide[i] = ofValues.at(a, b, c);
     }
   }
 
@@ -180,32 +197,13 @@ public:
   template <class Number>
   static std::array<Number, size> products(const Number& x, const Number& y, const Number& z)
   {
+    const std::array<const Number*, 3> coordinates{ &x, &y, &z };
     std::array<Number, size> result;
     result[0] = Number::Ones();
-    result[1] = x;
-    result[2] = y;
-    result[3] = z;
-    if constexpr (Degree > 1)
+    for (std::size_t i = 1; i < size; ++i)
     {
-      result[4] = x * x;
-      result[5] = y * y;
-      result[6] = z * z;
-      result[7] = x * y;
-      result[8] = x * z;
-      result[9] = y * z;
-    }
-    if constexpr (Degree > 2)
-    {
-      result[10] = result[4] * x;
-      result[11] = result[5] * y;
-      result[12] = result[6] * z;
-      result[13] = result[4] * y;
-      result[14] = result[4] * z;
-      result[15] = result[5] * x;
-      result[16] = result[5] * z;
-      result[17] = result[6] * x;
-      result[18] = result[6] * y;
-      result[19] = result[7] * z;
+      const auto& [former, axis] = coordinateProducts[i];
+      result[i] = result[former] * *coordinates[axis];
     }
     return result;
   }

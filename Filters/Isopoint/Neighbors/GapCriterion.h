@@ -66,9 +66,9 @@ public:
       return this->Factor * offsetBetween(positionOf(own), positionOf(sample)).length < length &&
              !haveOnePosition(own, sample);
     };
-    return this->finds(tree, isNear,
-      [&](const auto& visit)
-      { return visitAround(tree, leaf, this->boxAround(positionOf(own), length), visit); });
+    Found<TSample> found;
+    return visitAround(tree, leaf, this->boxAround(positionOf(own), length),
+      [&](std::size_t nodeIndex) { return this->add(tree, nodeIndex, isNear, found); });
   }
 
 private:
@@ -169,17 +169,16 @@ private:
     {
       throw MissingNode{ nodeIndex, this->boxAround(behind.center, behind.edge.length) };
     }
-    const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
-    for (std::size_t i = node.begin; i < end && behind.found.count < this->WantedCount; ++i)
-    {
-      const Offset offset = offsetBetween(behind.center, positionOf(tree.samples[i]));
-      if (this->Factor * offset.length < behind.edge.length &&
-          -dot(offset.vector, behind.edge.vector) > cosine * (offset.length * behind.edge.length))
+    return this->add(
+      tree, nodeIndex,
+      [&](const TSample& sample)
       {
-        behind.found.add(tree.samples[i]);
-      }
-    }
-    return behind.found.count == this->WantedCount;
+        const Offset offset = offsetBetween(behind.center, positionOf(sample));
+        return this->Factor * offset.length < behind.edge.length &&
+               -dot(offset.vector, behind.edge.vector) >
+                 cosine * (offset.length * behind.edge.length);
+      },
+      behind.found);
   }
 
   /// Whether a sample with an offset within bounds may be behind an end. Rounding is monotonic: no
@@ -188,36 +187,25 @@ private:
   bool mayHoldAny(const OffsetBounds& offsets, const Behind<TSample>& behind) const
   {
     const double least = std::sqrt(offsets.leastSquaredLength);
-    const Vector& edge = behind.edge.vector;
-    Vector product{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      product[axis] = std::min(offsets.lower[axis] * edge[axis], offsets.upper[axis] * edge[axis]);
-    }
     return this->Factor * least < behind.edge.length &&
-           -(product[0] + product[1] + product[2]) > cosine * (least * behind.edge.length);
+           -leastProduct(behind.edge, offsets) > cosine * (least * behind.edge.length);
   }
 
-  /// Whether there are enough positions of samples of some kind.
-  /// @param search(visit) visits the nodes that hold these
-  template <class TSample, class Kind, class Search>
-  bool finds(const SampleTree<TSample>& tree, const Kind& isWanted, const Search& search) const
+  /// Adds the samples of an unsplit node that are wanted. @returns whether there are enough
+  template <class TSample, class Kind>
+  bool add(const SampleTree<TSample>& tree, std::size_t nodeIndex, const Kind& isWanted,
+    Found<TSample>& found) const
   {
-    Found<TSample> found;
-    return search(
-      [&](std::size_t nodeIndex)
+    const Node<TSample>& node = tree.nodes[nodeIndex];
+    const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+    for (std::size_t i = node.begin; i < end && found.count < this->WantedCount; ++i)
+    {
+      if (isWanted(tree.samples[i]))
       {
-        const Node<TSample>& node = tree.nodes[nodeIndex];
-        const std::size_t nodeEnd = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
-        for (std::size_t i = node.begin; i < nodeEnd && found.count < this->WantedCount; ++i)
-        {
-          if (isWanted(tree.samples[i]))
-          {
-            found.add(tree.samples[i]);
-          }
-        }
-        return found.count == this->WantedCount;
-      });
+        found.add(tree.samples[i]);
+      }
+    }
+    return found.count == this->WantedCount;
   }
 
   /// A box that holds all that is close enough to matter, with room for rounding.

@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -62,7 +60,6 @@ public:
   {
     this->Droppers.clear();
     this->Queue.clear();
-    this->Next.reset();
     this->addNearDroppers();
     const auto add = [&](std::size_t nodeIndex)
     {
@@ -77,11 +74,12 @@ public:
       }
     };
     std::for_each(this->Tops.begin(), this->Tops.end(), add);
-    while (const std::optional<Found> found = this->pop())
+    while (!this->Queue.empty())
     {
-      const Node<TSample>& node = this->Tree.nodes[found->nodeIndex];
-      if (found->checked < this->Droppers.size() &&
-          this->areDropped(criterion, this->Bounds.offsets(this->Center, node), found->checked))
+      const Found found = this->pop();
+      const Node<TSample>& node = this->Tree.nodes[found.nodeIndex];
+      if (found.checked < this->Droppers.size() &&
+          this->areDropped(criterion, this->Bounds.offsets(this->Center, node), found.checked))
       {
         continue;
       }
@@ -89,12 +87,12 @@ public:
       {
         this->forEachChild(node, add);
       }
-      else if (isWanted(found->nodeIndex))
+      else if (isWanted(found.nodeIndex))
       {
-        const Offset y = this->offsetTo(found->nodeIndex);
+        const Offset y = this->offsetTo(found.nodeIndex);
         if (!this->isDropped(criterion, y))
         {
-          visit(found->nodeIndex);
+          visit(found.nodeIndex);
         }
         this->Droppers.push_back(y);
       }
@@ -143,29 +141,15 @@ private:
     }
   }
 
-  void push(Found found)
+  void push(const Found& found)
   {
-    if (!this->Next)
-    {
-      this->Next = found;
-      return;
-    }
-    if (*this->Next < found)
-    {
-      std::swap(*this->Next, found);
-    }
     this->Queue.push_back(found);
     std::push_heap(this->Queue.begin(), this->Queue.end());
   }
 
-  /// Removes and returns the nearest of those pushed, if there is one.
-  std::optional<Found> pop()
+  /// Removes and returns the nearest of those pushed.
+  Found pop()
   {
-    const bool isNext = this->Next && (this->Queue.empty() || !(*this->Next < this->Queue.front()));
-    if (isNext || this->Queue.empty())
-    {
-      return std::exchange(this->Next, std::nullopt);
-    }
     std::pop_heap(this->Queue.begin(), this->Queue.end());
     const Found found = this->Queue.back();
     this->Queue.pop_back();
@@ -288,8 +272,7 @@ private:
   isopoint::Region Region{};
   Vector Center{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
-  std::optional<Found> Next;     // often the nearest of all, kept out of the heap
-  std::vector<Found> Queue;      // of the others
+  std::vector<Found> Queue;      // a heap
   std::vector<Offset> Droppers;  // neighbors known so far: near ones, and those of interest
 };
 

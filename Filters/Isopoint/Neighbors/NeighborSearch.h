@@ -3,11 +3,13 @@
 #define isopoint_NeighborSearch_h
 
 #include "Isopoint/Base/Region.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace isopoint
 {
@@ -146,6 +148,29 @@ bool visitNeighbors(
       requireLeaf(tree, nodeIndex, surroundings.region);
       return visit(nodeIndex);
     });
+}
+
+/// The neighbors of a leaf as far as they are known or else, in `memory`, searched for; none if
+/// they are more than `most`.
+template <class TSample>
+NodeList<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
+  const NeighborhoodCache<typename TSample::Id>& known, std::size_t leaf, std::size_t most,
+  std::vector<typename TSample::Id>& memory)
+{
+  using List = NodeList<typename TSample::Id>;
+  const List list = known.at(leaf);
+  if (!list.isEmpty())
+  {
+    return list.count <= most ? list : List{};
+  }
+  memory.clear();
+  const bool areMany = visitNeighbors(tree, pathToLeaf(tree, leaf),
+    [&](std::size_t neighbor)
+    {
+      memory.push_back(static_cast<typename TSample::Id>(neighbor));
+      return memory.size() > most;
+    });
+  return areMany ? List{} : List{ memory.data(), memory.size() };
 }
 
 /// Visits the nodes, other than the path's own, that are not split and touch a box that touches the

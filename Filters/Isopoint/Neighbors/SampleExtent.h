@@ -6,7 +6,7 @@
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Neighbors/NearestSample.h"
-#include "Isopoint/Tree/SampleBox.h"
+#include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -30,28 +30,9 @@ struct ExtentQuery
 constexpr double leastCosineAhead = 0.7071;
 
 /// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
-/// their regions. Each is computed at its first request; from any thread.
+/// their regions, by node.
 template <class TSample>
-class UnsplitBounds
-{
-public:
-  explicit UnsplitBounds(const SampleTree<TSample>& tree)
-    : Tree(tree)
-  {
-  }
-
-  /// O(1), except for the first time O(samples of the node).
-  /// @throws std::bad_alloc
-  SampleBox<TSample> at(std::size_t nodeIndex)
-  {
-    return this->Boxes.at(
-      nodeIndex, [&]() { return boxOfSamples(this->Tree, this->Tree.nodes[nodeIndex]); });
-  }
-
-private:
-  const SampleTree<TSample>& Tree;
-  ConcurrentMemo<SampleBox<TSample>> Boxes;
-};
+using UnsplitBounds = ConcurrentMemo<SampleBox<TSample>>;
 
 /// Searches for the samples ahead of a place, the farthest of them first. Subtrees whose region
 /// shows that they make no difference are skipped.
@@ -171,7 +152,9 @@ private:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
     const bool areMany = end - node.begin > many;
-    const SampleBox<TSample> box = areMany ? this->Bounds.at(nodeIndex) : SampleBox<TSample>{};
+    const SampleBox<TSample> box =
+      areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })
+              : SampleBox<TSample>{};
     for (std::size_t i = node.begin; i < end; ++i)
     {
       if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
@@ -252,7 +235,6 @@ class SampleExtents
 public:
   explicit SampleExtents(const SampleTree<TSample>& tree)
     : Tree(tree)
-    , Bounds(tree)
   {
   }
 

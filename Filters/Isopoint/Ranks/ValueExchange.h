@@ -19,19 +19,6 @@
 namespace isopoint
 {
 
-/// Which items take part, and where: equal for the same items, and for others by chance alone, once
-/// in 2^64 or less.
-struct PositionDigest
-{
-  std::uint64_t sum = 0;
-  std::uint64_t sumOfMixed = 0;
-
-  bool operator==(const PositionDigest& other) const
-  {
-    return this->sum == other.sum && this->sumOfMixed == other.sumOfMixed;
-  }
-};
-
 /// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
 inline std::uint64_t mixBits(std::uint64_t number)
 {
@@ -40,74 +27,63 @@ inline std::uint64_t mixBits(std::uint64_t number)
   return number ^ (number >> 31);
 }
 
-/// Adds up items in any order.
-class DigestSum
+/// What an item that takes part adds to a digest.
+template <class TCoordinate>
+std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
 {
-public:
-  template <class TCoordinate>
-  void add(std::uint64_t id, const TCoordinate* position)
+  std::uint64_t hash = id;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    std::uint64_t hash = id;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto coordinate = static_cast<double>(position[axis]);
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &coordinate, sizeof(bits));
-      hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
-    }
-    this->Digest.sum += hash;
-    this->Digest.sumOfMixed += mixBits(hash);
+    const auto coordinate = static_cast<double>(position[axis]);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &coordinate, sizeof(bits));
+    hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
   }
+  return hash;
+}
 
-  const PositionDigest& get() const { return this->Digest; }
-
-private:
-  PositionDigest Digest;
-};
-
-/// Calls add(sum, i) for 0 .. count - 1, in parallel. @throws Aborted
-template <class Add>
-PositionDigest digestOf(const Execution& execution, std::size_t count, const Add& add)
+/// Which items take part, and where, as a sum over 0 .. count - 1: equal for the same items, and
+/// for others by chance alone, once in 2^64 cases.
+/// @param digestAt(i) what an item adds, 0 for one that takes no part
+/// @throws Aborted
+template <class DigestAt>
+std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
 {
   constexpr std::size_t grain = 1 << 14;
   std::atomic<std::uint64_t> sum{ 0 };
-  std::atomic<std::uint64_t> sumOfMixed{ 0 };
   forBatches(execution, count, 16 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      DigestSum part;
+      std::uint64_t part = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        add(part, i);
+        part += digestAt(i);
       }
-      sum += part.get().sum;
-      sumOfMixed += part.get().sumOfMixed;
+      sum += part;
     });
-  return { sum, sumOfMixed };
+  return sum;
 }
 
 /// That of samples that were loaded.
 /// @param firstId of the rank's items
 template <class TSample>
-PositionDigest digestOf(
+std::uint64_t digestOfSamples(
   const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
 {
   return digestOf(execution, samples.size(),
-    [&](DigestSum& sum, std::size_t i) { sum.add(samples[i].id - firstId, samples[i].position); });
+    [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
 }
 
 /// That of items as they are read; see loadSamples().
 template <class TSample, class Reader>
-PositionDigest digestOf(const Execution& execution, std::size_t count, const Reader& read)
+std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
 {
   return digestOf(execution, count,
-    [&](DigestSum& sum, std::size_t id)
+    [&](std::size_t id) -> std::uint64_t
     {
       TSample sample;
-      if (read(id, sample.position, sample.value) && isFinite(sample))
-      {
-        sum.add(id, sample.position);
-      }
+      const bool takesPart = read(id, sample.position, sample.value) && isFinite(sample);
+      return takesPart ? digestOfItem(id, sample.position) : 0;
     });
 }
 

@@ -88,11 +88,24 @@ private:
     return !this->Points.fits.empty() && this->Points.fits[point].isSmooth;
   }
 
+  /// The spacing of the samples at a point, or 0 if there are no fits.
+  double spacingAt(std::size_t point) const
+  {
+    return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+  }
+
+  /// The creases that a point's fit knows.
+  const std::vector<CreasePlane>& creasesAt(std::size_t point) const
+  {
+    static const std::vector<CreasePlane> none;
+    return this->Points.fits.empty() ? none : this->Points.fits[point].creases;
+  }
+
   /// The unit of length at a point: the samples' spacing or, where it is not known, half the length
   /// of the point's edge.
   double unitAt(std::size_t point) const
   {
-    const double spacing = this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
+    const double spacing = this->spacingAt(point);
     return spacing > 0.0 && std::isfinite(spacing)
              ? spacing
              : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
@@ -115,12 +128,9 @@ private:
   /// Cuts the octagon down to the cell, in the unit of length.
   void cutOut(std::size_t point, double unit, TangentCell& cell)
   {
-    if (!this->Points.fits.empty())
+    for (const CreasePlane& crease : this->creasesAt(point))
     {
-      for (const CreasePlane& crease : this->Points.fits[point].creases)
-      {
-        cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
-      }
+      cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
     }
     this->HasPassed = false;
     this->cutTowardsRings(point, 2, unit, cell);
@@ -130,7 +140,7 @@ private:
     }
     cutAtBorder(
       this->Extents, this->Points.positions[point], this->Splats[point].normal,
-      this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing,
+      this->spacingAt(point),
       [&](const auto& sample, double width)
       { return this->Neighbors.isAcrossGap(point, sample, width); },
       cell);
@@ -191,7 +201,7 @@ private:
   bool isBesideCrease() const
   {
     return std::any_of(this->Nearby.begin(), this->Nearby.end(),
-      [this](const NearbyPoint& other) { return !this->Points.fits[other.point].creases.empty(); });
+      [this](const NearbyPoint& other) { return !this->creasesAt(other.point).empty(); });
   }
 
   static bool hasScale(const LocalFit& fit)
@@ -261,7 +271,7 @@ private:
     const double a = dot(offset, cell.frame().first);
     const double b = dot(offset, cell.frame().second);
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
-    if (!cell.reachesBeyond(a, b, 0.5 * along) ||
+    if (!(cell.reach(a, b) > 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
         this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
@@ -277,12 +287,8 @@ private:
   /// there: nothing is to be cut halfway to it.
   bool isBeyondCrease(std::size_t point, std::size_t other, const Vector& offset, double unit) const
   {
-    if (this->Points.fits.empty() || this->Points.fits[point].creases.empty())
-    {
-      return false;
-    }
-    const double tolerance = creaseTolerance * lengthOf(offset);
-    const std::vector<CreasePlane>& creases = this->Points.fits[point].creases;
+    const std::vector<CreasePlane>& creases = this->creasesAt(point);
+    const double tolerance = creases.empty() ? 0.0 : creaseTolerance * lengthOf(offset);
     return std::any_of(creases.begin(), creases.end(),
       [&](const CreasePlane& crease)
       {
@@ -296,13 +302,9 @@ private:
   bool isCutAtCrease(std::size_t point, std::size_t other, const Vector& offset, double unit,
     TangentCell& cell) const
   {
-    if (this->Points.fits.empty() || this->Points.fits[other].creases.empty())
+    for (const CreasePlane& crease : this->creasesAt(other))
     {
-      return false;
-    }
-    const double tolerance = creaseTolerance * lengthOf(offset);
-    for (const CreasePlane& crease : this->Points.fits[other].creases)
-    {
+      const double tolerance = creaseTolerance * lengthOf(offset);
       const Vector outward = scaled(-crease.turn, this->Splats[other].normal);
       const double height = dot(outward, offset);
       if (this->isOnPiece(point, other, crease) && height > -tolerance &&

@@ -68,7 +68,7 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
   }
   for (const Vector& direction : extentDirections(normal))
   {
-    const double reach = cell.reachTowards(direction);
+    const double reach = cell.reach(direction);
     if (reach <= complete)
     {
       continue;

@@ -2,8 +2,6 @@
 #include "Isopoint/Splat/SplatFans.h"
 
 #include "Isopoint/Base/TangentFrame.h"
-#include "Isopoint/Splat/LoweredCell.h"
-#include "Isopoint/Splat/MutualSides.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +13,119 @@ namespace isopoint
 {
 namespace
 {
+
+bool hasSideTowards(const SplatCell& cell, std::size_t point)
+{
+  return std::any_of(cell.corners.begin(),
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+    [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
+}
+
+double squaredDistance(const SplatCell::Corner& corner)
+{
+  return corner.x * corner.x + corner.y * corner.y;
+}
+
+/// The corner that takes the place of a side: where the sides before and after it meet; nothing if
+/// that is far away.
+std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
+{
+  constexpr double mostReach = 1.1; // of the distance of the side's farther end
+  const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
+  const SplatCell::Corner& begin = cell.corners[side];
+  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const SplatCell::Corner& after = cell.corners[(side + 2) % cell.count];
+  const double ax = begin.x - before.x;
+  const double ay = begin.y - before.y;
+  const double bx = after.x - end.x;
+  const double by = after.y - end.y;
+  const double turn = ax * by - ay * bx;
+  const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
+  const SplatCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond };
+  const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
+  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
+  {
+    return meeting;
+  }
+  return std::nullopt;
+}
+
+void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
+{
+  cell.corners[(side + 1) % cell.count] = corner;
+  std::copy(cell.corners.begin() + static_cast<std::ptrdiff_t>(side) + 1,
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(side));
+  --cell.count;
+}
+
+/// A point's cell with its sides towards points whose cells have none towards it replaced by the
+/// corner where the sides before and after meet or, if that is far away, marked as overlapping. See
+/// docs/algorithm.md, section 12.6. O(1)
+SplatCell withMutualSides(const std::vector<SplatCell>& cells, std::size_t point)
+{
+  SplatCell cell = cells[point];
+  for (std::size_t side = 0; side < cell.count;)
+  {
+    const std::size_t beyond = cell.corners[side].beyond;
+    if (!SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point))
+    {
+      ++side;
+      continue;
+    }
+    const std::optional<SplatCell::Corner> corner =
+      cell.count > 3 ? replacementOf(cell, side) : std::nullopt;
+    if (corner)
+    {
+      replace(side, *corner, cell);
+    }
+    else
+    {
+      cell.corners[side++].beyond = SplatCell::overlapping;
+    }
+  }
+  return cell;
+}
+
+/// A SplatCell whose corners are lowered from the tangent plane onto the surface.
+struct LoweredCell
+{
+  struct Corner
+  {
+    Vector position;
+    Vector normal;      // of the surface, of length 1
+    double distance;    // from the point, in its tangent plane
+    std::size_t beyond; // see SplatCell
+  };
+
+  std::array<Corner, mostCorners> corners; // counterclockwise
+  std::size_t count;
+  bool isFirstHere; // see SplatCell
+};
+
+/// Lowers the corners of a point's cell onto its paraboloid; see docs/algorithm.md, section 12.6.
+/// @param normal of length 1
+LoweredCell loweredCell(const SplatCell& cell, const Vector& position, const Vector& normal)
+{
+  const TangentFrame frame(normal);
+  LoweredCell lowered;
+  lowered.count = cell.count;
+  lowered.isFirstHere = cell.isFirstHere;
+  for (std::size_t i = 0; i < cell.count; ++i)
+  {
+    const auto& [x, y, beyond] = cell.corners[i];
+    const double slopeX = cell.curvature.xx * x + cell.curvature.xy * y;
+    const double slopeY = cell.curvature.xy * x + cell.curvature.yy * y;
+    const double height = 0.5 * (slopeX * x + slopeY * y);
+    Vector place = sum(position, cell.unit * x, frame.first);
+    place = sum(place, cell.unit * y, frame.second);
+    place = sum(place, cell.unit * height, normal);
+    const Vector upwards = sum(sum(normal, -slopeX, frame.first), -slopeY, frame.second);
+    lowered.corners[i] = { place, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y),
+      beyond };
+  }
+  return lowered;
+}
 
 /// A corner of a point's cell.
 struct CornerOf
@@ -48,12 +159,9 @@ struct Meeting
       return std::pair(points.numberOf(a.point), a.corner) <
              std::pair(points.numberOf(b.point), b.corner);
     };
-    std::size_t i = this->count++;
-    for (; i > 0 && comesBefore(corner, this->corners[i - 1]); --i)
-    {
-      this->corners[i] = this->corners[i - 1];
-    }
-    this->corners[i] = corner;
+    CornerOf* const last = this->corners.data() + this->count++;
+    *last = corner;
+    std::rotate(std::upper_bound(this->corners.data(), last, corner, comesBefore), last, last + 1);
   }
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Splat/SplatNormals.h"
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/linear_least_squares_fitting_3.h>
+#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <optional>
@@ -12,25 +11,32 @@ namespace isopoint
 namespace
 {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-
 /// The normal, not oriented, of the plane through points around the origin of a size near 1, if
 /// they determine one.
-std::optional<Vector> planeNormal(const std::vector<Kernel::Point_3>& points)
+std::optional<Vector> planeNormal(const std::vector<Eigen::Vector3d>& points)
 {
-  Kernel::Plane_3 plane;
-  Kernel::Point_3 centroid;
-  const double quality = CGAL::linear_least_squares_fitting_3(
-    points.begin(), points.end(), plane, centroid, CGAL::Dimension_tag<0>());
-  const Kernel::Vector_3 normal = plane.orthogonal_vector();
-  const Vector result{ normal.x(), normal.y(), normal.z() };
-  const double length = lengthOf(result);
-  constexpr double leastQuality = 1e-6;
-  if (!(quality > leastQuality) || !std::isfinite(length) || length == 0.0)
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points)
   {
-    return std::nullopt;
+    centroid += point;
   }
-  return directionOf(result);
+  centroid /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& point : points)
+  {
+    const Eigen::Vector3d offset = point - centroid;
+    covariance += offset * offset.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
+  const Eigen::Vector3d& spreads = solver.eigenvalues(); // ascending
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const double length = lengthOf({ normal[0], normal[1], normal[2] });
+  constexpr double leastQuality = 1e-6;
+  const bool isDetermined =
+    spreads[1] != 0.0 && 1.0 - spreads[0] / spreads[1] > leastQuality && std::isnormal(length);
+  return isDetermined ? std::optional(directionOf({ normal[0], normal[1], normal[2] }))
+                      : std::nullopt;
 }
 
 std::optional<Vector> fitPlane(
@@ -44,7 +50,7 @@ std::optional<Vector> fitPlane(
   // tiny scale.
   const Vector& origin = positions[point];
   const double scale = 1.0 / lengthOf(difference(positions[around.back()], origin));
-  std::vector<Kernel::Point_3> points(1, Kernel::Point_3(0.0, 0.0, 0.0));
+  std::vector<Eigen::Vector3d> points(1, Eigen::Vector3d::Zero());
   for (const std::size_t other : around)
   {
     const Vector offset = scaled(scale, difference(positions[other], origin));

@@ -71,15 +71,21 @@ public:
     }
   }
 
-  /// Whether a place of the cell has (a, b) . o > distance, in the components of its offset o.
-  bool reachesBeyond(double a, double b, double distance) const
+  /// The largest (a, b) . o of the cell's places, in the components of their offsets o.
+  double reach(double a, double b) const
   {
     double reach = 0.0;
     for (const Corner& corner : *this)
     {
       reach = std::max(reach, a * corner.x + b * corner.y);
     }
-    return reach > distance;
+    return reach;
+  }
+
+  /// How far the cell reaches in a direction.
+  double reach(const Vector& direction) const
+  {
+    return this->reach(dot(direction, this->Frame.first), dot(direction, this->Frame.second));
   }
 
   /// Cuts the cell down to an octagon whose sides are limits.
@@ -122,19 +128,6 @@ public:
     }
   }
 
-  /// How far the cell reaches in a direction.
-  double reachTowards(const Vector& direction) const
-  {
-    const double a = dot(direction, this->Frame.first);
-    const double b = dot(direction, this->Frame.second);
-    double reach = 0.0;
-    for (const Corner& corner : *this)
-    {
-      reach = std::max(reach, a * corner.x + b * corner.y);
-    }
-    return reach;
-  }
-
   /// The square of the distance of the farthest corner.
   double squaredReach() const { return this->SquaredReach; }
 
@@ -152,7 +145,8 @@ public:
   const TangentFrame& frame() const { return this->Frame; }
 
 private:
-  /// Each cut adds a corner at most; cells have about six.
+  /// Each cut adds a corner at most; cells have about six. Rounding might add more: what would
+  /// exceed the capacity is left out.
   static constexpr std::size_t capacity = 64;
 
   static constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
@@ -168,7 +162,11 @@ private:
     double squaredReach = 0.0;
     const auto keep = [&](const Corner& corner)
     {
-      kept[std::min(count++, capacity - 1)] = corner;
+      if (count == capacity)
+      {
+        return;
+      }
+      kept[count++] = corner;
       squaredReach = std::max(squaredReach, corner.x * corner.x + corner.y * corner.y);
     };
     for (std::size_t i = 0; i < this->Count; ++i)
@@ -197,7 +195,6 @@ private:
       keep({ corner.x + t * (other.x - corner.x), corner.y + t * (other.y - corner.y),
         isOutside ? corner.side : side });
     }
-    count = std::min(count, capacity);
     std::copy(
       kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(count), this->Corners.begin());
     this->Count = count;

@@ -4,8 +4,6 @@
 #define isopoint_BandInsertion_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/LockGrid.h"
-#include "Isopoint/Base/Region.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
@@ -13,6 +11,7 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_lock_grid_3.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
@@ -22,13 +21,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <iterator>
 #include <memory>
 #include <numeric>
-#include <type_traits>
 #include <vector>
 
 namespace isopoint::band
@@ -74,52 +73,24 @@ public:
   bool isCertified = false;
 };
 
-/// A grid of locks as CGAL calls it, a SurjectiveLockDataStructure. Vertices are locked by their
-/// positions; who locks is `holder`.
-class VertexLocks
-{
-public:
-  static inline thread_local LockGrid::Holder* holder = nullptr;
+/// Locks of the cells of a grid. Nobody waits: a thread that does not get one gives back all of its
+/// own and goes on elsewhere, so that an exception on another thread, which leaves locks behind,
+/// stops none. For the same reason CGAL's own loop is not used: it waits for ever then, and cannot
+/// be aborted.
+#ifdef CGAL_LINKED_WITH_TBB
+using Locks = CGAL::Spatial_lock_grid_3<CGAL::Tag_non_blocking>;
+#else
+using Locks = CGAL::Spatial_lock_grid_3<>;
+#endif
 
-  explicit VertexLocks(const Region& region)
-    : Grid(region)
-    , Bounds(region.lower[0], region.lower[1], region.lower[2], region.upper[0], region.upper[1],
-        region.upper[2])
-  {
-  }
-
-  template <class TPoint>
-  bool try_lock(const TPoint& point, int = 0)
-  {
-    return this->Grid.tryLock({ point.x(), point.y(), point.z() }, *holder);
-  }
-  template <bool, class TPoint>
-  bool try_lock(const TPoint& point, int = 0)
-  {
-    return this->try_lock(point);
-  }
-  template <class TPoint>
-  bool is_locked_by_this_thread(const TPoint& point) const
-  {
-    return this->Grid.isLocked({ point.x(), point.y(), point.z() }, *holder);
-  }
-  void unlock_all_points_locked_by_this_thread() { this->Grid.unlockAll(*holder); }
-  const CGAL::Bbox_3& get_bbox() const { return this->Bounds; }
-
-private:
-  LockGrid Grid;
-  CGAL::Bbox_3 Bounds;
-};
-
-/// Parallel where oneTBB is available. CGAL's own loops on oneTBB's threads are not used.
+/// Parallel where oneTBB is available.
 using Concurrency = CGAL::Parallel_if_available_tag;
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
 using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel,
   CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Kernel,
-  CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>, CGAL::Default,
-  VertexLocks>;
+  CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>, CGAL::Default, Locks>;
 using Cell = Triangulation::Cell_handle;
 using Vertex = Triangulation::Vertex_handle;
 
@@ -167,19 +138,10 @@ public:
   void run()
   {
     this->sort();
-    const bool hasThreads =
-      std::is_same_v<Concurrency, CGAL::Parallel_tag> && this->Run.threads > 1;
     std::size_t begin = 0;
     for (const std::size_t end : this->levels())
     {
-      if (hasThreads && end - begin >= manySites && this->Cells.dimension() == 3)
-      {
-        this->insertTogether(begin, end);
-      }
-      else
-      {
-        this->insertAlone(begin, end);
-      }
+      this->insertLevel(begin, end);
       begin = end;
     }
   }
@@ -196,8 +158,7 @@ private:
   {
     std::size_t next;
     std::size_t end;
-    Vertex hint; // near the next sample
-    LockGrid::Holder locks;
+    Vertex hint;                   // near the next sample
     std::vector<std::size_t> left; // samples where others had locks
   };
 
@@ -257,14 +218,45 @@ private:
     this->Step(static_cast<double>(this->Done) / static_cast<double>(this->Order.size()));
   }
 
+  void insertLevel(std::size_t begin, std::size_t end)
+  {
+#ifdef CGAL_LINKED_WITH_TBB
+    if (this->Run.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
+        this->makeLocks())
+    {
+      this->insertTogether(begin, end);
+      return;
+    }
+#endif
+    this->insertAlone(begin, end);
+  }
+
+#ifdef CGAL_LINKED_WITH_TBB
+  /// Makes a grid around all vertices, those to be inserted included. @returns whether it could
+  bool makeLocks()
+  {
+    CGAL::Bbox_3 box;
+    for (const Point& point : this->Cells.points())
+    {
+      box += point.bbox();
+    }
+    for (const BandSite& site : this->Sites)
+    {
+      box += pointAt(site.position).bbox();
+    }
+    constexpr int side = 64;
+    this->Grid = std::make_unique<Locks>(box, side);
+    this->Cells.set_lock_data_structure(this->Grid.get());
+    return std::isfinite(box.x_span() + box.y_span() + box.z_span());
+  }
+#endif
+
   /// Inserts samples of a level in streams, a thread in each: mostly far from each other. What they
   /// cannot lock is left for this thread alone, and all of the rest if that is much.
   void insertTogether(std::size_t begin, std::size_t end)
   {
-    this->Locks = std::make_unique<VertexLocks>(this->region());
     // The infinite vertex is locked by its position, which has no other meaning.
     this->Cells.infinite_vertex()->set_point(pointAt(this->siteAt(begin).position));
-    this->Cells.set_lock_data_structure(this->Locks.get());
     std::vector<Stream> streams = this->streamsOf(begin, end);
     const std::size_t doneBefore = this->Done;
     bool isCrowded = false;
@@ -279,29 +271,14 @@ private:
     }
   }
 
-  Region region() const
-  {
-    Region region{ this->Sites.front().position, this->Sites.front().position };
-    for (const BandSite& site : this->Sites)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        region.lower[axis] = std::min(region.lower[axis], site.position[axis]);
-        region.upper[axis] = std::max(region.upper[axis], site.position[axis]);
-      }
-    }
-    return region;
-  }
-
   std::vector<Stream> streamsOf(std::size_t begin, std::size_t end) const
   {
-    const std::size_t count = std::min(this->Run.threads, LockGrid::mostHolders);
-    const std::size_t length = (end - begin + count - 1) / count;
+    const std::size_t length = (end - begin + this->Run.threads - 1) / this->Run.threads;
     std::vector<Stream> streams;
     for (std::size_t next = begin; next < end; next += length)
     {
-      streams.push_back({ next, std::min(next + length, end), this->Cells.finite_vertices_begin(),
-        LockGrid::Holder(streams.size()), {} });
+      streams.push_back(
+        { next, std::min(next + length, end), this->Cells.finite_vertices_begin(), {} });
       streams.back().left.reserve(batchSize);
     }
     return streams;
@@ -349,7 +326,6 @@ private:
   /// The same of one stream, on any thread.
   void advance(Stream& stream)
   {
-    VertexLocks::holder = &stream.locks;
     freeCells = 0;
     const std::size_t end = endOfBatch(stream);
     for (; stream.next < end; ++stream.next)
@@ -370,7 +346,7 @@ private:
   {
     reserveCells(this->Cells);
     const Point point = pointAt(this->siteAt(place).position);
-    bool hasLocks = this->Locks->try_lock(hint->point()) && this->Locks->try_lock(point);
+    bool hasLocks = this->Cells.try_lock_vertex(hint) && this->Cells.try_lock_point(point);
     if (hasLocks)
     {
       const Vertex vertex = this->Cells.insert(point, hint, &hasLocks);
@@ -380,7 +356,7 @@ private:
         hint = vertex;
       }
     }
-    this->Locks->unlock_all_points_locked_by_this_thread();
+    this->Cells.unlock_all_elements();
     return hasLocks;
   }
 
@@ -390,7 +366,7 @@ private:
   const std::function<void(double share)>& Step;
   std::vector<std::size_t> Order;
   std::size_t Done = 0; // samples that are inserted
-  std::unique_ptr<VertexLocks> Locks;
+  std::unique_ptr<Locks> Grid;
 };
 
 } // namespace isopoint::band

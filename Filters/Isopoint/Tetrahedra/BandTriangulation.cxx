@@ -116,7 +116,8 @@ BandTriangulation::~BandTriangulation()
 {
   this->Inside.reset();
 #ifdef CGAL_LINKED_WITH_TBB
-  // CGAL's cells are in memory of oneTBB, which would keep it for later ones.
+  // CGAL's cells are in memory of oneTBB, which would keep it for later ones. Memory that others in
+  // the process use is not touched.
   scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
 #endif
 }

@@ -4,11 +4,12 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tetrahedra/NodeMarks.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
 #include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/TreeRefinement.h"
 
 #include <algorithm>
@@ -178,9 +179,9 @@ private:
     sites.reserve(leaves.size());
     for (const std::size_t leaf : leaves)
     {
-      if (!this->Marks.isInBand(leaf))
+      if (!this->Marks.has(leaf, bandmarks::inBand))
       {
-        this->Marks.addToBand(leaf);
+        this->Marks.set(leaf, bandmarks::inBand);
         sites.push_back({ positionOf(this->Tree.samples[this->Tree.nodes[leaf].begin]), leaf,
           values.at(leaf) < this->Isovalue });
       }
@@ -198,7 +199,7 @@ private:
   /// Inserts all samples.
   void insertAll()
   {
-    splitCompletely(this->Run, this->Tree);
+    splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
     std::vector<std::size_t> leaves;
     Path path = pathToRoot(this->Tree);
     forEachBelow(this->Tree, path, maximumDepth,

@@ -3,10 +3,11 @@
 #define isopoint_SideCheck_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tetrahedra/NodeMarks.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
 #include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/NodeMarks.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -92,7 +93,7 @@ private:
     {
       return { false, false, false };
     }
-    isReached = isReached || this->Marks.isReached(nodeIndex);
+    isReached = isReached || this->Marks.has(nodeIndex, bandmarks::reached);
     if (!node.isSplit())
     {
       return this->collectEnd(nodeIndex, isReached);
@@ -115,7 +116,7 @@ private:
     // Nodes with samples on both sides are split down to leaves.
     const bool isBelow = node.isLeaf ? this->Values.at(nodeIndex) < this->Isovalue
                                      : static_cast<double>(node.minimum) < this->Isovalue;
-    const bool isKnown = node.isLeaf && this->Marks.isInBand(nodeIndex);
+    const bool isKnown = node.isLeaf && this->Marks.has(nodeIndex, bandmarks::inBand);
     if (!isReached)
     {
       return { true, isKnown, isBelow };

@@ -3,9 +3,10 @@
 #define isopoint_SphereSearch_h
 
 #include "Isopoint/Base/Region.h"
+#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tetrahedra/NodeMarks.h"
 #include "Isopoint/Tetrahedra/SphereFunction.h"
+#include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
@@ -21,34 +22,28 @@ namespace isopoint
 class BallShape
 {
 public:
-  BallShape(const TetrahedronCorners& corners, const Region& region)
+  explicit BallShape(const TetrahedronCorners& corners)
     : Ball(ballAround(corners))
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->narrow(axis, region.lower[axis], region.upper[axis]);
-    }
   }
 
-  using Shares = double;
-  Shares sharesOf(int axis) const { return this->Least[axis]; }
-  void restore(int axis, Shares shares) { this->Least[axis] = shares; }
+  /// What a box holds at least, by axis.
+  using Bounds = Vector;
 
-  /// Takes note of the present box' extent along an axis.
-  void narrow(int axis, double lower, double upper)
+  /// Takes note of a box' extent along an axis.
+  void narrow(Bounds& bounds, int axis, double lower, double upper) const
   {
-    this->Least[axis] = this->Ball.least(axis, lower, upper);
+    bounds[axis] = this->Ball.least(axis, lower, upper);
   }
 
-  /// Whether the present box may have places inside.
-  bool mayHold() const { return !SphereFunction::isPositive(this->Least); }
+  /// Whether a box may have places inside.
+  bool mayHold(const Bounds& bounds) const { return !SphereFunction::isPositive(bounds); }
 
   bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
 
 private:
   SphereFunction Ball;
-  Vector Least{}; // bounds of the present box, by axis
 };
 
 /// The same of a facet of the hull: what lies beyond its plane or, in the plane, in its circle. The
@@ -56,39 +51,29 @@ private:
 class HullFacetShape
 {
 public:
-  HullFacetShape(const HullFacetCorners& corners, const Region& region)
+  explicit HullFacetShape(const HullFacetCorners& corners)
     : Beyond(halfSpaceBeyond(corners))
     , Ball(ballThrough(corners))
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->narrow(axis, region.lower[axis], region.upper[axis]);
-    }
   }
 
-  struct Shares
+  struct Bounds
   {
-    double beyond;
-    double ball;
+    Vector beyond;
+    Vector ball;
   };
-  Shares sharesOf(int axis) const { return { this->LeastBeyond[axis], this->LeastBall[axis] }; }
-  void restore(int axis, Shares shares)
+
+  void narrow(Bounds& bounds, int axis, double lower, double upper) const
   {
-    this->LeastBeyond[axis] = shares.beyond;
-    this->LeastBall[axis] = shares.ball;
+    bounds.beyond[axis] = this->Beyond.least(axis, lower, upper);
+    bounds.ball[axis] = this->Ball.least(axis, lower, upper);
   }
 
-  void narrow(int axis, double lower, double upper)
+  bool mayHold(const Bounds& bounds) const
   {
-    this->LeastBeyond[axis] = this->Beyond.least(axis, lower, upper);
-    this->LeastBall[axis] = this->Ball.least(axis, lower, upper);
-  }
-
-  bool mayHold() const
-  {
-    return !SphereFunction::isPositive(this->LeastBeyond) &&
-           !(SphereFunction::isNotNegative(this->LeastBeyond) &&
-             SphereFunction::isPositive(this->LeastBall));
+    return !SphereFunction::isPositive(bounds.beyond) &&
+           !(SphereFunction::isNotNegative(bounds.beyond) &&
+             SphereFunction::isPositive(bounds.ball));
   }
 
   bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
@@ -97,8 +82,6 @@ public:
 private:
   SphereFunction Beyond;
   SphereFunction Ball;
-  Vector LeastBeyond{};
-  Vector LeastBall{};
 };
 
 /// Nodes of so few samples are seen through without being split.
@@ -125,13 +108,9 @@ public:
   {
     this->Cell = openCell;
     this->UnsplitReached = 0;
-    if (this->Band.isBeyondHull(openCell))
-    {
-      HullFacetShape shape(this->Band.hullFacetAt(openCell), this->Tree.region);
-      return this->findIn(shape);
-    }
-    BallShape shape(this->Band.tetrahedronAt(openCell), this->Tree.region);
-    return this->findIn(shape);
+    return this->Band.isBeyondHull(openCell)
+             ? this->findIn(HullFacetShape(this->Band.hullFacetAt(openCell)))
+             : this->findIn(BallShape(this->Band.tetrahedronAt(openCell)));
   }
 
   /// Whether the last search, if it found nothing, saw all samples.
@@ -145,21 +124,28 @@ public:
 
 private:
   template <class TShape>
-  std::optional<std::size_t> findIn(TShape& shape)
+  std::optional<std::size_t> findIn(const TShape& shape)
   {
     this->Found.reset();
     Region box = this->Tree.region;
-    if (shape.mayHold())
+    typename TShape::Bounds bounds{};
+    for (int axis = 0; axis < 3; ++axis)
     {
-      this->visit(SampleTree<TSample>::rootNode, shape, box);
+      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
+    }
+    if (shape.mayHold(bounds))
+    {
+      this->visit(SampleTree<TSample>::rootNode, shape, bounds, box);
     }
     return this->Found;
   }
 
+  /// @param bounds of the node's region
   /// @param box the node's region; restored in the end
   /// @returns whether the search ends
   template <class TShape>
-  bool visit(std::size_t nodeIndex, TShape& shape, Region& box)
+  bool visit(
+    std::size_t nodeIndex, const TShape& shape, const typename TShape::Bounds& bounds, Region& box)
   {
     ++this->Visits;
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
@@ -171,28 +157,30 @@ private:
     {
       return this->visitEnd(nodeIndex, shape);
     }
-    const int axis = node.axis;
-    const bool isUpperFirst = shape.isAbove(axis, node.plane);
+    const bool isUpperFirst = shape.isAbove(node.axis, node.plane);
     // The nearer child holds at least what the node does.
-    if (this->visitChild(node, isUpperFirst, shape, box))
-    {
-      return true;
-    }
-    const double bound = isUpperFirst ? box.lower[axis] : box.upper[axis];
-    const auto shares = shape.sharesOf(axis);
-    shape.narrow(axis, isUpperFirst ? bound : node.plane, isUpperFirst ? node.plane : bound);
-    const bool isDone = shape.mayHold() && this->visitChild(node, !isUpperFirst, shape, box);
-    shape.restore(axis, shares);
-    return isDone;
+    return this->visitChild(node, isUpperFirst, shape, bounds, box) ||
+           this->visitFarther(node, !isUpperFirst, shape, bounds, box);
   }
 
   template <class TShape>
-  bool visitChild(const Node<TSample>& node, bool isUpper, TShape& shape, Region& box)
+  bool visitFarther(const Node<TSample>& node, bool isUpper, const TShape& shape,
+    typename TShape::Bounds bounds, Region& box)
+  {
+    const int axis = node.axis;
+    shape.narrow(
+      bounds, axis, isUpper ? node.plane : box.lower[axis], isUpper ? box.upper[axis] : node.plane);
+    return shape.mayHold(bounds) && this->visitChild(node, isUpper, shape, bounds, box);
+  }
+
+  template <class TShape>
+  bool visitChild(const Node<TSample>& node, bool isUpper, const TShape& shape,
+    const typename TShape::Bounds& bounds, Region& box)
   {
     double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
     const double former = bound;
     bound = node.plane;
-    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, box);
+    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, bounds, box);
     bound = former;
     return isDone;
   }
@@ -202,10 +190,10 @@ private:
   bool visitEnd(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    this->Marks.markReached(nodeIndex);
+    this->Marks.set(nodeIndex, bandmarks::reached);
     if (node.isLeaf)
     {
-      if (!this->Marks.isInBand(nodeIndex) && this->isInside(shape, node.begin))
+      if (!this->Marks.has(nodeIndex, bandmarks::inBand) && this->isInside(shape, node.begin))
       {
         this->Found = nodeIndex;
       }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -47,31 +46,6 @@ double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
   const TSample* const samples = tree.samples.data() + leaf.begin;
   return meanOf(
     leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
-}
-
-/// The coincident samples of leaves, ordered by lowest id.
-/// @param leaves node indices of leaves with several samples each, in any order, with repetitions
-template <class TSample>
-std::vector<CoincidentSamples> coincidentSamplesOf(
-  const SampleTree<TSample>& tree, std::vector<std::size_t> leaves)
-{
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-  std::vector<CoincidentSamples> result;
-  for (const std::size_t nodeIndex : leaves)
-  {
-    const Node<TSample>& leaf = tree.nodes[nodeIndex];
-    CoincidentSamples group;
-    for (std::size_t i = leaf.begin; i < leaf.end; ++i)
-    {
-      group.ids.push_back(tree.samples[i].id);
-    }
-    result.push_back(std::move(group));
-  }
-  std::sort(result.begin(), result.end(),
-    [](const CoincidentSamples& a, const CoincidentSamples& b)
-    { return a.ids.front() < b.ids.front(); });
-  return result;
 }
 
 } // namespace isopoint

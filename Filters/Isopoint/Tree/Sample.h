@@ -5,6 +5,7 @@
 #include "Isopoint/Base/Vector.h"
 
 #include <cstdint>
+#include <tuple>
 #include <type_traits>
 
 namespace isopoint
@@ -61,19 +62,12 @@ struct SplittingOrder
 
   bool operator()(const TSample& a, const TSample& b) const
   {
-    if (a.position[this->First] != b.position[this->First])
+    const auto keyOf = [this](const TSample& sample)
     {
-      return a.position[this->First] < b.position[this->First];
-    }
-    if (a.position[this->Second] != b.position[this->Second])
-    {
-      return a.position[this->Second] < b.position[this->Second];
-    }
-    if (a.position[this->Third] != b.position[this->Third])
-    {
-      return a.position[this->Third] < b.position[this->Third];
-    }
-    return a.id < b.id;
+      return std::tuple(sample.position[this->First], sample.position[this->Second],
+        sample.position[this->Third], sample.id);
+    };
+    return keyOf(a) < keyOf(b);
   }
 
   int First;

@@ -5,15 +5,56 @@
 #include "Isopoint/Base/ConcurrentMemo.h"
 #include "Isopoint/Base/Offset.h"
 #include "Isopoint/Base/RawArray.h"
-#include "Isopoint/Tree/SampleBox.h"
 #include "Isopoint/Tree/SampleTree.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <mutex>
 
 namespace isopoint
 {
+
+/// The bounding box of some samples.
+template <class TSample>
+struct SampleBox
+{
+  typename TSample::Coordinate lower[3];
+  typename TSample::Coordinate upper[3];
+};
+
+/// The bounding box of two.
+template <class TSample>
+SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>& b)
+{
+  SampleBox<TSample> box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+  }
+  return box;
+}
+
+/// The bounding box of a node's samples. O(samples of the node), O(1) for a leaf
+template <class TSample>
+SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
+{
+  const auto boxOf = [](const TSample& sample)
+  {
+    SampleBox<TSample> box;
+    std::copy_n(sample.position, 3, box.lower);
+    std::copy_n(sample.position, 3, box.upper);
+    return box;
+  };
+  SampleBox<TSample> box = boxOf(tree.samples[node.begin]);
+  const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+  for (std::size_t i = node.begin; i < end; ++i)
+  {
+    box = united(box, boxOf(tree.samples[i]));
+  }
+  return box;
+}
 
 /// The bounding boxes of the samples of each split node, which can be far smaller than its region.
 /// They exist once compute() was called and take six coordinates for each split node. The tree must
@@ -39,7 +80,8 @@ public:
       [this]()
       {
         this->Boxes.resize(this->Tree.usedPairs);
-        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode]);
+        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode],
+          [this](std::size_t pair, const Box& box) { this->Boxes[pair] = box; });
       });
   }
 
@@ -55,7 +97,8 @@ public:
     }
     const auto pair = static_cast<std::size_t>(node.childPair);
     const Box box = this->Tree.isPartial
-                      ? this->BoxesOnDemand.at(pair, [&]() { return this->wholeBoxOf(node); })
+                      ? this->BoxesOnDemand.at(
+                          pair, [&]() { return this->boxOf(node, [](std::size_t, const Box&) {}); })
                       : this->Boxes[pair];
     return offsetsToBox(from, box.lower, box.upper);
   }
@@ -63,15 +106,18 @@ public:
 private:
   using Box = SampleBox<TSample>;
 
-  Box boxOf(const Node<TSample>& node)
+  /// @param note(pair, box) called for each split node, by its pair of children
+  template <class Note>
+  Box boxOf(const Node<TSample>& node, const Note& note) const
   {
     if (!node.isSplit())
     {
+      this->requireSamples(node);
       return boxOfSamples(this->Tree, node);
     }
-    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()]),
-      this->boxOf(this->Tree.nodes[node.upperNode()]));
-    this->Boxes[static_cast<std::size_t>(node.childPair)] = box;
+    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
+      this->boxOf(this->Tree.nodes[node.upperNode()], note));
+    note(static_cast<std::size_t>(node.childPair), box);
     return box;
   }
 
@@ -84,17 +130,6 @@ private:
         { infinity, infinity, infinity } };
       throw MissingNode{ static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere };
     }
-  }
-
-  Box wholeBoxOf(const Node<TSample>& node) const
-  {
-    if (!node.isSplit())
-    {
-      this->requireSamples(node);
-      return boxOfSamples(this->Tree, node);
-    }
-    return united(this->wholeBoxOf(this->Tree.nodes[node.lowerNode()]),
-      this->wholeBoxOf(this->Tree.nodes[node.upperNode()]));
   }
 
   const SampleTree<TSample>& Tree;

@@ -81,6 +81,25 @@ public:
   }
 
   /// Lists the next samples that belong in the other half, if none are left on the list.
+  /// @returns whether any are listed
+  template <class Misplaced>
+  bool list(const Misplaced& isMisplaced)
+  {
+    return this->listBlocks(
+      [&](std::ptrdiff_t length)
+      {
+        const TSample* const block = this->Block;
+        std::size_t count = 0;
+        for (std::ptrdiff_t i = 0; i < length; ++i)
+        {
+          this->Offsets[count] = static_cast<std::uint8_t>(i);
+          count += isMisplaced(block[i]) ? 1 : 0;
+        }
+        this->Count = count;
+      });
+  }
+
+  /// The same where some samples may belong in either half.
   /// @param isHere(sample) whether it belongs in this half
   /// @param isThere(sample) whether it belongs in the other one
   /// @param open takes those that may belong in either
@@ -88,11 +107,20 @@ public:
   template <class Here, class There>
   bool list(const Here& isHere, const There& isThere, SampleList<TSample>& open)
   {
-    while (this->Next == this->Count && this->Unscanned != this->End)
+    return this->listBlocks(
+      [&](std::ptrdiff_t length) { this->scan(length, isHere, isThere, open); });
+  }
+
+  /// Swaps as many listed samples as both scans have.
+  void swapListed(HalfScan& other)
+  {
+    const std::size_t pairs = std::min(this->count(), other.count());
+    for (std::size_t i = 0; i < pairs; ++i)
     {
-      this->scan(isHere, isThere, open);
+      std::swap((*this)[i], other[i]);
     }
-    return this->Next != this->Count;
+    this->drop(pairs);
+    other.drop(pairs);
   }
 
   std::size_t count() const { return this->Count - this->Next; }
@@ -102,11 +130,25 @@ public:
 private:
   static constexpr std::ptrdiff_t blockSize = 128;
 
-  template <class Here, class There>
-  void scan(const Here& isHere, const There& isThere, SampleList<TSample>& open)
+  /// Goes through blocks until any samples are listed. @returns whether any are
+  template <class Scan>
+  bool listBlocks(const Scan& scanBlock)
   {
-    this->Block = this->Unscanned;
-    const std::ptrdiff_t length = std::min(blockSize, this->End - this->Block);
+    while (this->Next == this->Count && this->Unscanned != this->End)
+    {
+      this->Block = this->Unscanned;
+      this->Next = this->Count = 0;
+      const std::ptrdiff_t length = std::min(blockSize, this->End - this->Block);
+      this->Unscanned += length;
+      scanBlock(length);
+    }
+    return this->Next != this->Count;
+  }
+
+  template <class Here, class There>
+  void scan(
+    std::ptrdiff_t length, const Here& isHere, const There& isThere, SampleList<TSample>& open)
+  {
     std::uint8_t others[blockSize];
     std::size_t otherCount = 0;
     for (std::ptrdiff_t i = 0; i < length; ++i)
@@ -126,9 +168,7 @@ private:
       next += 1 - there;
     }
     open.resize(static_cast<std::size_t>(next - open.begin()));
-    this->Next = 0;
     this->Count = count;
-    this->Unscanned += length;
   }
 
   TSample* Block;
@@ -138,6 +178,22 @@ private:
   std::size_t Count = 0; // of the list, from its beginning
   std::uint8_t Offsets[blockSize];
 };
+
+/// Partitions samples of which exactly `lowerCount` belong lower, in place: swaps what is misplaced
+/// on either side.
+/// @param belongsLower whether a sample belongs among the first `lowerCount`
+template <class TSample, class Predicate>
+void exchangeMisplaced(
+  TSample* samples, std::size_t count, std::size_t lowerCount, const Predicate& belongsLower)
+{
+  HalfScan<TSample> low(samples, samples + lowerCount);
+  HalfScan<TSample> high(samples + lowerCount, samples + count);
+  while (low.list([&](const TSample& sample) { return !belongsLower(sample); }) &&
+         high.list(belongsLower))
+  {
+    low.swapListed(high);
+  }
+}
 
 /// Separates samples around a bracket of their middle on an axis: those below it belong in the
 /// lower half, those above it in the upper one.
@@ -158,13 +214,7 @@ public:
   {
     while (this->listLow(low, open) && this->listHigh(high, open))
     {
-      const std::size_t pairs = std::min(low.count(), high.count());
-      for (std::size_t i = 0; i < pairs; ++i)
-      {
-        std::swap(low[i], high[i]);
-      }
-      low.drop(pairs);
-      high.drop(pairs);
+      low.swapListed(high);
     }
   }
 

@@ -5,7 +5,6 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Tree/MedianSelection.h"
-#include "Isopoint/Tree/Partition.h"
 #include "Isopoint/Tree/Sample.h"
 #include "Isopoint/Tree/Separation.h"
 
@@ -58,67 +57,32 @@ std::optional<Halves> halveByDefinition(TSample* samples, std::size_t count, int
     splittingPlaneBetween(last->position[axis], first->position[axis]) };
 }
 
-/// Whether a sample precedes the first one of the upper half. Equal coordinates are rare: the
-/// common case takes a single comparison.
-template <class TSample>
-struct BelongsLower
+/// The first sample of the upper half of a node, where the samples in its middle share their
+/// coordinate on the axis, so that the other coordinates and the ids determine it.
+/// @param forEachCandidate(visit) visits samples that include all which share the coordinate
+/// @param rank of the first one of the upper half among them
+/// @returns nothing if it has the position of the last one of the lower half
+template <class TSample, class ForEach>
+std::optional<TSample> firstOfTied(const ForEach& forEachCandidate, std::size_t rank, int axis,
+  typename TSample::Coordinate coordinate)
 {
-  explicit BelongsLower(const TSample& first, int axis)
-    : First(first)
-    , Coordinate(first.position[axis])
-    , Axis(axis)
-    , Order(axis)
-  {
-  }
-
-  bool operator()(const TSample& sample) const
-  {
-    const auto coordinate = sample.position[this->Axis];
-    if (coordinate == this->Coordinate)
+  std::vector<TSample> tied;
+  forEachCandidate(
+    [&](const TSample& candidate)
     {
-      return this->Order(sample, this->First);
-    }
-    return coordinate < this->Coordinate;
-  }
-
-  TSample First;
-  typename TSample::Coordinate Coordinate;
-  int Axis;
-  SplittingOrder<TSample> Order;
-};
-
-/// The samples in the middle of a node that share their coordinate on the axis, so that the other
-/// coordinates and the ids determine the first of the upper half.
-template <class TSample>
-struct TiedMiddle
-{
-  TSample first{};
-  bool haveOnePosition = false; // the last of the lower half and the first of the upper
-
-  /// @param forEachCandidate(visit) visits samples that include all which share the coordinate
-  /// @param rank of the first one of the upper half among them
-  template <class ForEach>
-  TiedMiddle(const ForEach& forEachCandidate, std::size_t rank, int axis,
-    typename TSample::Coordinate coordinate)
-  {
-    std::vector<TSample> tied;
-    forEachCandidate(
-      [&](const TSample& candidate)
+      rank -= candidate.position[axis] < coordinate ? 1 : 0;
+      if (candidate.position[axis] == coordinate)
       {
-        rank -= candidate.position[axis] < coordinate ? 1 : 0;
-        if (candidate.position[axis] == coordinate)
-        {
-          tied.push_back(candidate);
-        }
-      });
-    const SplittingOrder<TSample> order(axis);
-    const auto middle = tied.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(tied.begin(), middle, tied.end(), order);
-    this->first = *middle;
-    this->haveOnePosition =
-      isopoint::haveOnePosition(*std::max_element(tied.begin(), middle, order), *middle);
-  }
-};
+        tied.push_back(candidate);
+      }
+    });
+  const SplittingOrder<TSample> order(axis);
+  const auto middle = tied.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(tied.begin(), middle, tied.end(), order);
+  return haveOnePosition(*std::max_element(tied.begin(), middle, order), *middle)
+           ? std::nullopt
+           : std::optional(*middle);
+}
 
 /// What halving needs besides the samples, kept to spare allocations.
 template <class TSample>
@@ -145,12 +109,19 @@ std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axi
   }
   else
   {
-    const TiedMiddle<TSample> tied(forEachCandidate, rank, axis, middle.first);
-    if (tied.haveOnePosition)
+    const auto first = firstOfTied<TSample>(forEachCandidate, rank, axis, middle.first);
+    if (!first)
     {
       return halveByDefinition(samples, count, axis);
     }
-    partition(BelongsLower<TSample>(tied.first, axis));
+    // Equal coordinates are rare: the common case takes a single comparison.
+    partition(
+      [axis, first = *first, coordinate = middle.first, order = SplittingOrder<TSample>(axis)](
+        const TSample& sample)
+      {
+        const auto own = sample.position[axis];
+        return own == coordinate ? order(sample, first) : own < coordinate;
+      });
   }
   return Halves{ count / 2, splittingPlaneBetween(middle.last, middle.first) };
 }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -69,23 +68,32 @@ void splitFurther(
   }
 }
 
-/// Splits all of a tree down to leaves, as far as samples are this rank's.
+/// Splits everything below some nodes down to leaves, as far as samples are this rank's.
 /// @throws what splitFurther() does
 template <class TSample>
-void splitCompletely(const Execution& execution, SampleTree<TSample>& tree)
+void splitCompletely(
+  const Execution& execution, SampleTree<TSample>& tree, const std::vector<std::size_t>& tops)
 {
   std::vector<std::size_t> unsplit;
   do
   {
-    splitFurther(execution, tree, std::exchange(unsplit, {}));
-    Path path = pathToRoot(tree);
-    forEachBelow(tree, path, maximumDepth,
-      [&](const Path& below)
+    splitFurther(execution, tree, unsplit);
+    constexpr std::size_t grain = 64;
+    unsplit = collected<std::size_t>(execution, tops.size(), grain,
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
-        const Node<TSample>& node = tree.nodes[below.nodeIndex()];
-        if (!node.isLeaf && tree.hasOwn(node))
+        for (std::size_t i = begin; i < end; ++i)
         {
-          unsplit.push_back(below.nodeIndex());
+          Path path = pathToLeaf(tree, tops[i]);
+          forEachBelow(tree, path, maximumDepth,
+            [&](const Path& below)
+            {
+              const Node<TSample>& node = tree.nodes[below.nodeIndex()];
+              if (!node.isLeaf && tree.hasOwn(node))
+              {
+                found.push_back(below.nodeIndex());
+              }
+            });
         }
       });
   } while (!unsplit.empty());

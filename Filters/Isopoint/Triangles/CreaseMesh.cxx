@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/CreaseMesh.h"
 
-#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Triangles/CreaseSplitting.h"
 #include "Isopoint/Triangles/CreaseSurface.h"
-#include "Isopoint/Triangles/CreaseUntangling.h"
 #include "Isopoint/Triangles/FacetMesh.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -23,6 +20,86 @@ namespace
 /// Facets of a vertex whose normals form a smaller cosine, of 20 degrees or more with it, get a
 /// copy of it.
 constexpr double mostPartedCosine = 0.94;
+
+/// Merges two vertices of a facet that looks the wrong way, if all others around then look the
+/// right way, or are much smaller. Vertices on creases stay on them. @returns whether it did
+bool mergeAt(FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
+{
+  const Facet facet = mesh.facet(inverted);
+  constexpr double share = 0.1;
+  const double least = share * mesh.signedArea(facet);
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    const std::size_t vertex = facet.corners[i % 3];
+    const std::size_t neighbor = facet.corners[(i % 3 + 1 + i / 3) % 3];
+    const bool staysOnCrease = vertex < firstOnCrease || neighbor >= firstOnCrease;
+    if (staysOnCrease && mesh.collapse(vertex, neighbor,
+                           [&](const Facet& moved) { return mesh.signedArea(moved) >= least; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Moves a vertex of a facet that looks the wrong way halfway between its neighbors along the
+/// crease, if that makes less around it look the wrong way. @returns whether it did
+bool slideAt(
+  CreaseSurface& whole, const FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
+{
+  for (const std::size_t vertex : mesh.facet(inverted).corners)
+  {
+    std::vector<std::size_t> along = mesh.neighborsOf(vertex);
+    along.erase(std::remove_if(along.begin(), along.end(),
+                  [firstOnCrease](std::size_t neighbor) { return neighbor < firstOnCrease; }),
+      along.end());
+    if (vertex < firstOnCrease || along.size() != 2)
+    {
+      continue;
+    }
+    Vector& position = whole.surface.positions[vertex];
+    const Vector former = position;
+    const double formerArea = mesh.invertedAreaAround(vertex);
+    position =
+      scaled(0.5, sum(whole.surface.positions[along[0]], 1.0, whole.surface.positions[along[1]]));
+    if (mesh.invertedAreaAround(vertex) < formerArea)
+    {
+      whole.surface.fits[vertex].position = position;
+      return true;
+    }
+    position = former;
+  }
+  return false;
+}
+
+/// Makes facets look to the side of their normals: flips edges, and merges or moves vertices where
+/// that does not suffice. A few may be left.
+/// @param whole whose vertices on creases may be moved along them
+/// @param firstOnCrease the first vertex on a crease, all others being behind it
+/// @throws std::bad_alloc, Aborted
+std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
+  std::vector<Facet> facets, std::size_t firstOnCrease)
+{
+  FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
+  constexpr int mostRounds = 5;
+  bool isAnyMerged = true;
+  mesh.untangle();
+  for (int round = 0; round < mostRounds && isAnyMerged; ++round)
+  {
+    isAnyMerged = false;
+    for (const std::size_t facet : mesh.invertedFacets())
+    {
+      throwIfAborted(execution);
+      if (mesh.isInverted(facet)) // still
+      {
+        isAnyMerged = mergeAt(mesh, facet, firstOnCrease) ||
+                      slideAt(whole, mesh, facet, firstOnCrease) || isAnyMerged;
+      }
+    }
+    mesh.untangle();
+  }
+  return mesh.facets();
+}
 
 class CreaseMesher
 {
@@ -126,38 +203,15 @@ private:
   /// Drops vertices without triangles, and orders the triangles.
   void order()
   {
-    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> number(this->Whole.surface.size(), unused);
-    for (const SurfaceTriangle& triangle : this->Triangles)
+    Isosurface& surface = this->Whole.surface;
+    const std::vector<std::size_t> kept = verticesOf(this->Triangles, surface.size());
+    this->Triangles = renumbered(this->Run, this->Triangles, kept, surface.size());
+    if (kept.size() < surface.size())
     {
-      for (const std::size_t corner : triangle)
-      {
-        number[corner] = 0;
-      }
+      const std::size_t dropped = surface.droppedEdges;
+      surface = chosenIsopoints(surface, kept);
+      surface.droppedEdges = dropped;
     }
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < number.size(); ++i)
-    {
-      if (number[i] != unused)
-      {
-        number[i] = kept.size();
-        kept.push_back(i);
-      }
-    }
-    if (kept.size() < number.size())
-    {
-      const std::size_t dropped = this->Whole.surface.droppedEdges;
-      this->Whole.surface = chosenIsopoints(this->Whole.surface, kept);
-      this->Whole.surface.droppedEdges = dropped;
-    }
-    for (SurfaceTriangle& triangle : this->Triangles)
-    {
-      triangle = { number[triangle[0]], number[triangle[1]], number[triangle[2]] };
-      std::rotate(
-        triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    }
-    this->Triangles = sortedUnique(this->Run, this->Triangles, kept.size(),
-      [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
   }
 
   const Execution& Run;

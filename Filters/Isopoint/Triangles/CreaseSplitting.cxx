@@ -219,9 +219,9 @@ private:
              std::none_of(neighbors.begin(), neighbors.end(), agrees));
   }
 
-  /// Neighbors that are wanted, the nearest first.
+  /// Neighbors that are wanted and their distances, the nearest first.
   template <class IsWanted>
-  std::vector<std::size_t> nearestNeighbors(
+  std::vector<std::pair<double, std::size_t>> nearestNeighbors(
     const FacetMesh& mesh, std::size_t vertex, const IsWanted& isWanted) const
   {
     std::vector<std::pair<double, std::size_t>> byDistance;
@@ -235,13 +235,7 @@ private:
       }
     }
     std::sort(byDistance.begin(), byDistance.end());
-    std::vector<std::size_t> neighbors;
-    neighbors.reserve(byDistance.size());
-    for (const auto& [distance, neighbor] : byDistance)
-    {
-      neighbors.push_back(neighbor);
-    }
-    return neighbors;
+    return byDistance;
   }
 
   void mergeWithNearest(FacetMesh& mesh, std::size_t vertex) const
@@ -249,12 +243,12 @@ private:
     const auto isUpright = [&](const Facet& moved)
     { return mesh.signedArea(this->Whole.facetOf(moved.corners)) > 0.0; };
     const auto isAny = [](const Facet&) { return true; }; // edges are flipped later
-    const std::vector<std::size_t> neighbors = this->nearestNeighbors(
+    const auto neighbors = this->nearestNeighbors(
       mesh, vertex, [this](std::size_t each) { return this->Whole.isFitted(each); });
     const auto mergesWith = [&](const auto& isAllowed)
     {
       return std::any_of(neighbors.begin(), neighbors.end(),
-        [&](std::size_t neighbor) { return mesh.collapse(vertex, neighbor, isAllowed); });
+        [&](const auto& neighbor) { return mesh.collapse(vertex, neighbor.second, isAllowed); });
     };
     if (!mergesWith(isUpright))
     {
@@ -270,10 +264,10 @@ private:
     {
       return vertex;
     }
-    const std::vector<std::size_t> alike = this->nearestNeighbors(mesh, vertex,
+    const auto alike = this->nearestNeighbors(mesh, vertex,
       [&](std::size_t each)
       { return this->Whole.isCrease(each) && this->Whole.isAlike(vertex, each); });
-    return alike.empty() ? vertex : alike.front();
+    return alike.empty() ? vertex : alike.front().second;
   }
 
   std::size_t pieceCount(std::size_t vertex) const

@@ -10,12 +10,12 @@
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tree/LeafValueCache.h"
 #include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -58,7 +58,7 @@ public:
   EdgeTriangles<TSample> march()
   {
     this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
-      [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.lower); });
+      [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
     this->placeVertices();
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
@@ -67,22 +67,9 @@ public:
 
 private:
   /// An edge, by the node indices of its ends in ascending order.
-  struct LeafPair
-  {
-    Id lower;
-    Id upper;
+  using LeafPair = std::pair<Id, Id>;
 
-    bool operator<(const LeafPair& other) const
-    {
-      return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
-    }
-    bool operator==(const LeafPair& other) const
-    {
-      return this->lower == other.lower && this->upper == other.upper;
-    }
-  };
-
-  static LeafPair pairOf(Id a, Id b) { return { std::min(a, b), std::max(a, b) }; }
+  static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
 
   /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
   struct Polygon
@@ -257,39 +244,16 @@ private:
   /// Orders vertices and triangles, and leaves out vertices without triangles.
   EdgeTriangles<TSample> ordered(const std::vector<SurfaceTriangle>& triangles) const
   {
-    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> number(this->Edges.size(), unused);
-    std::vector<std::size_t> order;
-    for (const SurfaceTriangle& triangle : triangles)
-    {
-      for (const std::size_t vertex : triangle)
-      {
-        if (number[vertex] == unused)
-        {
-          number[vertex] = 0;
-          order.push_back(vertex);
-        }
-      }
-    }
+    std::vector<std::size_t> order = verticesOf(triangles, this->Edges.size());
     std::sort(order.begin(), order.end(),
       [this](std::size_t a, std::size_t b) { return this->Edges[a] < this->Edges[b]; });
     EdgeTriangles<TSample> result;
     result.edges.reserve(order.size());
     for (const std::size_t vertex : order)
     {
-      number[vertex] = result.edges.size();
       result.edges.push_back(this->Edges[vertex]);
     }
-    std::vector<SurfaceTriangle> numbered;
-    numbered.reserve(triangles.size());
-    for (const SurfaceTriangle& triangle : triangles)
-    {
-      SurfaceTriangle corners{ number[triangle[0]], number[triangle[1]], number[triangle[2]] };
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-      numbered.push_back(corners);
-    }
-    result.triangles = sortedUnique(this->Run, numbered, result.edges.size(),
-      [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+    result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
     return result;
   }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Splat/SplatNormals.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <utility>
 
 namespace isopoint
 {
@@ -32,6 +37,35 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
   return cross(toUnit(u), toUnit(v));
 }
 
+/// A vertex, and a triangle that has it.
+using Corner = std::pair<std::size_t, std::size_t>;
+
+std::vector<Corner> cornersByVertex(const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<Corner> corners;
+  corners.reserve(3 * triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    for (const std::size_t vertex : triangles[i])
+    {
+      corners.emplace_back(vertex, i);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// @param corners ordered
+void addTrianglesAt(
+  std::size_t vertex, const std::vector<Corner>& corners, std::vector<std::size_t>& triangles)
+{
+  auto corner = std::lower_bound(corners.begin(), corners.end(), Corner(vertex, 0));
+  for (; corner != corners.end() && corner->first == vertex; ++corner)
+  {
+    triangles.push_back(corner->second);
+  }
+}
+
 bool hasDirection(const Vector& vector)
 {
   const double length = lengthOf(vector);
@@ -39,6 +73,49 @@ bool hasDirection(const Vector& vector)
 }
 
 } // namespace
+
+std::vector<std::size_t> verticesOf(
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+{
+  std::vector<bool> isUsed(vertexCount, false);
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    for (const std::size_t vertex : triangle)
+    {
+      isUsed[vertex] = true;
+    }
+  }
+  std::vector<std::size_t> vertices;
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    if (isUsed[vertex])
+    {
+      vertices.push_back(vertex);
+    }
+  }
+  return vertices;
+}
+
+std::vector<SurfaceTriangle> renumbered(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
+  std::size_t vertexCount)
+{
+  std::vector<std::size_t> number(vertexCount);
+  for (std::size_t place = 0; place < order.size(); ++place)
+  {
+    number[order[place]] = place;
+  }
+  std::vector<SurfaceTriangle> result;
+  result.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles)
+  {
+    SurfaceTriangle corners{ number[a], number[b], number[c] };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.push_back(corners);
+  }
+  return sortedUnique(execution, result, order.size(),
+    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+}
 
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
@@ -62,30 +139,40 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
-  std::vector<std::size_t> turned;
-  do
+  std::vector<std::size_t> suspects(triangles.size()); // all at first, then those that changed
+  std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
+  std::vector<Corner> corners; // ordered, once there is a triangle that is turned over
+  while (!suspects.empty())
   {
     constexpr std::size_t grain = 8192;
-    turned = collected<std::size_t>(execution, triangles.size(), grain,
-      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-      {
-        for (std::size_t i = begin; i < end; ++i)
+    const std::vector<std::size_t> turned =
+      collected<std::size_t>(execution, suspects.size(), grain,
+        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
-          if (isTurned(triangles[i]))
-          {
-            found.push_back(i);
-          }
-        }
-      });
+          std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
+            suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+            [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
+        });
+    if (corners.empty() && !turned.empty())
+    {
+      corners = cornersByVertex(triangles);
+    }
+    suspects.clear();
     for (const std::size_t triangle : turned)
     {
       for (const std::size_t vertex : triangles[triangle])
       {
+        if (isMoved(vertex))
+        {
+          addTrianglesAt(vertex, corners, suspects);
+        }
         fits[vertex].order.reset();
         fits[vertex].position = unmoved[vertex];
       }
     }
-  } while (!turned.empty());
+    std::sort(suspects.begin(), suspects.end());
+    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+  }
 }
 
 std::vector<Splat> vertexNormals(

@@ -8,10 +8,24 @@
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Triangles/SurfaceTriangle.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
+
+/// The vertices of triangles, each once, in ascending order.
+/// @param vertexCount above every vertex
+std::vector<std::size_t> verticesOf(
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
+
+/// Triangles whose vertices are numbered by their places in an order: ordered, each once.
+/// @param order of all their vertices
+/// @param vertexCount above every vertex
+/// @throws std::bad_alloc, Aborted
+std::vector<SurfaceTriangle> renumbered(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
+  std::size_t vertexCount);
 
 /// Takes back those moves of vertices by fits that would turn triangles over. A triangle is turned
 /// over if the right-hand normal of its unmoved vertices has a positive product with the sum of the
@@ -22,6 +36,7 @@ namespace isopoint
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
+/// Complexity: O(triangles), and O(n log n) if any is turned over, however many rounds it takes
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Input/vtkIsopointCellCenters.h"
+
+#include "Input/vtkIsopointAllocation.h"
+#include "Input/vtkIsopointBlock.h"
+#include "Input/vtkIsopointGhosts.h"
+#include "Isopoint/Base/Execution.h"
+
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkGenericCell.h"
+#include "vtkHyperTree.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkHyperTreeGridNonOrientedGeometryCursor.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace
+{
+
+vtkSmartPointer<vtkDataSet> dualOf(vtkImageData* image)
+{
+  int extent[6];
+  image->GetExtent(extent);
+  double halfway[3]; // continuous index of the first cell's center, from the first point
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool isFlat = extent[2 * axis + 1] <= extent[2 * axis];
+    halfway[axis] = isFlat ? 0.0 : 0.5;
+    extent[2 * axis + 1] -= isFlat ? 0 : 1;
+  }
+  double origin[3];
+  image->TransformContinuousIndexToPhysicalPoint(halfway, origin);
+  auto dual = vtkSmartPointer<vtkImageData>::New();
+  dual->SetExtent(extent);
+  dual->SetSpacing(image->GetSpacing());
+  dual->SetDirectionMatrix(image->GetDirectionMatrix());
+  dual->SetOrigin(origin);
+  return dual;
+}
+
+vtkSmartPointer<vtkDataArray> midpointsOf(vtkDataArray* coordinates)
+{
+  auto midpoints = vtkSmartPointer<vtkDoubleArray>::New();
+  const vtkIdType count = coordinates->GetNumberOfTuples();
+  for (vtkIdType i = 0; i + 1 < count; ++i)
+  {
+    midpoints->InsertNextValue(
+      0.5 * coordinates->GetComponent(i, 0) + 0.5 * coordinates->GetComponent(i + 1, 0));
+  }
+  if (count == 1)
+  {
+    midpoints->InsertNextValue(coordinates->GetComponent(0, 0));
+  }
+  return midpoints;
+}
+
+vtkSmartPointer<vtkDataSet> dualOf(vtkRectilinearGrid* grid)
+{
+  auto dual = vtkSmartPointer<vtkRectilinearGrid>::New();
+  int dimensions[3];
+  grid->GetDimensions(dimensions);
+  for (int& dimension : dimensions)
+  {
+    dimension = std::max(1, dimension - 1);
+  }
+  dual->SetDimensions(dimensions);
+  dual->SetXCoordinates(midpointsOf(grid->GetXCoordinates()));
+  dual->SetYCoordinates(midpointsOf(grid->GetYCoordinates()));
+  dual->SetZCoordinates(midpointsOf(grid->GetZCoordinates()));
+  return dual;
+}
+
+/// Collects the positions of the leaves below a cursor's node.
+class LeafCollector
+{
+public:
+  LeafCollector(vtkPoints* points, vtkUnsignedCharArray* ghosts, vtkUnsignedCharArray* inputGhosts)
+    : Points(points)
+    , Ghosts(ghosts)
+    , InputGhosts(inputGhosts)
+  {
+  }
+
+  void Collect(vtkHyperTreeGridNonOrientedGeometryCursor* cursor)
+  {
+    if (cursor->IsMasked())
+    {
+      // No cursor may enter a masked node.
+      this->CountLeaves(cursor->GetTree(), cursor->GetVertexId());
+      return;
+    }
+    if (!cursor->IsLeaf())
+    {
+      for (int child = 0; child < cursor->GetNumberOfChildren(); ++child)
+      {
+        cursor->ToChild(static_cast<unsigned char>(child));
+        this->Collect(cursor);
+        cursor->ToParent();
+      }
+      return;
+    }
+    const vtkIdType id = cursor->GetGlobalNodeIndex();
+    if (!this->IsUsedId(id))
+    {
+      return;
+    }
+    ++this->Leaves;
+    const bool isGhost = this->InputGhosts && this->InputGhosts->GetValue(id) != 0;
+    if (!isGhost)
+    {
+      double center[3];
+      cursor->GetPoint(center);
+      this->Points->SetPoint(id, center);
+      this->Ghosts->SetValue(id, 0);
+    }
+  }
+
+  vtkIdType Leaves = 0;
+
+private:
+  bool IsUsedId(vtkIdType id) const { return id >= 0 && id < this->Points->GetNumberOfPoints(); }
+
+  void CountLeaves(vtkHyperTree* tree, vtkIdType vertex)
+  {
+    if (tree->IsLeaf(vertex))
+    {
+      this->Leaves += this->IsUsedId(tree->GetGlobalIndexFromLocal(vertex)) ? 1 : 0;
+      return;
+    }
+    for (int child = 0; child < tree->GetNumberOfChildren(); ++child)
+    {
+      this->CountLeaves(tree, tree->GetElderChildIndex(vertex) + child);
+    }
+  }
+
+  vtkPoints* const Points;
+  vtkUnsignedCharArray* const Ghosts;
+  vtkUnsignedCharArray* const InputGhosts;
+};
+
+} // namespace
+
+vtkSmartPointer<vtkDataSet> vtkMakeDualGrid(vtkDataSet* input)
+{
+  if (auto* const image = vtkImageData::SafeDownCast(input))
+  {
+    return dualOf(image);
+  }
+  if (auto* const grid = vtkRectilinearGrid::SafeDownCast(input))
+  {
+    return dualOf(grid);
+  }
+  return nullptr;
+}
+
+vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
+  const isopoint::Execution& execution, vtkDataSet* input)
+{
+  auto* const pointSet = vtkPointSet::SafeDownCast(input);
+  const bool isFloat =
+    pointSet && pointSet->GetPoints() && pointSet->GetPoints()->GetDataType() == VTK_FLOAT;
+  const vtkIdType count = input->GetNumberOfCells();
+  auto centers = vtkSmartPointer<vtkPoints>::New();
+  centers->SetDataType(isFloat ? VTK_FLOAT : VTK_DOUBLE);
+  vtkAllocateTuples(centers->GetData(), count);
+  if (count == 0)
+  {
+    return centers;
+  }
+  // GetCell() is thread-safe only after a first call from a single thread.
+  vtkNew<vtkGenericCell> first;
+  input->GetCell(0, first);
+  const auto largestCell = static_cast<std::size_t>(std::max(8, input->GetMaxCellSize()));
+
+  constexpr std::size_t grain = 4096;
+  isopoint::forBatches(execution, static_cast<std::size_t>(count), 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      vtkNew<vtkGenericCell> cell;
+      std::vector<double> weights(largestCell);
+      for (auto id = static_cast<vtkIdType>(begin); id < static_cast<vtkIdType>(end); ++id)
+      {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        double center[3] = { nan, nan, nan };
+        input->GetCell(id, cell);
+        if (cell->GetCellType() != VTK_EMPTY_CELL && cell->GetNumberOfPoints() > 0)
+        {
+          double parametric[3];
+          int subId = cell->GetParametricCenter(parametric);
+          cell->EvaluateLocation(subId, parametric, center, weights.data());
+        }
+        centers->SetPoint(id, center);
+      }
+    });
+  return centers;
+}
+
+void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlock& block)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkAllocateTuples(points->GetData(), count);
+  block.Ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  vtkAllocateTuples(block.Ghosts, count);
+  std::fill_n(block.Ghosts->GetPointer(0), count,
+    static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT));
+
+  LeafCollector collector(points, block.Ghosts, vtkGetIsopointGhosts(input->GetCellData(), count));
+  vtkHyperTreeGrid::vtkHyperTreeGridIterator trees;
+  input->InitializeTreeIterator(trees);
+  vtkNew<vtkHyperTreeGridNonOrientedGeometryCursor> cursor;
+  vtkIdType index = 0;
+  while (trees.GetNextTree(index))
+  {
+    input->InitializeNonOrientedGeometryCursor(cursor, index);
+    collector.Collect(cursor);
+  }
+  block.NumberOfUnusedIds = count - collector.Leaves;
+  vtkNew<vtkPolyData> positions;
+  positions->SetPoints(points);
+  block.Positions = positions;
+}

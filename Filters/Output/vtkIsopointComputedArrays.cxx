@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Output/vtkIsopointComputedArrays.h"
+
+#include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Vector.h"
+
+#include "vtkDataArray.h"
+#include "vtkFloatArray.h"
+#include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace
+{
+
+constexpr int polygonNumbers = 5 * static_cast<int>(isopoint::mostCorners);
+
+/// A new array, or null if it is not to be computed.
+template <class TArray>
+vtkSmartPointer<TArray> newArray(
+  bool isComputed, const char* name, int components, vtkIdType tuples)
+{
+  if (!isComputed)
+  {
+    return nullptr;
+  }
+  auto array = vtkSmartPointer<TArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  vtkAllocateTuples(array, tuples);
+  return array;
+}
+
+/// A radius as float, clamped to its positive range.
+float asFloatRadius(double radius)
+{
+  using Limits = std::numeric_limits<float>;
+  return static_cast<float>(
+    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
+}
+
+void set(vtkDataArray* array, vtkIdType tuple, const double* values)
+{
+  if (array)
+  {
+    array->SetTuple(tuple, values);
+  }
+}
+
+} // namespace
+
+vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& choice, vtkIdType count)
+  : Chosen(choice)
+  , Normals(newArray<vtkFloatArray>(choice.Normals, "Normals", 3, count))
+  , Radius(newArray<vtkFloatArray>(choice.Splats, "Radius", 1, count))
+  , SplatAxis(newArray<vtkFloatArray>(choice.Splats, "SplatAxis", 3, count))
+  , SplatPolygon(newArray<vtkFloatArray>(choice.Splats, "SplatPolygon", polygonNumbers, count))
+  , Gradients(newArray<vtkFloatArray>(choice.Gradients, "Gradients", 3, count))
+  , ProjectionOrder(
+      newArray<vtkUnsignedCharArray>(choice.ProjectionOrder, "ProjectionOrder", 1, count))
+{
+}
+
+void vtkIsopointComputedArrays::Append(const isopoint::ExtractedIsosurface& extracted)
+{
+  for (std::size_t i = 0; i < extracted.surface.size(); ++i, ++this->Next)
+  {
+    const bool isCounted = extracted.areElsewhere.empty() || !extracted.areElsewhere[i];
+    this->Counted += isCounted ? 1 : 0;
+    if (!extracted.splats.empty())
+    {
+      this->SetSplat(extracted.splats[i]);
+    }
+    if (!extracted.surface.fits.empty())
+    {
+      this->SetFit(extracted.surface.fits[i], isCounted);
+    }
+  }
+}
+
+void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
+{
+  const double radius = asFloatRadius(splat.radius);
+  set(this->Normals, this->Next, splat.normal.data());
+  set(this->Radius, this->Next, &radius);
+  set(this->SplatAxis, this->Next, splat.axis.data());
+  if (this->SplatPolygon)
+  {
+    std::array<float, polygonNumbers> polygon{};
+    auto* next = polygon.data();
+    for (const isopoint::SplatCorner& corner : splat.corners)
+    {
+      for (const float number :
+        { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
+      {
+        *next++ = number;
+      }
+    }
+    this->SplatPolygon->SetTypedTuple(this->Next, polygon.data());
+  }
+}
+
+void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCounted)
+{
+  const double order =
+    this->Chosen.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
+  this->WithoutFit += fit.order || !isCounted ? 0 : 1;
+  set(this->Gradients, this->Next, fit.gradient.data());
+  set(this->ProjectionOrder, this->Next, &order);
+}
+
+std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const
+{
+  std::vector<std::string> replaced;
+  for (vtkDataArray* const array : { this->Normals.Get(), this->Radius.Get(), this->SplatAxis.Get(),
+         static_cast<vtkDataArray*>(this->SplatPolygon.Get()), this->Gradients.Get(),
+         this->ProjectionOrder.Get() })
+  {
+    if (!array)
+    {
+      continue;
+    }
+    if (pointData->HasArray(array->GetName()))
+    {
+      replaced.emplace_back(array->GetName());
+    }
+    if (array == this->Normals)
+    {
+      pointData->SetNormals(array);
+    }
+    else
+    {
+      pointData->AddArray(array);
+    }
+  }
+  return replaced;
+}

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Output/vtkIsopointEndSamples.h"
+
+#include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Team.h"
+#include "Output/vtkIsopointArrayBytes.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDataSetAttributesFieldList.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+namespace
+{
+
+using isopoint::CoincidentSamples;
+using isopoint::ExtractedIsosurface;
+using isopoint::IsopointEdge;
+
+/// The ids of all samples at ends of edges and of those that coincide with them, ascending.
+std::vector<std::uint64_t> idsOf(const std::vector<ExtractedIsosurface>& surfaces)
+{
+  std::vector<std::uint64_t> ids;
+  for (const ExtractedIsosurface& extracted : surfaces)
+  {
+    for (const IsopointEdge& edge : extracted.surface.edges)
+    {
+      ids.insert(ids.end(), { edge.first, edge.second });
+    }
+    for (const CoincidentSamples& group : extracted.surface.coincident)
+    {
+      ids.insert(ids.end(), group.ids.begin(), group.ids.end());
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// Replaces each id by its position among the sorted ids.
+void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
+{
+  const auto renumberOne = [&ids](std::uint64_t& id)
+  { id = static_cast<std::uint64_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()); };
+  for (ExtractedIsosurface& extracted : surfaces)
+  {
+    for (IsopointEdge& edge : extracted.surface.edges)
+    {
+      renumberOne(edge.first);
+      renumberOne(edge.second);
+    }
+    for (CoincidentSamples& group : extracted.surface.coincident)
+    {
+      std::for_each(group.ids.begin(), group.ids.end(), renumberOne);
+    }
+  }
+}
+
+vtkIdType countOf(const vtkIsopointBlock& block)
+{
+  return block.Scalars->GetNumberOfTuples();
+}
+
+/// The range of sorted ids that belong to one block.
+struct IdRange
+{
+  std::size_t block;
+  std::size_t begin; // positions among the sorted ids
+  std::size_t end;
+  std::uint64_t firstId; // of the block's samples
+};
+
+std::vector<IdRange> idRangesOf(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  std::vector<IdRange> ranges;
+  std::uint64_t firstId = 0;
+  std::size_t begin = 0;
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+  {
+    const auto endId = firstId + static_cast<std::uint64_t>(countOf(blocks[block]));
+    const auto end =
+      static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), endId) - ids.begin());
+    ranges.push_back({ block, begin, end, firstId });
+    firstId = endId;
+    begin = end;
+  }
+  return ranges;
+}
+
+/// The attributes of a block that have one tuple for each sample.
+vtkSmartPointer<vtkPointData> completeAttributes(const vtkIsopointBlock& block)
+{
+  auto complete = vtkSmartPointer<vtkPointData>::New();
+  complete->ShallowCopy(block.Attributes);
+  for (int i = complete->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != countOf(block))
+    {
+      complete->RemoveArray(i);
+    }
+  }
+  return complete;
+}
+
+/// Allocates arrays for the attributes that all blocks have, and copies the tuples with these ids.
+void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids,
+  vtkDataSetAttributes* gathered)
+{
+  std::vector<vtkSmartPointer<vtkPointData>> inputs;
+  vtkDataSetAttributesFieldList common;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    inputs.push_back(completeAttributes(block));
+    common.IntersectFieldList(inputs.back());
+  }
+  gathered->CopyAllOn();
+  const auto count = static_cast<vtkIdType>(ids.size());
+  common.CopyAllocate(gathered, vtkDataSetAttributes::PASSDATA, 1, 0);
+  for (int i = 0; i < gathered->GetNumberOfArrays(); ++i)
+  {
+    vtkAllocateTuples(gathered->GetAbstractArray(i), count);
+  }
+  for (const IdRange& range : ranges)
+  {
+    common.TransformData(static_cast<int>(range.block), inputs[range.block], gathered,
+      [&](vtkAbstractArray* input, vtkAbstractArray* output)
+      {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+        {
+          output->SetTuple(
+            static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i] - range.firstId), input);
+        }
+      });
+  }
+}
+
+/// The contoured array at samples of blocks: float if it is in all of them.
+vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids)
+{
+  const bool areFloat = std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
+  auto scalars = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(areFloat ? VTK_FLOAT : VTK_DOUBLE));
+  scalars->SetName(blocks.front().Scalars->GetName());
+  vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
+  for (const IdRange& range : ranges)
+  {
+    vtkDataArray* const ofBlock = blocks[range.block].Scalars;
+    for (std::size_t i = range.begin; i < range.end; ++i)
+    {
+      const auto from = static_cast<vtkIdType>(ids[i] - range.firstId);
+      scalars->SetComponent(static_cast<vtkIdType>(i), 0, ofBlock->GetComponent(from, 0));
+    }
+  }
+  return scalars;
+}
+
+/// The attributes that all blocks have, at samples of them; the last one is the contoured array.
+vtkSmartPointer<vtkPointData> copiedSamples(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  auto copied = vtkSmartPointer<vtkPointData>::New();
+  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
+  gatherAttributes(blocks, ranges, ids, copied);
+  const vtkSmartPointer<vtkDataArray> scalars = gatherScalars(blocks, ranges, ids);
+  if (scalars->GetName())
+  {
+    copied->RemoveArray(scalars->GetName());
+  }
+  copied->AddArray(scalars);
+  return copied;
+}
+
+/// The same with the attributes in the order of the first block.
+vtkSmartPointer<vtkPointData> copiedInOrder(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  const vtkSmartPointer<vtkPointData> copied = copiedSamples(blocks, ids);
+  const int contoured = copied->GetNumberOfArrays() - 1;
+  auto ordered = vtkSmartPointer<vtkPointData>::New();
+  vtkDataSetAttributes* const first = blocks.front().Attributes;
+  for (int i = 0; i < first->GetNumberOfArrays(); ++i)
+  {
+    int index = -1;
+    const char* const name = first->GetAbstractArray(i)->GetName();
+    vtkAbstractArray* const array = name ? copied->GetAbstractArray(name, index) : nullptr;
+    if (array && index != contoured)
+    {
+      const int added = ordered->AddArray(array);
+      const int attribute = copied->IsArrayAnAttribute(index);
+      if (attribute >= 0)
+      {
+        ordered->SetActiveAttribute(added, attribute);
+      }
+    }
+  }
+  ordered->AddArray(copied->GetAbstractArray(contoured));
+  return ordered;
+}
+
+/// For each rank those of some sorted ids that its samples have, counted from its first one.
+/// @param counts the number of samples of each rank
+std::vector<std::vector<std::uint64_t>> idsByRank(
+  const std::vector<std::uint64_t>& ids, const std::vector<std::uint64_t>& counts)
+{
+  std::vector<std::vector<std::uint64_t>> byRank(counts.size());
+  std::uint64_t first = 0;
+  auto next = ids.begin();
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    for (; next != ids.end() && *next < first + counts[rank]; ++next)
+    {
+      byRank[rank].push_back(*next - first);
+    }
+    first += counts[rank];
+  }
+  return byRank;
+}
+
+} // namespace
+
+vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
+    [](std::uint64_t sum, const vtkIsopointBlock& block)
+    { return sum + static_cast<std::uint64_t>(countOf(block)); });
+  const std::vector<std::uint64_t> ids = idsOf(surfaces);
+  std::vector<isopoint::ByteBuffer> answers;
+  for (const auto& wanted : team.exchange(idsByRank(ids, team.gather(ownCount))))
+  {
+    answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
+                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
+  }
+  this->Join(team.exchange(answers), ids.size());
+  renumber(surfaces, ids);
+}
+
+void vtkIsopointEndSamples::Join(
+  const std::vector<isopoint::ByteBuffer>& arrived, std::size_t count)
+{
+  std::vector<vtkSmartPointer<vtkPointData>> attributes;
+  std::vector<vtkSmartPointer<vtkDataArray>> scalars;
+  std::vector<vtkIsopointBlock> pieces;
+  for (const isopoint::ByteBuffer& bytes : arrived)
+  {
+    if (!bytes.empty())
+    {
+      attributes.push_back(vtkReadIsopointArrays(bytes));
+      const int contoured = attributes.back()->GetNumberOfArrays() - 1;
+      scalars.emplace_back(attributes.back()->GetArray(contoured));
+      attributes.back()->RemoveArray(contoured);
+      pieces.emplace_back();
+      pieces.back().Attributes = attributes.back();
+      pieces.back().Scalars = scalars.back();
+    }
+  }
+  std::vector<std::uint64_t> all(count);
+  std::iota(all.begin(), all.end(), std::uint64_t{ 0 });
+  this->Use(copiedInOrder(pieces, all));
+}
+
+void vtkIsopointEndSamples::Use(vtkPointData* copied)
+{
+  this->Copied = copied;
+  this->Attributes = copied;
+  this->Scalars = copied->GetArray(copied->GetNumberOfArrays() - 1);
+}
+
+vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
+
+vtkIsopointEndSamples::vtkIsopointEndSamples(
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+  : Attributes(blocks.front().Attributes)
+  , Scalars(blocks.front().Scalars)
+{
+  if (blocks.size() > 1)
+  {
+    const std::vector<std::uint64_t> ids = idsOf(surfaces);
+    this->Use(copiedSamples(blocks, ids));
+    renumber(surfaces, ids);
+  }
+}

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Output/vtkIsopointInterpolatedArrays.h"
+
+#include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Interpolation.h"
+#include "Output/vtkIsopointOutput.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkArrayDispatch.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace
+{
+
+using isopoint::ExtractedIsosurface;
+using isopoint::IsopointEdge;
+using isopoint::Isosurface;
+
+/// Converts a number to an array's type. For integer types it is rounded to the nearest and limited
+/// to their range, which rounding of 64-bit integers to double can exceed.
+template <class T>
+T toArrayType(double value)
+{
+  if constexpr (std::is_floating_point<T>::value)
+  {
+    return static_cast<T>(value);
+  }
+  else
+  {
+    const double rounded = std::round(value);
+    if (rounded >= static_cast<double>(std::numeric_limits<T>::max()))
+    {
+      return std::numeric_limits<T>::max();
+    }
+    if (rounded <= static_cast<double>(std::numeric_limits<T>::lowest()))
+    {
+      return std::numeric_limits<T>::lowest();
+    }
+    return static_cast<T>(rounded);
+  }
+}
+
+/// Interpolates at all isopoints of a surface and calls write(isopoint, component, value).
+template <class ComponentOf, class Write>
+void interpolateComponents(const isopoint::Execution& execution, const Isosurface& surface,
+  int componentCount, const ComponentOf& componentOf, const Write& write)
+{
+  constexpr std::size_t grain = 4096;
+  for (int component = 0; component < componentCount; ++component)
+  {
+    const isopoint::CoincidentAttribute attribute(
+      surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
+    isopoint::forRanges(execution, surface.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const IsopointEdge& edge = surface.edges[i];
+          write(i, component,
+            isopoint::interpolate(attribute(edge.first), attribute(edge.second), edge.parameter));
+        }
+      });
+  }
+}
+
+/// Interpolates arrays that VTK can dispatch on, in parallel.
+struct TypedInterpolation
+{
+  const isopoint::Execution& Run;
+  const Isosurface& Surface;
+  vtkIdType FirstTuple;
+
+  template <class TArray>
+  void operator()(TArray* input, vtkDataArray* outputArray) const
+  {
+    using T = typename TArray::ValueType;
+    auto* const output = TArray::FastDownCast(outputArray);
+    interpolateComponents(
+      this->Run, this->Surface, input->GetNumberOfComponents(),
+      [&](std::uint64_t sample, int component)
+      {
+        return static_cast<double>(
+          input->GetTypedComponent(static_cast<vtkIdType>(sample), component));
+      },
+      [&](std::size_t i, int component, double value)
+      {
+        output->SetTypedComponent(
+          this->FirstTuple + static_cast<vtkIdType>(i), component, toArrayType<T>(value));
+      });
+  }
+};
+
+void interpolateArray(const isopoint::Execution& execution, const Isosurface& surface,
+  vtkDataArray* input, vtkDataArray* output, vtkIdType firstTuple)
+{
+  const TypedInterpolation typed{ execution, surface, firstTuple };
+  if (vtkArrayDispatch::Dispatch::Execute(input, typed, output))
+  {
+    return;
+  }
+  interpolateComponents(
+    isopoint::Execution(), surface, input->GetNumberOfComponents(),
+    [&](std::uint64_t sample, int component)
+    { return input->GetComponent(static_cast<vtkIdType>(sample), component); },
+    [&](std::size_t i, int component, double value)
+    { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
+}
+
+/// Copies the tuples of the nearer ends.
+void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
+  vtkIdType firstTuple)
+{
+  for (std::size_t i = 0; i < surface.size(); ++i)
+  {
+    const IsopointEdge& edge = surface.edges[i];
+    const std::uint64_t nearer = edge.parameter < 0.5 ? edge.first : edge.second;
+    output->SetTuple(firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(nearer), input);
+  }
+}
+
+vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdType tuples)
+{
+  auto output = vtkSmartPointer<vtkAbstractArray>::Take(input->NewInstance());
+  output->SetName(input->GetName());
+  output->SetNumberOfComponents(input->GetNumberOfComponents());
+  output->CopyComponentNames(input);
+  vtkAllocateTuples(output, tuples);
+  return output;
+}
+
+/// Adds an array, as the active attribute of this type unless that is -1.
+void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
+{
+  const int index = output->AddArray(array);
+  if (attribute >= 0)
+  {
+    output->SetActiveAttribute(index, attribute);
+  }
+}
+
+/// Whether an array is not to be interpolated.
+bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
+{
+  return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
+         array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
+         (array->GetName() &&
+           std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+}
+
+} // namespace
+
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
+{
+  for (int index = 0; index < input->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = input->GetAbstractArray(index);
+    const int attribute = input->IsArrayAnAttribute(index);
+    if (isExcluded(array, attribute, contoured))
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkAbstractArray> result =
+      newArrayLike(array, vtkCountIsopoints(surfaces));
+    auto* const numbers = vtkDataArray::SafeDownCast(array);
+    const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
+    vtkIdType firstTuple = 0;
+    for (const ExtractedIsosurface& extracted : surfaces)
+    {
+      const Isosurface& surface = extracted.surface;
+      if (isNumeric)
+      {
+        interpolateArray(
+          execution, surface, numbers, vtkDataArray::SafeDownCast(result), firstTuple);
+      }
+      else
+      {
+        copyFromNearerEnd(surface, array, result, firstTuple);
+      }
+      firstTuple += static_cast<vtkIdType>(surface.size());
+    }
+    addArray(attribute, result, output);
+  }
+}
+
+void vtkAddContouredArray(
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
+{
+  const int type = contoured->GetDataType();
+  const auto result = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
+  result->SetName(contoured->GetName());
+  vtkAllocateTuples(result, vtkCountIsopoints(surfaces));
+  vtkIdType tuple = 0;
+  for (const ExtractedIsosurface& extracted : surfaces)
+  {
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    {
+      result->SetComponent(tuple++, 0, extracted.surface.isovalue);
+    }
+  }
+  addArray(vtkDataSetAttributes::SCALARS, result, output);
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Output/vtkIsopointOutput.h"
+
+#include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Vector.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  std::size_t count = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    count += extracted.surface.size();
+  }
+  return static_cast<vtkIdType>(count);
+}
+
+vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(type);
+  vtkAllocateTuples(points->GetData(), vtkCountIsopoints(surfaces));
+  vtkIdType next = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (const isopoint::Vector& position : extracted.surface.positions)
+    {
+      points->SetPoint(next++, position.data());
+    }
+  }
+  return points;
+}
+
+namespace
+{
+
+/// Cells of `size` points each, of given ids.
+vtkSmartPointer<vtkCellArray> newCells(vtkIdType size, vtkIdTypeArray* connectivity)
+{
+  const vtkIdType count = connectivity->GetNumberOfValues() / size;
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkAllocateTuples(offsets, count + 1);
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    offsets->SetValue(i, size * i);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> connectivity;
+  vtkAllocateTuples(connectivity, count);
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{ 0 });
+  return newCells(1, connectivity);
+}
+
+vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  vtkIdType count = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    count += static_cast<vtkIdType>(extracted.triangles.size());
+  }
+  vtkNew<vtkIdTypeArray> connectivity;
+  vtkAllocateTuples(connectivity, 3 * count);
+  vtkIdType next = 0;
+  vtkIdType firstPoint = 0;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (const isopoint::SurfaceTriangle& triangle : extracted.triangles)
+    {
+      for (const std::size_t vertex : triangle)
+      {
+        connectivity->SetValue(next++, firstPoint + static_cast<vtkIdType>(vertex));
+      }
+    }
+    firstPoint += static_cast<vtkIdType>(extracted.surface.size());
+  }
+  return newCells(3, connectivity);
+}
+
+void vtkAddIsopointGhosts(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output)
+{
+  std::vector<unsigned char> points;
+  std::vector<unsigned char> triangles;
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    {
+      const bool isElsewhere = !extracted.areElsewhere.empty() && extracted.areElsewhere[i];
+      points.push_back(isElsewhere ? 1 : 0);
+    }
+    const std::size_t count = extracted.triangles.size();
+    triangles.insert(triangles.end(), count - extracted.ghostTriangles, 0);
+    triangles.insert(triangles.end(), extracted.ghostTriangles, 1);
+  }
+  const auto add = [](const std::vector<unsigned char>& isGhost, unsigned char duplicate,
+                     vtkDataSetAttributes* attributes)
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    vtkAllocateTuples(ghosts, static_cast<vtkIdType>(isGhost.size()));
+    std::transform(isGhost.begin(), isGhost.end(), ghosts->GetPointer(0),
+      [duplicate](unsigned char is) { return static_cast<unsigned char>(is * duplicate); });
+    attributes->AddArray(ghosts);
+  };
+  const bool areVertices = output->GetNumberOfVerts() > 0;
+  add(points, vtkDataSetAttributes::DUPLICATEPOINT, output->GetPointData());
+  add(areVertices ? points : triangles, vtkDataSetAttributes::DUPLICATECELL, output->GetCellData());
+}
+
+vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input)
+{
+  return vtkUniformGridAMR::SafeDownCast(input)
+           ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkMultiBlockDataSet>::New())
+           : vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+}

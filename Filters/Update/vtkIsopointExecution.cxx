@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Update/vtkIsopointExecution.h"
+
+#include "Input/vtkIsopointCompatibility.h"
+#include "Isopoint/Base/Threads.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace
+{
+
+void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+{
+  const auto range = [&task](vtkIdType begin, vtkIdType end)
+  { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); };
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
+}
+
+/// Whether the backend is sequential because VTK was built so, and not by choice.
+bool isSequentialByDefault()
+{
+  const char* const backend = vtkSMPTools::GetBackend();
+  return backend && std::strcmp(backend, "Sequential") == 0 &&
+         !std::getenv("VTK_SMP_BACKEND_IN_USE");
+}
+
+std::size_t allowedThreads(std::size_t processes)
+{
+  std::size_t threads = isopoint::availableThreads(processes);
+  const char* const limit = std::getenv("VTK_SMP_MAX_THREADS");
+  for (const long most :
+    { limit ? std::strtol(limit, nullptr, 10) : 0, static_cast<long>(vtkGetRequestedSMPThreads()) })
+  {
+    threads = most > 0 ? std::min(threads, static_cast<std::size_t>(most)) : threads;
+  }
+  return threads;
+}
+
+} // namespace
+
+isopoint::Execution vtkMakeIsopointExecution(
+  vtkAlgorithm* filter, bool useAllCores, std::size_t processes)
+{
+  isopoint::Execution execution;
+  if (isopoint::hasThreads && useAllCores && isSequentialByDefault())
+  {
+    isopoint::useThreads(execution, allowedThreads(processes));
+  }
+  else
+  {
+    execution.threads =
+      static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
+    execution.parallelFor = forOnSMPTools;
+  }
+  execution.progress = [filter](double fraction) { filter->UpdateProgress(fraction); };
+  execution.aborted = [filter]() { return vtkIsAborted(filter); };
+  return execution;
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointExtraction_h
+#define vtkIsopointExtraction_h
+
+#include "Input/vtkIsopointBlocks.h"
+#include "Input/vtkIsopointInputState.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Team.h"
+#include "Isopoint/IsosurfaceExtractor.h"
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkCompositeDataSet;
+class vtkDataObject;
+class vtkInformation;
+class vtkIsopointEndSamples;
+class vtkIsopointStructure;
+class vtkPolyData;
+struct vtkIsopointFindings;
+struct vtkIsopointOptions;
+
+/**
+ * The extraction of one update, from the input to the output. On several ranks all of them run it.
+ */
+class vtkIsopointExtraction
+{
+public:
+  /// The tree of one cloud, and the state of the input that it was loaded from.
+  struct KeptTree
+  {
+    isopoint::IsosurfaceExtractor Extractor;
+    vtkIsopointInputState LoadedFrom;
+  };
+
+  /// What is kept from one update to the next.
+  struct Kept
+  {
+    vtkIsopointBlocks Input;
+    std::map<std::size_t, KeptTree> Trees; // by leaf if blocks are contoured separately, else one
+
+    void Clear()
+    {
+      this->Trees.clear();
+      this->Input = vtkIsopointBlocks();
+    }
+  };
+
+  /// @param team must outlive what is kept
+  /// @param findings receives what is found out
+  vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
+    const vtkIsopointOptions& options, Kept& kept, vtkIsopointFindings& findings);
+
+  /// Fills the output. Called inside isopoint::Team::together().
+  /// @throws vtkIsopointUsageError, or what isopoint::IsosurfaceExtractor throws
+  void Run(vtkInformation* inputInfo, vtkInformation* outputInfo);
+
+private:
+  bool IsOnRanks() const { return this->Team.size() > 1; }
+  void CollectBlocks(vtkDataObject* input, const int* wholeExtent);
+  void StartCounting();
+  /// Each leaf of all ranks' inputs separately.
+  void ExtractLeaves(
+    const vtkIsopointStructure& structure, vtkDataObject* input, vtkCompositeDataSet* output);
+  /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
+  void ExtractBlocks(std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  /// The progress after loading this many samples, and after each isovalue.
+  std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
+  /// One surface for each isovalue, then, if there are any, its ghosts for each.
+  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
+    isopoint::IsosurfaceExtractor& extractor, const std::vector<double>& progress);
+  void FillOutput(const vtkIsopointEndSamples& samples,
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
+    vtkPolyData* output);
+
+  vtkAlgorithm* Filter;
+  isopoint::Team& Team;
+  const vtkIsopointOptions& Options;
+  Kept& State;
+  vtkIsopointFindings& Findings;
+  isopoint::Execution Execution;
+  int GhostLevels = 0; // that are requested of the output
+};
+
+#endif

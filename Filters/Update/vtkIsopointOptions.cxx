@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Update/vtkIsopointOptions.h"
+
+#include "Input/vtkIsopointUsageError.h"
+#include "Isopoint/Base/Team.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace
+{
+
+constexpr int automaticNormals = -1;
+constexpr int normalsFromField = 0;
+
+/// FNV-1a, of words.
+class Hash
+{
+public:
+  void Add(double number)
+  {
+    number += 0.0; // 0 and -0 are the same
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    this->Value = (this->Value ^ bits) * 1099511628211u;
+    this->Value ^= this->Value >> 32;
+  }
+
+  void Add(const std::string& text)
+  {
+    for (const char letter : text)
+    {
+      this->Add(letter);
+    }
+  }
+
+  std::uint64_t Get() const { return this->Value; }
+
+private:
+  std::uint64_t Value = 14695981039346656037u;
+};
+
+} // namespace
+
+void vtkIsopointOptions::Check() const
+{
+  if (std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
+        [](double value) { return std::isnan(value); }))
+  {
+    throw vtkIsopointUsageError("An isovalue is not a number. Set isovalues with SetValue().");
+  }
+  this->ForEach(
+    [](const char* name, double value, double least, double greatest)
+    {
+      if (!(value >= least && value <= greatest))
+      {
+        std::ostringstream message;
+        message << name << " is " << value << ", which is out of range. Set one within " << least
+                << " and " << greatest << " with Set" << name << "().";
+        throw vtkIsopointUsageError(message.str());
+      }
+    });
+}
+
+void vtkIsopointOptions::CheckOnRanks(isopoint::Team& team) const
+{
+  Hash hash;
+  hash.Add(this->Triangles);
+  hash.Add(this->Array.Describe());
+  for (const double isovalue : this->GetSortedIsovalues())
+  {
+    hash.Add(isovalue);
+  }
+  this->ForEach([&hash](const char*, double value, double, double) { hash.Add(value); });
+  const bool differ = team.maximum(hash.Get()) != ~team.maximum(~hash.Get());
+  if (differ && team.rank() == 0)
+  {
+    throw vtkIsopointUsageError(
+      "The filters of the ranks have different options. Set the same on all of them, or contour"
+      " each rank's samples separately with SetController(nullptr).");
+  }
+}
+
+std::set<double> vtkIsopointOptions::GetSortedIsovalues() const
+{
+  return { this->Isovalues.begin(), this->Isovalues.end() };
+}
+
+vtkIsopointComputedArrays::Choice vtkIsopointOptions::GetArrays() const
+{
+  vtkIsopointComputedArrays::Choice choice;
+  choice.Normals = this->ComputeNormals;
+  choice.Splats = this->ComputeSplats;
+  choice.Gradients = this->ComputeGradients;
+  choice.ProjectionOrder = this->ComputeProjectionOrders;
+  choice.IsProjected = this->Projection != 0;
+  return choice;
+}
+
+bool vtkIsopointOptions::HasNormalsFromField() const
+{
+  if (this->NormalMethod == automaticNormals)
+  {
+    return this->Projection != 0 || this->ComputeGradients || this->MinimumSpacing > 0.0;
+  }
+  return this->NormalMethod == normalsFromField;
+}
+
+/// The fit that the projection or an output requires, if any: thinning and normals from the field
+/// require polynomials, other splats and fit orders at least the sample spacing.
+std::optional<isopoint::FitRequest> vtkIsopointOptions::GetFitRequest() const
+{
+  using isopoint::FitOrder;
+  using isopoint::FitRequest;
+  if (this->Projection != 0)
+  {
+    return FitRequest{ static_cast<FitOrder>(this->Projection), true };
+  }
+  const bool needsSplats = this->GetArrays().NeedsSplats();
+  if (this->ComputeGradients || this->MinimumSpacing > 0.0 ||
+      (needsSplats && this->HasNormalsFromField()))
+  {
+    return FitRequest{ FitOrder::Cubic, false };
+  }
+  if (needsSplats || this->ComputeProjectionOrders)
+  {
+    return FitRequest{ std::nullopt, false };
+  }
+  return std::nullopt;
+}
+
+isopoint::ExtractionRequest vtkIsopointOptions::GetRequest() const
+{
+  isopoint::ExtractionRequest request;
+  request.isosurface.angle = this->Angle;
+  request.isosurface.dropsGaps = this->DropGaps;
+  request.isosurface.fit = this->GetFitRequest();
+  request.isosurface.partsCreases = this->ComputeNormals;
+  request.minimumSpacing = this->MinimumSpacing;
+  request.triangles = this->Triangles;
+  if (this->GetArrays().NeedsSplats())
+  {
+    request.splats = isopoint::SplatOptions{ this->NumberOfNeighbors, this->HasNormalsFromField(),
+      this->ComputeSplats };
+  }
+  return request;
+}

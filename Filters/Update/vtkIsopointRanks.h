@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointRanks_h
+#define vtkIsopointRanks_h
+
+#include "Isopoint/Base/Communicator.h"
+#include "Isopoint/Base/Team.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkMultiProcessController;
+
+/**
+ * The ranks of a controller of VTK, as the core sees them; without one, this rank alone. Messages
+ * may have any size: they are sent in parts.
+ */
+class vtkIsopointCommunicator : public isopoint::Communicator
+{
+public:
+  vtkIsopointCommunicator();
+  ~vtkIsopointCommunicator() override;
+
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const;
+
+  int rank() const override;
+  int size() const override;
+  void allReduce(std::uint64_t* numbers, std::size_t count, isopoint::Reduction reduction) override;
+  void exchange(const std::vector<isopoint::OutgoingBytes>& outgoing,
+    const std::vector<isopoint::IncomingBytes>& incoming) override;
+
+private:
+  void Send(const isopoint::OutgoingBytes& message, int rank);
+  void Receive(const isopoint::IncomingBytes& message, int rank);
+
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  // Memory for sums and maxima, which must not be lacking on one rank alone.
+  std::vector<unsigned long long> OwnNumbers;
+  std::vector<unsigned long long> AllNumbers;
+};
+
+/**
+ * The number of ranks that run on this rank's host, itself included. Collective.
+ */
+std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team);
+
+/**
+ * The message of the lowest rank that has one, preceded by the number of that rank, on rank 0;
+ * empty on all others, and if none has one. Collective.
+ */
+std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem);
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointUpdate_h
+#define vtkIsopointUpdate_h
+
+#include "Update/vtkIsopointExtraction.h"
+#include "Update/vtkIsopointFindings.h"
+#include "Update/vtkIsopointRanks.h"
+
+#include "vtkWeakPointer.h"
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkInformation;
+class vtkMultiProcessController;
+struct vtkIsopointOptions;
+
+/**
+ * The updates of a filter: each runs an extraction, and reports what the user has to know as errors
+ * and messages of the filter. Holds what is kept from one update to the next.
+ */
+class vtkIsopointUpdate
+{
+public:
+  explicit vtkIsopointUpdate(vtkAlgorithm* filter);
+  ~vtkIsopointUpdate();
+
+  /// The processes whose inputs form one cloud; null: this one alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const { return this->Communicator.GetController(); }
+
+  bool HasOtherRanks() const { return this->Communicator.size() > 1; }
+
+  /// Updates the output. Where that fails there is one error, and the output is empty. Collective.
+  /// @param fillOptions called once
+  void Run(const std::function<void(vtkIsopointOptions&)>& fillOptions, vtkInformation* inputInfo,
+    vtkInformation* outputInfo);
+
+  /// Of the last update; nothing if that failed.
+  const vtkIsopointFindings& GetFindings() const { return this->Findings; }
+
+private:
+  std::string DescribeFailure();
+  void ReportProblem(const std::string& problem);
+  void ReportFindings();
+  void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
+
+  vtkAlgorithm* Filter;
+  vtkIsopointCommunicator Communicator;
+  isopoint::Team Team;
+  vtkIsopointExtraction::Kept Kept;
+  vtkIsopointFindings Findings;
+  std::set<std::string> Reported;          // causes of messages in the last update
+  vtkWeakPointer<vtkAlgorithm> ReportedOf; // the producer of its input
+};
+
+#endif
