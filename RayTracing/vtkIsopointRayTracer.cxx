@@ -231,7 +231,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   isopoint::Execution execution;
   isopoint::useThreads(execution, self->NumberOfThreads > 0
                                     ? static_cast<std::size_t>(self->NumberOfThreads)
-                                    : isopoint::availableThreads());
+                                    : isopoint::availableThreadsOfRank());
   execution.progress = [self](double share)
   { self->InvokeEvent(vtkCommand::ProgressEvent, &share); };
   execution.aborted = [self, window]()

@@ -129,7 +129,8 @@ public:
 
   ///@{
   /**
-   * Threads that trace rays. 0: one for each core. Range: 0 to 1024. Default: 0.
+   * Threads that trace rays, at most. 0: one for each core that the process may use. Range: 0 to
+   * 1024. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);

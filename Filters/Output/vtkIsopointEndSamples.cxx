@@ -231,6 +231,28 @@ std::vector<std::vector<std::uint64_t>> idsByRank(
 vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
   const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
+  if (team.size() > 1)
+  {
+    this->CopyFromRanks(team, blocks, surfaces);
+  }
+  else if (blocks.size() > 1)
+  {
+    const std::vector<std::uint64_t> ids = idsOf(surfaces);
+    this->Use(copiedSamples(blocks, ids));
+    renumber(surfaces, ids);
+  }
+  else
+  {
+    this->Attributes = blocks.front().Attributes;
+    this->Scalars = blocks.front().Scalars;
+  }
+}
+
+vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
+
+void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
   const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
     [](std::uint64_t sum, const vtkIsopointBlock& block)
     { return sum + static_cast<std::uint64_t>(countOf(block)); });
@@ -274,19 +296,4 @@ void vtkIsopointEndSamples::Use(vtkPointData* copied)
   this->Copied = copied;
   this->Attributes = copied;
   this->Scalars = copied->GetArray(copied->GetNumberOfArrays() - 1);
-}
-
-vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
-
-vtkIsopointEndSamples::vtkIsopointEndSamples(
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
-  : Attributes(blocks.front().Attributes)
-  , Scalars(blocks.front().Scalars)
-{
-  if (blocks.size() > 1)
-  {
-    const std::vector<std::uint64_t> ids = idsOf(surfaces);
-    this->Use(copiedSamples(blocks, ids));
-    renumber(surfaces, ids);
-  }
 }

@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <limits>
@@ -26,6 +27,7 @@
 
 #ifdef __linux__
 #include <sched.h>
+#include <unistd.h>
 #endif
 
 namespace isopoint
@@ -85,6 +87,38 @@ inline std::size_t availableThreads(std::size_t processes = 1)
 #endif
   static const std::size_t quota = coresOfQuota();
   return std::max<std::size_t>(1, std::min(cores, quota) / processes);
+}
+
+/// The cores that this process is bound to: a text that is the same for all that share them.
+inline std::string boundCores()
+{
+#ifdef __linux__
+  cpu_set_t bound;
+  if (sched_getaffinity(0, sizeof(bound), &bound) == 0)
+  {
+    return std::string(reinterpret_cast<const char*>(&bound), sizeof(bound));
+  }
+#endif
+  return {};
+}
+
+/// The threads of this process, without asking others: if a launcher of MPI started several on this
+/// host and bound them to no cores, its share of all cores.
+inline std::size_t availableThreadsOfRank()
+{
+  std::size_t threads = availableThreads();
+#ifdef __linux__
+  for (const char* const count : { "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS" })
+  {
+    const char* const ranks = std::getenv(count);
+    const long parsed = ranks ? std::strtol(ranks, nullptr, 10) : 0;
+    if (parsed > 0)
+    {
+      threads = std::min(threads, static_cast<std::size_t>(sysconf(_SC_NPROCESSORS_ONLN) / parsed));
+    }
+  }
+#endif
+  return std::max<std::size_t>(1, threads);
 }
 
 #ifdef ISOPOINT_USES_TBB
