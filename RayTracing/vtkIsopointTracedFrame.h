@@ -27,4 +27,3 @@ inline raytracing::Vector vtkIsopointTracedVector(const double* vector)
 }
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedFrame.h

@@ -38,4 +38,3 @@ private:
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedScene.h

@@ -25,4 +25,3 @@ private:
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedState.h

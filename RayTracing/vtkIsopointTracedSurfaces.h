@@ -16,4 +16,3 @@ std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame);
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedSurfaces.h

@@ -42,4 +42,3 @@ struct vtkIsopointSplatMesh
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointSplatMesh.h

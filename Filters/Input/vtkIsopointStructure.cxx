@@ -2,6 +2,7 @@
 #include "Input/vtkIsopointStructure.h"
 
 #include "Input/vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointTextBytes.h"
 #include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Team.h"
 
@@ -228,7 +229,7 @@ void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPol
 void vtkIsopointStructure::Write(isopoint::ByteBuffer& bytes) const
 {
   isopoint::append(bytes, this->Type);
-  isopoint::append(bytes, this->Name);
+  vtkAppendText(bytes, this->Name);
   isopoint::append(bytes, this->Children.size());
   for (const vtkIsopointStructure& child : this->Children)
   {
@@ -240,7 +241,7 @@ vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
 {
   vtkIsopointStructure structure;
   structure.Type = bytes.read<int>();
-  structure.Name = bytes.readText();
+  structure.Name = vtkReadText(bytes);
   structure.Children.resize(bytes.read<std::size_t>());
   for (vtkIsopointStructure& child : structure.Children)
   {

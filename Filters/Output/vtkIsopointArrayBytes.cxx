@@ -2,6 +2,7 @@
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "Input/vtkIsopointAllocation.h"
+#include "Input/vtkIsopointTextBytes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -47,19 +48,19 @@ std::size_t sizeOf(vtkAbstractArray* array)
 void writeArray(vtkAbstractArray* array, ByteBuffer& bytes)
 {
   const int components = array->GetNumberOfComponents();
-  isopoint::append(bytes, textOf(array->GetName()));
+  vtkAppendText(bytes, textOf(array->GetName()));
   isopoint::append(bytes, array->GetDataType());
   isopoint::append(bytes, components);
   isopoint::append(bytes, array->GetNumberOfTuples());
   for (int i = 0; i < components; ++i)
   {
-    isopoint::append(bytes, textOf(array->GetComponentName(i)));
+    vtkAppendText(bytes, textOf(array->GetComponentName(i)));
   }
   if (auto* const strings = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
     {
-      isopoint::append(bytes, std::string(strings->GetValue(i)));
+      vtkAppendText(bytes, std::string(strings->GetValue(i)));
     }
     return;
   }
@@ -69,7 +70,7 @@ void writeArray(vtkAbstractArray* array, ByteBuffer& bytes)
 
 vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
 {
-  const std::string name = reader.readText();
+  const std::string name = vtkReadText(reader);
   const auto array =
     vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(reader.read<int>()));
   const auto components = reader.read<int>();
@@ -78,7 +79,7 @@ vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
   array->SetNumberOfComponents(components);
   for (int i = 0; i < components; ++i)
   {
-    const std::string componentName = reader.readText();
+    const std::string componentName = vtkReadText(reader);
     if (!componentName.empty())
     {
       array->SetComponentName(i, componentName.c_str());
@@ -89,7 +90,7 @@ vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
   {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
     {
-      strings->SetValue(i, reader.readText());
+      strings->SetValue(i, vtkReadText(reader));
     }
     return array;
   }

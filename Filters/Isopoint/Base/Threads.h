@@ -63,7 +63,7 @@ inline std::size_t coresOfQuota()
     }
     const std::string root = isVersion2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu";
     std::string path = line.substr(end + 1);
-    while (!path.empty())
+    while (!path.empty() && path.front() == '/')
     {
       cores = std::min(cores, coresOfQuota(root + path));
       path.erase(path.rfind('/'));

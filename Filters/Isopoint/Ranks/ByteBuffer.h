@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstring>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -26,12 +25,6 @@ template <class T>
 void append(ByteBuffer& buffer, const T& value)
 {
   append(buffer, &value, 1);
-}
-
-inline void append(ByteBuffer& buffer, const std::string& text)
-{
-  append(buffer, text.size());
-  append(buffer, text.data(), text.size());
 }
 
 /// Reads what append() wrote, in the same order.
@@ -63,13 +56,6 @@ public:
     T value;
     this->read(&value, 1);
     return value;
-  }
-
-  std::string readText()
-  {
-    std::string text(this->read<std::size_t>(), ' ');
-    this->read(text.data(), text.size());
-    return text;
   }
 
 private:
