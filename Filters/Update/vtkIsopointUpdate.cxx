@@ -15,6 +15,7 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 vtkIsopointUpdate::vtkIsopointUpdate(vtkAlgorithm* filter)
   : Filter(filter)
@@ -52,7 +53,15 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   }
   catch (...)
   {
-    problem = this->DescribeFailure();
+    try
+    {
+      problem = this->DescribeFailure();
+    }
+    catch (const std::bad_alloc&)
+    {
+      this->Kept.Clear();
+      problem = "Out of memory."; // short enough to take none
+    }
   }
   this->Filter->SetProgressShiftScale(0.0, 1.0);
   this->Kept.Input.ReleaseInput();
@@ -60,7 +69,7 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   {
     vtkDataObject::GetData(outputInfo)->Initialize();
     this->Findings = vtkIsopointFindings();
-    this->ReportProblem(problem);
+    this->ReportProblem(std::move(problem));
   }
   else
   {
@@ -111,16 +120,16 @@ std::string vtkIsopointUpdate::DescribeFailure()
   }
 }
 
-void vtkIsopointUpdate::ReportProblem(const std::string& problem)
+void vtkIsopointUpdate::ReportProblem(std::string problem)
 {
-  std::string message = problem;
+  std::string message;
   try
   {
     this->Team.together([&]() { message = vtkGatherIsopointProblem(this->Team, problem); });
   }
   catch (const std::exception&)
   {
-    message = problem; // for lack of memory each rank reports its own
+    message.swap(problem); // for lack of memory each rank reports its own
   }
   if (!message.empty())
   {

@@ -45,7 +45,7 @@ public:
 
 private:
   std::string DescribeFailure();
-  void ReportProblem(const std::string& problem);
+  void ReportProblem(std::string problem);
   void ReportFindings();
   void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
 

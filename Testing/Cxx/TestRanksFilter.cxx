@@ -103,7 +103,7 @@ void updateFailing(long n, const std::vector<vtkSmartPointer<vtkPolyData>>& part
 template <class TFilter>
 void failEach()
 {
-  const vtkSmartPointer<vtkPolyData> cloud = newCloud(3000);
+  const vtkSmartPointer<vtkPolyData> cloud = newCloud(1500);
   std::vector<vtkSmartPointer<vtkPolyData>> parts;
   for (int rank = 0; rank < ranks; ++rank)
   {
@@ -116,7 +116,7 @@ void failEach()
   ASSERT_EQ(undisturbed.errors, 0);
   int failures = 0;
   bool wasReached = true;
-  for (long n = 1; wasReached; n += n < 50 ? 1 : 11)
+  for (long n = 1; wasReached; n += n < 40 ? 1 : 17)
   {
     SCOPED_TRACE(n);
     Result result;
