@@ -22,8 +22,7 @@
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
-#include "vtkTypeInt32Array.h"
-#include "vtkTypeInt64Array.h"
+#include "vtkType.h"
 #include "vtkVersionMacros.h"
 
 #include <algorithm>
@@ -60,24 +59,19 @@ void setGeometry(const vtkIsopointSplatMesh& mesh, int pointType, vtkPolyData* o
   output->GetPointData()->SetNormals(normals);
 }
 
-/// @tparam TArray of 32 bits where these suffice: half of the memory
-template <class TArray>
 void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
 {
-  using Value = typename TArray::ValueType;
   const vtkIdType count = mesh.NumberOfTriangles();
-  vtkNew<TArray> corners;
-  corners->SetNumberOfValues(3 * count);
-  vtkSMPTools::For(0, 3 * count,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        corners->SetValue(i, static_cast<Value>(mesh.Corners[static_cast<std::size_t>(i)]));
-      }
-    });
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(3, corners);
+  if (std::max(3 * count, mesh.NumberOfVertices()) < std::numeric_limits<vtkTypeInt32>::max())
+  {
+    triangles->Use32BitStorage(); // half of the memory
+  }
+  triangles->AllocateExact(count, 3 * count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    triangles->InsertNextCell(3, mesh.Corners.data() + 3 * i);
+  }
   output->SetPolys(triangles);
 }
 
@@ -363,15 +357,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   const vtkIsopointSplatMesh mesh(shapes, count);
   this->UpdateProgress(withMesh);
   setGeometry(mesh, typeOfPoints(input), output);
-  if (std::max(3 * mesh.NumberOfTriangles(), mesh.NumberOfVertices()) <
-      std::numeric_limits<vtkTypeInt32>::max())
-  {
-    setTriangles<vtkTypeInt32Array>(mesh, output);
-  }
-  else
-  {
-    setTriangles<vtkTypeInt64Array>(mesh, output);
-  }
+  setTriangles(mesh, output);
   this->UpdateProgress(withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
