@@ -13,7 +13,6 @@ import argparse
 import time
 
 import analytic_surfaces as surfaces
-import numpy as np
 import volumes
 from fits import AnalyticSet, angles_between
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter

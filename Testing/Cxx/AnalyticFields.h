@@ -59,7 +59,6 @@ inline Surface gyroid()
 {
   Surface surface;
   surface.name = "gyroid";
-  surface.isClosed = false;
   surface.isovalue = 0.0;
   surface.value = [](const Vector& p)
   {
@@ -98,7 +97,6 @@ inline Surface marschnerLobb()
   Surface surface;
   surface.name = "Marschner-Lobb";
   surface.thickness = 0.04;
-  surface.isClosed = false;
   surface.isovalue = 0.5;
   surface.value = [=](const Vector& p)
   {
@@ -188,7 +186,6 @@ inline Surface cube()
   };
   Surface surface;
   surface.name = "cube";
-  surface.isSmooth = false;
   surface.isovalue = half;
   surface.value = [=](const Vector& p)
   {
@@ -236,7 +233,6 @@ inline Surface twoSheets(double separation)
   const double half = 0.5 * separation;
   Surface surface;
   surface.name = "two sheets";
-  surface.isSmooth = false;
   surface.isovalue = half;
   surface.thickness = separation;
   surface.value = [](const Vector& p) { return std::abs(length(p) - middle); };

@@ -74,8 +74,6 @@ struct Surface
 {
   std::string name;
   double isovalue = 0.0;
-  bool isSmooth = true;   // the field, near the isosurface
-  bool isClosed = true;   // within the cube
   double thickness = 0.2; // of the thinnest sheet or ripple: searches take shorter steps
   std::function<double(const Vector&)> value;
   std::function<Vector(const Vector&)> gradient;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracles themselves: gradients against differences, nearest points against dense sampling,
-// random points of the surface against known areas.
+// The oracles themselves: gradients against differences, nearest points against dense sampling.
 #include "AnalyticFields.h"
 
 #include <gtest/gtest.h>
@@ -35,15 +34,6 @@ public:
 std::vector<Vector> pointsOf(const Surface& surface, std::size_t count)
 {
   return randomSurfacePoints(surface, count, 1.0, 3);
-}
-
-/// The share of a surface's random points that a condition holds for.
-template <class Condition>
-double share(const Surface& surface, const Condition& condition)
-{
-  const std::vector<Vector> points = pointsOf(surface, 40000);
-  return static_cast<double>(std::count_if(points.begin(), points.end(), condition)) /
-         static_cast<double>(points.size());
 }
 
 } // namespace
@@ -146,27 +136,4 @@ TEST(AnalyticFields, FeetAreTheNearestPointsOfTheSurface)
     // About the distance of the points that it was compared with.
     EXPECT_LT(largestExcess, 0.08);
   }
-}
-
-TEST(AnalyticFields, SurfacePointsAreUniformByArea)
-{
-  const auto isAbove = [](const Vector& p) { return p[2] > 0.35; };
-  EXPECT_NEAR(share(analytic::sphere(), isAbove), 0.25, 0.01); // by Archimedes
-
-  // The outer half of a torus, (1 / 2 + r / (pi R)) of the whole by Pappus.
-  EXPECT_NEAR(
-    share(analytic::torus(), [](const Vector& p) { return std::hypot(p[0], p[1]) > 0.6; }),
-    0.5 + 0.25 / (analytic::pi * 0.6), 0.01);
-
-  const Surface cube = analytic::cube();
-  const Vector middle = cube.footOf({ 0.9, 0.1, 0.1 }).normals[0];
-  EXPECT_NEAR(
-    share(cube, [&](const Vector& p) { return dot(cube.footOf(p).normals[0], middle) > 0.9; }),
-    1.0 / 6.0, 0.01);
-
-  const double inner = std::pow(0.65 - 0.5 * separation, 2.0);
-  const double outer = std::pow(0.65 + 0.5 * separation, 2.0);
-  EXPECT_NEAR(
-    share(analytic::twoSheets(separation), [](const Vector& p) { return length(p) < 0.65; }),
-    inner / (inner + outer), 0.01);
 }

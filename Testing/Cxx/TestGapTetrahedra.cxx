@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -316,34 +315,4 @@ TEST(GapTetrahedra, AreAllAcrossAVoidAllAround)
   };
   EXPECT_EQ(inGaps(0.01), 0.0);
   EXPECT_GT(inGaps(0.3), 0.99);
-}
-
-TEST(GapTetrahedra, AreTheSameForAnyThreadsAndOrder)
-{
-  const Cloud cloud = comb(20000, 9);
-  const std::vector<Corners> expected = foundInGaps(cloud, 0.5);
-  EXPECT_GT(expected.size(), 500u);
-  EXPECT_TRUE(foundInGaps(cloud, 0.5, 2) == expected);
-  EXPECT_TRUE(foundInGaps(cloud, 0.5, 3) == expected);
-  EXPECT_TRUE(foundInGaps(cloud, 0.5, 7) == expected);
-  std::vector<std::uint64_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), std::uint64_t{ 0 });
-  std::shuffle(order.begin(), order.end(), std::mt19937_64(10));
-  Cloud shuffled;
-  for (const std::uint64_t i : order)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    shuffled.add(p[0], p[1], p[2], cloud.values[i]);
-  }
-  std::vector<Corners> found = foundInGaps(shuffled, 0.5);
-  for (Corners& corners : found)
-  {
-    for (std::uint64_t& id : corners)
-    {
-      id = order[id];
-    }
-    std::sort(corners.begin(), corners.end());
-  }
-  std::sort(found.begin(), found.end());
-  EXPECT_TRUE(found == expected);
 }

@@ -57,6 +57,7 @@ ExtractionRequest whole(double isovalue, FitOrder order, double minimumSpacing =
 ExtractionRequest triangles(double isovalue)
 {
   ExtractionRequest request = whole(isovalue, FitOrder::Cubic);
+  request.isosurface.dropsGaps = true;
   request.triangles = true;
   return request;
 }

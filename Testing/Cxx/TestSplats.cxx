@@ -59,52 +59,6 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
   EXPECT_GT(shared, corners.size() * 97 / 100);
 }
 
-// Each place on the surface is within the splat of an isopoint, seen along its normal.
-TEST(Splats, CoverTheSurface)
-{
-  const Sphere sphere(800, 1.0, 0.0);
-  const std::vector<Vector> longEdges(sphere.edges.size(), Vector{ 0.5, 0.0, 0.0 });
-  const std::vector<Splat> splats = splatsOf(sphere.positions, longEdges);
-  const Sphere places(20000, 1.0, 0.0);
-  for (std::size_t i = 1000; i < places.positions.size(); ++i)
-  {
-    bool covered = false;
-    for (std::size_t k = 0; k < splats.size() && !covered; ++k)
-    {
-      const Vector offset = difference(places.positions[i], sphere.positions[k]);
-      covered =
-        dot(places.positions[i], sphere.positions[k]) > 0.0 && isWithin(splats[k], offset, 0.05);
-    }
-    ASSERT_TRUE(covered) << i;
-  }
-}
-
-// Seen along the normal, all triangles turn the same way, except the few and small ones where
-// corners pass each other.
-TEST(Splats, SurroundTheirPoints)
-{
-  const Sphere sphere(800, 1.0, 0.0);
-  double area = 0.0;
-  double turned = 0.0;
-  for (const Splat& splat : splatsOf(sphere.positions, sphere.edges))
-  {
-    ASSERT_NEAR(lengthOf(splat.axis), splat.radius, 1e-12);
-    ASSERT_NEAR(dot(splat.axis, splat.normal), 0.0, 1e-12);
-    const std::vector<isopoint::SplatCorner> corners = cornersOf(splat);
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-    {
-      const isopoint::SplatCorner& next = corners[(i + 1) % corners.size()];
-      const double twice = corners[i].along * next.across - corners[i].across * next.along;
-      area += 0.5 * twice * splat.radius * splat.radius;
-      turned -= std::min(0.0, 0.5 * twice * splat.radius * splat.radius);
-      farthest = std::max(farthest, lengthOf(offsetOf(splat, corners[i])));
-    }
-    ASSERT_NEAR(farthest, splat.radius, 1e-6 * splat.radius);
-  }
-  EXPECT_LT(turned, 1e-3 * area);
-}
-
 // Rows ten times farther apart than points in a row: the nearest points all lie in one row.
 TEST(Splats, CoverTheGapsBetweenRows)
 {

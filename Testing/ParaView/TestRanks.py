@@ -3,8 +3,8 @@
 
     mpirun -n N pvbatch --symmetric TestRanks.py
 
-Testing/Cxx/TestRanks*.cxx tests clouds, options and deals of samples on ranks that are threads. This
-is about what VTK's data and controllers add: arrays, blocks, pieces, ghosts, messages."""
+Testing/Cxx/TestRanks*.cxx tests clouds, options and deals of samples on ranks that are threads.
+This is about what VTK's data and controllers add: arrays, blocks, pieces, ghosts, messages."""
 
 import os
 import pickle
@@ -41,7 +41,7 @@ def uniform(count, seed):
 
 
 def owners(count):
-    """The rank of each of some samples, which stand in the order of ranks; the middle ranks have few."""
+    """The rank of each of some samples, in the order of ranks: the first one has most, the second few."""
     share = np.arange(count) / count
     return np.minimum((SIZE * np.where(share < 0.6, 0.1 * share, share)).astype(int), SIZE - 1)
 
@@ -114,7 +114,7 @@ def described(output):
 
 def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, watch=None, cells=None,
             **options):
-    """The filter after its update. watch(text): what each error, warning and message is passed to."""
+    """The filter after its update. watch(text) is called for each error, warning and message."""
     isopoints = kind()
     isopoints.SetController(controller)
     isopoints.SetInputData(data)
