@@ -237,8 +237,9 @@ public:
    * Whether to run on all cores if vtkSMPTools was merely built with "Sequential" as its default
    * backend, as in Debian's ParaView. This is assumed if "Sequential" is the active backend and the
    * environment variable VTK_SMP_BACKEND_IN_USE is not set. The number of threads then stays within
-   * VTK_SMP_MAX_THREADS and the argument of vtkSMPTools::Initialize(). If off, or with any other
-   * backend, vtkSMPTools determines the threads. The output is the same. Default: on.
+   * VTK_SMP_MAX_THREADS and the argument of vtkSMPTools::Initialize(). If off, with any other
+   * backend, or if built without oneTBB, vtkSMPTools determines the threads. The output is the
+   * same. Default: on.
    */
   vtkSetMacro(UseAllCores, vtkTypeBool);
   vtkGetMacro(UseAllCores, vtkTypeBool);

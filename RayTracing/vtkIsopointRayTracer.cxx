@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointRayTracer.h"
 
+#include "Isopoint/Base/Threads.h"
 #include "vtkIsopointTracedDisplay.h"
 #include "vtkIsopointTracedScene.h"
+#include "vtkIsopointTracedState.h"
 #include "vtkIsopointTracedView.h"
 
 #include "vtkActor.h"
@@ -11,7 +13,6 @@
 #include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkLightsPass.h"
-#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -31,11 +32,10 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <new>
-#include <sstream>
 #include <stdexcept>
-#include <thread>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkIsopointRayTracer);
 
@@ -54,30 +54,6 @@ public:
 };
 vtkStandardNewMacro(vtkIsopointFunctionPass);
 
-void describe(const raytracing::Vector& vector, std::ostream& state)
-{
-  state << vector.x << ' ' << vector.y << ' ' << vector.z << ' ';
-}
-
-/// Whether two windows onto a scene are the same but for a small part of a pixel. What grabs the
-/// picture of a window sets the camera's angle to another value, and back.
-bool isSameWindow(const std::array<raytracing::Camera::Position, 3>& a,
-  const std::array<raytracing::Camera::Position, 3>& b)
-{
-  constexpr double share = 1e-6; // of the window's width and height
-  double size = 0.0;
-  double difference = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    size = std::max({ size, std::abs(a[1][axis]), std::abs(a[2][axis]) });
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      difference = std::max(difference, std::abs(a[i][axis] - b[i][axis]));
-    }
-  }
-  return difference <= share * size;
-}
-
 /// Part of a picture: where it begins, in pixels from the lower left.
 struct Tile
 {
@@ -87,53 +63,55 @@ struct Tile
   std::size_t height = 0;
 };
 
-/// The window of a camera onto one of two planes, of which a part is shown.
-std::array<raytracing::Camera::Position, 3> windowOf(
-  const raytracing::Camera& camera, bool isNear, const Tile& tile, double width, double height)
+/// How far along a direction an offset reaches, as a share of the direction's length.
+double shareOf(
+  const isopoint::Vector& from, const isopoint::Vector& to, const isopoint::Vector& direction)
 {
-  const raytracing::Camera::Position& right = isNear ? camera.nearRight : camera.farRight;
-  const raytracing::Camera::Position& up = isNear ? camera.nearUp : camera.farUp;
-  std::array<raytracing::Camera::Position, 3> window{ isNear ? camera.nearCorner : camera.farCorner,
-    right, up };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    window[0][axis] += static_cast<double>(tile.column) / width * right[axis] +
-                       static_cast<double>(tile.row) / height * up[axis];
-    window[1][axis] *= static_cast<double>(tile.width) / width;
-    window[2][axis] *= static_cast<double>(tile.height) / height;
-  }
-  return window;
+  return isopoint::dot(isopoint::difference(to, from), direction) /
+         isopoint::dot(direction, direction);
 }
 
-/// How far along a direction an offset reaches, as a share of the direction's length.
-double shareOf(const raytracing::Camera::Position& from, const raytracing::Camera::Position& to,
-  const raytracing::Camera::Position& direction)
+/// Whether a window is a part of another one, but for a small part of a pixel. What grabs the
+/// picture of a window sets the camera's angle to another value, and back.
+/// @param x, y, width, height shares of the other one's
+bool isPart(const raytracing::Window& part, const raytracing::Window& whole, double x, double y,
+  double width, double height)
 {
-  const double offset[3] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
-  return vtkMath::Dot(offset, direction.data()) / vtkMath::Dot(direction.data(), direction.data());
+  constexpr double most = 1e-6; // of the window's width and height
+  const isopoint::Vector corner = whole.at(x, y);
+  double size = 0.0;
+  double difference = 0.0;
+  for (std::size_t axis = 0; axis < corner.size(); ++axis)
+  {
+    const double right = width * whole.right[axis];
+    const double up = height * whole.up[axis];
+    size = std::max({ size, std::abs(right), std::abs(up) });
+    difference = std::max({ difference, std::abs(corner[axis] - part.corner[axis]),
+      std::abs(right - part.right[axis]), std::abs(up - part.up[axis]) });
+  }
+  return difference <= most * size;
 }
 
 /// Whether a camera with a window of so many pixels sees a part of a picture, or all of it: large
 /// pictures of a window are grabbed in tiles.
 bool isPart(const raytracing::Camera& camera, const int* size, const raytracing::Picture& picture,
-  const raytracing::Camera& pictureCamera, Tile& tile)
+  const raytracing::Camera& whole, Tile& tile)
 {
   const double width = picture.getWidth();
   const double height = picture.getHeight();
-  const double column = std::round(
-    width * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearRight));
+  const double column =
+    std::round(width * shareOf(whole.near.corner, camera.near.corner, whole.near.right));
   const double row =
-    std::round(height * shareOf(pictureCamera.nearCorner, camera.nearCorner, pictureCamera.nearUp));
+    std::round(height * shareOf(whole.near.corner, camera.near.corner, whole.near.up));
   if (!(column >= 0.0 && row >= 0.0 && column + size[0] <= width && row + size[1] <= height))
   {
     return false;
   }
   tile = { static_cast<std::size_t>(column), static_cast<std::size_t>(row),
     static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
-  return isSameWindow(windowOf(pictureCamera, true, tile, width, height),
-           { camera.nearCorner, camera.nearRight, camera.nearUp }) &&
-         isSameWindow(windowOf(pictureCamera, false, tile, width, height),
-           { camera.farCorner, camera.farRight, camera.farUp });
+  const auto isPartOf = [&](const raytracing::Window& part, const raytracing::Window& window)
+  { return isPart(part, window, column / width, row / height, size[0] / width, size[1] / height); };
+  return isPartOf(camera.near, whole.near) && isPartOf(camera.far, whole.far);
 }
 
 std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
@@ -154,27 +132,27 @@ std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
 /// Differs where another picture is seen by the same camera.
 std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
 {
-  std::ostringstream state;
-  state << std::hexfloat;
+  vtkIsopointTracedState state;
+  const auto addVectors = [&state](const std::vector<raytracing::Vector>& vectors)
+  {
+    for (const raytracing::Vector& vector : vectors)
+    {
+      state.Add(vector.x, vector.y, vector.z);
+    }
+  };
   for (const raytracing::Light& light : view.Lights)
   {
-    for (const raytracing::Vector& vector :
-      { light.position, light.towards, light.diffuse, light.specular, light.attenuation })
-    {
-      describe(vector, state);
-    }
-    state << light.isPositional << light.coneCosine << ' ' << light.exponent << ' ' << light.extent
-          << '\n';
+    addVectors({ light.position, light.towards, light.diffuse, light.specular, light.attenuation });
+    state.Add(light.isPositional, light.coneCosine, light.exponent, light.extent);
   }
-  describe(view.Environment.bottom, state);
-  describe(view.Environment.top, state);
-  state << renderer->GetTexturedBackground();
+  addVectors({ view.Environment.bottom, view.Environment.top });
+  state.Add(renderer->GetTexturedBackground());
   for (vtkTexture* const texture :
     { renderer->GetBackgroundTexture(), renderer->GetEnvironmentTexture() })
   {
-    state << texture << ' ' << (texture ? texture->GetMTime() : 0) << '\n';
+    state.Add(texture, texture ? texture->GetMTime() : 0);
   }
-  return state.str();
+  return state.Get();
 }
 
 } // namespace
@@ -209,6 +187,8 @@ public:
   /// Traces and draws the props of a state.
   void RenderTraced(vtkIsopointRayTracer* self, const vtkRenderState* state);
   void Draw(vtkOpenGLRenderWindow* window);
+  /// Writes what is shown, before the background.
+  void Write(const int* size, vtkImageData* image) const;
 
   /// The picture's pixel at a place of what is shown of it.
   std::size_t IndexOf(std::size_t column, std::size_t row) const
@@ -247,34 +227,32 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   illuminants.hasShadows = self->Shadows != 0;
   illuminants.mostBounces = self->MaximumNumberOfBounces;
 
-  const auto threads = static_cast<std::size_t>(
-    self->NumberOfThreads > 0
-      ? self->NumberOfThreads
-      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-  std::ostringstream state;
-  state << std::hexfloat << stateOf(*this->View, renderer) << '\n'
-        << self->SamplesPerPixel << ' ' << self->AmbientLight << ' ' << self->AmbientDistance << ' '
-        << self->Shadows << ' ' << self->MaximumNumberOfBounces;
-  if (isNewScene || !this->Picture || this->PictureState != state.str() ||
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  isopoint::Execution execution;
+  isopoint::useThreads(execution, self->NumberOfThreads > 0
+                                    ? static_cast<std::size_t>(self->NumberOfThreads)
+                                    : isopoint::availableThreadsOfRank());
+  execution.progress = [self](double share)
+  { self->InvokeEvent(vtkCommand::ProgressEvent, &share); };
+  execution.aborted = [self, window]()
+  { return self->AbortExecute || (window && window->CheckAbortStatus()); };
+  vtkIsopointTracedState state;
+  state.Add(stateOf(*this->View, renderer), self->SamplesPerPixel, self->AmbientLight,
+    self->AmbientDistance, self->Shadows, self->MaximumNumberOfBounces);
+  if (isNewScene || !this->Picture || this->PictureState != state.Get() ||
       !isPart(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
   {
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
       static_cast<std::uint32_t>(size[1]), static_cast<std::uint32_t>(self->SamplesPerPixel));
-    this->Picture->findDistances(this->View->Camera, this->Scene.Get(), threads);
-    this->PictureState = state.str();
+    this->Picture->findDistances(execution, this->View->Camera, this->Scene.Get());
+    this->PictureState = state.Get();
     this->PictureCamera = this->View->Camera;
     this->Shown = { 0, 0, this->Picture->getWidth(), this->Picture->getHeight() };
   }
   const raytracing::PathTracer tracer(this->Scene.Get(), illuminants);
-  vtkRenderWindow* const window = renderer->GetRenderWindow();
-  const auto goesOn = [self, window](double share)
-  {
-    self->InvokeEvent(vtkCommand::ProgressEvent, &share);
-    return !self->AbortExecute && !(window && window->CheckAbortStatus());
-  };
-  const bool isDone = this->Picture->addSamples(this->PictureCamera, tracer,
-    this->Picture->getSamples() + static_cast<std::uint32_t>(samples), threads, goesOn);
+  const bool isDone = this->Picture->addSamples(execution, this->PictureCamera, tracer,
+    this->Picture->getSamples() + static_cast<std::uint32_t>(samples));
   self->NumberOfSamples = static_cast<int>(this->Picture->getSamples());
   return isDone;
 }
@@ -337,12 +315,60 @@ void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
+void vtkIsopointRayTracer::Internals::Write(const int* size, vtkImageData* image) const
+{
+  image->SetDimensions(size[0], size[1], 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* bytes = static_cast<unsigned char*>(image->GetScalarPointer());
+  constexpr float half = 0.5f;
+  constexpr float white = 255.0f;
+  for (int y = 0; y < size[1]; ++y)
+  {
+    for (int x = 0; x < size[0]; ++x)
+    {
+      const raytracing::Radiance pixel = this->Picture->pixel(
+        this->IndexOf(static_cast<std::size_t>(x), static_cast<std::size_t>(y)));
+      const raytracing::Color background =
+        this->View->Environment.behind((static_cast<float>(x) + half) / static_cast<float>(size[0]),
+          (static_cast<float>(y) + half) / static_cast<float>(size[1]));
+      const raytracing::Color color = pixel.color + (1.0f - pixel.alpha) * background;
+      for (const float value : { color.x, color.y, color.z })
+      {
+        *bytes++ = static_cast<unsigned char>(std::lround(white * std::clamp(value, 0.0f, 1.0f)));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkIsopointRayTracer::vtkIsopointRayTracer()
   : Internal(std::make_unique<Internals>())
 {
 }
 
 vtkIsopointRayTracer::~vtkIsopointRayTracer() = default;
+
+//------------------------------------------------------------------------------
+bool vtkIsopointRayTracer::Safely(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory: the scene is not traced. Show fewer points, or make the picture "
+                  "smaller.");
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro("The scene is not traced: " << error.what());
+  }
+  this->Internal->Scene.Clear();
+  this->Internal->Picture.reset();
+  return false;
+}
 
 //------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Render(const vtkRenderState* state)
@@ -359,25 +385,7 @@ void vtkIsopointRayTracer::Render(const vtkRenderState* state)
     return;
   }
   this->Internal->InnerPass->Function = [this](const vtkRenderState* inner)
-  {
-    try
-    {
-      this->Internal->RenderTraced(this, inner);
-    }
-    catch (const std::bad_alloc&)
-    {
-      this->Internal->Scene.Clear();
-      this->Internal->Picture.reset();
-      vtkErrorMacro(
-        "Out of memory: the scene is not traced. Show fewer points, or a smaller window.");
-    }
-    catch (const std::runtime_error& error)
-    {
-      this->Internal->Scene.Clear();
-      this->Internal->Picture.reset();
-      vtkErrorMacro("The scene is not traced: " << error.what());
-    }
-  };
+  { this->Safely([&]() { this->Internal->RenderTraced(this, inner); }); };
   this->Internal->CameraPass->Render(state);
   this->NumberOfRenderedProps = this->Internal->CameraPass->GetNumberOfRenderedProps();
 }
@@ -404,52 +412,17 @@ bool vtkIsopointRayTracer::RenderToImage(
                                   << " pixels cannot be traced: choose 1 to " << most << ".");
     return false;
   }
-  try
+  bool isDone = false;
+  const auto trace = [&]()
   {
-    if (!this->Internal->Trace(
-          this, renderer, tracedActorsOf(renderer), size, this->SamplesPerPixel))
+    isDone =
+      this->Internal->Trace(this, renderer, tracedActorsOf(renderer), size, this->SamplesPerPixel);
+    if (isDone)
     {
-      return false;
+      this->Internal->Write(size, image);
     }
-    image->SetDimensions(size[0], size[1], 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    auto* const bytes = static_cast<unsigned char*>(image->GetScalarPointer());
-    const auto toByte = [](float value)
-    {
-      constexpr float white = 255.0f;
-      return static_cast<unsigned char>(std::lround(white * std::clamp(value, 0.0f, 1.0f)));
-    };
-    constexpr float half = 0.5f;
-    for (int y = 0; y < size[1]; ++y)
-    {
-      for (int x = 0; x < size[0]; ++x)
-      {
-        const std::size_t index = static_cast<std::size_t>(y) * size[0] + x;
-        const raytracing::Radiance pixel = this->Internal->Picture->pixel(
-          this->Internal->IndexOf(static_cast<std::size_t>(x), static_cast<std::size_t>(y)));
-        const raytracing::Color background = this->Internal->View->Environment.behind(
-          (static_cast<float>(x) + half) / static_cast<float>(size[0]),
-          (static_cast<float>(y) + half) / static_cast<float>(size[1]));
-        const raytracing::Color color = pixel.color + (1.0f - pixel.alpha) * background;
-        bytes[3 * index] = toByte(color.x);
-        bytes[3 * index + 1] = toByte(color.y);
-        bytes[3 * index + 2] = toByte(color.z);
-      }
-    }
-    return true;
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory: the scene is not traced. Show fewer points, or make the picture "
-                  "smaller.");
-  }
-  catch (const std::runtime_error& error)
-  {
-    vtkErrorMacro("The scene is not traced: " << error.what());
-  }
-  this->Internal->Scene.Clear();
-  this->Internal->Picture.reset();
-  return false;
+  };
+  return this->Safely(trace) && isDone;
 }
 
 //------------------------------------------------------------------------------

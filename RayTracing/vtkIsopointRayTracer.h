@@ -42,7 +42,8 @@
 #include "vtkRenderPass.h"
 #include "vtkScatteredIsopointRayTracingModule.h" // for the export macro
 
-#include <memory> // for std::unique_ptr
+#include <functional> // for std::function
+#include <memory>     // for std::unique_ptr
 
 class vtkImageData;
 class vtkRenderer;
@@ -128,7 +129,8 @@ public:
 
   ///@{
   /**
-   * Threads that trace rays. 0: one for each core. Range: 0 to 1024. Default: 0.
+   * Threads that trace rays, at most. 0: one for each core that the process may use. Range: 0 to
+   * 1024. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
@@ -182,6 +184,9 @@ protected:
 private:
   vtkIsopointRayTracer(const vtkIsopointRayTracer&) = delete;
   void operator=(const vtkIsopointRayTracer&) = delete;
+
+  /// Does work, and reports what it throws. @returns whether it was done
+  bool Safely(const std::function<void()>& work);
 
   class Internals;
   std::unique_ptr<Internals> Internal;

@@ -22,4 +22,3 @@ struct vtkIsopointTracedBlock
 std::vector<vtkIsopointTracedBlock> vtkIsopointTracedBlocks(vtkMapper* mapper);
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedBlocks.h

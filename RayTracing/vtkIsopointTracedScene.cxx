@@ -3,43 +3,40 @@
 
 #include "vtkIsopointCompositeMapper.h"
 #include "vtkIsopointTracedBlocks.h"
+#include "vtkIsopointTracedState.h"
+#include "vtkIsopointTracedSurfaces.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkScalarsToColors.h"
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace
 {
 
 /// Differs after each change of an actor that changes its traced surfaces.
-void describe(vtkActor* actor, std::ostream& state)
+void describe(vtkActor* actor, vtkIsopointTracedState& state)
 {
   vtkMapper* const mapper = actor->GetMapper();
   mapper->GetLookupTable(); // the first call makes one, which modifies the mapper
-  state << actor << ' ' << mapper << ' ' << mapper->GetMTime() << ' '
-        << actor->GetProperty()->GetMTime() << std::hexfloat;
-  for (int row = 0; row < 4; ++row)
+  state.Add(actor, mapper, mapper->GetMTime(), actor->GetProperty()->GetMTime());
+  for (const auto& row : actor->GetMatrix()->Element)
   {
-    for (int column = 0; column < 4; ++column)
-    {
-      state << ' ' << actor->GetMatrix()->GetElement(row, column);
-    }
+    state.Add(row[0], row[1], row[2], row[3]);
   }
   for (const vtkIsopointTracedBlock& block : vtkIsopointTracedBlocks(mapper))
   {
-    state << '\n'
-          << block.Data << ' ' << block.Data->GetMTime() << ' ' << block.Visible << block.HasColor
-          << block.Color[0] << ' ' << block.Color[1] << ' ' << block.Color[2];
+    state.Add(block.Data, block.Data->GetMTime(), block.Visible, block.HasColor, block.Color[0],
+      block.Color[1], block.Color[2]);
   }
-  state << '\n';
 }
 
 vtkIsopointTracedFrame frameOf(const std::vector<vtkActor*>& actors)
@@ -100,13 +97,13 @@ bool vtkIsopointIsTraced(vtkProp* prop)
 //------------------------------------------------------------------------------
 bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double absorptionDistance)
 {
-  std::ostringstream state;
-  state << std::hexfloat << absorptionDistance << '\n';
+  vtkIsopointTracedState state;
+  state.Add(absorptionDistance);
   for (vtkActor* const actor : actors)
   {
     describe(actor, state);
   }
-  if (this->Scene && state.str() == this->State)
+  if (this->Scene && state.Get() == this->State)
   {
     return false;
   }
@@ -121,7 +118,7 @@ bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double
     }
   }
   this->Scene = std::make_unique<raytracing::Scene>(std::move(surfaces));
-  this->State = state.str();
+  this->State = state.Get();
   return true;
 }
 

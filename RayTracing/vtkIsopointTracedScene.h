@@ -3,12 +3,13 @@
 #define vtkIsopointTracedScene_h
 
 #include "Tracer/Scene.h"
-#include "vtkIsopointTracedActor.h"
+#include "vtkIsopointTracedFrame.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
+class vtkActor;
 class vtkProp;
 
 /// Whether a prop is visible and can be traced: an actor with triangles that are drawn as a
@@ -37,4 +38,3 @@ private:
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedScene.h

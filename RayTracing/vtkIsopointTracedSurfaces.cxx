@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtkIsopointTracedActor.h"
+#include "vtkIsopointTracedSurfaces.h"
 
 #include "vtkIsopointTracedBlocks.h"
 
@@ -7,19 +7,115 @@
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
 #include "vtkMapper.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
 #include "vtkProperty.h"
+#include "vtkSmartPointer.h"
 #include "vtkTriangleStrip.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace
 {
+
+/// From an actor's coordinates to those of the scene.
+class Placement
+{
+public:
+  Placement(vtkMatrix4x4* modelToWorld, const vtkIsopointTracedFrame& frame)
+  {
+    this->Matrix->DeepCopy(modelToWorld);
+    vtkNew<vtkMatrix3x3> linear;
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        const double shift = column == 3 ? frame.Center[row] : 0.0;
+        const double element = (modelToWorld->GetElement(row, column) - shift) / frame.Length;
+        this->Matrix->SetElement(row, column, element);
+        if (column < 3)
+        {
+          linear->SetElement(row, column, element);
+        }
+      }
+    }
+    this->IsSingular = !(std::abs(linear->Determinant()) > 0.0);
+    if (!this->IsSingular)
+    {
+      linear->Invert();
+      linear->Transpose();
+      this->NormalMatrix->DeepCopy(linear);
+    }
+  }
+
+  /// Whether the actor is flattened to nothing, and cannot be placed.
+  bool GetIsSingular() const { return this->IsSingular; }
+
+  raytracing::Vector Point(const double* point) const
+  {
+    const double from[4] = { point[0], point[1], point[2], 1.0 };
+    double to[4];
+    this->Matrix->MultiplyPoint(from, to);
+    return vtkIsopointTracedVector(to);
+  }
+
+  /// A normal, of unit length.
+  raytracing::Vector Normal(const double* normal) const
+  {
+    double result[3];
+    this->NormalMatrix->MultiplyPoint(normal, result);
+    return raytracing::directionOf(vtkIsopointTracedVector(result), { 0.0f, 0.0f, 0.0f });
+  }
+
+private:
+  vtkNew<vtkMatrix4x4> Matrix;
+  vtkNew<vtkMatrix3x3> NormalMatrix; // the transposed inverse
+  bool IsSingular = false;
+};
+
+/// The material that a property stands for, see vtkIsopointRayTracer.
+/// @param absorptionDistance of the world; 0: the actor's diagonal
+raytracing::Material materialOf(
+  vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
+{
+  vtkProperty* const property = actor->GetProperty();
+  raytracing::Material material;
+  material.isPhysical = property->GetInterpolation() == VTK_PBR;
+  material.opacity = static_cast<float>(property->GetOpacity());
+  const bool isLit = property->GetLighting();
+  material.ambient = isLit ? static_cast<float>(property->GetAmbient()) : 1.0f;
+  material.diffuse = isLit ? static_cast<float>(property->GetDiffuse()) : 0.0f;
+  material.specular = isLit ? static_cast<float>(property->GetSpecular()) : 0.0f;
+  material.specularPower = static_cast<float>(property->GetSpecularPower());
+  material.specularColor = vtkIsopointTracedVector(property->GetSpecularColor());
+  material.metallic = static_cast<float>(property->GetMetallic());
+  material.roughness = static_cast<float>(property->GetRoughness());
+  material.refractiveIndex = static_cast<float>(property->GetBaseIOR());
+  const double distance = absorptionDistance > 0.0 ? absorptionDistance : actor->GetLength();
+  constexpr double least = 1e-6;
+  material.absorptionDistance = static_cast<float>(std::max(distance / frame.Length, least));
+  return material;
+}
+
+/// The colors that a mapper gives to a polydata's scalars, and whether they are those of points
+/// (0), of cells (1) or of the field (2); null where it gives none. The mapper is left as it is.
+vtkSmartPointer<vtkUnsignedCharArray> mappedColors(
+  vtkMapper* mapper, vtkPolyData* data, int& cellFlag)
+{
+  // Another mapper with the same settings, since mapping keeps its result in the mapper.
+  vtkNew<vtkOpenGLPolyDataMapper> colors;
+  colors->vtkMapper::ShallowCopy(mapper);
+  colors->SetInterpolateScalarsBeforeMapping(false);
+  return colors->MapScalars(data, 1.0, cellFlag);
+}
 
 /// The cells of a polydata as triangles, and the cell that each of them is of.
 class Triangulation
@@ -121,7 +217,7 @@ void setColors(raytracing::Surface& surface, const Triangulation& triangulation,
 }
 
 std::shared_ptr<raytracing::Surface> surfaceOf(
-  vtkActor* actor, const vtkIsopointTracedBlock& block, const vtkIsopointTracedPlacement& placement)
+  vtkActor* actor, const vtkIsopointTracedBlock& block, const Placement& placement)
 {
   const auto surface = std::make_shared<raytracing::Surface>();
   Triangulation triangulation(block.Data);
@@ -140,21 +236,19 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
   {
     double values[3];
     block.Data->GetPoint(i, values);
-    const std::array<double, 3> place = placement.Point(values);
-    surface->vertices.push_back(vtkIsopointTracedVector(place.data()));
+    surface->vertices.push_back(placement.Point(values));
     if (normals)
     {
       normals->GetTuple(i, values);
-      const std::array<double, 3> normal = placement.Normal(values);
-      surface->normals.push_back(
-        raytracing::directionOf(vtkIsopointTracedVector(normal.data()), { 0.0f, 0.0f, 0.0f }));
+      surface->normals.push_back(placement.Normal(values));
     }
   }
-  surface->color = vtkIsopointTracedColor(actor, block);
+  surface->color = vtkIsopointTracedVector(
+    block.HasColor ? block.Color.data() : actor->GetProperty()->GetDiffuseColor());
   int cellFlag = 0;
   if (!block.HasColor)
   {
-    if (const auto colors = vtkIsopointTracedColors(actor->GetMapper(), block.Data, cellFlag))
+    if (const auto colors = mappedColors(actor->GetMapper(), block.Data, cellFlag))
     {
       setColors(*surface, triangulation, colors, cellFlag);
     }
@@ -171,7 +265,7 @@ std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {
   std::vector<std::shared_ptr<raytracing::Surface>> surfaces;
-  const vtkIsopointTracedPlacement placement(actor->GetMatrix(), frame);
+  const Placement placement(actor->GetMatrix(), frame);
   if (placement.GetIsSingular())
   {
     return surfaces;
@@ -181,7 +275,7 @@ std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
     const auto surface = block.Visible ? surfaceOf(actor, block, placement) : nullptr;
     if (surface)
     {
-      surface->material = vtkIsopointTracedMaterial(actor, absorptionDistance, frame);
+      surface->material = materialOf(actor, absorptionDistance, frame);
       surfaces.push_back(surface);
     }
   }

@@ -6,6 +6,7 @@
 #include "vtkImageData.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
@@ -16,13 +17,6 @@
 
 namespace
 {
-
-using Position = raytracing::Camera::Position;
-
-Position difference(const Position& a, const Position& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
 
 raytracing::Color scaledColor(double factor, const double* color)
 {
@@ -98,15 +92,15 @@ void vtkIsopointTracedView::SetCamera(
     const double clip[4] = { x, y, z, 1.0 };
     double point[4];
     clipToScene->MultiplyPoint(clip, point);
-    return Position{ point[0] / point[3], point[1] / point[3], point[2] / point[3] };
+    return isopoint::Vector{ point[0] / point[3], point[1] / point[3], point[2] / point[3] };
   };
-  raytracing::Camera& camera = this->Camera;
-  camera.nearCorner = place(-1.0, -1.0, -1.0);
-  camera.nearRight = difference(place(1.0, -1.0, -1.0), camera.nearCorner);
-  camera.nearUp = difference(place(-1.0, 1.0, -1.0), camera.nearCorner);
-  camera.farCorner = place(-1.0, -1.0, 1.0);
-  camera.farRight = difference(place(1.0, -1.0, 1.0), camera.farCorner);
-  camera.farUp = difference(place(-1.0, 1.0, 1.0), camera.farCorner);
+  const auto windowAt = [&](double z)
+  {
+    const isopoint::Vector corner = place(-1.0, -1.0, z);
+    return raytracing::Window{ corner, isopoint::difference(place(1.0, -1.0, z), corner),
+      isopoint::difference(place(-1.0, 1.0, z), corner) };
+  };
+  this->Camera = { windowAt(-1.0), windowAt(1.0) };
 }
 
 //------------------------------------------------------------------------------
@@ -196,15 +190,8 @@ double vtkIsopointTracedView::GetDepth(double x, double y, double distance) cons
   {
     return 1.0;
   }
-  const raytracing::Camera& camera = this->Camera;
-  Position near;
-  Position offset;
-  for (std::size_t axis = 0; axis < near.size(); ++axis)
-  {
-    near[axis] = camera.nearCorner[axis] + x * camera.nearRight[axis] + y * camera.nearUp[axis];
-    offset[axis] =
-      camera.farCorner[axis] + x * camera.farRight[axis] + y * camera.farUp[axis] - near[axis];
-  }
+  const isopoint::Vector near = this->Camera.near.at(x, y);
+  const isopoint::Vector offset = isopoint::difference(this->Camera.far.at(x, y), near);
   const double scale = distance / vtkMath::Norm(offset.data());
   const double place[4] = { near[0] + scale * offset[0], near[1] + scale * offset[1],
     near[2] + scale * offset[2], 1.0 };

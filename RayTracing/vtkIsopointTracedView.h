@@ -3,7 +3,10 @@
 #define vtkIsopointTracedView_h
 
 #include "Tracer/Picture.h"
-#include "vtkIsopointTracedPlacement.h"
+#include "vtkIsopointTracedFrame.h"
+
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 
 class vtkRenderer;
 
@@ -33,4 +36,3 @@ private:
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointTracedView.h

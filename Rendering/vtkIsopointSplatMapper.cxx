@@ -25,9 +25,9 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 {
   if (const auto other = vtkIsopointSplatMapper::SafeDownCast(mapper))
   {
-    this->SetRadiusArrayName(other->GetRadiusArrayName());
-    this->SetRadius(other->GetRadius());
-    this->SetRadiusScale(other->GetRadiusScale());
+    this->Polygons->SetRadiusArrayName(other->Polygons->GetRadiusArrayName());
+    this->Polygons->SetRadius(other->Polygons->GetRadius());
+    this->Polygons->SetRadiusScale(other->Polygons->GetRadiusScale());
   }
   this->Superclass::ShallowCopy(mapper);
 }
@@ -42,42 +42,6 @@ vtkMTimeType vtkIsopointSplatMapper::GetMTime()
 vtkIsopointSplatPolygons* vtkIsopointSplatMapper::GetPolygons()
 {
   return this->Polygons;
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadiusArrayName(const char* name)
-{
-  this->Polygons->SetRadiusArrayName(name);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkIsopointSplatMapper::GetRadiusArrayName()
-{
-  return this->Polygons->GetRadiusArrayName();
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadius(double radius)
-{
-  this->Polygons->SetRadius(radius);
-}
-
-//------------------------------------------------------------------------------
-double vtkIsopointSplatMapper::GetRadius()
-{
-  return this->Polygons->GetRadius();
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadiusScale(double scale)
-{
-  this->Polygons->SetRadiusScale(scale);
-}
-
-//------------------------------------------------------------------------------
-double vtkIsopointSplatMapper::GetRadiusScale()
-{
-  return this->Polygons->GetRadiusScale();
 }
 
 //------------------------------------------------------------------------------

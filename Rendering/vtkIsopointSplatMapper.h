@@ -34,20 +34,8 @@ public:
   vtkTypeMacro(vtkIsopointSplatMapper, vtkIsopointPolygonMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /**
-   * The shape of splats, see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
-   */
-  void SetRadiusArrayName(const char* name);
-  const char* GetRadiusArrayName();
-  void SetRadius(double radius);
-  double GetRadius();
-  void SetRadiusScale(double scale);
-  double GetRadiusScale();
-  ///@}
-
-  /**
-   * The filter that makes the triangles.
+   * The filter that makes the triangles. Its properties are those of the splats' shapes.
    */
   vtkIsopointSplatPolygons* GetPolygons();
 

@@ -2,12 +2,20 @@
 #ifndef vtkIsopointSplatMesh_h
 #define vtkIsopointSplatMesh_h
 
-#include "vtkIsopointMeetingCorners.h"
 #include "vtkIsopointSplatShapes.h"
 
 #include "vtkType.h"
+#include "vtkVector.h"
 
 #include <vector>
+
+/// A corner of a splat.
+struct vtkIsopointCorner
+{
+  vtkVector3d Place;
+  vtkVector3f Normal;
+  float Tolerance = 0.0f; // how far others that are the same may be; 0: there are none
+};
 
 /// The triangles of all splats, in the order of the points. Each splat has vertices of its own.
 struct vtkIsopointSplatMesh
@@ -34,4 +42,3 @@ struct vtkIsopointSplatMesh
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointSplatMesh.h

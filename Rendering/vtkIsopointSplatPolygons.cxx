@@ -66,8 +66,6 @@ void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
 {
   using Value = typename TArray::ValueType;
   const vtkIdType count = mesh.NumberOfTriangles();
-  vtkNew<TArray> ends;
-  ends->SetNumberOfValues(count + 1);
   vtkNew<TArray> corners;
   corners->SetNumberOfValues(3 * count);
   vtkSMPTools::For(0, 3 * count,
@@ -78,12 +76,8 @@ void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
         corners->SetValue(i, static_cast<Value>(mesh.Corners[static_cast<std::size_t>(i)]));
       }
     });
-  for (vtkIdType i = 0; i <= count; ++i)
-  {
-    ends->SetValue(i, static_cast<Value>(3 * i));
-  }
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(ends, corners);
+  triangles->SetData(3, corners);
   output->SetPolys(triangles);
 }
 

@@ -64,4 +64,3 @@ private:
 };
 
 #endif
-// VTK-HeaderTest-Exclude: vtkIsopointSplatShapes.h

@@ -12,14 +12,14 @@ def read(path):
 class Document:
     """The paragraphs of a file, its headings and its fenced blocks, with their line numbers.
 
-    A paragraph is all text between blank lines, fences and comments. What cannot be taken apart,
-    or would hide text from the checks, is in defects.
+    A paragraph is all text between blank lines, fences and comments. Fences and comments without an
+    end are in defects.
     """
 
     def __init__(self, path):
         self.lines = read(path).splitlines()
         self.paragraphs, self.anchors, self.blocks, self.defects = [], set(), [], []
-        self.list_indent, self.continues = 0, False
+        self.continues = False
         fence, comment, language, first, setup = None, None, "", 0, ""
         for number, line in enumerate(self.lines, 1):
             if fence:
@@ -44,8 +44,6 @@ class Document:
             if found:
                 fence, first, self.continues = found.group(1), number, False
                 language = (found.group(2).split() or [""])[0]
-                if fence[0] == "~":
-                    self.defects.append((number, "a fence of ~ instead of backticks"))
             else:
                 setup = setup if not line else ""
                 self.add_line(number, line)
@@ -56,18 +54,10 @@ class Document:
         if not line.strip():
             self.continues = False
             return
-        item = re.match(r" *(?:[-*+]|\d+[.)]) +(?=\S)", line)
-        indent = len(line.expandtabs(4)) - len(line.expandtabs(4).lstrip())
         if self.continues:
             self.paragraphs[-1][1] += "\n" + line
         else:
-            if indent < self.list_indent:
-                self.list_indent = indent if item else 0
-            if indent >= self.list_indent + 4:
-                self.defects.append((number, "indented code instead of a fenced block"))
             self.paragraphs.append([number, line])
-        if item and indent < self.list_indent + 4:
-            self.list_indent = item.end()
         self.continues = True
         if re.match(r"#+ ", line):
             self.add_anchor(line.lstrip("#"))

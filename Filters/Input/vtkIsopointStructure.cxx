@@ -2,127 +2,46 @@
 #include "Input/vtkIsopointStructure.h"
 
 #include "Input/vtkIsopointCompatibility.h"
+#include "Input/vtkIsopointTextBytes.h"
 #include "Input/vtkIsopointUsageError.h"
 #include "Isopoint/Base/Team.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTree.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "vtkUniformGrid.h"
 #include "vtkUniformGridAMR.h"
-
-#include <cstdlib>
 
 namespace
 {
 
-// The same of all composites that are trees.
+/// What trees of all kinds have in common, which VTK keeps for derived classes.
+struct Tree : vtkDataObjectTree
+{
+  static constexpr auto getCount = &Tree::GetNumberOfChildren;
+  static constexpr auto setCount = &Tree::SetNumberOfChildren;
+  static constexpr auto getChild = &Tree::GetChild;
+  static constexpr auto setChild = &Tree::SetChild;
+  static constexpr auto hasInformation = &Tree::HasChildMetaData;
+  static constexpr auto getInformation = &Tree::GetChildMetaData;
+};
 
-unsigned int countOf(vtkMultiBlockDataSet* tree)
+/// A composite that is a tree, or null. An AMR is none, though a collection from VTK 9.5 on.
+vtkDataObjectTree* treeOf(vtkDataObject* object)
 {
-  return tree->GetNumberOfBlocks();
-}
-unsigned int countOf(vtkPartitionedDataSetCollection* tree)
-{
-  return tree->GetNumberOfPartitionedDataSets();
-}
-unsigned int countOf(vtkPartitionedDataSet* tree)
-{
-  return tree->GetNumberOfPartitions();
-}
-
-void setCount(vtkMultiBlockDataSet* tree, unsigned int count)
-{
-  tree->SetNumberOfBlocks(count);
-}
-void setCount(vtkPartitionedDataSetCollection* tree, unsigned int count)
-{
-  tree->SetNumberOfPartitionedDataSets(count);
-}
-void setCount(vtkPartitionedDataSet* tree, unsigned int count)
-{
-  tree->SetNumberOfPartitions(count);
+  return vtkUniformGridAMR::SafeDownCast(object) ? nullptr
+                                                 : vtkDataObjectTree::SafeDownCast(object);
 }
 
-vtkDataObject* childOf(vtkMultiBlockDataSet* tree, unsigned int i)
+std::string nameOf(vtkDataObjectTree* tree, unsigned int child)
 {
-  return tree->GetBlock(i);
-}
-vtkDataObject* childOf(vtkPartitionedDataSetCollection* tree, unsigned int i)
-{
-  return tree->GetPartitionedDataSet(i);
-}
-vtkDataObject* childOf(vtkPartitionedDataSet* tree, unsigned int i)
-{
-  return tree->GetPartitionAsDataObject(i);
-}
-
-void setChild(vtkMultiBlockDataSet* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetBlock(i, child);
-}
-void setChild(vtkPartitionedDataSetCollection* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetPartitionedDataSet(i, vtkPartitionedDataSet::SafeDownCast(child));
-}
-void setChild(vtkPartitionedDataSet* tree, unsigned int i, vtkDataObject* child)
-{
-  tree->SetPartition(i, child);
-}
-
-/// Calls action(tree), with the tree's own type; does nothing for other objects, an AMR among them,
-/// which is a collection from VTK 9.5 on.
-template <class Action>
-void withTree(vtkDataObject* object, const Action& action)
-{
-  if (vtkUniformGridAMR::SafeDownCast(object))
-  {
-    return;
-  }
-  if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
-  {
-    action(blocks);
-  }
-  else if (auto* const collection = vtkPartitionedDataSetCollection::SafeDownCast(object))
-  {
-    action(collection);
-  }
-  else if (auto* const partitions = vtkPartitionedDataSet::SafeDownCast(object))
-  {
-    action(partitions);
-  }
-}
-
-template <class Tree>
-std::string nameOf(Tree* tree, unsigned int i)
-{
-  vtkInformation* const data = tree->HasMetaData(i) ? tree->GetMetaData(i) : nullptr;
+  vtkInformation* const data =
+    (tree->*Tree::hasInformation)(child) ? (tree->*Tree::getInformation)(child) : nullptr;
   return data && data->Has(vtkCompositeDataSet::NAME())
            ? std::string(data->Get(vtkCompositeDataSet::NAME()))
            : std::string();
-}
-
-/// Calls visit(child, name) for each child of a tree, or level or box of an AMR, null or not.
-/// @returns whether the object is one of these
-template <class Visit>
-bool forChildren(vtkDataObject* object, const Visit& visit)
-{
-  bool isTree = false;
-  withTree(object,
-    [&](auto* tree)
-    {
-      isTree = true;
-      for (unsigned int i = 0; i < countOf(tree); ++i)
-      {
-        visit(childOf(tree, i), nameOf(tree, i));
-      }
-    });
-  return isTree;
 }
 
 /// The boxes of a level of an AMR, null or not.
@@ -147,13 +66,16 @@ bool isInPieces(int type)
 vtkIsopointStructure::vtkIsopointStructure(vtkDataObject* object)
   : Type(object ? leaf : nothing)
 {
-  const bool isTree = forChildren(object,
-    [this](vtkDataObject* child, const std::string& name)
+  if (auto* const tree = treeOf(object))
+  {
+    this->Type = tree->GetDataObjectType();
+    for (unsigned int i = 0; i < (tree->*Tree::getCount)(); ++i)
     {
-      this->Children.emplace_back(child);
-      this->Children.back().Name = name;
-    });
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
+      this->Children.emplace_back((tree->*Tree::getChild)(i));
+      this->Children.back().Name = nameOf(tree, i);
+    }
+  }
+  else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
     this->Type = levels->GetDataObjectType();
     for (unsigned int level = 0; level < levels->GetNumberOfLevels(); ++level)
@@ -166,10 +88,6 @@ vtkIsopointStructure::vtkIsopointStructure(vtkDataObject* object)
       }
       this->Children.push_back(boxes);
     }
-  }
-  else if (isTree)
-  {
-    this->Type = object->GetDataObjectType();
   }
 }
 
@@ -204,9 +122,15 @@ void vtkIsopointStructure::AddNumbers(
     return;
   }
   std::size_t visited = 0;
-  forChildren(object, [&](vtkDataObject* child, const std::string&)
-    { this->Children[visited++].AddNumbers(child, next, numbers); });
-  if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
+  if (auto* const tree = treeOf(object))
+  {
+    for (; visited < (tree->*Tree::getCount)(); ++visited)
+    {
+      this->Children[visited].AddNumbers(
+        (tree->*Tree::getChild)(static_cast<unsigned int>(visited)), next, numbers);
+    }
+  }
+  else if (auto* const levels = vtkUniformGridAMR::SafeDownCast(object))
   {
     for (; visited < levels->GetNumberOfLevels(); ++visited)
     {
@@ -279,74 +203,49 @@ void vtkIsopointStructure::Fill(vtkDataObject* input,
 void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
   std::size_t& next, vtkDataObject* output) const
 {
-  withTree(output,
-    [&](auto* tree)
-    {
-      setCount(tree, static_cast<unsigned int>(this->Children.size()));
-      for (unsigned int i = 0; i < this->Children.size(); ++i)
-      {
-        const vtkIsopointStructure& child = this->Children[i];
-        if (!child.Name.empty() && nameOf(tree, i).empty())
-        {
-          tree->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
-        }
-        if (!child.IsComposite())
-        {
-          setChild(tree, i, surfaces[next++]);
-          continue;
-        }
-        if (!childOf(tree, i))
-        {
-          setChild(tree, i,
-            vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
-        }
-        child.FillChildren(surfaces, next, childOf(tree, i));
-      }
-    });
-}
-
-std::vector<char> vtkIsopointStructure::Write() const
-{
-  std::string text;
-  this->Write(text);
-  return { text.begin(), text.end() };
-}
-
-void vtkIsopointStructure::Write(std::string& text) const
-{
-  text += std::to_string(this->Type) + ' ' + std::to_string(this->Children.size()) + ' ' +
-          std::to_string(this->Name.size()) + ' ' + this->Name;
-  for (const vtkIsopointStructure& child : this->Children)
+  vtkDataObjectTree* const tree = treeOf(output);
+  (tree->*Tree::setCount)(static_cast<unsigned int>(this->Children.size()));
+  for (unsigned int i = 0; i < this->Children.size(); ++i)
   {
-    child.Write(text);
+    const vtkIsopointStructure& child = this->Children[i];
+    if (!child.Name.empty() && nameOf(tree, i).empty())
+    {
+      (tree->*Tree::getInformation)(i)->Set(vtkCompositeDataSet::NAME(), child.Name.c_str());
+    }
+    if (!child.IsComposite())
+    {
+      (tree->*Tree::setChild)(i, surfaces[next++]);
+      continue;
+    }
+    if (!(tree->*Tree::getChild)(i))
+    {
+      (tree->*Tree::setChild)(
+        i, vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(child.Type)));
+    }
+    child.FillChildren(surfaces, next, (tree->*Tree::getChild)(i));
   }
 }
 
-namespace
+void vtkIsopointStructure::Write(isopoint::ByteBuffer& bytes) const
 {
-
-/// One number of what was written.
-long nextNumber(const char*& text)
-{
-  char* end = nullptr;
-  const long number = std::strtol(text, &end, 10);
-  text = end + 1;
-  return number;
+  isopoint::append(bytes, this->Type);
+  vtkAppendText(bytes, this->Name);
+  isopoint::append(bytes, this->Children.size());
+  for (const vtkIsopointStructure& child : this->Children)
+  {
+    child.Write(bytes);
+  }
 }
 
-} // namespace
-
-vtkIsopointStructure vtkIsopointStructure::Read(const char*& text)
+vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
 {
   vtkIsopointStructure structure;
-  structure.Type = static_cast<int>(nextNumber(text));
-  structure.Children.resize(static_cast<std::size_t>(nextNumber(text)));
-  const long length = nextNumber(text);
-  structure.Name.assign(text, static_cast<std::size_t>(length));
-  text += length;
+  structure.Type = bytes.read<int>();
+  structure.Name = vtkReadText(bytes);
+  structure.Children.resize(bytes.read<std::size_t>());
   for (vtkIsopointStructure& child : structure.Children)
   {
-    child = Read(text);
+    child = Read(bytes);
   }
   return structure;
 }
@@ -354,37 +253,21 @@ vtkIsopointStructure vtkIsopointStructure::Read(const char*& text)
 vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObject* input)
 {
   // The first rank merges, so that what the others receive does not grow with their number.
-  const auto size = static_cast<std::size_t>(team.size());
-  std::vector<std::vector<char>> messages;
-  team.together(
-    [&]()
+  std::vector<isopoint::ByteBuffer> messages(static_cast<std::size_t>(team.size()));
+  vtkIsopointStructure(input).Write(messages.front());
+  const std::vector<isopoint::ByteBuffer> arrived = team.exchange(messages);
+  isopoint::ByteBuffer merged;
+  if (team.rank() == 0)
+  {
+    vtkIsopointStructure structure;
+    for (const isopoint::ByteBuffer& bytes : arrived)
     {
-      messages.resize(size);
-      messages.front() = vtkIsopointStructure(input).Write();
-    });
-  const std::vector<std::vector<char>> arrived = team.exchange(messages);
-  team.together(
-    [&]()
-    {
-      messages.assign(size, {});
-      if (team.rank() == 0)
-      {
-        vtkIsopointStructure merged;
-        for (const std::vector<char>& bytes : arrived)
-        {
-          const char* text = bytes.data();
-          merged.Merge(vtkIsopointStructure::Read(text));
-        }
-        messages.assign(size, merged.Write());
-      }
-    });
-  const std::vector<std::vector<char>> merged = team.exchange(messages);
-  vtkIsopointStructure result;
-  team.together(
-    [&]()
-    {
-      const char* text = merged.front().data();
-      result = vtkIsopointStructure::Read(text);
-    });
-  return result;
+      isopoint::ByteReader reader(bytes);
+      structure.Merge(vtkIsopointStructure::Read(reader));
+    }
+    structure.Write(merged);
+  }
+  const isopoint::ByteBuffer ofFirst = team.gather(merged).front();
+  isopoint::ByteReader reader(ofFirst);
+  return vtkIsopointStructure::Read(reader);
 }

@@ -2,6 +2,8 @@
 #ifndef vtkIsopointStructure_h
 #define vtkIsopointStructure_h
 
+#include "Isopoint/Ranks/ByteBuffer.h"
+
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
@@ -48,10 +50,10 @@ public:
   void Fill(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
     vtkCompositeDataSet* output) const;
 
-  /// As text: this node, then its children.
-  std::vector<char> Write() const;
-  /// @returns what Write() has written at the beginning of a text, which is moved behind it
-  static vtkIsopointStructure Read(const char*& text);
+  /// Appends this node, then its children.
+  void Write(isopoint::ByteBuffer& bytes) const;
+  /// @returns what Write() has appended
+  static vtkIsopointStructure Read(isopoint::ByteReader& bytes);
 
 private:
   static constexpr int leaf = -1;
@@ -62,7 +64,6 @@ private:
   void Merge(const vtkIsopointStructure& other, const std::string& place);
   void FillChildren(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, std::size_t& next,
     vtkDataObject* output) const;
-  void Write(std::string& text) const;
 
   int Type = nothing; // of a composite, as vtkDataObject::GetDataObjectType() returns it
   std::string Name;   // as its parent calls it, or empty

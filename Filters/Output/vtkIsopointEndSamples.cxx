@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <numeric>
 
 namespace
 {
@@ -62,6 +62,11 @@ void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std:
   }
 }
 
+vtkIdType countOf(const vtkIsopointBlock& block)
+{
+  return block.Scalars->GetNumberOfTuples();
+}
+
 /// The range of sorted ids that belong to one block.
 struct IdRange
 {
@@ -79,7 +84,7 @@ std::vector<IdRange> idRangesOf(
   std::size_t begin = 0;
   for (std::size_t block = 0; block < blocks.size(); ++block)
   {
-    const auto endId = firstId + static_cast<std::uint64_t>(blocks[block].GetNumberOfSamples());
+    const auto endId = firstId + static_cast<std::uint64_t>(countOf(blocks[block]));
     const auto end =
       static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), endId) - ids.begin());
     ranges.push_back({ block, begin, end, firstId });
@@ -89,20 +94,14 @@ std::vector<IdRange> idRangesOf(
   return ranges;
 }
 
-bool allHaveFloatScalars(const std::vector<vtkIsopointBlock>& blocks)
-{
-  return std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
-}
-
 /// The attributes of a block that have one tuple for each sample.
-vtkSmartPointer<vtkDataSetAttributes> completeAttributes(const vtkIsopointBlock& block)
+vtkSmartPointer<vtkPointData> completeAttributes(const vtkIsopointBlock& block)
 {
   auto complete = vtkSmartPointer<vtkPointData>::New();
   complete->ShallowCopy(block.Attributes);
   for (int i = complete->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != block.GetNumberOfSamples())
+    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != countOf(block))
     {
       complete->RemoveArray(i);
     }
@@ -115,7 +114,7 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids,
   vtkDataSetAttributes* gathered)
 {
-  std::vector<vtkSmartPointer<vtkDataSetAttributes>> inputs;
+  std::vector<vtkSmartPointer<vtkPointData>> inputs;
   vtkDataSetAttributesFieldList common;
   for (const vtkIsopointBlock& block : blocks)
   {
@@ -143,199 +142,15 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   }
 }
 
-/// The headers of the arrays that all blocks have, without the contoured ones and those that are
-/// never interpolated; behind them that of the contoured array: float if it is in all blocks.
-std::vector<vtkIsopointArrayHeader> headersOf(const std::vector<vtkIsopointBlock>& blocks)
+/// The contoured array at samples of blocks: float if it is in all of them.
+vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids)
 {
-  std::vector<std::vector<vtkIsopointArrayHeader>> lists;
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    std::vector<vtkIsopointArrayHeader> list =
-      vtkListIsopointArrays(block.Attributes, block.GetNumberOfSamples());
-    const char* const contoured = block.Scalars->GetName();
-    list.erase(std::remove_if(list.begin(), list.end(),
-                 [contoured](const vtkIsopointArrayHeader& header)
-                 {
-                   return header.Attribute == vtkDataSetAttributes::GLOBALIDS ||
-                          header.Name == vtkDataSetAttributes::GhostArrayName() ||
-                          (contoured && header.Name == contoured);
-                 }),
-      list.end());
-    lists.push_back(std::move(list));
-  }
-  std::vector<vtkIsopointArrayHeader> common = vtkIntersectIsopointArrays(lists);
-  if (!blocks.empty())
-  {
-    vtkIsopointArrayHeader contoured;
-    const char* const name = blocks.front().Scalars->GetName();
-    contoured.Name = name ? name : "";
-    contoured.Type = allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE;
-    common.push_back(contoured);
-  }
-  return common;
-}
-
-/// Those that the blocks of all ranks have in common. Collective.
-std::vector<vtkIsopointArrayHeader> headersOf(
-  isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks)
-{
-  std::vector<std::vector<char>> outgoing;
-  team.together(
-    [&]()
-    {
-      outgoing.assign(
-        static_cast<std::size_t>(team.size()), vtkWriteIsopointArrayHeaders(headersOf(blocks)));
-    });
-  const std::vector<std::vector<char>> arrived = team.exchange(outgoing);
-  std::vector<vtkIsopointArrayHeader> common;
-  team.together(
-    [&]()
-    {
-      std::vector<std::vector<vtkIsopointArrayHeader>> lists;
-      vtkIsopointArrayHeader contoured;
-      for (const std::vector<char>& bytes : arrived)
-      {
-        std::vector<vtkIsopointArrayHeader> list = vtkReadIsopointArrayHeaders(bytes);
-        if (!list.empty())
-        {
-          const bool isFloat =
-            list.back().Type == VTK_FLOAT && (lists.empty() || contoured.Type == VTK_FLOAT);
-          contoured.Name = lists.empty() ? list.back().Name : contoured.Name;
-          contoured.Type = isFloat ? VTK_FLOAT : VTK_DOUBLE;
-          list.pop_back();
-          lists.push_back(std::move(list));
-        }
-      }
-      common = vtkIntersectIsopointArrays(lists);
-      common.push_back(contoured);
-    });
-  return common;
-}
-
-/// The values of some samples of blocks, array by array.
-std::vector<char> writeSamples(const std::vector<vtkIsopointBlock>& blocks,
-  const std::vector<std::uint64_t>& ids, const std::vector<vtkIsopointArrayHeader>& headers)
-{
-  std::vector<char> bytes;
-  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
-  for (const vtkIsopointArrayHeader& header : headers)
-  {
-    for (const IdRange& range : ranges)
-    {
-      vtkAbstractArray* const array =
-        blocks[range.block].Attributes->GetAbstractArray(header.Name.c_str());
-      for (std::size_t i = range.begin; i < range.end; ++i)
-      {
-        vtkWriteIsopointTuple(array, static_cast<vtkIdType>(ids[i] - range.firstId), bytes);
-      }
-    }
-  }
-  return bytes;
-}
-
-} // namespace
-
-vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
-{
-  std::vector<std::uint64_t> ids;
-  team.together([&]() { ids = idsOf(surfaces); });
-  this->CopyFromRanks(team, blocks, ids);
-  renumber(surfaces, ids);
-}
-
-void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
-  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
-{
-  std::uint64_t ownCount = 0;
-  for (const vtkIsopointBlock& block : blocks)
-  {
-    ownCount += static_cast<std::uint64_t>(block.GetNumberOfSamples());
-  }
-  const std::vector<std::uint64_t> counts = team.gather(ownCount);
-  std::vector<std::vector<std::uint64_t>> questions;
-  team.together(
-    [&]()
-    {
-      questions.resize(counts.size());
-      std::uint64_t first = 0;
-      auto next = ids.begin();
-      for (std::size_t rank = 0; rank < counts.size(); ++rank)
-      {
-        for (; next != ids.end() && *next < first + counts[rank]; ++next)
-        {
-          questions[rank].push_back(*next - first);
-        }
-        first += counts[rank];
-      }
-    });
-  const std::vector<std::vector<std::uint64_t>> asked = team.exchange(questions);
-  std::vector<vtkIsopointArrayHeader> headers = headersOf(team, blocks);
-  const vtkIsopointArrayHeader contoured = headers.back();
-  headers.pop_back();
-  std::vector<std::vector<char>> answers;
-  team.together(
-    [&]()
-    {
-      for (const std::vector<std::uint64_t>& wanted : asked)
-      {
-        answers.push_back(writeSamples(blocks, wanted, headers));
-      }
-    });
-  const std::vector<std::vector<char>> arrived = team.exchange(answers);
-  team.together(
-    [&]()
-    {
-      this->Copied = vtkSmartPointer<vtkPointData>::New();
-      const auto count = static_cast<vtkIdType>(ids.size());
-      std::vector<const char*> next;
-      next.reserve(arrived.size());
-      for (const std::vector<char>& bytes : arrived)
-      {
-        next.push_back(bytes.data());
-      }
-      for (const vtkIsopointArrayHeader& header : headers)
-      {
-        const vtkSmartPointer<vtkAbstractArray> array = vtkNewIsopointArray(header, count);
-        vtkIdType tuple = 0;
-        for (std::size_t rank = 0; rank < next.size(); ++rank)
-        {
-          for (std::size_t i = 0; i < questions[rank].size(); ++i)
-          {
-            next[rank] = vtkReadIsopointTuple(next[rank], array, tuple++);
-          }
-        }
-        const int index = this->Copied->AddArray(array);
-        if (header.Attribute >= 0)
-        {
-          this->Copied->SetActiveAttribute(index, header.Attribute);
-        }
-      }
-      // Of the contoured array nothing but name and type is asked for.
-      const vtkSmartPointer<vtkAbstractArray> scalars = vtkNewIsopointArray(contoured, count);
-      scalars->SetName(contoured.Name.empty() ? nullptr : contoured.Name.c_str());
-      this->Scalars = vtkDataArray::SafeDownCast(scalars);
-      this->Copied->AddArray(scalars);
-      this->Attributes = this->Copied;
-    });
-}
-
-vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
-
-vtkIsopointEndSamples::vtkIsopointEndSamples(
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
-  : Attributes(blocks.front().Attributes)
-  , Scalars(blocks.front().Scalars)
-{
-  if (blocks.size() == 1)
-  {
-    return;
-  }
-  const std::vector<std::uint64_t> ids = idsOf(surfaces);
-  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
-  const auto scalars = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(allHaveFloatScalars(blocks) ? VTK_FLOAT : VTK_DOUBLE));
-  scalars->SetName(this->Scalars->GetName());
+  const bool areFloat = std::all_of(blocks.begin(), blocks.end(),
+    [](const vtkIsopointBlock& block) { return block.Scalars->GetDataType() == VTK_FLOAT; });
+  auto scalars = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(areFloat ? VTK_FLOAT : VTK_DOUBLE));
+  scalars->SetName(blocks.front().Scalars->GetName());
   vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
   for (const IdRange& range : ranges)
   {
@@ -346,15 +161,139 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(
       scalars->SetComponent(static_cast<vtkIdType>(i), 0, ofBlock->GetComponent(from, 0));
     }
   }
-  renumber(surfaces, ids);
+  return scalars;
+}
 
-  this->Copied = vtkSmartPointer<vtkPointData>::New();
-  gatherAttributes(blocks, ranges, ids, this->Copied);
+/// The attributes that all blocks have, at samples of them; the last one is the contoured array.
+vtkSmartPointer<vtkPointData> copiedSamples(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  auto copied = vtkSmartPointer<vtkPointData>::New();
+  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
+  gatherAttributes(blocks, ranges, ids, copied);
+  const vtkSmartPointer<vtkDataArray> scalars = gatherScalars(blocks, ranges, ids);
   if (scalars->GetName())
   {
-    this->Copied->RemoveArray(scalars->GetName());
+    copied->RemoveArray(scalars->GetName());
   }
-  this->Copied->AddArray(scalars);
-  this->Attributes = this->Copied;
-  this->Scalars = scalars;
+  copied->AddArray(scalars);
+  return copied;
+}
+
+/// The same with the attributes in the order of the first block.
+vtkSmartPointer<vtkPointData> copiedInOrder(
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+{
+  const vtkSmartPointer<vtkPointData> copied = copiedSamples(blocks, ids);
+  const int contoured = copied->GetNumberOfArrays() - 1;
+  auto ordered = vtkSmartPointer<vtkPointData>::New();
+  vtkDataSetAttributes* const first = blocks.front().Attributes;
+  for (int i = 0; i < first->GetNumberOfArrays(); ++i)
+  {
+    int index = -1;
+    const char* const name = first->GetAbstractArray(i)->GetName();
+    vtkAbstractArray* const array = name ? copied->GetAbstractArray(name, index) : nullptr;
+    if (array && index != contoured)
+    {
+      const int added = ordered->AddArray(array);
+      const int attribute = copied->IsArrayAnAttribute(index);
+      if (attribute >= 0)
+      {
+        ordered->SetActiveAttribute(added, attribute);
+      }
+    }
+  }
+  ordered->AddArray(copied->GetAbstractArray(contoured));
+  return ordered;
+}
+
+/// For each rank those of some sorted ids that its samples have, counted from its first one.
+/// @param counts the number of samples of each rank
+std::vector<std::vector<std::uint64_t>> idsByRank(
+  const std::vector<std::uint64_t>& ids, const std::vector<std::uint64_t>& counts)
+{
+  std::vector<std::vector<std::uint64_t>> byRank(counts.size());
+  std::uint64_t first = 0;
+  auto next = ids.begin();
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    for (; next != ids.end() && *next < first + counts[rank]; ++next)
+    {
+      byRank[rank].push_back(*next - first);
+    }
+    first += counts[rank];
+  }
+  return byRank;
+}
+
+} // namespace
+
+vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  if (team.size() > 1)
+  {
+    this->CopyFromRanks(team, blocks, surfaces);
+  }
+  else if (blocks.size() > 1)
+  {
+    const std::vector<std::uint64_t> ids = idsOf(surfaces);
+    this->Use(copiedSamples(blocks, ids));
+    renumber(surfaces, ids);
+  }
+  else
+  {
+    this->Attributes = blocks.front().Attributes;
+    this->Scalars = blocks.front().Scalars;
+  }
+}
+
+vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
+
+void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
+    [](std::uint64_t sum, const vtkIsopointBlock& block)
+    { return sum + static_cast<std::uint64_t>(countOf(block)); });
+  const std::vector<std::uint64_t> ids = idsOf(surfaces);
+  std::vector<isopoint::ByteBuffer> answers;
+  for (const auto& wanted : team.exchange(idsByRank(ids, team.gather(ownCount))))
+  {
+    answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
+                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
+  }
+  this->Join(team.exchange(answers), ids.size());
+  renumber(surfaces, ids);
+}
+
+void vtkIsopointEndSamples::Join(
+  const std::vector<isopoint::ByteBuffer>& arrived, std::size_t count)
+{
+  std::vector<vtkSmartPointer<vtkPointData>> attributes;
+  std::vector<vtkSmartPointer<vtkDataArray>> scalars;
+  std::vector<vtkIsopointBlock> pieces;
+  for (const isopoint::ByteBuffer& bytes : arrived)
+  {
+    if (!bytes.empty())
+    {
+      attributes.push_back(vtkReadIsopointArrays(bytes));
+      const int contoured = attributes.back()->GetNumberOfArrays() - 1;
+      scalars.emplace_back(attributes.back()->GetArray(contoured));
+      attributes.back()->RemoveArray(contoured);
+      pieces.emplace_back();
+      pieces.back().Attributes = attributes.back();
+      pieces.back().Scalars = scalars.back();
+    }
+  }
+  std::vector<std::uint64_t> all(count);
+  std::iota(all.begin(), all.end(), std::uint64_t{ 0 });
+  this->Use(copiedInOrder(pieces, all));
+}
+
+void vtkIsopointEndSamples::Use(vtkPointData* copied)
+{
+  this->Copied = copied;
+  this->Attributes = copied;
+  this->Scalars = copied->GetArray(copied->GetNumberOfArrays() - 1);
 }

@@ -4,10 +4,11 @@
 
 #include "Input/vtkIsopointBlock.h"
 #include "Isopoint/ExtractionRequest.h"
+#include "Isopoint/Ranks/ByteBuffer.h"
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace isopoint
@@ -28,19 +29,12 @@ class vtkIsopointEndSamples
 {
 public:
   /**
-   * @param blocks at least one; must outlive this
+   * Collective. Where the blocks of several ranks form one cloud, what is at the ends of this
+   * rank's isopoints is fetched from the ranks that have it. Arrays that not all ranks with blocks
+   * have, and those of other values than numbers and strings, are dropped then.
+   * @param blocks of this rank, perhaps none; some rank has one. They must outlive this
    * @param surfaces extracted from the blocks, whose samples are numbered one block after the other
-   * @throws std::bad_alloc
-   */
-  vtkIsopointEndSamples(const std::vector<vtkIsopointBlock>& blocks,
-    std::vector<isopoint::ExtractedIsosurface>& surfaces);
-
-  /**
-   * The same where the blocks of several ranks form one cloud: what is at the ends of this rank's
-   * isopoints is fetched from the ranks that have it. Arrays that not all ranks with blocks have,
-   * and those of other values than numbers and strings, are dropped. Collective.
-   * @param blocks of this rank, perhaps none; some rank has one
-   * @throws what isopoint::Team does
+   * @throws std::bad_alloc, and what isopoint::Team does
    */
   vtkIsopointEndSamples(isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks,
     std::vector<isopoint::ExtractedIsosurface>& surfaces);
@@ -53,7 +47,11 @@ public:
 
 private:
   void CopyFromRanks(isopoint::Team& team, const std::vector<vtkIsopointBlock>& blocks,
-    const std::vector<std::uint64_t>& ids);
+    std::vector<isopoint::ExtractedIsosurface>& surfaces);
+  /// Uses the samples that ranks sent, so many in total.
+  void Join(const std::vector<isopoint::ByteBuffer>& arrived, std::size_t count);
+  /// Uses copies, the last of which is the contoured array.
+  void Use(vtkPointData* copied);
 
   vtkSmartPointer<vtkPointData> Copied; // null for a single block
   vtkDataSetAttributes* Attributes = nullptr;

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
@@ -48,21 +49,32 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
   return points;
 }
 
+namespace
+{
+
+/// Cells of `size` points each, of given ids.
+vtkSmartPointer<vtkCellArray> newCells(vtkIdType size, vtkIdTypeArray* connectivity)
+{
+  const vtkIdType count = connectivity->GetNumberOfValues() / size;
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkAllocateTuples(offsets, count + 1);
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    offsets->SetValue(i, size * i);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+} // namespace
+
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
 {
-  vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(offsets, count + 1);
   vtkAllocateTuples(connectivity, count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    offsets->SetValue(i, i);
-    connectivity->SetValue(i, i);
-  }
-  offsets->SetValue(count, count);
-  auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  vertices->SetData(offsets, connectivity);
-  return vertices;
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{ 0 });
+  return newCells(1, connectivity);
 }
 
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
@@ -73,14 +85,8 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   {
     count += static_cast<vtkIdType>(extracted.triangles.size());
   }
-  vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(offsets, count + 1);
   vtkAllocateTuples(connectivity, 3 * count);
-  for (vtkIdType i = 0; i <= count; ++i)
-  {
-    offsets->SetValue(i, 3 * i);
-  }
   vtkIdType next = 0;
   vtkIdType firstPoint = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
@@ -94,9 +100,7 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
     }
     firstPoint += static_cast<vtkIdType>(extracted.surface.size());
   }
-  auto triangles = vtkSmartPointer<vtkCellArray>::New();
-  triangles->SetData(offsets, connectivity);
-  return triangles;
+  return newCells(3, connectivity);
 }
 
 void vtkAddIsopointGhosts(

@@ -41,7 +41,7 @@ vtkIsopointExtraction::vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Tea
   , State(kept)
   , Findings(findings)
   , Execution(
-      vtkMakeIsopointExecution(filter, options.UseAllCores, vtkCountIsopointRanksOnHost(team)))
+      vtkMakeIsopointExecution(filter, options.UseAllCores, vtkCountIsopointRanksOnCores(team)))
 {
 }
 
@@ -167,9 +167,7 @@ void vtkIsopointExtraction::ExtractBlocks(
   this->Findings.CountSamples(blocks, kept.Extractor);
   std::vector<isopoint::ExtractedIsosurface> surfaces =
     this->ExtractIsovalues(kept.Extractor, progress);
-  const vtkIsopointEndSamples samples = this->IsOnRanks()
-                                          ? vtkIsopointEndSamples(this->Team, blocks, surfaces)
-                                          : vtkIsopointEndSamples(blocks, surfaces);
+  const vtkIsopointEndSamples samples(this->Team, blocks, surfaces);
   const bool haveFloatPositions = !this->Team.isAny(!vtkHaveFloatPositions(blocks));
   this->FillOutput(samples, surfaces, haveFloatPositions, output);
   this->Filter->UpdateProgress(1.0);

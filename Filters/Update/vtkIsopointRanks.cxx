@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointRanks.h"
 
+#include "Isopoint/Base/Threads.h"
+
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
 #include "vtkType.h"
@@ -127,7 +129,7 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
 }
 
-std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
+std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team)
 {
   if (team.size() == 1)
   {
@@ -136,9 +138,9 @@ std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team)
   vtksys::SystemInformation system;
   system.RunOSCheck();
   const char* const name = system.GetHostname();
-  const std::uint64_t host = std::hash<std::string>()(name ? name : "");
-  const std::vector<std::uint64_t> hosts = team.gather(host);
-  return static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), host));
+  const std::uint64_t own = std::hash<std::string>()((name ? name : "") + isopoint::boundCores());
+  const std::vector<std::uint64_t> all = team.gather(own);
+  return static_cast<std::size_t>(std::count(all.begin(), all.end(), own));
 }
 
 std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem)

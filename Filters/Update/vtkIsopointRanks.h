@@ -44,9 +44,9 @@ private:
 };
 
 /**
- * The number of ranks that run on this rank's host, itself included. Collective.
+ * The number of ranks that run on the same cores as this rank, itself included. Collective.
  */
-std::size_t vtkCountIsopointRanksOnHost(isopoint::Team& team);
+std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team);
 
 /**
  * The message of the lowest rank that has one, preceded by the number of that rank, on rank 0;

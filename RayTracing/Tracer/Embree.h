@@ -9,9 +9,11 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace raytracing::embree
 {
@@ -73,36 +75,20 @@ inline void check(RTCDevice device)
   }
 }
 
-/// A handle of Embree, released at the end. Release is rtcRelease...
-template <class Handle, void (*Release)(Handle)>
-class Owner
+/// Releases a handle of Embree by rtcRelease...
+template <auto Release>
+struct Releaser
 {
-public:
-  explicit Owner(Handle handle = nullptr)
-    : Held(handle)
+  template <class Handle>
+  void operator()(Handle* handle) const
   {
+    Release(handle);
   }
-  ~Owner() { this->reset(); }
-  Owner(const Owner&) = delete;
-  Owner& operator=(const Owner&) = delete;
-
-  void reset(Handle handle = nullptr)
-  {
-    if (this->Held)
-    {
-      Release(this->Held);
-    }
-    this->Held = handle;
-  }
-  Handle get() const { return this->Held; }
-
-private:
-  Handle Held;
 };
 
-using Device = Owner<RTCDevice, rtcReleaseDevice>;
-using SceneOwner = Owner<RTCScene, rtcReleaseScene>;
-using Geometry = Owner<RTCGeometry, rtcReleaseGeometry>;
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<rtcReleaseDevice>>;
+using SceneOwner = std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<rtcReleaseScene>>;
+using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Releaser<rtcReleaseGeometry>>;
 
 } // namespace raytracing::embree
 

@@ -5,6 +5,8 @@
 #include "Tracer/Surface.h"
 #include "Tracer/Vector.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace raytracing
@@ -36,6 +38,27 @@ struct Hit
   Color color;
   float opacity = 1.0f; // of the color, besides that of the material
 };
+
+/// Whether a ray that meets a surface has come through its inside.
+inline bool comesFromInside(const Hit& hit, const Vector& direction)
+{
+  return hit.surface->outward * dot(hit.normal, direction) > 0.0f;
+}
+
+/// The share of light in each color that is left at the end of a ray that meets a surface: all of
+/// it outside, and what Beer and Lambert's law leaves inside a dielectric.
+inline Color absorption(const Hit& hit, const Vector& direction)
+{
+  const Material& material = hit.surface->material;
+  if (!material.isPhysical || material.transmission() <= 0.0f || !comesFromInside(hit, direction))
+  {
+    return { 1.0f, 1.0f, 1.0f };
+  }
+  const float distances = hit.distance / material.absorptionDistance;
+  const auto left = [distances](float color)
+  { return std::pow(std::clamp(color, 1e-4f, 1.0f), distances); };
+  return { left(hit.color.x), left(hit.color.y), left(hit.color.z) };
+}
 
 } // namespace raytracing
 

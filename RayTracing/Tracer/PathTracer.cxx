@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Tracer/PathTracer.h"
 
-#include "Tracer/Absorption.h"
-
 #include <algorithm>
 #include <cmath>
 

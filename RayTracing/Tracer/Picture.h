@@ -2,29 +2,37 @@
 #ifndef raytracing_Picture_h
 #define raytracing_Picture_h
 
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/Vector.h"
 #include "Tracer/PathTracer.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace raytracing
 {
 
-/// Where the rays of a picture begin, and where they pass: places on the near and far plane of what
-/// the window shows, in the scene's coordinates.
+/// A rectangle in a scene.
+struct Window
+{
+  isopoint::Vector corner{}; // the lower left one
+  isopoint::Vector right{};  // from there to the lower right one
+  isopoint::Vector up{};     // from there to the upper left one
+
+  /// A place on it, 0 to 1 from left to right and from bottom to top.
+  isopoint::Vector at(double x, double y) const
+  {
+    return isopoint::sum(isopoint::sum(this->corner, x, this->right), y, this->up);
+  }
+};
+
+/// Where the rays of a picture begin, and where they pass: what the window shows of the near and of
+/// the far plane.
 struct Camera
 {
-  using Position = std::array<double, 3>;
-
-  Position nearCorner{}; // the lower left one
-  Position nearRight{};  // from there to the lower right one
-  Position nearUp{};     // from there to the upper left one
-  Position farCorner{};
-  Position farRight{};
-  Position farUp{};
+  Window near;
+  Window far;
 
   /// The ray through a place of the window, 0 to 1 from left to right and from bottom to top. It
   /// begins where it comes near the scene.
@@ -44,17 +52,16 @@ public:
   /// @throws std::bad_alloc
   Picture(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
 
-  /// Adds samples, until all pixels have this many.
-  /// @param threads 1 or more, the calling one included
-  /// @param goesOn called from the calling thread several times a second with the share of the
-  /// work that is done; false ends the call at once, and a later one goes on
+  /// Adds samples, until all pixels have this many. Progress is reported, and an abort asked for,
+  /// several times a second. An abort ends the call at once, and a later one goes on.
   /// @returns whether all were added
-  bool addSamples(const Camera& camera, const PathTracer& tracer, std::uint32_t samples,
-    std::size_t threads, const std::function<bool(double share)>& goesOn);
+  bool addSamples(const isopoint::Execution& execution, const Camera& camera,
+    const PathTracer& tracer, std::uint32_t samples);
 
   /// Finds the distance from the near plane at which rays through the pixels' centers meet the
   /// first surface; infinity where they meet none.
-  void findDistances(const Camera& camera, const Scene& scene, std::size_t threads);
+  void findDistances(
+    const isopoint::Execution& execution, const Camera& camera, const Scene& scene);
 
   std::uint32_t getWidth() const { return this->Width; }
   std::uint32_t getHeight() const { return this->Height; }
@@ -74,6 +81,9 @@ private:
     float alpha = 0.0f;
     std::uint32_t count = 0;
   };
+
+  void addSample(
+    const Camera& camera, const PathTracer& tracer, std::uint32_t sample, std::size_t row);
 
   std::uint32_t Width;
   std::uint32_t Height;

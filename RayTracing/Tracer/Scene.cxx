@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Tracer/Scene.h"
 
-#include "Tracer/Absorption.h"
-#include "Tracer/EmbreeRay.h"
+#include "Tracer/Embree.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,6 +9,34 @@
 
 namespace raytracing
 {
+
+namespace
+{
+
+Scene::Mask maskOf(const Surface& surface)
+{
+  const bool isOpaque = surface.material.transmission() <= 0.0f &&
+                        std::all_of(surface.colors.begin(), surface.colors.end(),
+                          [](const ColorBytes& c) { return c[3] == 255; });
+  return isOpaque ? Scene::Opaque : Scene::Transparent;
+}
+
+RTCRay rayOf(const Ray& ray, Scene::Mask mask)
+{
+  RTCRay result{};
+  result.org_x = ray.origin.x;
+  result.org_y = ray.origin.y;
+  result.org_z = ray.origin.z;
+  result.tnear = ray.nearest;
+  result.dir_x = ray.direction.x;
+  result.dir_y = ray.direction.y;
+  result.dir_z = ray.direction.z;
+  result.tfar = ray.farthest;
+  result.mask = mask;
+  return result;
+}
+
+} // namespace
 
 struct Scene::Parts
 {
@@ -32,7 +59,7 @@ struct Scene::Parts
       std::copy(surface->vertices.begin(), surface->vertices.end(), vertices);
       rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
         surface->triangles.data(), 0, 3 * sizeof(std::uint32_t), surface->triangles.size());
-      rtcSetGeometryMask(geometry.get(), embree::maskOf(*surface));
+      rtcSetGeometryMask(geometry.get(), maskOf(*surface));
       rtcCommitGeometry(geometry.get());
       rtcAttachGeometryByID(
         this->scene.get(), geometry.get(), static_cast<unsigned int>(this->surfaces.size()));
@@ -117,7 +144,7 @@ Color passing(const Hit& hit, const Ray& ray)
 Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 {
   const bool hasTransparent = std::any_of(surfaces.begin(), surfaces.end(),
-    [](const auto& surface) { return embree::maskOf(*surface) == embree::masks::transparent; });
+    [](const auto& surface) { return maskOf(*surface) == Scene::Transparent; });
   this->Content = std::make_unique<Parts>(std::move(surfaces));
   this->Content->hasTransparent = hasTransparent;
 }
@@ -125,18 +152,12 @@ Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 Scene::~Scene() = default;
 
 //------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray) const
-{
-  return this->closest(ray, embree::masks::all);
-}
-
-//------------------------------------------------------------------------------
-Hit Scene::closest(const Ray& ray, unsigned int mask) const
+Hit Scene::closest(const Ray& ray, Mask mask) const
 {
   embree::Context context;
   embree::initialize(context);
   RTCRayHit embree{};
-  embree.ray = embree::rayOf(ray, mask);
+  embree.ray = rayOf(ray, mask);
   embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(this->Content->scene.get(), context, embree);
   Hit hit;
@@ -167,7 +188,7 @@ bool Scene::isOccluded(const Ray& ray) const
 {
   embree::Context context;
   embree::initialize(context);
-  RTCRay embree = embree::rayOf(ray, embree::masks::opaque);
+  RTCRay embree = rayOf(ray, Scene::Opaque);
   embree::occlude(this->Content->scene.get(), context, embree);
   return embree.tfar < 0.0f;
 }
@@ -186,7 +207,7 @@ Color Scene::transmittance(const Ray& ray) const
   for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
        ++i)
   {
-    const Hit hit = this->closest(rest, embree::masks::transparent);
+    const Hit hit = this->closest(rest, Scene::Transparent);
     if (!hit.surface)
     {
       break;

@@ -25,8 +25,16 @@ public:
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  /// The surfaces that a ray sees.
+  enum Mask : unsigned int
+  {
+    Opaque = 1, // no light passes
+    Transparent = 2,
+    All = Opaque | Transparent
+  };
+
   /// The nearest surface along a ray; from any thread.
-  Hit closest(const Ray& ray) const;
+  Hit closest(const Ray& ray, Mask mask = All) const;
 
   /// The share of light in each color that passes along a ray: not through opaque surfaces,
   /// straight through transparent ones, without what these reflect and absorb.
@@ -35,7 +43,6 @@ public:
 private:
   struct Parts;
 
-  Hit closest(const Ray& ray, unsigned int mask) const;
   bool isOccluded(const Ray& ray) const;
 
   std::unique_ptr<Parts> Content;

@@ -33,7 +33,6 @@ struct Surface
 {
   Material material;
   Color color{ 1.0f, 1.0f, 1.0f };
-  bool isVisible = true;
   /// -1 where the normals of a closed surface point inwards, else 1; see orientationOf().
   float outward = 1.0f;
 

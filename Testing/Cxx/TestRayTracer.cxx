@@ -2,7 +2,7 @@
 // The ray tracer without VTK: random numbers, materials, where rays meet surfaces, and pictures.
 #include "TracedSphere.h"
 
-#include "Tracer/Absorption.h"
+#include "Isopoint/Base/Threads.h"
 #include "Tracer/Picture.h"
 
 #include <gtest/gtest.h>
@@ -35,12 +35,10 @@ std::shared_ptr<Surface> squareOf(float side, float height)
 /// A camera that looks along -z at a square of this width.
 Camera cameraOf(double width)
 {
-  Camera camera;
-  camera.nearCorner = { -0.5 * width, -0.5 * width, 2.0 };
-  camera.farCorner = { -0.5 * width, -0.5 * width, -2.0 };
-  camera.nearRight = camera.farRight = { width, 0.0, 0.0 };
-  camera.nearUp = camera.farUp = { 0.0, width, 0.0 };
-  return camera;
+  const auto windowAt = [width](double z) {
+    return Window{ { -0.5 * width, -0.5 * width, z }, { width, 0.0, 0.0 }, { 0.0, width, 0.0 } };
+  };
+  return { windowAt(2.0), windowAt(-2.0) };
 }
 
 } // namespace
@@ -211,8 +209,7 @@ TEST(PathTracer, WhiteSurroundingsStayWhite)
     sphere->material.opacity = 0.0f;
     const Scene scene = sceneOf(sphere);
     Picture picture(16, 16, 64);
-    EXPECT_TRUE(picture.addSamples(
-      cameraOf(0.6), PathTracer(scene, illuminants), 64, 2, [](double) { return true; }));
+    EXPECT_TRUE(picture.addSamples({}, cameraOf(0.6), PathTracer(scene, illuminants), 64));
     for (std::size_t i = 0; i < 256; ++i)
     {
       EXPECT_NEAR(picture.pixel(i).color.y, 1.0f, 0.02f) << "metallic " << metallic;
@@ -245,8 +242,7 @@ TEST(Picture, NoSampleOutshinesTheOthers)
   illuminants.lights.emplace_back();
   illuminants.lights[0].diffuse = { 100.0f, 100.0f, 100.0f };
   Picture picture(1, 1, 400);
-  picture.addSamples(
-    cameraOf(0.25), PathTracer(scene, illuminants), 400, 1, [](double) { return true; });
+  picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 400);
   EXPECT_NEAR(picture.pixel(0).color.x, picture.pixel(0).alpha, 1e-4f);
   EXPECT_NEAR(picture.pixel(0).alpha, 0.5f, 0.05f);
 }
@@ -258,8 +254,7 @@ TEST(Picture, APathWithoutAColorSpoilsNoPixel)
   illuminants.lights.emplace_back();
   illuminants.lights[0].diffuse = { std::nanf(""), 1.0f, 1.0f };
   Picture picture(1, 1, 16);
-  picture.addSamples(
-    cameraOf(0.25), PathTracer(scene, illuminants), 16, 1, [](double) { return true; });
+  picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 16);
   const Radiance pixel = picture.pixel(0);
   EXPECT_TRUE(std::isfinite(pixel.color.x) && std::isfinite(pixel.color.y) &&
               std::isfinite(pixel.color.z) && std::isfinite(pixel.alpha));
@@ -273,11 +268,13 @@ TEST(Picture, EndsAndGoesOn)
   illuminants.lights.emplace_back();
   const PathTracer tracer(scene, illuminants);
   Picture whole(64, 64, 200);
-  EXPECT_TRUE(whole.addSamples(cameraOf(1.2), tracer, 200, 1, [](double) { return true; }));
+  EXPECT_TRUE(whole.addSamples({}, cameraOf(1.2), tracer, 200));
   Picture interrupted(64, 64, 200);
+  isopoint::Execution execution;
+  isopoint::useThreads(execution, 3);
   int calls = 0;
-  while (!interrupted.addSamples(
-    cameraOf(1.2), tracer, 200, 3, [&calls](double) { return ++calls > 2; }))
+  execution.aborted = [&calls]() { return ++calls <= 2; };
+  while (!interrupted.addSamples(execution, cameraOf(1.2), tracer, 200))
   {
   }
   EXPECT_EQ(interrupted.getSamples(), 200u);

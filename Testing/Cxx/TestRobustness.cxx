@@ -54,12 +54,12 @@ vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
 }
 
 /// Filters with inputs of points, of cells and of blocks, and the one of triangles.
-std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filtersOfEveryInput()
+std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filtersOfEveryInput()
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, newVertexCells(12000));
   blocks->SetBlock(1, newVertexCells(8000));
-  std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filters;
+  std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filters;
   const std::vector<vtkSmartPointer<vtkDataObject>> inputs{ newCloud(20000), newVertexCells(20000),
     blocks, blocks };
   for (vtkDataObject* const input : inputs)
@@ -83,7 +83,7 @@ std::vector<vtkSmartPointer<vtkScatteredIsopointFilter>> filtersOfEveryInput()
 
 TEST(Robustness, ProgressIncreasesFromZeroToOne)
 {
-  for (vtkScatteredIsopointFilter* const filter : filtersOfEveryInput())
+  for (vtkScatteredContourFilter* const filter : filtersOfEveryInput())
   {
     const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
     filter->AddObserver(vtkCommand::ProgressEvent, watcher);
@@ -102,7 +102,7 @@ TEST(Robustness, ProgressIncreasesFromZeroToOne)
 
 TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
 {
-  for (vtkScatteredIsopointFilter* const filter : filtersOfEveryInput())
+  for (vtkScatteredContourFilter* const filter : filtersOfEveryInput())
   {
     const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
     const auto errors = watchErrors(filter);

@@ -1,29 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter's own threads: where one cannot be started the others do its work, and no thread
-// outlives an exception.
+// The threads of filter and ray tracer: where one cannot be started the others do its work, and
+// what is computed together stays within the quota of a container.
 #include "FailingAllocator.h"
-#include "Update/vtkIsopointExecution.h"
+
+#include "Isopoint/Base/Threads.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace
 {
 
-constexpr std::size_t threads = 4;
-constexpr std::size_t count = 1003;
+constexpr std::size_t threads = 8;
 constexpr std::size_t grain = 10;
 
-/// Counts how often each item is processed while the n-th allocation of any size fails. More
-/// threads than in other tests, since the system reuses the memory of threads that ended.
-/// @returns the number of allocations
-long countVisits(std::vector<std::atomic<int>>& visits, long n, bool andAllLater)
+isopoint::Execution threadedExecution()
 {
+  isopoint::Execution execution;
+  isopoint::useThreads(execution, threads);
+  return execution;
+}
+
+/// Expects that each item is processed once while this allocation (from 1) and all later ones fail.
+void expectOneVisitEach(std::size_t items, long failing)
+{
+  const isopoint::Execution execution = threadedExecution();
+  std::vector<std::atomic<int>> visits(items);
   const isopoint::RangeTask task = [&visits](std::size_t begin, std::size_t end)
   {
     for (std::size_t i = begin; i < end; ++i)
@@ -31,73 +39,61 @@ long countVisits(std::vector<std::atomic<int>>& visits, long n, bool andAllLater
       ++visits[i];
     }
   };
-  failingallocator::failAt(n, andAllLater, 0);
-  vtkForIsopointRanges(2 * threads, count, grain, task);
-  return failingallocator::stop();
+  failingallocator::failAt(failing, true, 0);
+  execution.parallelFor(items, grain, task);
+  failingallocator::stop();
+  for (const std::atomic<int>& visit : visits)
+  {
+    ASSERT_EQ(visit, 1);
+  }
 }
 
 } // namespace
 
 TEST(Threads, EachItemIsProcessedOnce)
 {
+  constexpr long never = 1000000000;
   for (const std::size_t items : { 0u, 1u, 10u, 11u, 1003u })
   {
-    std::vector<std::atomic<int>> visits(items);
-    vtkForIsopointRanges(threads, items, grain,
-      [&visits](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          ++visits[i];
-        }
-      });
-    for (const std::atomic<int>& visit : visits)
-    {
-      ASSERT_EQ(visit, 1);
-    }
+    expectOneVisitEach(items, never);
   }
 }
 
 TEST(Threads, IfMemoryForAThreadIsLackingTheOthersDoTheWork)
 {
-  for (const bool andAllLater : { false, true })
+  for (long n = 1; n < 20; ++n)
   {
-    bool failed = true;
-    long n = 1;
-    for (; failed; ++n)
-    {
-      SCOPED_TRACE(testing::Message() << "allocation " << n << (andAllLater ? " and later" : ""));
-      ASSERT_LT(n, 1000);
-      std::vector<std::atomic<int>> visits(count);
-      failed = countVisits(visits, n, andAllLater) >= n;
-      for (const std::atomic<int>& visit : visits)
-      {
-        ASSERT_EQ(visit, 1);
-      }
-    }
-    EXPECT_GT(n, static_cast<long>(2 * threads)); // the list of threads, and each but the first
+    SCOPED_TRACE(testing::Message() << "allocation " << n << " and later");
+    expectOneVisitEach(1003, n);
   }
 }
 
-TEST(Threads, AnExceptionInTheCallingThreadIsThrownAfterTheOthersHaveEnded)
+TEST(Threads, AnExceptionOfATaskIsThrownInTheCallingThread)
 {
-  const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<bool> thrown{ false };
-  std::atomic<int> running{ 0 };
-  const auto task = [&](std::size_t, std::size_t)
-  {
-    if (std::this_thread::get_id() == caller)
-    {
-      thrown = true;
-      throw std::runtime_error("");
-    }
-    ++running;
-    while (!thrown)
-    {
-      std::this_thread::yield();
-    }
-    --running;
-  };
-  EXPECT_THROW(vtkForIsopointRanges(threads, count, grain, task), std::runtime_error);
-  EXPECT_EQ(running, 0);
+  EXPECT_THROW(isopoint::forRanges(threadedExecution(), 1003, grain,
+                 [](std::size_t begin, std::size_t)
+                 {
+                   if (begin == 500)
+                   {
+                     throw std::runtime_error("");
+                   }
+                 }),
+    std::runtime_error);
+}
+
+TEST(Threads, AQuotaOfAContainerIsKept)
+{
+  const std::filesystem::path group = std::filesystem::temp_directory_path() / "TestThreadsQuota";
+  std::filesystem::create_directory(group);
+  std::ofstream(group / "cpu.max") << "max 100000\n";
+  EXPECT_GT(isopoint::coresOfQuota(group), 1000000u);
+  std::ofstream(group / "cpu.max") << "250000 100000\n";
+  EXPECT_EQ(isopoint::coresOfQuota(group), 3u);
+  std::filesystem::remove(group / "cpu.max");
+  std::ofstream(group / "cpu.cfs_period_us") << "100000\n";
+  std::ofstream(group / "cpu.cfs_quota_us") << "-1\n";
+  EXPECT_GT(isopoint::coresOfQuota(group), 1000000u);
+  std::ofstream(group / "cpu.cfs_quota_us") << "200000\n";
+  EXPECT_EQ(isopoint::coresOfQuota(group), 2u);
+  std::filesystem::remove_all(group);
 }

@@ -8,11 +8,7 @@ from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
+from scripting import check
 
 def filters():
     return simple.ScatteredIsopoints, simple.ScatteredIsosurface

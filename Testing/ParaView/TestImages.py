@@ -2,23 +2,16 @@
 """Splats of images and rectilinear grids, whose points are computed rather than stored."""
 
 import contextlib
-import os
 import resource
 import sys
-import tempfile
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkRectilinearGrid
-from vtkmodules.vtkIOImage import vtkPNGReader
 
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
+from scripting import check, covered, look, make_view, pixels
 
 def image(origin, count=20):
     data = vtkImageData()
@@ -50,20 +43,9 @@ def shown(data, view):
     return source
 
 
-def picture(view):
-    path = os.path.join(tempfile.mkdtemp(), "view.png")
-    simple.SaveScreenshot(path, view)
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    scalars = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(int)
-
-
 def number_of_splats(view):
     """Disjoint octahedra, seen from above as squares whose diagonals are of 32 pixels."""
-    return np.count_nonzero(picture(view)[..., 2] < 250) / (2 * 16**2)
+    return np.count_nonzero(covered(pixels(view))) / (2 * 16**2)
 
 
 def all_seen(count):
@@ -71,21 +53,8 @@ def all_seen(count):
     return 400 < count < 440
 
 
-def make_view():
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [800, 800]
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [0.0, 0.0, 1.0]
-    view.CameraParallelProjection = 1
-    return view
-
-
-def look(view, origin):
-    middle = origin + 9.5
-    view.CameraPosition = [middle, middle, origin + 50.0]
-    view.CameraFocalPoint = [middle, middle, origin]
-    view.CameraParallelScale = 10.0
+def look_at(view, origin):
+    look(view, 50.0, 10.0, [origin + 9.5, origin + 9.5, origin])
 
 
 def keeps_precision(view):
@@ -93,7 +62,7 @@ def keeps_precision(view):
     for make in (image, rectilinear_grid):
         for origin in (0.0, 1e9):
             source = shown(make(origin), view)
-            look(view, origin)
+            look_at(view, origin)
             count = number_of_splats(view)
             print(f"{make.__name__} at {origin:g}: {count:.1f} splats")
             check(all_seen(count), f"the splats of {make.__name__} at {origin:g}")
@@ -115,7 +84,7 @@ def runs_out_of_memory(view):
     """An image too large is one error, and another one can be shown afterwards."""
     huge = image(0.0, 60_000)
     source = shown(image(0.0), view)
-    look(view, 0.0)
+    look_at(view, 0.0)
     check(all_seen(number_of_splats(view)), "a small image")
     source.GetClientSideObject().SetOutput(huge)
     source.MarkModified(source)
@@ -139,7 +108,7 @@ def runs_out_of_memory(view):
 def main(plugin):
     simple.LoadPlugin(plugin)
     simple._DisableFirstRenderCameraReset()
-    view = make_view()
+    view = make_view(800)
     keeps_precision(view)
     runs_out_of_memory(view)
 

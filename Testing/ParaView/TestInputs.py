@@ -4,17 +4,12 @@ panel lists, and that the surface is where Contour's is."""
 
 import os
 import sys
-import tempfile
 
 import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
+from scripting import FOLDER, check
 
 def contoured(source, association, array, isovalue):
     source.UpdatePipeline()
@@ -45,8 +40,8 @@ def add_distance(source, association):
     return calculator
 
 
-def table_of_points(folder):
-    path = os.path.join(folder, "samples.csv")
+def table_of_points():
+    path = os.path.join(FOLDER, "samples.csv")
     samples = np.random.default_rng(3).random((20000, 3)) * 2.0 - 1.0
     table = np.column_stack([samples, np.linalg.norm(samples, axis=1)])
     np.savetxt(path, table, delimiter=",", header="x,y,z,r", comments="")
@@ -69,7 +64,7 @@ def main(plugin):
     cells = simple.PointDatatoCellData(Input=points)
     check_shell(contoured(cells, "CELLS", "r", 7.05), 7.05, 0.3, "image, cell data")
 
-    table = table_of_points(tempfile.mkdtemp())
+    table = table_of_points()
     check_shell(contoured(table, "POINTS", "r", 0.7), 0.7, 0.02, "table")
 
     half = simple.ExtractSubset(Input=points, VOI=[-10, 0, -10, 10, -10, 10])

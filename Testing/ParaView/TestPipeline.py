@@ -3,21 +3,15 @@
 
 import os
 import sys
-import tempfile
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
+from scripting import FOLDER, check, look, make_view, pixels
 
 def write_cloud(path):
     positions = np.random.default_rng(1).random((40000, 3)) * 2.0 - 1.0
@@ -36,15 +30,6 @@ def write_cloud(path):
     writer.SetDataModeToBinary()
     writer.SetInputData(data)
     check(writer.Write() == 1, "writing " + path)
-
-
-def pixels(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[..., :3]
 
 
 def check_counters(reader):
@@ -90,8 +75,7 @@ def check_triangles(reader):
 
 def main(plugin):
     simple.LoadPlugin(plugin)
-    folder = tempfile.mkdtemp()
-    cloud = os.path.join(folder, "cloud.vtp")
+    cloud = os.path.join(FOLDER, "cloud.vtp")
     write_cloud(cloud)
 
     reader = simple.OpenDataFile(cloud)
@@ -108,24 +92,15 @@ def main(plugin):
 
     check_triangles(reader)
 
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [300, 300]
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [0.0, 0.0, 1.0]
+    view = make_view(300)
     isopoints.Isosurfaces = [0.75]
     display = simple.Show(isopoints, view)
     check(display.Representation == "Isopoint Splats", "the default representation")
     simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 1.0]
-    view.CameraParallelProjection = 1
-    view.CameraPosition = [0.0, 0.0, 5.0]
-    view.CameraFocalPoint = [0.0, 0.0, 0.0]
-    view.CameraParallelScale = 1.0
-    picture = os.path.join(folder, "picture.png")
-    simple.SaveScreenshot(picture, view)
+    look(view, 5.0, 1.0)
 
-    image = pixels(picture).astype(int)
+    image = pixels(view)
     rows, columns = np.mgrid[0:300, 0:300]
     distance = np.hypot(rows - 149.5, columns - 149.5) / 150.0
     background = (image == [0, 0, 255]).all(axis=2)

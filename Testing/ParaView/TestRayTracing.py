@@ -4,30 +4,17 @@ TestRayTracing.py PLUGIN"""
 
 import os
 import sys
-import tempfile
 
 import numpy as np
 from paraview import simple
 from scatteredisopoints import ray_trace
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 
-folder = tempfile.mkdtemp()
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
+from scripting import FOLDER, check, pixels_of_file
 
 
 def read(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    pixels = vtk_to_numpy(image.GetPointData().GetScalars())
-    return pixels.reshape(height, width, -1)[::-1, :, :3].astype(float)
+    """Rows from above, as ray_trace() yields them."""
+    return pixels_of_file(path)[::-1].astype(float)
 
 
 def psnr(one, other):
@@ -57,7 +44,7 @@ def scene():
 
 
 def is_what_the_view_shows(view):
-    path = os.path.join(folder, "drawn.png")
+    path = os.path.join(FOLDER, "drawn.png")
     simple.SaveScreenshot(path, view)
     drawn = read(path)
     traced = ray_trace(view, samples=16, shadows=False)
@@ -65,13 +52,13 @@ def is_what_the_view_shows(view):
     quality = psnr(traced, drawn)
     print(f"without shadows against the view: {quality:.1f} dB")
     check(quality > 27, "the picture is that of the view")
-    small = ray_trace(view, os.path.join(folder, "small.png"), samples=1, size=(80, 60))
+    small = ray_trace(view, os.path.join(FOLDER, "small.png"), samples=1, size=(80, 60))
     check(small.shape == (60, 80, 3), "of the size asked for")
-    check(np.array_equal(read(os.path.join(folder, "small.png")), small), "the file is the picture")
+    check(np.array_equal(read(os.path.join(FOLDER, "small.png")), small), "the file is the picture")
 
 
 def can_be_exported(view, shown):
-    path = os.path.join(folder, "exported.png")
+    path = os.path.join(FOLDER, "exported.png")
     simple.ExportView(path, view=view, SamplesPerPixel=4, AmbientLight=0.2)
     exported = read(path)
     expected = ray_trace(view, samples=4, ambient_light=0.2)
@@ -90,7 +77,7 @@ def can_be_exported(view, shown):
 
 def has_the_annotations_of_the_view(view, shown):
     """The color legend and the axes are where a screenshot has them."""
-    path = os.path.join(folder, "annotated.png")
+    path = os.path.join(FOLDER, "annotated.png")
     simple.ColorBy(shown, ("POINTS", "Radius"))
     shown.SetScalarBarVisibility(view, True)
     view.OrientationAxesVisibility = 1

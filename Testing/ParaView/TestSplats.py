@@ -8,59 +8,19 @@ import os
 import socket
 import subprocess
 import sys
-import tempfile
 
 import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
+from scripting import FOLDER, check, covered, look, make_view, pixels
 
 BALL_POINTS = 39193  # of ball(), on any number of ranks
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
-def pixels(view):
-    """The picture as an array; on the first rank only, else None."""
-    path = os.path.join(tempfile.mkdtemp(), "view.png")
-    simple.SaveScreenshot(path, view)
-    return pixels_of_file(path) if os.path.exists(path) else None
-
-
-def pixels_of_file(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(int)
-
-
-def covered(image):
-    return image[..., 2] < 250
-
-
-def make_view():
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [400, 400]
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [0.0, 0.0, 1.0]
-    return view
-
-
-def look(view):
-    """From the front."""
-    view.CameraParallelProjection = 1
-    view.CameraPosition = [0.0, 0.0, 300.0]
-    view.CameraFocalPoint = [0.0, 0.0, 0.0]
-    view.CameraParallelScale = 60.0
+def look_at_the_ball(view):
+    look(view, 300.0, 60.0)
     simple.Render(view)
 
 
@@ -75,7 +35,7 @@ def shows_the_ball(view, isopoints):
     check(display.Representation == "Isopoint Splats", "the representation by default")
     simple.ColorBy(display, None)
     display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 0.0]
-    look(view)
+    look_at_the_ball(view)
     image = pixels(view)
     if image is not None:
         area = np.count_nonzero(covered(image)) / (np.pi * 160**2)
@@ -140,7 +100,7 @@ def exports_the_surface(view, isopoints):
     polygons.UpdatePipeline()
     triangles = polygons.GetDataInformation().GetNumberOfCells()
     check(triangles > 3 * BALL_POINTS, f"{triangles} triangles as data")
-    path = os.path.join(tempfile.mkdtemp(), "view.gltf")
+    path = os.path.join(FOLDER, "view.gltf")
     simple.Render(view)
     simple.ExportView(path, view=view)
     with open(path) as file:
@@ -268,7 +228,7 @@ def main(plugin, *server):
         simple.LoadPlugin(plugin, remote=True)
     simple.LoadPlugin(plugin, remote=False)
     simple._DisableFirstRenderCameraReset()
-    view = make_view()
+    view = make_view(400)
     source = ball()
     isopoints = simple.ScatteredIsopoints(Input=source)
     isopoints.ContourBy = ["POINTS", "r"]

@@ -6,27 +6,9 @@ import sys
 import numpy as np
 from paraview import simple
 
-from TestSplats import pixels
+from scripting import check, covered, look, make_view, pixels
 
 RADIUS = 7.3
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
-def make_view():
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [300, 300]
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [0.0, 0.0, 1.0]
-    view.CameraParallelProjection = 1
-    view.CameraPosition = [0.0, 0.0, 50.0]
-    view.CameraFocalPoint = [0.0, 0.0, 0.0]
-    view.CameraParallelScale = 10.0
-    return view
 
 
 def ball():
@@ -50,9 +32,9 @@ def picture(view, source):
 def is_drawn(image):
     """The share of the ball's left and right half that is drawn, and how much more light its upper
     half has than the lower one."""
-    covered = image[..., 2] < 250
+    seen = covered(image)
     half = np.pi * (150 * RADIUS / 10.0) ** 2 / 2
-    left, right = covered[:, :150].sum() / half, covered[:, 150:].sum() / half
+    left, right = seen[:, :150].sum() / half, seen[:, 150:].sum() / half
     upper, lower = image[200, 120:180, 0].mean(), image[100, 120:180, 0].mean()
     return left, right, upper - lower
 
@@ -80,7 +62,8 @@ def filters(isopoints):
 def main(plugin):
     simple.LoadPlugin(plugin)
     simple._DisableFirstRenderCameraReset()
-    view = make_view()
+    view = make_view(300)
+    look(view, 50.0, 10.0)
     isopoints = ball()
     for name, source in filters(isopoints).items():
         kind, image = picture(view, source)

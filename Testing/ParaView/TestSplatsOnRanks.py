@@ -11,7 +11,8 @@ import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from TestSplats import connect_to, pixels_of_file
+from scripting import check, pixels_of_file
+from TestSplats import connect_to
 
 LEAST_PSNR = 45.0
 
@@ -36,11 +37,6 @@ for name, values in (
     array.SetName(name)
     output.GetPointData().AddArray(array)
 """
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
 
 
 def surface_of(count):
@@ -77,13 +73,6 @@ def cameras(view):
         yield name
 
 
-def picture(path, view=None):
-    """The picture of a file, or of a view, which is written to it, as an array."""
-    if view:
-        simple.SaveScreenshot(path, view)
-    return pixels_of_file(path)
-
-
 def shows_what_one_rank_does(view, folder, size, count):
     isopoints = surface_of(count)
     display = simple.Show(isopoints, view)
@@ -92,8 +81,10 @@ def shows_what_one_rank_does(view, folder, size, count):
     display.SetScalarBarVisibility(view, False)
     simple.GetColorTransferFunction("color").RescaleTransferFunction(-5.0, 5.0)
     for camera in cameras(view):
-        found = picture(os.path.join(folder, f"{count}-{camera}-{size}.png"), view)
-        expected = picture(os.path.join(folder, f"{count}-{camera}-1.png"))
+        path = os.path.join(folder, f"{count}-{camera}-{size}.png")
+        simple.SaveScreenshot(path, view)
+        found = pixels_of_file(path)
+        expected = pixels_of_file(os.path.join(folder, f"{count}-{camera}-1.png"))
         check((found < 250).any(axis=2).mean() > 0.3, "the surface is seen")
         difference = (found - expected) ** 2
         psnr = 10.0 * np.log10(255.0**2 / np.maximum(difference.mean(), 1e-10))

@@ -8,9 +8,10 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 
 from paraview import simple, smstate, smtrace
+
+from scripting import FOLDER, check
 
 # What each of them has to be followed by, to be compared.
 REPORT = """
@@ -24,11 +25,6 @@ for display in simple.GetActiveView().Representations:
         shown.append((str(display.Representation).strip("'"), display.Visibility))
 print("found:", shown, flush=True)
 """
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
 
 
 def build():
@@ -46,9 +42,9 @@ def build():
     simple.Render(view)
 
 
-def run(pvbatch, folder, text, **environment):
+def run(pvbatch, text, **environment):
     """What a script that was saved finds in a process of its own."""
-    path = os.path.join(folder, "saved.py")
+    path = os.path.join(FOLDER, "saved.py")
     with open(path, "w", encoding="utf-8") as file:
         file.write(text + REPORT)
     done = subprocess.run([pvbatch, path], env=dict(os.environ, **environment), check=False,
@@ -60,28 +56,27 @@ def run(pvbatch, folder, text, **environment):
 
 def main(plugin, pvbatch):
     simple.LoadPlugin(plugin)
-    folder = tempfile.mkdtemp()
     smtrace.start_trace(preamble="")
     build()
     trace = smtrace.stop_trace()
     state = smstate.get_state()
-    saved = os.path.join(folder, "state.pvsm")
+    saved = os.path.join(FOLDER, "state.pvsm")
     simple.SaveState(saved)
 
     with_path = {"PV_PLUGIN_PATH": os.path.dirname(plugin)}
-    expected, output = run(pvbatch, folder, trace)
+    expected, output = run(pvbatch, trace)
     print(expected)
     check("('Isopoint Splats', 0), ('Isopoint Splats', 1), ('Surface', 1)" in expected, expected)
     for text in (trace, state, f"from paraview import simple\nsimple.LoadState({saved!r})\n"):
-        found, output = run(pvbatch, folder, text, **with_path)
+        found, output = run(pvbatch, text, **with_path)
         check("ERR|" not in output, output)
         counts = [line.split(", ('Isopoint Splats'")[0] for line in (found, expected)]
         check(counts[0] == counts[1], f"{found} instead of {expected}")
         check(found.count("('Isopoint Splats', 1)") == 1, found)
     # A second copy of the plugin, as of another build, does not end the program.
-    copy = shutil.copy(plugin, folder)
-    found, _ = run(pvbatch, folder, f"from paraview.simple import *\nLoadPlugin({copy!r})\n" + state,
-                   **with_path)
+    copy = shutil.copy(plugin, FOLDER)
+    found, _ = run(
+        pvbatch, f"from paraview.simple import *\nLoadPlugin({copy!r})\n" + state, **with_path)
     check("('ScatteredIsopoints1', 1449)" in found and "('Isopoint Splats', 1)" in found, found)
     for text, name in ((trace, "trace"), (state, "state")):
         check("NumberOf" not in text, f"a {name} does not set counters")

@@ -36,6 +36,9 @@ def report(*_):
 view.GetRenderWindow().AddObserver("EndEvent", report)
 """
 
+_temporary = tempfile.TemporaryDirectory()  # removed when the script ends
+FOLDER = _temporary.name
+
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel/"
 FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/"
 
@@ -74,7 +77,7 @@ ADVANCED = event(PANEL + "SearchBox/AdvancedButton", "set_boolean", "true")
 
 def play(paraview, plugin, events, more=""):
     """What is shown after the events, by the names of the pipeline's items."""
-    folder = tempfile.mkdtemp()
+    folder = tempfile.mkdtemp(dir=FOLDER)
     script, played = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
     with open(script, "w", encoding="utf-8") as file:
         file.write(SCRIPT.format(plugin=plugin, more=more))
@@ -193,7 +196,7 @@ isopoints.UpdatePipeline()
 
 def pictures_are_traced(plugin, paraview):
     """By an entry of the menu, with a button that stops it."""
-    path = os.path.join(tempfile.mkdtemp(), "traced.png")
+    path = os.path.join(FOLDER, "traced.png")
     options = "pqClientMainWindow/RayTracingOptions/"
     samples = (options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
                "SamplesPerPixel/IntRangeWidget/LineEdit")

@@ -47,7 +47,7 @@ def shapes():
     torus = torus_splats(200_000)
     compare("splats", actor_of(torus))
     smaller = actor_of(torus)
-    smaller.GetMapper().SetRadiusScale(0.5)
+    smaller.GetMapper().GetPolygons().SetRadiusScale(0.5)
     compare("smaller splats", smaller, bar=28)
     body = isopoints(body_field, -1.1, 1.1, 150_000, creases=True)
     compare("a body with edges", actor_of(body))

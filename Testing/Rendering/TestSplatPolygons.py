@@ -127,6 +127,17 @@ def octagons_and_octahedra():
     check(np.isclose(np.abs(triangles).max(), 6.0), "another array, scaled")
 
 
+def the_automatic_radius_suits_the_finite_points():
+    points = np.array([1e9, -1e9, 1e9]) + [(-0.6, 0, 0), (0.6, 0, 0), (0, 0.3, 0.3)]
+    sizes = []
+    for extra in ([], [(np.inf, 0, 0)], [(0, -np.inf, np.nan)]):
+        count = 3 + len(extra)
+        data = polydata([*points, *extra], [UP] * count)
+        triangles, _, _ = triangles_of(data, RadiusArrayName=None, RadiusScale=np.sqrt(count))
+        sizes.append(np.linalg.norm(areas(triangles), axis=1).sum())
+    check(sizes[0] > 0 and np.allclose(sizes, sizes[0], rtol=1e-4), f"of one size: {sizes}")
+
+
 def what_cannot_be_drawn_is_left_out():
     nan, inf = float("nan"), float("inf")
     points = [(0, 0, 0), (nan, 0, 0), (0, inf, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0), (5, 0, 0)]
@@ -169,8 +180,10 @@ def arrays_of_the_wrong_shape():
 def cells():
     data = polydata([(0, 0, 0), (3, 0, 0)], [UP] * 2, Radius=np.ones(2))
     data.GetCellData().AddArray(named([5.0, 7.0], "value"))
+    data.GetFieldData().AddArray(named([3.0], "of the field"))
     _, _, output = triangles_of(data)
     check(array(output, "value", cells=True).tolist() == 8 * [5.0] + 8 * [7.0], "arrays of cells")
+    check(output.GetFieldData().GetArray("of the field").GetValue(0) == 3.0, "the field's array")
     grid = vtkAppendFilter()
     grid.AddInputData(data)
     grid.Update()
@@ -243,6 +256,7 @@ if __name__ == "__main__":
         splats_of_isopoints,
         arrays_are_interpolated,
         octagons_and_octahedra,
+        the_automatic_radius_suits_the_finite_points,
         what_cannot_be_drawn_is_left_out,
         arrays_of_the_wrong_shape,
         cells,

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointTracedFrame_h
+#define vtkIsopointTracedFrame_h
+
+#include "Tracer/Vector.h"
+
+#include <array>
+
+/// The scene's coordinates: the world's, with a point of it at the origin and a length of it as
+/// unit.
+struct vtkIsopointTracedFrame
+{
+  std::array<double, 3> Center = { 0.0, 0.0, 0.0 };
+  double Length = 1.0;
+
+  std::array<double, 3> ToScene(const double* world) const
+  {
+    return { (world[0] - this->Center[0]) / this->Length,
+      (world[1] - this->Center[1]) / this->Length, (world[2] - this->Center[2]) / this->Length };
+  }
+};
+
+inline raytracing::Vector vtkIsopointTracedVector(const double* vector)
+{
+  return { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
+    static_cast<float>(vector[2]) };
+}
+
+#endif
