@@ -2,6 +2,7 @@
 #ifndef vtkIsopointBlock_h
 #define vtkIsopointBlock_h
 
+#include "vtkDataSetAttributes.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -9,7 +10,6 @@
 
 class vtkDataArray;
 class vtkDataSet;
-class vtkDataSetAttributes;
 class vtkUnsignedCharArray;
 
 /**
@@ -23,9 +23,10 @@ struct vtkIsopointBlock
   vtkDataSetAttributes* Attributes = nullptr;
   vtkDataArray* Scalars = nullptr;
 
-  /// Null, or one value for each sample, which takes no part if it has one of the bits
-  /// vtkDataSetAttributes::DUPLICATEPOINT and HIDDENPOINT.
+  /// Null, or one value for each sample, which takes no part if it has one of these bits.
   vtkSmartPointer<vtkUnsignedCharArray> Ghosts;
+  static constexpr unsigned char Excluding =
+    vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
   /// The number of ids that stand for no leaf of a hyper tree grid, except for a coarse node or for
   /// nothing. `Ghosts` excludes them.

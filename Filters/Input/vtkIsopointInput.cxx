@@ -9,7 +9,6 @@
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkType.h"
@@ -42,10 +41,6 @@ bool isExactInFloat(vtkDataArray* scalars)
 {
   return scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
 }
-
-/// Ghost bits of items that take no part.
-constexpr unsigned char excluding =
-  vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
 const unsigned char* ghostsOf(const vtkIsopointBlock& block)
 {
@@ -134,7 +129,7 @@ public:
     const auto index = static_cast<std::size_t>(next - this->Firsts.begin()) - 1;
     const Part& part = this->Parts[index];
     const std::size_t point = id - this->Firsts[index];
-    if (part.Ghosts && (part.Ghosts[point] & excluding) != 0)
+    if (part.Ghosts && (part.Ghosts[point] & vtkIsopointBlock::Excluding) != 0)
     {
       return false;
     }

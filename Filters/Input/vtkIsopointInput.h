@@ -6,7 +6,6 @@
 
 namespace isopoint
 {
-class Communicator;
 class IsosurfaceExtractor;
 class Team;
 struct Execution;

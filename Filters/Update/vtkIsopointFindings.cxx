@@ -7,7 +7,6 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Update/vtkIsopointOptions.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkType.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -21,14 +20,6 @@
 
 namespace
 {
-
-constexpr unsigned char excluding =
-  vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
-
-bool isExcluded(const vtkIsopointBlock& block, vtkIdType sample)
-{
-  return block.Ghosts && (block.Ghosts->GetValue(sample) & excluding) != 0;
-}
 
 std::string describeArray(const vtkIsopointFindings& findings)
 {
@@ -248,7 +239,7 @@ void vtkIsopointFindings::CountSamples(
     vtkIdType excluded = 0;
     for (vtkIdType i = 0; block.Ghosts && i < count; ++i)
     {
-      excluded += isExcluded(block, i) ? 1 : 0;
+      excluded += (block.Ghosts->GetValue(i) & vtkIsopointBlock::Excluding) != 0 ? 1 : 0;
     }
     this->NotFinite -= static_cast<std::uint64_t>(excluded);
     this->Ghosts += static_cast<std::uint64_t>(excluded - block.NumberOfUnusedIds);

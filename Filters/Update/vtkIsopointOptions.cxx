@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <functional>
+#include <ios>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -17,33 +18,6 @@ namespace
 
 constexpr int automaticNormals = -1;
 constexpr int normalsFromField = 0;
-
-/// FNV-1a, of words.
-class Hash
-{
-public:
-  void Add(double number)
-  {
-    number += 0.0; // 0 and -0 are the same
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof(bits));
-    this->Value = (this->Value ^ bits) * 1099511628211u;
-    this->Value ^= this->Value >> 32;
-  }
-
-  void Add(const std::string& text)
-  {
-    for (const char letter : text)
-    {
-      this->Add(letter);
-    }
-  }
-
-  std::uint64_t Get() const { return this->Value; }
-
-private:
-  std::uint64_t Value = 14695981039346656037u;
-};
 
 } // namespace
 
@@ -69,15 +43,15 @@ void vtkIsopointOptions::Check() const
 
 void vtkIsopointOptions::CheckOnRanks(isopoint::Team& team) const
 {
-  Hash hash;
-  hash.Add(this->Triangles);
-  hash.Add(this->Array.Describe());
+  std::ostringstream text;
+  text << std::hexfloat << this->Triangles << " " << this->Array.Describe();
   for (const double isovalue : this->GetSortedIsovalues())
   {
-    hash.Add(isovalue);
+    text << " " << isovalue + 0.0; // 0 and -0 are the same
   }
-  this->ForEach([&hash](const char*, double value, double, double) { hash.Add(value); });
-  const bool differ = team.maximum(hash.Get()) != ~team.maximum(~hash.Get());
+  this->ForEach([&text](const char*, double value, double, double) { text << " " << value + 0.0; });
+  const std::uint64_t hash = std::hash<std::string>()(text.str());
+  const bool differ = team.maximum(hash) != ~team.maximum(~hash);
   if (differ && team.rank() == 0)
   {
     throw vtkIsopointUsageError(

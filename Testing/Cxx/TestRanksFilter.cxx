@@ -11,6 +11,7 @@
 #include "vtkStringArray.h"
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -149,4 +150,71 @@ TEST(RanksFilter, LackOfMemoryOnOneRankEndsTheUpdateOfAll)
 TEST(RanksFilter, LackOfMemoryOnOneRankEndsTheTrianglesOfAll)
 {
   failEach<vtkScatteredIsosurfaceFilter>();
+}
+
+namespace
+{
+
+/// The number of errors of all ranks, of which each makes a filter.
+int errorsOf(const std::function<vtkSmartPointer<vtkScatteredContourFilter>(int rank)>& newFilter)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = newCloud(300);
+  std::atomic<int> errors{ 0 };
+  onThreadControllers(ranks,
+    [&](vtkMultiProcessController* controller)
+    {
+      const int rank = controller->GetLocalProcessId();
+      const vtkSmartPointer<vtkScatteredContourFilter> filter = newFilter(rank);
+      filter->SetController(controller);
+      filter->SetInputData(newPart(cloud, rank));
+      filter->SetValue(0, 0.7);
+      const auto watcher = watchErrors(filter);
+      filter->Update();
+      errors += watcher->Count;
+    });
+  return errors;
+}
+
+} // namespace
+
+TEST(RanksFilter, DifferentOptionsAreOneError)
+{
+  const auto newPoints = []() { return vtkSmartPointer<vtkScatteredIsopointFilter>::New(); };
+  EXPECT_EQ(errorsOf(
+              [&](int rank)
+              {
+                const auto filter = newPoints();
+                filter->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0);
+                return filter;
+              }),
+    0);
+  EXPECT_EQ(errorsOf(
+              [&](int rank)
+              {
+                const auto filter = newPoints();
+                filter->SetAngle(30.0 + rank);
+                return filter;
+              }),
+    1);
+  EXPECT_EQ(errorsOf(
+              [&](int rank)
+              {
+                const auto filter = newPoints();
+                filter->SetInputArrayToProcess(0, 0, 0,
+                  rank == 1 ? vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS
+                            : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                  "distance");
+                return filter;
+              }),
+    1);
+  EXPECT_EQ(errorsOf(
+              [&](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
+              {
+                if (rank == 1)
+                {
+                  return vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New();
+                }
+                return newPoints();
+              }),
+    1);
 }

@@ -123,7 +123,7 @@ class Project:
                 self.report(name, f"includes {include}: does not belong into {folder}")
 
     def check_circles(self):
-        """Among components: a header, the source of its name, and headers that this alone includes."""
+        """Of components: a header, the source of its name, and headers that only this includes."""
         targets = {name: {own for own in map(self.own, self.includes(name)) if own}
                    for name in self.files}
 

@@ -4,10 +4,10 @@
     PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 \
         Testing/Python/fingerprint.py [N] [FIRST]
 
-The first hash is of isopoints, the second of triangles. Two builds whose lists are equal produce the
-same bytes: positions, cells and all arrays in their order, and the numbers of skipped samples and
+The first hash is of isopoints, the second of triangles. Two builds whose lists are equal produce
+the same bytes: positions, cells and all arrays in their order, and the numbers of skipped samples and
 unprojected points. Each combination depends only on its number, from FIRST on. Run by
-mpirun -n RANKS pvbatch --symmetric, the samples are dealt out in turns, images are on the first rank
+mpirun -n RANKS pvbatch --symmetric, samples are dealt out in turns, images are on the first rank
 alone, and the hashes are of what all ranks put out. See docs/testing.md.
 """
 
