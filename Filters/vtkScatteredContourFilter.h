@@ -218,12 +218,12 @@ public:
 
   ///@{
   /**
-   * The processes (ranks) whose inputs form one cloud, those of one rank after those of the other.
+   * The processes (ranks) whose inputs form one cloud, in the order of the ranks.
    * The outputs of all ranks are then, as a set of points with all their arrays, what one process
    * yields for that cloud, bit for bit, however the cloud is dealt out; each point is in the output
    * of one rank. All ranks have to update the filter, with the same options. A rank may have no
-   * samples. If ghost levels are requested of the output, however many, the points within five
-   * rings of neighbors around those of a rank follow behind these, with all their arrays, marked in
+   * samples. If ghost levels are requested of the output, however many, the points within 24
+   * rings of neighbors around those of a rank (five without splats) follow behind these, with all their arrays, marked in
    * "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. Null, or a controller of
    * one process: the filter runs on its own. Default: the global controller when the filter is
    * created (that of MPI in ParaView's servers and in pvbatch).

@@ -17,7 +17,7 @@
 namespace
 {
 
-/// What trees of all kinds have in common, which VTK keeps for derived classes.
+/// Gives access to protected member functions of vtkDataObjectTree.
 struct Tree : vtkDataObjectTree
 {
   static constexpr auto getCount = &Tree::GetNumberOfChildren;

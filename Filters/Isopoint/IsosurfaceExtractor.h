@@ -71,7 +71,7 @@ public:
       return;
     }
     this->clear();
-    const std::vector<std::uint64_t> counts = team.gather(std::uint64_t{ count });
+    std::vector<std::uint64_t> counts = team.gather(std::uint64_t{ count });
     const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
     if (isNarrow(all))
     {
@@ -82,7 +82,7 @@ public:
       this->loadShared<WideSample>(execution, team, counts, all, read);
     }
     this->ItemCount = all;
-    this->ItemCounts = counts;
+    this->ItemCounts.swap(counts);
     this->Group = &team;
   }
 
@@ -134,7 +134,7 @@ public:
   /// Of a cloud on ranks, each isopoint is returned on one of them, and so is each triangle, with
   /// its vertices.
   /// @param ghosts null, or receives, with all that is known of them, the isopoints that are on
-  /// other ranks, but within five rings around those of this one (see IsopointNeighbors); all ranks
+  /// other ranks, but within some rings around those of this one (see docs/ranks.md); all ranks
   /// ask for them, or none. Nothing with triangles, see ExtractionRequest
   /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand); the next call works as
   /// if this one had not been

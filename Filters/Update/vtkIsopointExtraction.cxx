@@ -90,7 +90,8 @@ void vtkIsopointExtraction::CollectBlocks(vtkDataObject* input, const int* whole
   {
     return;
   }
-  // A rank that has points without the array knows what there is to choose from.
+  // No rank has samples. One that has points without the array knows what there is to choose from,
+  // and reports that; the others learn of it at their next collective step.
   const bool hasPoints = blocks.GetNumberOfPointsWithoutArray() > 0;
   if (this->Team.isAny(hasPoints) == hasPoints)
   {
@@ -115,7 +116,8 @@ void vtkIsopointExtraction::ExtractLeaves(
   const std::vector<vtkIsopointBlock>& blocks = this->State.Input.GetBlocks();
   const std::vector<std::size_t> numbers = structure.GetNumbersOf(input);
   std::vector<vtkSmartPointer<vtkPolyData>> surfaces(structure.GetNumberOfLeaves());
-  std::vector<std::size_t> blockOf(surfaces.size(), blocks.size()); // behind the last one: of none
+  // Where this rank has no block it is `blocks.size()`.
+  std::vector<std::size_t> blockOf(surfaces.size(), blocks.size());
   std::vector<std::uint64_t> isHeld(surfaces.size(), 0);
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
@@ -151,7 +153,8 @@ void vtkIsopointExtraction::ExtractBlocks(
     all + static_cast<std::ptrdiff_t>(begin), all + static_cast<std::ptrdiff_t>(end));
   KeptTree& kept = this->State.Trees[tree];
   vtkIsopointInputState state = this->State.Input.GetState(begin, end);
-  state.push_back(static_cast<vtkMTimeType>(blocks.size())); // never as if nothing was loaded
+  // So that it is never empty, as that of a tree that was not loaded.
+  state.push_back(static_cast<vtkMTimeType>(blocks.size()));
   const bool isNew = this->Team.isAny(state != kept.LoadedFrom);
   const std::size_t count = std::accumulate(blocks.begin(), blocks.end(), std::size_t{ 0 },
     [](std::size_t sum, const vtkIsopointBlock& block)

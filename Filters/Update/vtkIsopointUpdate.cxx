@@ -67,9 +67,9 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   this->Kept.Input.ReleaseInput();
   if (hasFailed)
   {
+    this->ReportProblem(std::move(problem)); // first: the other ranks wait for it
     vtkDataObject::GetData(outputInfo)->Initialize();
     this->Findings = vtkIsopointFindings();
-    this->ReportProblem(std::move(problem));
   }
   else
   {
@@ -117,6 +117,11 @@ std::string vtkIsopointUpdate::DescribeFailure()
     this->Kept.Clear();
     return std::string("The extraction failed unexpectedly (") + error.what() +
            "). Report this as a bug, with the input.";
+  }
+  catch (...)
+  {
+    this->Kept.Clear();
+    return "The extraction failed unexpectedly. Report this as a bug, with the input.";
   }
 }
 

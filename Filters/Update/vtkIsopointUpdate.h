@@ -14,7 +14,6 @@
 #include <vector>
 
 class vtkAlgorithm;
-class vtkDataObject;
 class vtkInformation;
 class vtkMultiProcessController;
 struct vtkIsopointOptions;
