@@ -2,15 +2,15 @@
 #ifndef isopoint_EdgeFinder_h
 #define isopoint_EdgeFinder_h
 
-#include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,15 +3,13 @@
 #define isopoint_ExtractIsosurface_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
 #include "Isopoint/Base/SortUnique.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/GapEdges.h"
 #include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"

@@ -3,7 +3,7 @@
 #define isopoint_GapEdges_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Tree/SampleTree.h"
 

@@ -4,8 +4,8 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
-#include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/TreeRefinement.h"
 #include "Isopoint/Tree/TreeletSplitting.h"

@@ -9,7 +9,7 @@
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <algorithm>
 #include <array>

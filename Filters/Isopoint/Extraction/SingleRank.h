@@ -3,7 +3,6 @@
 #define isopoint_SingleRank_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"

@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"

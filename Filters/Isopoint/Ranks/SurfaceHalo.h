@@ -11,7 +11,7 @@
 #include "Isopoint/Ranks/SentIsopoint.h"
 #include "Isopoint/Ranks/SharedRanks.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Splat/SplatCell.h"
+#include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Tree/Path.h"
 
 #include <algorithm>

@@ -4,11 +4,10 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
-#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/TreeRefinement.h"
 

@@ -3,10 +3,9 @@
 #define isopoint_SideCheck_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/NodeMarks.h"
 
 #include <algorithm>

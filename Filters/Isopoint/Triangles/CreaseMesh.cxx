@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/CreaseMesh.h"
 
-#include "Isopoint/Triangles/CreaseSplitting.h"
-#include "Isopoint/Triangles/CreaseSurface.h"
 #include "Isopoint/Triangles/FacetMesh.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 

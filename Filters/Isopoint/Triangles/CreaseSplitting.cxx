@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Isopoint/Triangles/CreaseSplitting.h"
+#include "Isopoint/Triangles/CreaseMesh.h"
 
 #include "Isopoint/Fit/SurfacePiece.h"
 

@@ -3,13 +3,11 @@
 #define isopoint_ExtractTriangles_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
 #include "Isopoint/Triangles/CreaseMesh.h"

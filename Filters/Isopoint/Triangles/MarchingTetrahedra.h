@@ -3,13 +3,11 @@
 #define isopoint_MarchingTetrahedra_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
