@@ -84,6 +84,23 @@ private:
 /// seen, so are those that they overlap (docs/ranks.md).
 inline constexpr int ghostRings = 5;
 
+/// Some isopoints of a surface, with their splats.
+/// @param splats of all of `indices`' surface, or empty
+template <class TSample>
+ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surface,
+  const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
+{
+  ExtractedIsosurface result;
+  result.surface = std::move(surface);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
+  {
+    result.splats.push_back(splats[indices[i]]);
+  }
+  return result;
+}
+
 /// The part of a surface of triangles that is on this rank.
 /// @param all what is found on each of them
 template <class TSample>
@@ -97,14 +114,8 @@ ExtractedIsosurface partOnRank(SharedRanks<TSample>& ranks, const SampleTree<TSa
   }
   const auto rank = static_cast<std::size_t>(ranks.team().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
-  ExtractedIsosurface result;
-  result.surface = chosenIsopoints(all.surface, part.vertices);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
-  result.surface.leaves = {};
-  for (std::size_t i = 0; i < part.vertices.size() && !all.splats.empty(); ++i)
-  {
-    result.splats.push_back(all.splats[part.vertices[i]]);
-  }
+  ExtractedIsosurface result =
+    withSplats(tree, chosenIsopoints(all.surface, part.vertices), all.splats, part.vertices);
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
@@ -147,23 +158,6 @@ ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSa
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
   result.surface.leaves = {};
-  return result;
-}
-
-/// Some isopoints of a surface, with their splats.
-/// @param splats of all of `indices`' surface, or empty
-template <class TSample>
-ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surface,
-  const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
-{
-  ExtractedIsosurface result;
-  result.surface = std::move(surface);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
-  result.surface.leaves = {};
-  for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
-  {
-    result.splats.push_back(splats[indices[i]]);
-  }
   return result;
 }
 

@@ -12,7 +12,15 @@
 namespace isopoint
 {
 
-/// Sorts the elements and drops repeated ones, with every thread: they are distributed over buckets
+/// Sorts the elements and drops repeated ones.
+template <class T>
+void keepUnique(std::vector<T>& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// The same with every thread: they are distributed over buckets
 /// by their key, and the buckets are sorted independently.
 /// @param key(element) a number below keyCount, monotonic in the elements' order
 /// @throws Aborted, std::bad_alloc

@@ -148,7 +148,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
     {
       LeafValueCache<TSample> values(context.tree, context.leafMeans);
       const auto positionAt = [&context](typename TSample::Id leaf)
-      { return positionOf(context.tree.samples[context.tree.nodes[leaf].begin]); };
+      { return positionOf(context.tree.sampleOf(leaf)); };
       for (std::size_t i = begin; i < end; ++i)
       {
         const CrossingEdge<TSample>& edge = edges[i];

@@ -2,6 +2,7 @@
 #ifndef isopoint_Isosurface_h
 #define isopoint_Isosurface_h
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
@@ -50,8 +51,7 @@ std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edge
     leaves.push_back(static_cast<std::size_t>(edge.firstLeaf));
     leaves.push_back(static_cast<std::size_t>(edge.secondLeaf));
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  keepUnique(leaves);
   return leaves;
 }
 
@@ -174,8 +174,7 @@ std::vector<CoincidentSamples> coincidentEnds(
       }
     }
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  keepUnique(leaves);
   std::vector<CoincidentSamples> result;
   for (const std::size_t leaf : leaves)
   {

@@ -464,12 +464,9 @@ private:
   std::vector<BandNode> collectBelow(
     const std::vector<BandNode>& front, int depth, const Collect& collect)
   {
-    std::vector<BandNode> collected;
-    std::mutex mutex;
-    forBatches(this->Run, front.size(), searchBatch, searchGrain,
-      [&](std::size_t begin, std::size_t end)
+    return collected<BandNode>(this->Run, { front.size(), searchBatch, searchGrain },
+      [&](std::size_t begin, std::size_t end, std::vector<BandNode>& found)
       {
-        std::vector<BandNode> found;
         Path path = pathToRoot(this->Tree);
         for (std::size_t i = begin; i < end; ++i)
         {
@@ -483,10 +480,7 @@ private:
               }
             });
         }
-        const std::lock_guard<std::mutex> lock(mutex);
-        collected.insert(collected.end(), found.begin(), found.end());
       });
-    return collected;
   }
 
   // Marks of nodes.

@@ -90,7 +90,7 @@ private:
     do
     {
       constexpr std::size_t grain = 1024;
-      missing = collected<std::size_t>(execution, leaves.size(), grain,
+      missing = collected<std::size_t>(execution, { leaves.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
           for (std::size_t i = begin; i < end; ++i)

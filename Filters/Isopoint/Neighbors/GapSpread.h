@@ -122,9 +122,8 @@ private:
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)
       {
-        return criterion.drops(this->Tree, this->Bounds,
-          this->Tree.samples[this->Tree.nodes[leaf].begin],
-          this->Tree.samples[this->Tree.nodes[other].begin]);
+        return criterion.drops(
+          this->Tree, this->Bounds, this->Tree.sampleOf(leaf), this->Tree.sampleOf(other));
       });
   }
 

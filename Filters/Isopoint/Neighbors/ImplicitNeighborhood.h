@@ -39,7 +39,7 @@ public:
   {
     this->Bounds.compute();
     this->Region = leaf.region;
-    this->Center = positionOf(this->Tree.samples[this->Tree.nodes[leaf.nodeIndex()].begin]);
+    this->Center = positionOf(this->Tree.sampleOf(leaf.nodeIndex()));
     this->Tops.clear();
     for (const FoundNode& root : Surroundings(leaf))
     {
@@ -238,7 +238,7 @@ private:
 
   Offset offsetTo(std::size_t nodeIndex) const
   {
-    const TSample& sample = this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
+    const TSample& sample = this->Tree.sampleOf(nodeIndex);
     return offsetBetween(this->Center, positionOf(sample));
   }
 

@@ -3,14 +3,16 @@
 #define isopoint_SharedRanks_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
+#include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
 #include "Isopoint/Ranks/NodeExchange.h"
-#include "Isopoint/Ranks/RankThinning.h"
 #include "Isopoint/Ranks/SentIsopoint.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
@@ -18,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <vector>
@@ -130,13 +133,42 @@ public:
       const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
       found.push_back(static_cast<std::size_t>(edge - edges.begin()));
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    keepUnique(found);
   }
 
+  /// The order of the whole surface runs through all ranks: one rank thins for all, and takes
+  /// memory for the fits of all.
   void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
   {
-    RankThinning(execution, this->Group, minimumSpacing).thinOut(surface);
+    std::vector<ByteBuffer> questions(this->rankCount());
+    for (std::size_t i = 0; i < surface.fits.size(); ++i)
+    {
+      append(questions.front(), surface.edges[i]);
+      appendFit(questions.front(), surface.fits[i]);
+    }
+    std::vector<std::vector<IsopointEdge>> asked(this->rankCount());
+    std::map<IsopointEdge, LocalFit> whole; // each isopoint is on one rank or on several
+    const std::vector<ByteBuffer> arrived = this->Group.exchange(questions);
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      ByteReader in(arrived[rank]);
+      while (!in.isAtEnd())
+      {
+        asked[rank].push_back(in.read<IsopointEdge>());
+        whole.emplace(asked[rank].back(), readFit(in));
+      }
+    }
+    const std::vector<IsopointEdge> keptEdges = thinned(execution, minimumSpacing, whole);
+    std::vector<std::vector<char>> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      for (const IsopointEdge& edge : asked[rank])
+      {
+        answers[rank].push_back(
+          std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
+      }
+    }
+    surface = chosenIsopoints(surface, markedOf(this->Group.exchange(answers).front()));
   }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)
@@ -199,6 +231,25 @@ private:
     std::uint64_t first;
     std::uint64_t second;
   };
+
+  /// The edges of the isopoints that thin() keeps, ascending.
+  static std::vector<IsopointEdge> thinned(const Execution& execution, double minimumSpacing,
+    const std::map<IsopointEdge, LocalFit>& whole)
+  {
+    std::vector<IsopointEdge> edges;
+    std::vector<LocalFit> fits;
+    for (const auto& [edge, fit] : whole)
+    {
+      edges.push_back(edge);
+      fits.push_back(fit);
+    }
+    std::vector<IsopointEdge> kept;
+    for (const std::size_t i : keptPoints(execution, minimumSpacing, fits))
+    {
+      kept.push_back(edges[i]);
+    }
+    return kept;
+  }
 
   std::size_t rankCount() const { return static_cast<std::size_t>(this->Group.size()); }
 

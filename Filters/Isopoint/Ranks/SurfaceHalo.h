@@ -3,6 +3,7 @@
 #define isopoint_SurfaceHalo_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
@@ -12,7 +13,6 @@
 #include "Isopoint/Ranks/SharedRanks.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatFans.h"
-#include "Isopoint/Tree/Path.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -202,13 +203,6 @@ private:
     }
   };
 
-  template <class T>
-  static void keepUnique(std::vector<T>& list)
-  {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-
   static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
   {
     std::vector<std::size_t> ends;
@@ -236,37 +230,19 @@ private:
   /// those no isopoints are looked for.
   std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
   {
+    using Id = typename TSample::Id;
     constexpr std::size_t most = 256; // see IsopointNeighbors
     std::vector<std::size_t> all = leaves;
     std::mutex mutex;
     this->Ranks.forEach(
-      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<std::size_t>(); },
-      [&](std::vector<std::size_t>& touching, std::size_t i)
+      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
+      [&](std::vector<Id>& memory, std::size_t i)
       {
-        touching.clear();
-        const auto known = this->Known.at(leaves[i]);
-        if (known.isEmpty())
-        {
-          visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaves[i]),
-            [&](std::size_t node)
-            {
-              touching.push_back(node);
-              return touching.size() > most;
-            });
-        }
-        else
-        {
-          touching.assign(known.begin(), known.end());
-        }
-        if (touching.size() <= most)
-        {
-          touching.erase(
-            std::remove_if(touching.begin(), touching.end(),
-              [this](std::size_t node) { return this->Tree.hasOwn(this->Tree.nodes[node]); }),
-            touching.end());
-          const std::lock_guard<std::mutex> lock(mutex);
-          all.insert(all.end(), touching.begin(), touching.end());
-        }
+        const NodeList<Id> touching =
+          fewNeighborsOf(this->Tree, this->Known, leaves[i], most, memory);
+        const std::lock_guard<std::mutex> lock(mutex);
+        std::copy_if(touching.begin(), touching.end(), std::back_inserter(all),
+          [this](Id node) { return !this->Tree.hasOwn(this->Tree.nodes[node]); });
       });
     keepUnique(all);
     return all;
@@ -345,53 +321,41 @@ private:
   /// Brings own and received isopoints into one order.
   void unite()
   {
-    struct Source
-    {
-      IsopointEdge edge;
-      const SentIsopoint* received; // null for one of this rank's
-      std::size_t own;
-    };
-    std::vector<Source> sources;
-    for (std::size_t i = 0; i < this->Own.size(); ++i)
-    {
-      sources.push_back({ this->Own.edges[i], nullptr, i });
-    }
+    Isosurface both = this->Own;
     for (const std::vector<SentIsopoint>& list : this->Received)
     {
       for (const SentIsopoint& isopoint : list)
       {
-        sources.push_back({ isopoint.edge, &isopoint, 0 });
+        both.edges.push_back(isopoint.edge);
+        both.positions.push_back(isopoint.position);
+        both.decreasingEdges.push_back(isopoint.decreasingEdge);
+        both.leaves.push_back(isopoint.leaves);
+        if (this->HasFits)
+        {
+          both.fits.push_back(isopoint.fit);
+        }
       }
     }
-    std::stable_sort(sources.begin(), sources.end(),
-      [](const Source& a, const Source& b) { return a.edge < b.edge; });
-    sources.erase(std::unique(sources.begin(), sources.end(),
-                    [](const Source& a, const Source& b) { return a.edge == b.edge; }),
-      sources.end());
+    std::vector<std::size_t> order(both.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::stable_sort(order.begin(), order.end(),
+      [&both](std::size_t a, std::size_t b) { return both.edges[a] < both.edges[b]; });
+    order.erase(std::unique(order.begin(), order.end(),
+                  [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
+      order.end());
+    this->All = chosenIsopoints(both, order);
     std::sort(this->Surrounded.begin(), this->Surrounded.end());
-    this->All = Isosurface();
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
-    this->All.isovalue = this->Own.isovalue;
-    for (const Source& source : sources)
+    for (std::size_t i = 0; i < order.size(); ++i)
     {
-      const bool isOwn = !source.received;
+      const bool isOwn = order[i] < this->Own.size();
       if (isOwn)
       {
-        this->OwnIndices[source.own] = this->All.size();
+        this->OwnIndices[order[i]] = i;
       }
-      this->All.positions.push_back(
-        isOwn ? this->Own.positions[source.own] : source.received->position);
-      this->All.decreasingEdges.push_back(
-        isOwn ? this->Own.decreasingEdges[source.own] : source.received->decreasingEdge);
-      this->All.leaves.push_back(isOwn ? this->Own.leaves[source.own] : source.received->leaves);
-      if (this->HasFits)
-      {
-        this->All.fits.push_back(isOwn ? this->Own.fits[source.own] : source.received->fit);
-      }
-      this->IsInner.push_back(
-        isOwn || std::binary_search(this->Surrounded.begin(), this->Surrounded.end(), source.edge));
-      this->All.edges.push_back(source.edge);
+      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
+                                         this->Surrounded.end(), this->All.edges[i]));
     }
   }
 

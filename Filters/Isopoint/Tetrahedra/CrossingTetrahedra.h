@@ -181,8 +181,8 @@ private:
       if (!this->Marks.has(leaf, bandmarks::inBand))
       {
         this->Marks.set(leaf, bandmarks::inBand);
-        sites.push_back({ positionOf(this->Tree.samples[this->Tree.nodes[leaf].begin]), leaf,
-          values.at(leaf) < this->Isovalue });
+        sites.push_back(
+          { positionOf(this->Tree.sampleOf(leaf)), leaf, values.at(leaf) < this->Isovalue });
       }
     }
     return sites;

@@ -99,6 +99,12 @@ struct SampleTree
     return this->isPartial ? this->ownEnd - this->ownBegin : this->samples.size();
   }
 
+  /// The first sample of a node: of a leaf that of the lowest id.
+  const TSample& sampleOf(std::size_t nodeIndex) const
+  {
+    return this->samples[this->nodes[nodeIndex].begin];
+  }
+
   std::size_t child(const NodeType& node, bool upper) const
   {
     return upper ? node.upperNode() : node.lowerNode();

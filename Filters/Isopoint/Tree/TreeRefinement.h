@@ -3,6 +3,7 @@
 #define isopoint_TreeRefinement_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
 
@@ -29,8 +30,7 @@ void splitFurther(
     Path path;
   };
   constexpr std::size_t small = 512;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  keepUnique(nodes);
   constexpr std::size_t batch = 4096; // paths are large
   for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
   {
@@ -79,7 +79,7 @@ void splitCompletely(
   {
     splitFurther(execution, tree, unsplit);
     constexpr std::size_t grain = 64;
-    unsplit = collected<std::size_t>(execution, tops.size(), grain,
+    unsplit = collected<std::size_t>(execution, { tops.size(), 8 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         for (std::size_t i = begin; i < end; ++i)

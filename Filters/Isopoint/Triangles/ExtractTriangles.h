@@ -144,20 +144,14 @@ private:
     return surface;
   }
 
-  const TSample& sampleOf(std::size_t leaf) const
-  {
-    return this->Tree.samples[this->Tree.nodes[leaf].begin];
-  }
-
   std::vector<Vector> positionsOnEdges(const std::vector<CrossingEdge<TSample>>& edges) const
   {
     std::vector<Vector> positions;
     positions.reserve(edges.size());
     for (const CrossingEdge<TSample>& edge : edges)
     {
-      positions.push_back(
-        interpolate(positionOf(this->sampleOf(static_cast<std::size_t>(edge.firstLeaf))),
-          positionOf(this->sampleOf(static_cast<std::size_t>(edge.secondLeaf))), edge.crossing));
+      positions.push_back(interpolate(positionOf(this->Tree.sampleOf(edge.firstLeaf)),
+        positionOf(this->Tree.sampleOf(edge.secondLeaf)), edge.crossing));
     }
     return positions;
   }

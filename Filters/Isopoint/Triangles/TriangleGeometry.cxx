@@ -146,7 +146,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   {
     constexpr std::size_t grain = 8192;
     const std::vector<std::size_t> turned =
-      collected<std::size_t>(execution, suspects.size(), grain,
+      collected<std::size_t>(execution, { suspects.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
           std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -170,8 +170,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
         fits[vertex].position = unmoved[vertex];
       }
     }
-    std::sort(suspects.begin(), suspects.end());
-    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+    keepUnique(suspects);
   }
 }
 
