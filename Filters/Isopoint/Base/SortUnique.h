@@ -12,6 +12,22 @@
 namespace isopoint
 {
 
+/// The numbers of what is marked, ascending.
+/// @param marks of characters or truth values
+template <class TMark>
+std::vector<std::size_t> markedOf(const std::vector<TMark>& marks)
+{
+  std::vector<std::size_t> marked;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    if (marks[i])
+    {
+      marked.push_back(i);
+    }
+  }
+  return marked;
+}
+
 /// Sorts the elements and drops repeated ones.
 template <class T>
 void keepUnique(std::vector<T>& list)

@@ -20,24 +20,29 @@
 namespace isopoint
 {
 
-/// An edge between the samples of two leaves on either side of the isovalue.
-template <class TSample>
-struct CrossingEdge
+/// An edge between two samples, by which edges are ordered.
+struct SampleEdge
 {
   std::uint64_t first;  // the id of one sample
   std::uint64_t second; // the id of the other, first < second
-  double crossing;      // where linear interpolation has the isovalue: 0 at `first`, 1 at `second`
-  typename TSample::Id firstLeaf; // node indices
-  typename TSample::Id secondLeaf;
 
-  bool operator<(const CrossingEdge& other) const
-  {
-    return this->first != other.first ? this->first < other.first : this->second < other.second;
-  }
-  bool operator==(const CrossingEdge& other) const
+  bool operator==(const SampleEdge& other) const
   {
     return this->first == other.first && this->second == other.second;
   }
+  bool operator<(const SampleEdge& other) const
+  {
+    return this->first != other.first ? this->first < other.first : this->second < other.second;
+  }
+};
+
+/// An edge between the samples of two leaves on either side of the isovalue.
+template <class TSample>
+struct CrossingEdge : SampleEdge
+{
+  double crossing; // where linear interpolation has the isovalue: 0 at `first`, 1 at `second`
+  typename TSample::Id firstLeaf; // node indices
+  typename TSample::Id secondLeaf;
 };
 
 /// The leaves at the ends of edges, ordered, each once.
@@ -68,22 +73,11 @@ struct IsosurfaceRequest
 };
 
 /// The edge of an isopoint, between two samples on either side of the isovalue.
-struct IsopointEdge
+struct IsopointEdge : SampleEdge
 {
-  std::uint64_t first;  // the id of one sample
-  std::uint64_t second; // the id of the other, first < second
   /// The place on the edge that is nearest to the isopoint: 0 at `first`, 1 at `second`. All
   /// attributes are interpolated there.
   double parameter;
-
-  bool operator==(const IsopointEdge& other) const
-  {
-    return this->first == other.first && this->second == other.second;
-  }
-  bool operator<(const IsopointEdge& other) const
-  {
-    return this->first != other.first ? this->first < other.first : this->second < other.second;
-  }
 };
 
 /// The node indices of the two leaves that an edge connects.

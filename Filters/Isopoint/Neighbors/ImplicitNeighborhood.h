@@ -104,7 +104,7 @@ public:
   /// leaves. The choice depends on the neighborhood alone, not on what else of the tree is
   /// refined.
   /// @param size below which a box is small: its diagonal over its distance
-  /// @param visit(nodeIndex, count) a leaf, and about how many neighbors it represents
+  /// @param visit(nodeIndex) a leaf
   /// Complexity: O(log n) for n neighbors on lines
   template <class Visitor>
   void forEachSpread(double size, const Visitor& visit) const
@@ -163,11 +163,11 @@ private:
     if (!node.isSplit())
     {
       requireLeaf(this->Tree, nodeIndex, this->Region);
-      visit(nodeIndex, std::size_t{ 1 });
+      visit(nodeIndex);
     }
     else if (this->touchesBoth(node) && this->isSmall(node, size))
     {
-      visit(this->leafBelow(nodeIndex), node.count());
+      visit(this->leafBelow(nodeIndex));
     }
     else
     {

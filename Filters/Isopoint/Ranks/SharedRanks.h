@@ -10,7 +10,6 @@
 #include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
 #include "Isopoint/Ranks/NodeExchange.h"
 #include "Isopoint/Ranks/SentIsopoint.h"
@@ -119,7 +118,7 @@ public:
 
   void uniteEdges(const Edges& edges, std::vector<std::size_t>& found)
   {
-    std::vector<std::vector<EdgeIds>> outgoing(this->rankCount());
+    std::vector<std::vector<SampleEdge>> outgoing(this->rankCount());
     for (const std::size_t i : found)
     {
       this->forOtherRanks(edges[i],
@@ -127,9 +126,8 @@ public:
           outgoing[rank].push_back({ edges[i].first, edges[i].second });
         });
     }
-    for (const EdgeIds& ids : united(this->Group.exchange(outgoing)))
+    for (const SampleEdge& wanted : united(this->Group.exchange(outgoing)))
     {
-      const CrossingEdge<TSample> wanted{ ids.first, ids.second, 0.0, 0, 0 };
       const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
       found.push_back(static_cast<std::size_t>(edge - edges.begin()));
     }
@@ -225,13 +223,6 @@ public:
   }
 
 private:
-  /// The ends of an edge.
-  struct EdgeIds
-  {
-    std::uint64_t first;
-    std::uint64_t second;
-  };
-
   /// The edges of the isopoints that thin() keeps, ascending.
   static std::vector<IsopointEdge> thinned(const Execution& execution, double minimumSpacing,
     const std::map<IsopointEdge, LocalFit>& whole)

@@ -93,8 +93,8 @@ public:
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
   /// Those that are counted on this rank, and all others.
-  std::vector<std::size_t> home() const { return this->chosen(true); }
-  std::vector<std::size_t> elsewhere() const { return this->chosen(false); }
+  std::vector<std::size_t> home() const { return markedOf(this->IsHome); }
+  std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
 
   /// The surface of home().
   Isosurface takeHome() const { return chosenIsopoints(this->All, this->home()); }
@@ -191,17 +191,8 @@ private:
     std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
   };
 
-  struct OwnEnd
-  {
-    std::uint64_t place; // of a leaf
-    std::size_t isopoint;
-
-    bool operator<(const OwnEnd& other) const
-    {
-      return this->place != other.place ? this->place < other.place
-                                        : this->isopoint < other.isopoint;
-    }
-  };
+  /// The place of a leaf, and an isopoint whose edge ends there.
+  using OwnEnd = std::pair<std::uint64_t, std::size_t>;
 
   static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
   {
@@ -220,7 +211,7 @@ private:
     {
       for (const std::size_t leaf : { this->Own.leaves[i].first, this->Own.leaves[i].second })
       {
-        this->OwnEnds.push_back({ this->Tree.nodes[leaf].begin, i });
+        this->OwnEnds.emplace_back(this->Tree.nodes[leaf].begin, i);
       }
     }
     std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
@@ -285,9 +276,9 @@ private:
     {
       for (auto end =
              std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
-           end != this->OwnEnds.end() && end->place == place; ++end)
+           end != this->OwnEnds.end() && end->first == place; ++end)
       {
-        isopoints.push_back(end->isopoint);
+        isopoints.push_back(end->second);
       }
     }
     keepUnique(isopoints);
@@ -364,11 +355,13 @@ private:
   void chooseOwn(bool isShared)
   {
     this->IsHome.assign(this->All.size(), false);
+    this->IsElsewhere.assign(this->All.size(), true);
     std::vector<bool> isOwn(this->All.size(), false);
     for (const std::size_t i : this->OwnIndices)
     {
       isOwn[i] = true;
       this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      this->IsElsewhere[i] = !this->IsHome[i];
       // Either rank of an edge between two sends such a ghost.
       if (this->IsHome[i] || isShared)
       {
@@ -382,19 +375,6 @@ private:
         this->OwnInTreeOrder.push_back(i);
       }
     }
-  }
-
-  std::vector<std::size_t> chosen(bool areHome) const
-  {
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < this->IsHome.size(); ++i)
-    {
-      if (this->IsHome[i] == areHome)
-      {
-        indices.push_back(i);
-      }
-    }
-    return indices;
   }
 
   /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
@@ -427,7 +407,8 @@ private:
   std::vector<std::size_t> OwnInTreeOrder;
   std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
-  std::vector<bool> IsHome;
+  std::vector<bool> IsHome; // whether each is counted on this rank
+  std::vector<bool> IsElsewhere;
 };
 
 } // namespace isopoint

@@ -130,7 +130,8 @@ std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
   }
   if (nodeCount > tree.nodes.size())
   {
-    tree.nodes.resize(nodeCount);
+    constexpr std::size_t spare = 8192; // where a tree grows in small steps
+    tree.nodes.resize(nodeCount + (tree.isPartial ? spare : 0));
   }
   tree.usedPairs = first + pairCount;
   return first;

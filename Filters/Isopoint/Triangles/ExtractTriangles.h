@@ -130,7 +130,7 @@ private:
     const bool isMoved = this->Request.fit && this->Request.fit->move;
     if (isMoved)
     {
-      keepTrianglesUpright(this->Run, this->positionsOnEdges(mesh.edges), mesh.triangles, fits);
+      keepTrianglesUpright(this->Run, mesh.positions, mesh.triangles, fits);
     }
     TriangleSurface surface;
     surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
@@ -142,18 +142,6 @@ private:
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);
     return surface;
-  }
-
-  std::vector<Vector> positionsOnEdges(const std::vector<CrossingEdge<TSample>>& edges) const
-  {
-    std::vector<Vector> positions;
-    positions.reserve(edges.size());
-    for (const CrossingEdge<TSample>& edge : edges)
-    {
-      positions.push_back(interpolate(positionOf(this->Tree.sampleOf(edge.firstLeaf)),
-        positionOf(this->Tree.sampleOf(edge.secondLeaf)), edge.crossing));
-    }
-    return positions;
   }
 
   const Execution& Run;

@@ -29,6 +29,7 @@ struct EdgeTriangles
   /// One for each vertex, ordered, each once. Of edges whose crossings are one sample, since that
   /// has the isovalue, the first.
   std::vector<CrossingEdge<TSample>> edges;
+  std::vector<Vector> positions;          // of the crossings
   std::vector<SurfaceTriangle> triangles; // ordered
 };
 
@@ -241,9 +242,11 @@ private:
       [this](std::size_t a, std::size_t b) { return this->Edges[a] < this->Edges[b]; });
     EdgeTriangles<TSample> result;
     result.edges.reserve(order.size());
+    result.positions.reserve(order.size());
     for (const std::size_t vertex : order)
     {
       result.edges.push_back(this->Edges[vertex]);
+      result.positions.push_back(this->Positions[vertex]);
     }
     result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
     return result;

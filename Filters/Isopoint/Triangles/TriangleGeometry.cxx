@@ -85,15 +85,7 @@ std::vector<std::size_t> verticesOf(
       isUsed[vertex] = true;
     }
   }
-  std::vector<std::size_t> vertices;
-  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
-  {
-    if (isUsed[vertex])
-    {
-      vertices.push_back(vertex);
-    }
-  }
-  return vertices;
+  return markedOf(isUsed);
 }
 
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
