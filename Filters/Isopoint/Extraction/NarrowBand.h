@@ -100,14 +100,6 @@ public:
       depth = bottom;
       throwIfAborted(this->Run);
     }
-    return crossingOf(front);
-  }
-
-private:
-  using NodeType = Node<TSample>;
-
-  static std::vector<BinaryIndex> crossingOf(const std::vector<BandNode>& front)
-  {
     std::vector<BinaryIndex> crossing;
     for (const BandNode& node : front)
     {
@@ -118,6 +110,9 @@ private:
     }
     return crossing;
   }
+
+private:
+  using NodeType = Node<TSample>;
 
   /// To split few samples all the way takes less time than to determine which are needed.
   /// @returns whether that was done

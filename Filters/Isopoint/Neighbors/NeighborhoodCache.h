@@ -12,7 +12,7 @@
 namespace isopoint
 {
 
-/// The neighbors of a leaf, as node indices.
+/// A part of a list of numbers, as of nodes: mostly the neighbors of a leaf.
 template <class TId>
 struct NodeList
 {

@@ -46,7 +46,7 @@ public:
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
-    , Known(known)
+    , Cache(known)
     , Own(std::move(own))
     , HasFits(hasFits)
   {
@@ -230,7 +230,7 @@ private:
       [&](std::vector<Id>& memory, std::size_t i)
       {
         const NodeList<Id> touching =
-          fewNeighborsOf(this->Tree, this->Known, leaves[i], most, memory);
+          fewNeighborsOf(this->Tree, this->Cache, leaves[i], most, memory);
         const std::lock_guard<std::mutex> lock(mutex);
         std::copy_if(touching.begin(), touching.end(), std::back_inserter(all),
           [this](Id node) { return !this->Tree.hasOwn(this->Tree.nodes[node]); });
@@ -394,7 +394,7 @@ private:
   const Execution& Run;
   const SampleTree<TSample>& Tree;
   SharedRanks<TSample>& Ranks;
-  const Neighborhoods& Known;
+  const Neighborhoods& Cache;
   const Isosurface Own;
   const bool HasFits;
   std::vector<OwnEnd> OwnEnds;

@@ -43,8 +43,7 @@ public:
   void replace(const Execution& execution, const Reader& read)
   {
     throwIfAborted(execution);
-    Path path = pathToRoot(this->Tree);
-    this->visit(path);
+    this->visit(SampleTree<TSample>::rootNode);
     const std::vector<std::vector<Id>> asked = this->Group.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
     for (const std::vector<Id>& ids : asked)
@@ -73,28 +72,28 @@ private:
   };
 
   /// Lists what is below a node: whole subtrees with samples, and absent nodes.
-  void visit(Path& path)
+  void visit(std::size_t nodeIndex)
   {
-    const Node<TSample>& node = this->Tree.nodes[path.nodeIndex()];
-    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (node.isAbsent)
     {
-      this->Absent.push_back(path.index);
-      this->AbsentNodes.push_back(path.nodeIndex());
+      this->Absent.push_back(nodeIndex);
     }
-    else if (isOwn || !node.isSplit())
+    else if (this->isOwn(node) || !node.isSplit())
     {
-      this->Whole.push_back(path.nodeIndex());
+      this->Whole.push_back(nodeIndex);
     }
     else
     {
-      for (const bool upper : { false, true })
-      {
-        descend(this->Tree, path, upper);
-        this->visit(path);
-        ascend(path);
-      }
+      this->visit(node.lowerNode());
+      this->visit(node.upperNode());
     }
+  }
+
+  /// Whether all samples of a node are this rank's own.
+  bool isOwn(const Node<TSample>& node) const
+  {
+    return node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
   }
 
   /// Calls action(sample, rank that has read it) for each sample that this rank holds.
@@ -156,11 +155,10 @@ private:
   {
     std::vector<std::vector<BinaryIndex>> questions(this->FirstIds.size() - 1);
     std::vector<std::vector<std::size_t>> nodes(questions.size());
-    for (std::size_t i = 0; i < this->Absent.size(); ++i)
+    for (const std::size_t node : this->Absent)
     {
-      const std::size_t node = this->AbsentNodes[i];
       const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
-      questions[owner].push_back(this->Absent[i]);
+      questions[owner].push_back(pathToLeaf(this->Tree, node).index);
       nodes[owner].push_back(node);
     }
     const std::vector<std::vector<BinaryIndex>> asked = this->Group.exchange(questions);
@@ -189,8 +187,7 @@ private:
   void uniteFrom(std::size_t nodeIndex)
   {
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
-    if (!isOwn && node.isSplit())
+    if (!this->isOwn(node) && node.isSplit())
     {
       this->uniteFrom(node.lowerNode());
       this->uniteFrom(node.upperNode());
@@ -201,10 +198,9 @@ private:
   Team& Group;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
-  std::vector<std::uint64_t> FirstIds;  // of each rank's items, and the end
-  std::vector<std::size_t> Whole;       // nodes all of whose samples this rank holds
-  std::vector<BinaryIndex> Absent;      // and where they are in this rank's tree:
-  std::vector<std::size_t> AbsentNodes; //
+  std::vector<std::uint64_t> FirstIds; // of each rank's items, and the end
+  std::vector<std::size_t> Whole;      // nodes all of whose samples this rank holds
+  std::vector<std::size_t> Absent;     // nodes
 };
 
 } // namespace isopoint

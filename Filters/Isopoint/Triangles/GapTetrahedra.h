@@ -38,12 +38,9 @@ public:
   bool isCounted(std::size_t tetrahedron) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    std::size_t place = this->Tree.nodes[corners[0]].begin;
-    for (const auto leaf : corners)
-    {
-      place = std::min(place, static_cast<std::size_t>(this->Tree.nodes[leaf].begin));
-    }
-    return this->Tree.isOwn(place);
+    const auto first = *std::min_element(corners.begin(), corners.end(),
+      [this](auto a, auto b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    return this->Tree.isOwn(this->Tree.nodes[first].begin);
   }
 
   template <class TRanks>
