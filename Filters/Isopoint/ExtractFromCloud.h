@@ -2,20 +2,23 @@
 #ifndef isopoint_ExtractFromCloud_h
 #define isopoint_ExtractFromCloud_h
 
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/SingleRank.h"
+#include "Isopoint/IsosurfaceExtractor.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Ranks/SharedRanks.h"
 #include "Isopoint/Ranks/SurfaceHalo.h"
-#include "Isopoint/SampleCloud.h"
 #include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatGeometry.h"
+#include "Isopoint/Tree/SampleTree.h"
 #include "Isopoint/Triangles/ExtractTriangles.h"
 #include "Isopoint/Triangles/SurfacePart.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
-#include "Isopoint/WholeSurface.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -25,9 +28,78 @@
 namespace isopoint
 {
 
+/// The isopoints of the one rank, which has all: what SurfaceHalo is for several ranks, whose
+/// functions are described there.
+template <class TSample>
+class WholeSurface : public AllPoints
+{
+public:
+  WholeSurface(const Execution& /*execution*/, SingleRank<TSample>& /*ranks*/,
+    const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
+    Isosurface whole, bool /*hasFits*/)
+    : AllPoints(whole.size())
+    , Tree(tree)
+    , Whole(std::move(whole))
+  {
+  }
+
+  /// Close points come after each other, so that what lies around them is in the caches.
+  void gather(int rings, bool /*isShared*/)
+  {
+    if (rings == 0)
+    {
+      return;
+    }
+    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
+    this->Ordered = chosenIsopoints(this->Whole, this->Order);
+  }
+
+  const Isosurface& surface() const { return this->Ordered; }
+  const std::vector<std::size_t>& numbers() const { return this->Order; }
+  const std::vector<bool>* inner() const { return nullptr; }
+
+  std::vector<std::size_t> home() const
+  {
+    std::vector<std::size_t> places(this->Order.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      places[this->Order[i]] = i;
+    }
+    return places;
+  }
+  std::vector<std::size_t> elsewhere() const { return {}; }
+
+  Isosurface takeHome() { return std::move(this->Whole); }
+
+  void share(std::vector<Splat>& /*splats*/) const {}
+
+private:
+  const SampleTree<TSample>& Tree;
+  Isosurface Whole;
+  std::vector<std::size_t> Order;
+  Isosurface Ordered;
+};
+
 /// Of neighbors around a rank's isopoints that are its ghosts: where splats of the second ring are
 /// seen, so are those that they overlap (docs/ranks.md).
 inline constexpr int ghostRings = 5;
+
+/// Some isopoints of a surface, with their splats.
+/// @param splats of all of `indices`' surface, or empty
+template <class TSample>
+ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surface,
+  const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
+{
+  ExtractedIsosurface result;
+  result.surface = std::move(surface);
+  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.leaves = {};
+  for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
+  {
+    result.splats.push_back(splats[indices[i]]);
+  }
+  return result;
+}
 
 /// The part of a surface of triangles that is on this rank.
 /// @param all what is found on each of them
@@ -42,14 +114,8 @@ ExtractedIsosurface partOnRank(SharedRanks<TSample>& ranks, const SampleTree<TSa
   }
   const auto rank = static_cast<std::size_t>(ranks.team().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
-  ExtractedIsosurface result;
-  result.surface = chosenIsopoints(all.surface, part.vertices);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
-  result.surface.leaves = {};
-  for (std::size_t i = 0; i < part.vertices.size() && !all.splats.empty(); ++i)
-  {
-    result.splats.push_back(all.splats[part.vertices[i]]);
-  }
+  ExtractedIsosurface result =
+    withSplats(tree, chosenIsopoints(all.surface, part.vertices), all.splats, part.vertices);
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
@@ -92,23 +158,6 @@ ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSa
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
   result.surface.leaves = {};
-  return result;
-}
-
-/// Some isopoints of a surface, with their splats.
-/// @param splats of all of `indices`' surface, or empty
-template <class TSample>
-ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surface,
-  const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
-{
-  ExtractedIsosurface result;
-  result.surface = std::move(surface);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
-  result.surface.leaves = {};
-  for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
-  {
-    result.splats.push_back(splats[indices[i]]);
-  }
   return result;
 }
 

@@ -3,9 +3,8 @@
 #define isopoint_ExtractionRequest_h
 
 #include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,9 +5,9 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/ExtractionRequest.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Ranks/SharedTree.h"
 #include "Isopoint/Ranks/ValueExchange.h"
-#include "Isopoint/SampleCloud.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -21,6 +21,23 @@
 
 namespace isopoint
 {
+
+/// The samples of one layout, and what has been found out about them.
+template <class TSample>
+struct SampleCloud
+{
+  SampleTree<TSample> tree;
+  NeighborhoodCache<typename TSample::Id> neighborhoods;
+  std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks
+};
+
+/// What IsosurfaceExtractor::extract() does, for one layout of samples. Each layout is compiled in
+/// a file of its own, since that takes long.
+/// @param itemCount of all ranks, those left out included
+/// @param team null unless the cloud is on ranks
+template <class TSample>
+ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSample>& cloud,
+  std::size_t itemCount, Team* team, const ExtractionRequest& request, ExtractedIsosurface* ghosts);
 
 /// The narrowest layout that holds coordinates and values of these types (float or double).
 template <class TCoordinate, class TValue>
@@ -93,7 +110,7 @@ public:
 
   /// Replaces the values, provided that positions, types and the items that take part are those of
   /// the last load(); the tree is kept. Otherwise nothing changes. All ranks have to hold what they
-  /// loaded last. There a digest stands for positions: others pass for the same once in 2^64 cases.
+  /// loaded last. A digest stands for positions: others pass for the same once in 2^64 cases.
   /// @returns whether it did
   /// @throws Aborted, the former values kept or all samples dropped; std::bad_alloc, and then holds
   /// no samples
@@ -166,10 +183,7 @@ private:
     {
       return false;
     }
-    const bool isSame =
-      this->Group ? this->holdsPositionsOnRanks<TSample>(execution, count, read)
-                  : count == this->ItemCount && holdsPositions(execution, cloud->tree, count, read);
-    if (!isSame)
+    if (!this->holdsPositions(execution, cloud->tree, count, read))
     {
       return false;
     }
@@ -193,12 +207,19 @@ private:
     return true;
   }
 
+  /// Whether the tree holds exactly the items that take part, at their positions. Collective.
   template <class TSample, class Reader>
-  bool holdsPositionsOnRanks(const Execution& execution, std::size_t count, const Reader& read)
+  bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
+    std::size_t count, const Reader& read)
   {
-    const auto own = static_cast<std::size_t>(this->Group->rank());
-    return !this->Group->isAny(count != this->ItemCounts[own] ||
-                               digestOfItems<TSample>(execution, count, read) != this->Positions);
+    const std::size_t loaded = this->Group
+                                 ? this->ItemCounts[static_cast<std::size_t>(this->Group->rank())]
+                                 : this->ItemCount;
+    const std::uint64_t positions =
+      this->Group ? this->Positions : digestOfSamples(execution, tree.samples, 0);
+    const bool isSame =
+      count == loaded && digestOfItems<TSample>(execution, count, read) == positions;
+    return this->Group ? !this->Group->isAny(!isSame) : isSame;
   }
 
   std::variant<SampleCloud<FloatSample>, SampleCloud<FloatSampleOfDouble>,

@@ -3,7 +3,7 @@
 
 #include "Input/vtkIsopointAllocation.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
+#include "Isopoint/Base/Vector.h"
 #include "Output/vtkIsopointOutput.h"
 
 #include "vtkAbstractArray.h"

@@ -2,7 +2,6 @@
 #include "Update/vtkIsopointFindings.h"
 
 #include "Input/vtkIsopointBlock.h"
-#include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Update/vtkIsopointOptions.h"

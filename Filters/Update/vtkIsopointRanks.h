@@ -2,7 +2,6 @@
 #ifndef vtkIsopointRanks_h
 #define vtkIsopointRanks_h
 
-#include "Isopoint/Base/Communicator.h"
 #include "Isopoint/Base/Team.h"
 
 #include "vtkSmartPointer.h"

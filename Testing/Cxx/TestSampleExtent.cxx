@@ -3,7 +3,6 @@
 // section 12.4).
 #include "Clouds.h"
 
-#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Extraction/SingleRank.h"

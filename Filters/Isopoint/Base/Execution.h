@@ -155,16 +155,16 @@ void forEachItem(
     batchDone);
 }
 
-/// What the ranges of [0, count) yield together, in any order.
+/// What ranges of items yield together, in any order.
 /// @param collect(begin, end, found) appends what a range yields; from any thread
 /// @throws Aborted, std::bad_alloc, and what collecting throws
 template <class T, class Collect>
 std::vector<T> collected(
-  const Execution& execution, std::size_t count, std::size_t grain, const Collect& collect)
+  const Execution& execution, const ItemBatches& batches, const Collect& collect)
 {
   std::vector<T> all;
   std::mutex mutex;
-  forBatches(execution, count, 8 * grain, grain,
+  forBatches(execution, batches.count, batches.batchPerThread, batches.grain,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<T> found;

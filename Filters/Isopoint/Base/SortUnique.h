@@ -12,7 +12,31 @@
 namespace isopoint
 {
 
-/// Sorts the elements and drops repeated ones, with every thread: they are distributed over buckets
+/// The numbers of what is marked, ascending.
+/// @param marks of characters or truth values
+template <class TMark>
+std::vector<std::size_t> markedOf(const std::vector<TMark>& marks)
+{
+  std::vector<std::size_t> marked;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    if (marks[i])
+    {
+      marked.push_back(i);
+    }
+  }
+  return marked;
+}
+
+/// Sorts the elements and drops repeated ones.
+template <class T>
+void keepUnique(std::vector<T>& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// The same with every thread: they are distributed over buckets
 /// by their key, and the buckets are sorted independently.
 /// @param key(element) a number below keyCount, monotonic in the elements' order
 /// @throws Aborted, std::bad_alloc

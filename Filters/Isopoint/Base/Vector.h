@@ -2,8 +2,10 @@
 #ifndef isopoint_Vector_h
 #define isopoint_Vector_h
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace isopoint
 {
@@ -51,6 +53,75 @@ inline Vector directionOf(const Vector& a)
   const double length = lengthOf(a);
   return length > 0.0 ? Vector{ a[0] / length, a[1] / length, a[2] / length }
                       : Vector{ 1.0, 0.0, 0.0 };
+}
+
+/// Two unit vectors orthogonal to a normal, first x second along it. They depend on nothing but the
+/// normal.
+struct TangentFrame
+{
+  Vector first;
+  Vector second;
+
+  /// @param normal of length 1
+  explicit TangentFrame(const Vector& normal)
+  {
+    std::size_t flattest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      flattest = std::abs(normal[axis]) < std::abs(normal[flattest]) ? axis : flattest;
+    }
+    Vector unit{ 0.0, 0.0, 0.0 };
+    unit[flattest] = 1.0;
+    this->first = directionOf(cross(normal, unit));
+    this->second = cross(normal, this->first);
+  }
+};
+
+/// The number of directions in which the extent of the samples around a place is measured.
+constexpr std::size_t extentCount = 8;
+
+/// Unit vectors orthogonal to a normal, at equal angles around it.
+inline std::array<Vector, extentCount> extentDirections(const Vector& normal)
+{
+  constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
+  const TangentFrame frame(normal);
+  const Vector upwards = scaled(diagonal, frame.second);
+  const Vector downwards = scaled(-1.0, upwards);
+  return { frame.first, sum(upwards, diagonal, frame.first), frame.second,
+    sum(upwards, -diagonal, frame.first), scaled(-1.0, frame.first),
+    sum(downwards, -diagonal, frame.first), scaled(-1.0, frame.second),
+    sum(downwards, diagonal, frame.first) };
+}
+
+/// The parameter at which linear interpolation between two different values has a third one between
+/// them: 0 at `first`, 1 at `second`. The second form is for differences beyond double's range.
+inline double edgeParameter(double first, double second, double value)
+{
+  const double difference = second - first;
+  return std::isfinite(difference) ? (value - first) / difference
+                                   : (0.5 * value - 0.5 * first) / (0.5 * second - 0.5 * first);
+}
+
+/// Linear interpolation along an edge. The second form is for differences beyond double's range.
+inline double interpolate(double first, double second, double parameter)
+{
+  const double difference = second - first;
+  return std::isfinite(difference) ? first + parameter * difference
+                                   : (1.0 - parameter) * first + parameter * second;
+}
+
+inline Vector interpolate(const Vector& first, const Vector& second, double parameter)
+{
+  return { interpolate(first[0], second[0], parameter), interpolate(first[1], second[1], parameter),
+    interpolate(first[2], second[2], parameter) };
+}
+
+/// The parameter, within 0 and 1, of the place on an edge that is nearest to a position.
+inline double nearestParameter(const Vector& first, const Vector& second, const Vector& position)
+{
+  const Vector along = difference(second, first);
+  const double parameter = dot(difference(position, first), directionOf(along)) / lengthOf(along);
+  return std::min(std::max(parameter, 0.0), 1.0);
 }
 
 } // namespace isopoint

@@ -2,15 +2,15 @@
 #ifndef isopoint_EdgeFinder_h
 #define isopoint_EdgeFinder_h
 
-#include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -100,7 +100,7 @@ private:
     {
       return;
     }
-    this->measureNeighbors(this->sampleAt(leaf.nodeIndex()));
+    this->measureNeighbors(this->Tree.sampleOf(leaf.nodeIndex()));
     for (const Crossing& crossing : this->Crossings)
     {
       if (this->survives(crossing.neighbor))
@@ -154,11 +154,6 @@ private:
       { this->connect(leaf, value, nodeIndex, this->Values.at(nodeIndex)); });
   }
 
-  const TSample& sampleAt(std::size_t nodeIndex) const
-  {
-    return this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
-  }
-
   /// Lists the neighbors on the other side of the isovalue.
   void findCrossings(bool isBelow)
   {
@@ -179,10 +174,8 @@ private:
     const Vector center = positionOf(sample);
     this->Offsets.resize(this->Neighbors.count);
     std::transform(this->Neighbors.begin(), this->Neighbors.end(), this->Offsets.begin(),
-      [this, &center](Id nodeIndex) {
-        return offsetBetween(
-          center, positionOf(this->sampleAt(static_cast<std::size_t>(nodeIndex))));
-      });
+      [this, &center](Id nodeIndex)
+      { return offsetBetween(center, positionOf(this->Tree.sampleOf(nodeIndex))); });
     this->Sorted.clear();
   }
 
@@ -206,8 +199,8 @@ private:
   /// Adds the edge between a leaf's sample and another one.
   void connect(const Path& leaf, double value, std::size_t otherLeaf, double otherValue)
   {
-    const TSample& sample = this->sampleAt(leaf.nodeIndex());
-    const TSample& otherSample = this->sampleAt(otherLeaf);
+    const TSample& sample = this->Tree.sampleOf(leaf.nodeIndex());
+    const TSample& otherSample = this->Tree.sampleOf(otherLeaf);
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
     if (this->ListsGaps && this->isStrong(leaf, sample, otherSample))

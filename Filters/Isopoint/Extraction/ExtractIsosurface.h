@@ -3,15 +3,13 @@
 #define isopoint_ExtractIsosurface_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
 #include "Isopoint/Base/SortUnique.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/GapEdges.h"
 #include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
@@ -150,7 +148,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
     {
       LeafValueCache<TSample> values(context.tree, context.leafMeans);
       const auto positionAt = [&context](typename TSample::Id leaf)
-      { return positionOf(context.tree.samples[context.tree.nodes[leaf].begin]); };
+      { return positionOf(context.tree.sampleOf(leaf)); };
       for (std::size_t i = begin; i < end; ++i)
       {
         const CrossingEdge<TSample>& edge = edges[i];

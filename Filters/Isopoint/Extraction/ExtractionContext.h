@@ -2,9 +2,8 @@
 #ifndef isopoint_ExtractionContext_h
 #define isopoint_ExtractionContext_h
 
-#include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
 

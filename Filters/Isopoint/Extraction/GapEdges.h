@@ -3,7 +3,8 @@
 #define isopoint_GapEdges_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/SortUnique.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Tree/SampleTree.h"
 
@@ -101,8 +102,7 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
     const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
     seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
   }
-  std::sort(seeds.begin(), seeds.end());
-  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  keepUnique(seeds);
   parts.unite(ranks, seeds);
   spread.spread(std::move(seeds));
   return spread.takeInGap();

@@ -56,17 +56,6 @@ class IsopointNeighbors
 public:
   using Id = typename TSample::Id;
 
-  /// A part of a list.
-  template <class T>
-  struct List
-  {
-    const T* first;
-    const T* last;
-    const T* begin() const { return this->first; }
-    const T* end() const { return this->last; }
-    std::size_t size() const { return static_cast<std::size_t>(this->last - this->first); }
-  };
-
   /// @param tree in which the leaves' neighborhoods are complete
   /// @param known neighborhoods; others are searched for
   /// @param leaves of the isopoints' edges
@@ -126,7 +115,7 @@ public:
     /// touching leaves.
     /// @returns isopoints, each once, mostly this one among them; a list that holds until the next
     /// call
-    List<std::size_t> find(std::size_t isopoint, int rings)
+    NodeList<std::size_t> find(std::size_t isopoint, int rings)
     {
       const Id leaf = this->Neighbors.Ends[isopoint][0];
       if (this->RingEnds.empty() || leaf != this->Leaf)
@@ -137,8 +126,7 @@ public:
       {
         this->addRing();
       }
-      const std::size_t* const first = this->Isopoints.data();
-      return { first, first + this->RingEnds[static_cast<std::size_t>(rings) - 1] };
+      return { this->Isopoints.data(), this->RingEnds[static_cast<std::size_t>(rings) - 1] };
     }
 
   private:
@@ -225,9 +213,10 @@ private:
     std::vector<std::size_t> ends; // of the lists; the first one is empty
     std::vector<T> all;
 
-    List<T> at(std::size_t list) const
+    NodeList<T> at(std::size_t list) const
     {
-      return { this->all.data() + this->ends[list - 1], this->all.data() + this->ends[list] };
+      const std::size_t begin = this->ends[list - 1];
+      return { this->all.data() + begin, this->ends[list] - begin };
     }
   };
 

@@ -2,14 +2,17 @@
 #ifndef isopoint_Isosurface_h
 #define isopoint_Isosurface_h
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
+#include "Isopoint/Neighbors/AngleCriterion.h"
 #include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -17,23 +20,64 @@
 namespace isopoint
 {
 
-/// The edge of an isopoint, between two samples on either side of the isovalue.
-struct IsopointEdge
+/// An edge between two samples, by which edges are ordered.
+struct SampleEdge
 {
   std::uint64_t first;  // the id of one sample
   std::uint64_t second; // the id of the other, first < second
-  /// The place on the edge that is nearest to the isopoint: 0 at `first`, 1 at `second`. All
-  /// attributes are interpolated there.
-  double parameter;
 
-  bool operator==(const IsopointEdge& other) const
+  bool operator==(const SampleEdge& other) const
   {
     return this->first == other.first && this->second == other.second;
   }
-  bool operator<(const IsopointEdge& other) const
+  bool operator<(const SampleEdge& other) const
   {
     return this->first != other.first ? this->first < other.first : this->second < other.second;
   }
+};
+
+/// An edge between the samples of two leaves on either side of the isovalue.
+template <class TSample>
+struct CrossingEdge : SampleEdge
+{
+  double crossing; // where linear interpolation has the isovalue: 0 at `first`, 1 at `second`
+  typename TSample::Id firstLeaf; // node indices
+  typename TSample::Id secondLeaf;
+};
+
+/// The leaves at the ends of edges, ordered, each once.
+template <class TSample>
+std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edges)
+{
+  std::vector<std::size_t> leaves;
+  leaves.reserve(2 * edges.size());
+  for (const CrossingEdge<TSample>& edge : edges)
+  {
+    leaves.push_back(static_cast<std::size_t>(edge.firstLeaf));
+    leaves.push_back(static_cast<std::size_t>(edge.secondLeaf));
+  }
+  keepUnique(leaves);
+  return leaves;
+}
+
+/// The isovalue, the criteria by which edges are chosen, and what is fitted around them.
+struct IsosurfaceRequest
+{
+  double isovalue;             // any; there are isopoints where samples lie on either side of it
+  double angle = defaultAngle; // of the angle criterion, in degrees, 0 up to 180
+  bool dropsGaps = false;      // whether what lies in gaps of the cloud is left out
+  std::optional<FitRequest> fit = std::nullopt;
+  /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that
+  /// each has one normal.
+  bool partsCreases = false;
+};
+
+/// The edge of an isopoint, between two samples on either side of the isovalue.
+struct IsopointEdge : SampleEdge
+{
+  /// The place on the edge that is nearest to the isopoint: 0 at `first`, 1 at `second`. All
+  /// attributes are interpolated there.
+  double parameter;
 };
 
 /// The node indices of the two leaves that an edge connects.
@@ -124,8 +168,7 @@ std::vector<CoincidentSamples> coincidentEnds(
       }
     }
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  keepUnique(leaves);
   std::vector<CoincidentSamples> result;
   for (const std::size_t leaf : leaves)
   {

@@ -4,8 +4,8 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
-#include "Isopoint/Neighbors/NeighborListBudget.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/TreeRefinement.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
@@ -100,14 +100,6 @@ public:
       depth = bottom;
       throwIfAborted(this->Run);
     }
-    return crossingOf(front);
-  }
-
-private:
-  using NodeType = Node<TSample>;
-
-  static std::vector<BinaryIndex> crossingOf(const std::vector<BandNode>& front)
-  {
     std::vector<BinaryIndex> crossing;
     for (const BandNode& node : front)
     {
@@ -118,6 +110,9 @@ private:
     }
     return crossing;
   }
+
+private:
+  using NodeType = Node<TSample>;
 
   /// To split few samples all the way takes less time than to determine which are needed.
   /// @returns whether that was done
@@ -464,12 +459,9 @@ private:
   std::vector<BandNode> collectBelow(
     const std::vector<BandNode>& front, int depth, const Collect& collect)
   {
-    std::vector<BandNode> collected;
-    std::mutex mutex;
-    forBatches(this->Run, front.size(), searchBatch, searchGrain,
-      [&](std::size_t begin, std::size_t end)
+    return collected<BandNode>(this->Run, { front.size(), searchBatch, searchGrain },
+      [&](std::size_t begin, std::size_t end, std::vector<BandNode>& found)
       {
-        std::vector<BandNode> found;
         Path path = pathToRoot(this->Tree);
         for (std::size_t i = begin; i < end; ++i)
         {
@@ -483,10 +475,7 @@ private:
               }
             });
         }
-        const std::lock_guard<std::mutex> lock(mutex);
-        collected.insert(collected.end(), found.begin(), found.end());
       });
-    return collected;
   }
 
   // Marks of nodes.

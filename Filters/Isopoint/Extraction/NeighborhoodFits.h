@@ -3,10 +3,10 @@
 #define isopoint_NeighborhoodFits_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
 #include "Isopoint/Base/SortUnique.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/SampleGatherer.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Fit/LocalFitter.h"

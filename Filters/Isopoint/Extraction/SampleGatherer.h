@@ -9,7 +9,7 @@
 #include "Isopoint/Neighbors/ImplicitNeighborhood.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <algorithm>
 #include <array>
@@ -228,14 +228,14 @@ private:
   }
 
   /// Lists some of very many neighbors: one for each subtree whose size over its distance is
-  /// small, as often as it represents that many.
+  /// small.
   void listSome(Id leaf, std::vector<Id>& neighbors)
   {
     constexpr double smallSize = 0.2;
     neighbors.clear();
     this->Implicit.moveTo(pathToLeaf(this->Tree, leaf));
-    this->Implicit.forEachSpread(smallSize, [&neighbors](std::size_t neighbor, std::size_t)
-      { neighbors.push_back(static_cast<Id>(neighbor)); });
+    this->Implicit.forEachSpread(smallSize,
+      [&neighbors](std::size_t neighbor) { neighbors.push_back(static_cast<Id>(neighbor)); });
   }
 
   /// The spacing of the samples around an end.

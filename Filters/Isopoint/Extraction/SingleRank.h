@@ -3,7 +3,6 @@
 #define isopoint_SingleRank_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
@@ -87,32 +86,18 @@ private:
   /// touch the other side, and ends of Delaunay edges may not be of these.
   void splitAround(const Execution& execution, const std::vector<std::size_t>& leaves) const
   {
-    std::vector<std::size_t> missing;
-    do
-    {
-      constexpr std::size_t grain = 1024;
-      missing = collected<std::size_t>(execution, leaves.size(), grain,
-        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-        {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            this->addUnsplitAround(leaves[i], found);
-          }
-        });
-      splitFurther(execution, this->Tree, missing);
-    } while (!missing.empty());
-  }
-
-  void addUnsplitAround(std::size_t leaf, std::vector<std::size_t>& unsplit) const
-  {
-    visitTouching(this->Tree, pathToLeaf(this->Tree, leaf), maximumDepth,
-      [&](std::size_t node)
+    splitWhileUnsplit(execution, this->Tree, leaves.size(),
+      [&](std::size_t i, std::vector<std::size_t>& unsplit)
       {
-        if (!this->Tree.nodes[node].isLeaf)
-        {
-          unsplit.push_back(node);
-        }
-        return false;
+        visitTouching(this->Tree, pathToLeaf(this->Tree, leaves[i]), maximumDepth,
+          [&](std::size_t node)
+          {
+            if (!this->Tree.nodes[node].isLeaf)
+            {
+              unsplit.push_back(node);
+            }
+            return false;
+          });
       });
   }
 

@@ -169,7 +169,8 @@ private:
   std::unordered_map<Cell, std::vector<std::size_t>, HashOfCell> PointsInCell;
 };
 
-/// The points to keep, ascending.
+} // namespace
+
 std::vector<std::size_t> keptPoints(
   const Execution& execution, double minimumSpacing, const std::vector<LocalFit>& fits)
 {
@@ -194,8 +195,6 @@ std::vector<std::size_t> keptPoints(
   }
   return kept;
 }
-
-} // namespace
 
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface)
 {

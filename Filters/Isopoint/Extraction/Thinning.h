@@ -4,6 +4,10 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/Isosurface.h"
+#include "Isopoint/Fit/LocalFit.h"
+
+#include <cstddef>
+#include <vector>
 
 namespace isopoint
 {
@@ -23,6 +27,12 @@ namespace isopoint
 /// @throws std::bad_alloc or Aborted, the surface then unchanged
 /// Complexity: O(n) for each power of two between the smallest and the largest spacing
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface);
+
+/// Which isopoints thin() keeps, ascending.
+/// @param fits of all, in the surface's order
+/// @param minimumSpacing above 0
+std::vector<std::size_t> keptPoints(
+  const Execution& execution, double minimumSpacing, const std::vector<LocalFit>& fits);
 
 } // namespace isopoint
 

@@ -3,6 +3,7 @@
 #define isopoint_GapSpread_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Tree/SampleBounds.h"
 #include "Isopoint/Tree/SampleTree.h"
@@ -14,20 +15,6 @@
 
 namespace isopoint
 {
-
-/// The numbers of what is marked, ascending.
-inline std::vector<std::size_t> markedOf(const std::vector<char>& marks)
-{
-  std::vector<std::size_t> marked;
-  for (std::size_t i = 0; i < marks.size(); ++i)
-  {
-    if (marks[i])
-    {
-      marked.push_back(i);
-    }
-  }
-  return marked;
-}
 
 /// Drops what is marked.
 template <class T>
@@ -122,9 +109,8 @@ private:
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)
       {
-        return criterion.drops(this->Tree, this->Bounds,
-          this->Tree.samples[this->Tree.nodes[leaf].begin],
-          this->Tree.samples[this->Tree.nodes[other].begin]);
+        return criterion.drops(
+          this->Tree, this->Bounds, this->Tree.sampleOf(leaf), this->Tree.sampleOf(other));
       });
   }
 

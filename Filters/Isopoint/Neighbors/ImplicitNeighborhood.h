@@ -39,7 +39,7 @@ public:
   {
     this->Bounds.compute();
     this->Region = leaf.region;
-    this->Center = positionOf(this->Tree.samples[this->Tree.nodes[leaf.nodeIndex()].begin]);
+    this->Center = positionOf(this->Tree.sampleOf(leaf.nodeIndex()));
     this->Tops.clear();
     for (const FoundNode& root : Surroundings(leaf))
     {
@@ -104,7 +104,7 @@ public:
   /// leaves. The choice depends on the neighborhood alone, not on what else of the tree is
   /// refined.
   /// @param size below which a box is small: its diagonal over its distance
-  /// @param visit(nodeIndex, count) a leaf, and about how many neighbors it represents
+  /// @param visit(nodeIndex) a leaf
   /// Complexity: O(log n) for n neighbors on lines
   template <class Visitor>
   void forEachSpread(double size, const Visitor& visit) const
@@ -163,11 +163,11 @@ private:
     if (!node.isSplit())
     {
       requireLeaf(this->Tree, nodeIndex, this->Region);
-      visit(nodeIndex, std::size_t{ 1 });
+      visit(nodeIndex);
     }
     else if (this->touchesBoth(node) && this->isSmall(node, size))
     {
-      visit(this->leafBelow(nodeIndex), node.count());
+      visit(this->leafBelow(nodeIndex));
     }
     else
     {
@@ -238,7 +238,7 @@ private:
 
   Offset offsetTo(std::size_t nodeIndex) const
   {
-    const TSample& sample = this->Tree.samples[this->Tree.nodes[nodeIndex].begin];
+    const TSample& sample = this->Tree.sampleOf(nodeIndex);
     return offsetBetween(this->Center, positionOf(sample));
   }
 

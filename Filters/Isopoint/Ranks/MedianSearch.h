@@ -2,7 +2,6 @@
 #ifndef isopoint_MedianSearch_h
 #define isopoint_MedianSearch_h
 
-#include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Region.h"
 #include "Isopoint/Base/Team.h"
 

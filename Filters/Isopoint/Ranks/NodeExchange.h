@@ -27,7 +27,6 @@ public:
     : Group(team)
     , Tree(tree)
     , Begins(begins)
-    , Pool(tree)
   {
   }
 
@@ -52,7 +51,7 @@ public:
     this->ask(boxes, depth, questions, asked);
     const std::vector<ByteBuffer> answers = this->answer(this->Group.exchange(questions));
     const std::vector<ByteBuffer> found = this->Group.exchange(answers);
-    NodeReader<TSample> reader(this->Tree, this->Pool);
+    NodeReader<TSample> reader(this->Tree);
     for (std::size_t rank = 0; rank < ranks; ++rank)
     {
       ByteReader in(found[rank]);
@@ -70,7 +69,7 @@ private:
   void ask(std::map<std::size_t, std::vector<Region>>& boxes, int depth,
     std::vector<ByteBuffer>& questions, std::vector<std::vector<std::size_t>>& asked)
   {
-    NodeWriter<TSample> writer(this->Tree, this->Pool);
+    NodeWriter<TSample> writer(this->Tree);
     for (auto& [nodeIndex, touching] : boxes)
     {
       const Node<TSample> node = this->Tree.nodes[nodeIndex];
@@ -92,7 +91,7 @@ private:
   std::vector<ByteBuffer> answer(const std::vector<ByteBuffer>& questions)
   {
     std::vector<ByteBuffer> answers(questions.size());
-    NodeWriter<TSample> writer(this->Tree, this->Pool);
+    NodeWriter<TSample> writer(this->Tree);
     for (std::size_t rank = 0; rank < questions.size(); ++rank)
     {
       ByteReader in(questions[rank]);
@@ -111,7 +110,6 @@ private:
   Team& Group;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
-  PairPool<TSample> Pool;
 };
 
 } // namespace isopoint

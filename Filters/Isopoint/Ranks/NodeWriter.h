@@ -25,44 +25,14 @@ enum class NodeKind : std::uint8_t
   Absent   // its range of values alone
 };
 
-/// Pairs of nodes for a tree that grows in small steps.
-template <class TSample>
-class PairPool
-{
-public:
-  explicit PairPool(SampleTree<TSample>& tree)
-    : Tree(tree)
-  {
-  }
-
-  /// The first of this many pairs side by side. @throws std::bad_alloc, std::length_error
-  std::size_t take(std::size_t count)
-  {
-    constexpr std::size_t portion = 4096;
-    if (this->End - this->Next < count)
-    {
-      this->Next = appendPairs(this->Tree, std::max(count, portion));
-      this->End = this->Next + std::max(count, portion);
-    }
-    this->Next += count;
-    return this->Next - count;
-  }
-
-private:
-  SampleTree<TSample>& Tree;
-  std::size_t Next = 0;
-  std::size_t End = 0;
-};
-
 /// Splits nodes of this rank down to leaves, or to a depth, in some boxes, and writes them for
 /// another rank.
 template <class TSample>
 class NodeWriter
 {
 public:
-  NodeWriter(SampleTree<TSample>& tree, PairPool<TSample>& pool)
+  explicit NodeWriter(SampleTree<TSample>& tree)
     : Tree(tree)
-    , Pool(pool)
     , Splitter(tree, 0)
   {
   }
@@ -178,12 +148,11 @@ private:
     {
       throwTooDeep();
     }
-    this->Splitter.moveTo(this->Pool.take(maximumTreeletPairs(node.count(), levels)));
+    this->Splitter.moveTo(appendPairs(this->Tree, maximumTreeletPairs(node.count(), levels)));
     this->Splitter.split(this->Tree.nodes[nodeIndex], path.region, levels);
   }
 
   SampleTree<TSample>& Tree;
-  PairPool<TSample>& Pool;
   TreeletSplitter<TSample> Splitter;
 };
 
@@ -192,9 +161,8 @@ template <class TSample>
 class NodeReader
 {
 public:
-  NodeReader(SampleTree<TSample>& tree, PairPool<TSample>& pool)
+  explicit NodeReader(SampleTree<TSample>& tree)
     : Tree(tree)
-    , Pool(pool)
     , Splitter(tree, 0)
   {
   }
@@ -246,7 +214,7 @@ private:
     const std::size_t count = this->Tree.nodes[nodeIndex].count();
     in.read(this->Tree.samples.data() + this->Tree.nodes[nodeIndex].begin, count);
     const int levels = maximumDepth - path.depth;
-    this->Splitter.moveTo(this->Pool.take(count - 1));
+    this->Splitter.moveTo(appendPairs(this->Tree, count - 1));
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
     node.isAbsent = false;
     node.isLeaf = count == 1;
@@ -256,7 +224,7 @@ private:
   void readSplit(Path& path, ByteReader& in)
   {
     const std::size_t nodeIndex = path.nodeIndex();
-    const std::size_t pair = this->Pool.take(1);
+    const std::size_t pair = appendPairs(this->Tree, 1);
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
     node.axis = in.read<std::uint8_t>();
     node.plane = in.read<double>();
@@ -277,7 +245,6 @@ private:
   }
 
   SampleTree<TSample>& Tree;
-  PairPool<TSample>& Pool;
   TreeletSplitter<TSample> Splitter;
 };
 

@@ -3,15 +3,15 @@
 #define isopoint_SharedRanks_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Team.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NeighborhoodFits.h"
+#include "Isopoint/Extraction/Thinning.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Ranks/ByteBuffer.h"
 #include "Isopoint/Ranks/NodeExchange.h"
-#include "Isopoint/Ranks/RankThinning.h"
 #include "Isopoint/Ranks/SentIsopoint.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
@@ -19,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <vector>
@@ -117,7 +118,7 @@ public:
 
   void uniteEdges(const Edges& edges, std::vector<std::size_t>& found)
   {
-    std::vector<std::vector<EdgeIds>> outgoing(this->rankCount());
+    std::vector<std::vector<SampleEdge>> outgoing(this->rankCount());
     for (const std::size_t i : found)
     {
       this->forOtherRanks(edges[i],
@@ -125,19 +126,47 @@ public:
           outgoing[rank].push_back({ edges[i].first, edges[i].second });
         });
     }
-    for (const EdgeIds& ids : united(this->Group.exchange(outgoing)))
+    for (const SampleEdge& wanted : united(this->Group.exchange(outgoing)))
     {
-      const CrossingEdge<TSample> wanted{ ids.first, ids.second, 0.0, 0, 0 };
       const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
       found.push_back(static_cast<std::size_t>(edge - edges.begin()));
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    keepUnique(found);
   }
 
+  /// The order of the whole surface runs through all ranks: one rank thins for all, and takes
+  /// memory for the fits of all.
   void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
   {
-    RankThinning(execution, this->Group, minimumSpacing).thinOut(surface);
+    std::vector<ByteBuffer> questions(this->rankCount());
+    for (std::size_t i = 0; i < surface.fits.size(); ++i)
+    {
+      append(questions.front(), surface.edges[i]);
+      appendFit(questions.front(), surface.fits[i]);
+    }
+    std::vector<std::vector<IsopointEdge>> asked(this->rankCount());
+    std::map<IsopointEdge, LocalFit> whole; // each isopoint is on one rank or on several
+    const std::vector<ByteBuffer> arrived = this->Group.exchange(questions);
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      ByteReader in(arrived[rank]);
+      while (!in.isAtEnd())
+      {
+        asked[rank].push_back(in.read<IsopointEdge>());
+        whole.emplace(asked[rank].back(), readFit(in));
+      }
+    }
+    const std::vector<IsopointEdge> keptEdges = thinned(execution, minimumSpacing, whole);
+    std::vector<std::vector<char>> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      for (const IsopointEdge& edge : asked[rank])
+      {
+        answers[rank].push_back(
+          std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
+      }
+    }
+    surface = chosenIsopoints(surface, markedOf(this->Group.exchange(answers).front()));
   }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)
@@ -194,12 +223,24 @@ public:
   }
 
 private:
-  /// The ends of an edge.
-  struct EdgeIds
+  /// The edges of the isopoints that thin() keeps, ascending.
+  static std::vector<IsopointEdge> thinned(const Execution& execution, double minimumSpacing,
+    const std::map<IsopointEdge, LocalFit>& whole)
   {
-    std::uint64_t first;
-    std::uint64_t second;
-  };
+    std::vector<IsopointEdge> edges;
+    std::vector<LocalFit> fits;
+    for (const auto& [edge, fit] : whole)
+    {
+      edges.push_back(edge);
+      fits.push_back(fit);
+    }
+    std::vector<IsopointEdge> kept;
+    for (const std::size_t i : keptPoints(execution, minimumSpacing, fits))
+    {
+      kept.push_back(edges[i]);
+    }
+    return kept;
+  }
 
   std::size_t rankCount() const { return static_cast<std::size_t>(this->Group.size()); }
 

@@ -3,7 +3,6 @@
 #define isopoint_SharedTree_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/OrderedKey.h"
 #include "Isopoint/Base/Team.h"
 #include "Isopoint/Ranks/MedianSearch.h"
 #include "Isopoint/Tree/BinaryIndex.h"

@@ -3,6 +3,7 @@
 #define isopoint_SurfaceHalo_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
@@ -11,8 +12,7 @@
 #include "Isopoint/Ranks/SentIsopoint.h"
 #include "Isopoint/Ranks/SharedRanks.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Splat/SplatCell.h"
-#include "Isopoint/Tree/Path.h"
+#include "Isopoint/Splat/SplatFans.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -45,7 +46,7 @@ public:
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
-    , Known(known)
+    , Cache(known)
     , Own(std::move(own))
     , HasFits(hasFits)
   {
@@ -92,8 +93,8 @@ public:
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
   /// Those that are counted on this rank, and all others.
-  std::vector<std::size_t> home() const { return this->chosen(true); }
-  std::vector<std::size_t> elsewhere() const { return this->chosen(false); }
+  std::vector<std::size_t> home() const { return markedOf(this->IsHome); }
+  std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
 
   /// The surface of home().
   Isosurface takeHome() const { return chosenIsopoints(this->All, this->home()); }
@@ -190,24 +191,8 @@ private:
     std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
   };
 
-  struct OwnEnd
-  {
-    std::uint64_t place; // of a leaf
-    std::size_t isopoint;
-
-    bool operator<(const OwnEnd& other) const
-    {
-      return this->place != other.place ? this->place < other.place
-                                        : this->isopoint < other.isopoint;
-    }
-  };
-
-  template <class T>
-  static void keepUnique(std::vector<T>& list)
-  {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  /// The place of a leaf, and an isopoint whose edge ends there.
+  using OwnEnd = std::pair<std::uint64_t, std::size_t>;
 
   static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
   {
@@ -226,7 +211,7 @@ private:
     {
       for (const std::size_t leaf : { this->Own.leaves[i].first, this->Own.leaves[i].second })
       {
-        this->OwnEnds.push_back({ this->Tree.nodes[leaf].begin, i });
+        this->OwnEnds.emplace_back(this->Tree.nodes[leaf].begin, i);
       }
     }
     std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
@@ -236,37 +221,19 @@ private:
   /// those no isopoints are looked for.
   std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
   {
+    using Id = typename TSample::Id;
     constexpr std::size_t most = 256; // see IsopointNeighbors
     std::vector<std::size_t> all = leaves;
     std::mutex mutex;
     this->Ranks.forEach(
-      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<std::size_t>(); },
-      [&](std::vector<std::size_t>& touching, std::size_t i)
+      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
+      [&](std::vector<Id>& memory, std::size_t i)
       {
-        touching.clear();
-        const auto known = this->Known.at(leaves[i]);
-        if (known.isEmpty())
-        {
-          visitNeighbors(this->Tree, pathToLeaf(this->Tree, leaves[i]),
-            [&](std::size_t node)
-            {
-              touching.push_back(node);
-              return touching.size() > most;
-            });
-        }
-        else
-        {
-          touching.assign(known.begin(), known.end());
-        }
-        if (touching.size() <= most)
-        {
-          touching.erase(
-            std::remove_if(touching.begin(), touching.end(),
-              [this](std::size_t node) { return this->Tree.hasOwn(this->Tree.nodes[node]); }),
-            touching.end());
-          const std::lock_guard<std::mutex> lock(mutex);
-          all.insert(all.end(), touching.begin(), touching.end());
-        }
+        const NodeList<Id> touching =
+          fewNeighborsOf(this->Tree, this->Cache, leaves[i], most, memory);
+        const std::lock_guard<std::mutex> lock(mutex);
+        std::copy_if(touching.begin(), touching.end(), std::back_inserter(all),
+          [this](Id node) { return !this->Tree.hasOwn(this->Tree.nodes[node]); });
       });
     keepUnique(all);
     return all;
@@ -309,9 +276,9 @@ private:
     {
       for (auto end =
              std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
-           end != this->OwnEnds.end() && end->place == place; ++end)
+           end != this->OwnEnds.end() && end->first == place; ++end)
       {
-        isopoints.push_back(end->isopoint);
+        isopoints.push_back(end->second);
       }
     }
     keepUnique(isopoints);
@@ -345,53 +312,41 @@ private:
   /// Brings own and received isopoints into one order.
   void unite()
   {
-    struct Source
-    {
-      IsopointEdge edge;
-      const SentIsopoint* received; // null for one of this rank's
-      std::size_t own;
-    };
-    std::vector<Source> sources;
-    for (std::size_t i = 0; i < this->Own.size(); ++i)
-    {
-      sources.push_back({ this->Own.edges[i], nullptr, i });
-    }
+    Isosurface both = this->Own;
     for (const std::vector<SentIsopoint>& list : this->Received)
     {
       for (const SentIsopoint& isopoint : list)
       {
-        sources.push_back({ isopoint.edge, &isopoint, 0 });
+        both.edges.push_back(isopoint.edge);
+        both.positions.push_back(isopoint.position);
+        both.decreasingEdges.push_back(isopoint.decreasingEdge);
+        both.leaves.push_back(isopoint.leaves);
+        if (this->HasFits)
+        {
+          both.fits.push_back(isopoint.fit);
+        }
       }
     }
-    std::stable_sort(sources.begin(), sources.end(),
-      [](const Source& a, const Source& b) { return a.edge < b.edge; });
-    sources.erase(std::unique(sources.begin(), sources.end(),
-                    [](const Source& a, const Source& b) { return a.edge == b.edge; }),
-      sources.end());
+    std::vector<std::size_t> order(both.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::stable_sort(order.begin(), order.end(),
+      [&both](std::size_t a, std::size_t b) { return both.edges[a] < both.edges[b]; });
+    order.erase(std::unique(order.begin(), order.end(),
+                  [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
+      order.end());
+    this->All = chosenIsopoints(both, order);
     std::sort(this->Surrounded.begin(), this->Surrounded.end());
-    this->All = Isosurface();
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
-    this->All.isovalue = this->Own.isovalue;
-    for (const Source& source : sources)
+    for (std::size_t i = 0; i < order.size(); ++i)
     {
-      const bool isOwn = !source.received;
+      const bool isOwn = order[i] < this->Own.size();
       if (isOwn)
       {
-        this->OwnIndices[source.own] = this->All.size();
+        this->OwnIndices[order[i]] = i;
       }
-      this->All.positions.push_back(
-        isOwn ? this->Own.positions[source.own] : source.received->position);
-      this->All.decreasingEdges.push_back(
-        isOwn ? this->Own.decreasingEdges[source.own] : source.received->decreasingEdge);
-      this->All.leaves.push_back(isOwn ? this->Own.leaves[source.own] : source.received->leaves);
-      if (this->HasFits)
-      {
-        this->All.fits.push_back(isOwn ? this->Own.fits[source.own] : source.received->fit);
-      }
-      this->IsInner.push_back(
-        isOwn || std::binary_search(this->Surrounded.begin(), this->Surrounded.end(), source.edge));
-      this->All.edges.push_back(source.edge);
+      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
+                                         this->Surrounded.end(), this->All.edges[i]));
     }
   }
 
@@ -400,11 +355,13 @@ private:
   void chooseOwn(bool isShared)
   {
     this->IsHome.assign(this->All.size(), false);
+    this->IsElsewhere.assign(this->All.size(), true);
     std::vector<bool> isOwn(this->All.size(), false);
     for (const std::size_t i : this->OwnIndices)
     {
       isOwn[i] = true;
       this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      this->IsElsewhere[i] = !this->IsHome[i];
       // Either rank of an edge between two sends such a ghost.
       if (this->IsHome[i] || isShared)
       {
@@ -418,19 +375,6 @@ private:
         this->OwnInTreeOrder.push_back(i);
       }
     }
-  }
-
-  std::vector<std::size_t> chosen(bool areHome) const
-  {
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < this->IsHome.size(); ++i)
-    {
-      if (this->IsHome[i] == areHome)
-      {
-        indices.push_back(i);
-      }
-    }
-    return indices;
   }
 
   /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
@@ -450,7 +394,7 @@ private:
   const Execution& Run;
   const SampleTree<TSample>& Tree;
   SharedRanks<TSample>& Ranks;
-  const Neighborhoods& Known;
+  const Neighborhoods& Cache;
   const Isosurface Own;
   const bool HasFits;
   std::vector<OwnEnd> OwnEnds;
@@ -463,7 +407,8 @@ private:
   std::vector<std::size_t> OwnInTreeOrder;
   std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
-  std::vector<bool> IsHome;
+  std::vector<bool> IsHome; // whether each is counted on this rank
+  std::vector<bool> IsElsewhere;
 };
 
 } // namespace isopoint

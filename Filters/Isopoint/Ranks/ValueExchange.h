@@ -9,83 +9,13 @@
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/SampleTree.h"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <vector>
 
 namespace isopoint
 {
-
-/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
-inline std::uint64_t mixBits(std::uint64_t number)
-{
-  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
-  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
-  return number ^ (number >> 31);
-}
-
-/// What an item that takes part adds to a digest.
-template <class TCoordinate>
-std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
-{
-  std::uint64_t hash = id;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto coordinate = static_cast<double>(position[axis]);
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &coordinate, sizeof(bits));
-    hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
-  }
-  return hash;
-}
-
-/// Which items take part, and where, as a sum over 0 .. count - 1: equal for the same items, and
-/// for others by chance alone, once in 2^64 cases.
-/// @param digestAt(i) what an item adds, 0 for one that takes no part
-/// @throws Aborted
-template <class DigestAt>
-std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
-{
-  constexpr std::size_t grain = 1 << 14;
-  std::atomic<std::uint64_t> sum{ 0 };
-  forBatches(execution, count, 16 * grain, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::uint64_t part = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        part += digestAt(i);
-      }
-      sum += part;
-    });
-  return sum;
-}
-
-/// That of samples that were loaded.
-/// @param firstId of the rank's items
-template <class TSample>
-std::uint64_t digestOfSamples(
-  const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
-{
-  return digestOf(execution, samples.size(),
-    [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
-}
-
-/// That of items as they are read; see loadSamples().
-template <class TSample, class Reader>
-std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
-{
-  return digestOf(execution, count,
-    [&](std::size_t id) -> std::uint64_t
-    {
-      TSample sample;
-      const bool takesPart = read(id, sample.position, sample.value) && isFinite(sample);
-      return takesPart ? digestOfItem(id, sample.position) : 0;
-    });
-}
 
 /// Gives all samples that a rank holds, its own and copies of others, new values: it asks the ranks
 /// that have read them, by id. Trees keep their shape. Collective.
@@ -113,8 +43,7 @@ public:
   void replace(const Execution& execution, const Reader& read)
   {
     throwIfAborted(execution);
-    Path path = pathToRoot(this->Tree);
-    this->visit(path);
+    this->visit(SampleTree<TSample>::rootNode);
     const std::vector<std::vector<Id>> asked = this->Group.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
     for (const std::vector<Id>& ids : asked)
@@ -143,28 +72,28 @@ private:
   };
 
   /// Lists what is below a node: whole subtrees with samples, and absent nodes.
-  void visit(Path& path)
+  void visit(std::size_t nodeIndex)
   {
-    const Node<TSample>& node = this->Tree.nodes[path.nodeIndex()];
-    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (node.isAbsent)
     {
-      this->Absent.push_back(path.index);
-      this->AbsentNodes.push_back(path.nodeIndex());
+      this->Absent.push_back(nodeIndex);
     }
-    else if (isOwn || !node.isSplit())
+    else if (this->isOwn(node) || !node.isSplit())
     {
-      this->Whole.push_back(path.nodeIndex());
+      this->Whole.push_back(nodeIndex);
     }
     else
     {
-      for (const bool upper : { false, true })
-      {
-        descend(this->Tree, path, upper);
-        this->visit(path);
-        ascend(path);
-      }
+      this->visit(node.lowerNode());
+      this->visit(node.upperNode());
     }
+  }
+
+  /// Whether all samples of a node are this rank's own.
+  bool isOwn(const Node<TSample>& node) const
+  {
+    return node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
   }
 
   /// Calls action(sample, rank that has read it) for each sample that this rank holds.
@@ -226,11 +155,10 @@ private:
   {
     std::vector<std::vector<BinaryIndex>> questions(this->FirstIds.size() - 1);
     std::vector<std::vector<std::size_t>> nodes(questions.size());
-    for (std::size_t i = 0; i < this->Absent.size(); ++i)
+    for (const std::size_t node : this->Absent)
     {
-      const std::size_t node = this->AbsentNodes[i];
       const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
-      questions[owner].push_back(this->Absent[i]);
+      questions[owner].push_back(pathToLeaf(this->Tree, node).index);
       nodes[owner].push_back(node);
     }
     const std::vector<std::vector<BinaryIndex>> asked = this->Group.exchange(questions);
@@ -259,8 +187,7 @@ private:
   void uniteFrom(std::size_t nodeIndex)
   {
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    const bool isOwn = node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
-    if (!isOwn && node.isSplit())
+    if (!this->isOwn(node) && node.isSplit())
     {
       this->uniteFrom(node.lowerNode());
       this->uniteFrom(node.upperNode());
@@ -271,10 +198,9 @@ private:
   Team& Group;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
-  std::vector<std::uint64_t> FirstIds;  // of each rank's items, and the end
-  std::vector<std::size_t> Whole;       // nodes all of whose samples this rank holds
-  std::vector<BinaryIndex> Absent;      // and where they are in this rank's tree:
-  std::vector<std::size_t> AbsentNodes; //
+  std::vector<std::uint64_t> FirstIds; // of each rank's items, and the end
+  std::vector<std::size_t> Whole;      // nodes all of whose samples this rank holds
+  std::vector<std::size_t> Absent;     // nodes
 };
 
 } // namespace isopoint

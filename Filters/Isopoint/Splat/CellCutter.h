@@ -2,14 +2,13 @@
 #ifndef isopoint_CellCutter_h
 #define isopoint_CellCutter_h
 
-#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Splat/Curvature.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatBorder.h"
-#include "Isopoint/Splat/SplatCell.h"
+#include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/TangentCell.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #ifndef isopoint_Curvature_h
 #define isopoint_Curvature_h
 
-#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 
 #include <array>

@@ -2,7 +2,6 @@
 #ifndef isopoint_SplatBorder_h
 #define isopoint_SplatBorder_h
 
-#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Neighbors/SampleExtent.h"
 #include "Isopoint/Splat/TangentCell.h"

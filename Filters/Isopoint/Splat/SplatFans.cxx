@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Splat/SplatFans.h"
 
-#include "Isopoint/Base/TangentFrame.h"
+#include "Isopoint/Base/Vector.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,6 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Splat/CellCutter.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Splat/SplatCell.h"
 #include "Isopoint/Splat/SplatFans.h"
 #include "Isopoint/Splat/SplatNormals.h"
 

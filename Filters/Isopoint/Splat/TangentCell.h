@@ -2,7 +2,6 @@
 #ifndef isopoint_TangentCell_h
 #define isopoint_TangentCell_h
 
-#include "Isopoint/Base/TangentFrame.h"
 #include "Isopoint/Base/Vector.h"
 
 #include <algorithm>

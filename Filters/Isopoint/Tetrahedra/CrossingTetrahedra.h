@@ -4,11 +4,10 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
-#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/NodeMarks.h"
 #include "Isopoint/Tree/TreeRefinement.h"
 
@@ -182,8 +181,8 @@ private:
       if (!this->Marks.has(leaf, bandmarks::inBand))
       {
         this->Marks.set(leaf, bandmarks::inBand);
-        sites.push_back({ positionOf(this->Tree.samples[this->Tree.nodes[leaf].begin]), leaf,
-          values.at(leaf) < this->Isovalue });
+        sites.push_back(
+          { positionOf(this->Tree.sampleOf(leaf)), leaf, values.at(leaf) < this->Isovalue });
       }
     }
     return sites;

@@ -3,10 +3,9 @@
 #define isopoint_SideCheck_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
-#include "Isopoint/Tree/LeafValueCache.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Tree/NodeMarks.h"
 
 #include <algorithm>
@@ -47,23 +46,24 @@ public:
     const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
     constexpr std::size_t grain = 2048;
-    std::vector<std::size_t> wrong = collected<std::size_t>(this->Run, this->Places.size(), grain,
-      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-      {
-        std::vector<Vector> positions;
-        for (std::size_t i = begin; i < end; ++i)
+    std::vector<std::size_t> wrong =
+      collected<std::size_t>(this->Run, { this->Places.size(), 8 * grain, grain },
+        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
-          positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
-        }
-        const std::vector<bool> below = this->Band.areBelow(positions);
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          if (below[i - begin] != this->Places[i].isBelow)
+          std::vector<Vector> positions;
+          for (std::size_t i = begin; i < end; ++i)
           {
-            found.push_back(this->Places[i].node);
+            positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
           }
-        }
-      });
+          const std::vector<bool> below = this->Band.areBelow(positions);
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            if (below[i - begin] != this->Places[i].isBelow)
+            {
+              found.push_back(this->Places[i].node);
+            }
+          }
+        });
     wrong.insert(wrong.end(), this->Unsplit.begin(), this->Unsplit.end());
     return wrong;
   }

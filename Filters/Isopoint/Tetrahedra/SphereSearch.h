@@ -3,7 +3,6 @@
 #define isopoint_SphereSearch_h
 
 #include "Isopoint/Base/Region.h"
-#include "Isopoint/Tetrahedra/BandMarks.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SphereFunction.h"
 #include "Isopoint/Tree/NodeMarks.h"
@@ -11,11 +10,24 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace isopoint
 {
+
+/// What NodeMarks say of nodes while the crossing tetrahedra are found.
+namespace bandmarks
+{
+
+/// The leaf's samples are a vertex of the band's triangulation.
+inline constexpr std::uint8_t inBand = 1;
+
+/// The sphere of a crossing tetrahedron may reach the region of the node, which has no children.
+inline constexpr std::uint8_t reached = 2;
+
+} // namespace bandmarks
 
 /// The inside of a tetrahedron's sphere, as a search sees it: what a box holds at least of its
 /// function.

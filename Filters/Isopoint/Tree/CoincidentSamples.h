@@ -2,11 +2,13 @@
 #ifndef isopoint_CoincidentSamples_h
 #define isopoint_CoincidentSamples_h
 
+#include "Isopoint/Base/ConcurrentMemo.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace isopoint
@@ -47,6 +49,74 @@ double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
   return meanOf(
     leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
 }
+
+/// The values of leaves with very many coincident samples, shared by all threads.
+template <class TSample>
+class SharedLeafMeans
+{
+public:
+  explicit SharedLeafMeans(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// The value of a leaf: O(1), but at the first request for a leaf of over 4096 samples. From any
+  /// thread.
+  /// @throws std::bad_alloc
+  double at(std::size_t nodeIndex)
+  {
+    constexpr std::size_t manySamples = 4096;
+    const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
+    if (leaf.count() <= manySamples)
+    {
+      return meanOfLeaf(this->Tree, leaf);
+    }
+    return this->Means.at(nodeIndex, [&]() { return meanOfLeaf(this->Tree, leaf); });
+  }
+
+private:
+  const SampleTree<TSample>& Tree;
+  ConcurrentMemo<double> Means;
+};
+
+/// The values of leaves, for one thread. Those of many coincident samples are kept, since many
+/// cells may touch such a leaf.
+template <class TSample>
+class LeafValueCache
+{
+public:
+  /// @param shared of the same tree
+  LeafValueCache(const SampleTree<TSample>& tree, SharedLeafMeans<TSample>& shared)
+    : Tree(tree)
+    , Shared(shared)
+  {
+  }
+
+  /// The value of a leaf: O(1), but at the first request for one with many samples.
+  /// @throws std::bad_alloc
+  double at(std::size_t nodeIndex)
+  {
+    constexpr std::size_t fewSamples = 16;
+    const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
+    if (leaf.count() == 1)
+    {
+      return static_cast<double>(leaf.minimum); // the sample's value, without a look at the sample
+    }
+    if (leaf.count() <= fewSamples)
+    {
+      return meanOfLeaf(this->Tree, leaf);
+    }
+    const auto found = this->Means.find(nodeIndex);
+    return found != this->Means.end()
+             ? found->second
+             : this->Means.emplace(nodeIndex, this->Shared.at(nodeIndex)).first->second;
+  }
+
+private:
+  const SampleTree<TSample>& Tree;
+  SharedLeafMeans<TSample>& Shared;
+  std::unordered_map<std::size_t, double> Means; // by node index
+};
 
 } // namespace isopoint
 

@@ -168,51 +168,77 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
-/// Whether a tree holds exactly the items that take part, at their positions.
-/// @param count of the items, those left out included
-/// @param read as for loadSamples()
-template <class TSample, class Reader>
-bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree, std::size_t count,
-  const Reader& read)
+/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
+inline std::uint64_t mixBits(std::uint64_t number)
+{
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  return number ^ (number >> 31);
+}
+
+/// What an item that takes part adds to a digest.
+template <class TCoordinate>
+std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
+{
+  std::uint64_t hash = id;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto coordinate = static_cast<double>(position[axis]);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &coordinate, sizeof(bits));
+    hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
+  }
+  return hash;
+}
+
+/// Which items take part, and where, as a sum over 0 .. count - 1: equal for the same items, and
+/// for others by chance alone, once in 2^64 cases.
+/// @param digestAt(i) what an item adds, 0 for one that takes no part
+/// @throws Aborted
+template <class DigestAt>
+std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
 {
   constexpr std::size_t grain = 1 << 14;
-  constexpr std::size_t batch = 16 * grain;
-  std::atomic<bool> same{ true };
-  forBatches(execution, tree.samples.size(), batch, grain,
+  std::atomic<std::uint64_t> sum{ 0 };
+  forBatches(execution, count, 16 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end && same; ++i)
+      std::uint64_t part = 0;
+      for (std::size_t i = begin; i < end; ++i)
       {
-        TSample sample;
-        if (!read(tree.samples[i].id, sample.position, sample.value) || !isFinite(sample) ||
-            !haveOnePosition(sample, tree.samples[i]))
-        {
-          same = false;
-        }
+        part += digestAt(i);
       }
+      sum += part;
     });
-  if (!same || tree.skipped == 0)
-  {
-    return same;
-  }
-  std::atomic<std::size_t> taking{ 0 };
-  forBatches(execution, count, batch, grain,
-    [&](std::size_t begin, std::size_t end)
+  return sum;
+}
+
+/// That of samples that were loaded.
+/// @param firstId of the rank's items
+template <class TSample>
+std::uint64_t digestOfSamples(
+  const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
+{
+  return digestOf(execution, samples.size(),
+    [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
+}
+
+/// That of items as they are read; see loadSamples().
+template <class TSample, class Reader>
+std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
+{
+  return digestOf(execution, count,
+    [&](std::size_t id) -> std::uint64_t
     {
-      std::size_t takingHere = 0;
-      for (std::size_t id = begin; id < end; ++id)
-      {
-        TSample sample;
-        takingHere += read(id, sample.position, sample.value) && isFinite(sample) ? 1 : 0;
-      }
-      taking += takingHere;
+      TSample sample;
+      const bool takesPart = read(id, sample.position, sample.value) && isFinite(sample);
+      return takesPart ? digestOfItem(id, sample.position) : 0;
     });
-  return taking == tree.samples.size();
 }
 
 /// Gives the samples of a tree new values and recomputes the value ranges of its nodes. The tree
 /// keeps its shape, which does not depend on values.
-/// @param read as for loadSamples(); holdsPositions() must be true of it
+/// @param read as for loadSamples(); the digests of both must be the same
 /// @throws Aborted, and then some values are new
 template <class TSample, class Reader>
 void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)

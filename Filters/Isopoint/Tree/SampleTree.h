@@ -99,6 +99,12 @@ struct SampleTree
     return this->isPartial ? this->ownEnd - this->ownBegin : this->samples.size();
   }
 
+  /// The first sample of a node: of a leaf that of the lowest id.
+  const TSample& sampleOf(std::size_t nodeIndex) const
+  {
+    return this->samples[this->nodes[nodeIndex].begin];
+  }
+
   std::size_t child(const NodeType& node, bool upper) const
   {
     return upper ? node.upperNode() : node.lowerNode();
@@ -124,7 +130,8 @@ std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
   }
   if (nodeCount > tree.nodes.size())
   {
-    tree.nodes.resize(nodeCount);
+    constexpr std::size_t spare = 8192; // where a tree grows in small steps
+    tree.nodes.resize(nodeCount + (tree.isPartial ? spare : 0));
   }
   tree.usedPairs = first + pairCount;
   return first;

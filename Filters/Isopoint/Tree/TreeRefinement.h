@@ -3,6 +3,7 @@
 #define isopoint_TreeRefinement_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Tree/Path.h"
 #include "Isopoint/Tree/TreeletSplitting.h"
 
@@ -29,8 +30,7 @@ void splitFurther(
     Path path;
   };
   constexpr std::size_t small = 512;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  keepUnique(nodes);
   constexpr std::size_t batch = 4096; // paths are large
   for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
   {
@@ -68,35 +68,49 @@ void splitFurther(
   }
 }
 
-/// Splits everything below some nodes down to leaves, as far as samples are this rank's.
+/// Splits what is found unsplit, until nothing is.
+/// @param addUnsplit(item, nodes) adds nodes at one of 0 .. count - 1 to a list; from any thread
 /// @throws what splitFurther() does
-template <class TSample>
-void splitCompletely(
-  const Execution& execution, SampleTree<TSample>& tree, const std::vector<std::size_t>& tops)
+template <class TSample, class AddUnsplit>
+void splitWhileUnsplit(const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
+  const AddUnsplit& addUnsplit)
 {
   std::vector<std::size_t> unsplit;
   do
   {
     splitFurther(execution, tree, unsplit);
     constexpr std::size_t grain = 64;
-    unsplit = collected<std::size_t>(execution, tops.size(), grain,
+    unsplit = collected<std::size_t>(execution, { count, 16 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          Path path = pathToLeaf(tree, tops[i]);
-          forEachBelow(tree, path, maximumDepth,
-            [&](const Path& below)
-            {
-              const Node<TSample>& node = tree.nodes[below.nodeIndex()];
-              if (!node.isLeaf && tree.hasOwn(node))
-              {
-                found.push_back(below.nodeIndex());
-              }
-            });
+          addUnsplit(i, found);
         }
       });
   } while (!unsplit.empty());
+}
+
+/// Splits everything below some nodes down to leaves, as far as samples are this rank's.
+/// @throws what splitFurther() does
+template <class TSample>
+void splitCompletely(
+  const Execution& execution, SampleTree<TSample>& tree, const std::vector<std::size_t>& tops)
+{
+  splitWhileUnsplit(execution, tree, tops.size(),
+    [&](std::size_t i, std::vector<std::size_t>& unsplit)
+    {
+      Path path = pathToLeaf(tree, tops[i]);
+      forEachBelow(tree, path, maximumDepth,
+        [&](const Path& below)
+        {
+          const Node<TSample>& node = tree.nodes[below.nodeIndex()];
+          if (!node.isLeaf && tree.hasOwn(node))
+          {
+            unsplit.push_back(below.nodeIndex());
+          }
+        });
+    });
 }
 
 } // namespace isopoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Isopoint/Triangles/CreaseSplitting.h"
+#include "Isopoint/Triangles/CreaseMesh.h"
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Fit/SurfacePiece.h"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ public:
         }
       }
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    keepUnique(edges);
     for (const auto& [a, b] : edges)
     {
       this->lookAfter(a);

@@ -3,13 +3,11 @@
 #define isopoint_ExtractTriangles_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
-#include "Isopoint/Extraction/IsosurfaceRequest.h"
 #include "Isopoint/Extraction/NarrowBand.h"
 #include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
 #include "Isopoint/Triangles/CreaseMesh.h"
@@ -132,7 +130,7 @@ private:
     const bool isMoved = this->Request.fit && this->Request.fit->move;
     if (isMoved)
     {
-      keepTrianglesUpright(this->Run, this->positionsOnEdges(mesh.edges), mesh.triangles, fits);
+      keepTrianglesUpright(this->Run, mesh.positions, mesh.triangles, fits);
     }
     TriangleSurface surface;
     surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
@@ -144,24 +142,6 @@ private:
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);
     return surface;
-  }
-
-  const TSample& sampleOf(std::size_t leaf) const
-  {
-    return this->Tree.samples[this->Tree.nodes[leaf].begin];
-  }
-
-  std::vector<Vector> positionsOnEdges(const std::vector<CrossingEdge<TSample>>& edges) const
-  {
-    std::vector<Vector> positions;
-    positions.reserve(edges.size());
-    for (const CrossingEdge<TSample>& edge : edges)
-    {
-      positions.push_back(
-        interpolate(positionOf(this->sampleOf(static_cast<std::size_t>(edge.firstLeaf))),
-          positionOf(this->sampleOf(static_cast<std::size_t>(edge.secondLeaf))), edge.crossing));
-    }
-    return positions;
   }
 
   const Execution& Run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/FacetMesh.h"
 
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Fit/LocalFit.h"
 
 #include <algorithm>
@@ -113,8 +114,7 @@ void FacetMesh::untangle()
         }
       }
     }
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    keepUnique(changed);
     inverted = isAnyFlipped ? std::move(changed) : std::vector<std::size_t>();
   }
 }
@@ -187,8 +187,7 @@ std::vector<std::size_t> FacetMesh::neighborsOf(std::size_t vertex) const
       }
     }
   }
-  std::sort(neighbors.begin(), neighbors.end());
-  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+  keepUnique(neighbors);
   return neighbors;
 }
 

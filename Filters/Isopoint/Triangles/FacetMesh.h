@@ -3,7 +3,7 @@
 #define isopoint_FacetMesh_h
 
 #include "Isopoint/Base/Vector.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <array>
 #include <cstddef>

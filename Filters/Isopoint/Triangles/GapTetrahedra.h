@@ -4,14 +4,15 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Offset.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/GapSpread.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Triangles/CrossingFacets.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <vector>
 
 namespace isopoint
@@ -37,12 +38,9 @@ public:
   bool isCounted(std::size_t tetrahedron) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    std::size_t place = this->Tree.nodes[corners[0]].begin;
-    for (const auto leaf : corners)
-    {
-      place = std::min(place, static_cast<std::size_t>(this->Tree.nodes[leaf].begin));
-    }
-    return this->Tree.isOwn(place);
+    const auto first = *std::min_element(corners.begin(), corners.end(),
+      [this](auto a, auto b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    return this->Tree.isOwn(this->Tree.nodes[first].begin);
   }
 
   template <class TRanks>
@@ -68,20 +66,87 @@ public:
     return false;
   }
 
+  /// O(1), except for the first time: O(n log n). @throws std::bad_alloc
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
   {
-    if (!this->Facets)
+    if (this->Neighbors.empty())
     {
-      this->Facets.emplace(this->Tetrahedra);
+      this->listNeighbors();
     }
-    this->Facets->forEachNeighbor(tetrahedron, visit);
+    for (const std::size_t neighbor : this->Neighbors[tetrahedron])
+    {
+      if (neighbor != none)
+      {
+        visit(neighbor);
+      }
+    }
   }
 
 private:
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  struct Facet
+  {
+    std::array<typename TSample::Id, 3> corners; // ascending
+    std::size_t tetrahedron;
+  };
+
+  void listNeighbors()
+  {
+    this->Neighbors.resize(this->Tetrahedra.size(), { none, none, none, none });
+    std::vector<Facet> facets;
+    facets.reserve(4 * this->Tetrahedra.size());
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      addFacets(this->Tetrahedra[i], i, facets);
+    }
+    std::sort(facets.begin(), facets.end(),
+      [](const Facet& a, const Facet& b) { return a.corners < b.corners; });
+    for (std::size_t i = 1; i < facets.size(); ++i)
+    {
+      if (facets[i - 1].corners == facets[i].corners)
+      {
+        this->addNeighbor(facets[i - 1].tetrahedron, facets[i].tetrahedron);
+        this->addNeighbor(facets[i].tetrahedron, facets[i - 1].tetrahedron);
+      }
+    }
+  }
+
+  static void addFacets(
+    const Tetrahedron& tetrahedron, std::size_t number, std::vector<Facet>& facets)
+  {
+    for (std::size_t opposite = 0; opposite < 4; ++opposite)
+    {
+      const bool isBelow = opposite < tetrahedron.belowCount;
+      if (tetrahedron.belowCount == (isBelow ? 1 : 3))
+      {
+        continue; // all corners of the facet are on one side
+      }
+      Facet facet{ {}, number };
+      std::size_t place = 0;
+      for (std::size_t corner = 0; corner < 4; ++corner)
+      {
+        if (corner != opposite)
+        {
+          facet.corners[place++] = tetrahedron.corners[corner];
+        }
+      }
+      std::sort(facet.corners.begin(), facet.corners.end());
+      facets.push_back(facet);
+    }
+  }
+
+  void addNeighbor(std::size_t tetrahedron, std::size_t neighbor)
+  {
+    std::array<std::size_t, 4>& all = this->Neighbors[tetrahedron];
+    *std::find(all.begin(), all.end(), none) = neighbor;
+  }
+
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
-  std::optional<CrossingFacets> Facets; // once there is a gap
+  /// Of each: as many as there are, then none. Listed once there is a gap.
+  std::vector<std::array<std::size_t, 4>> Neighbors;
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
@@ -139,8 +204,7 @@ private:
         seeds.push_back(i);
       }
     }
-    std::sort(seeds.begin(), seeds.end());
-    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+    keepUnique(seeds);
     return seeds;
   }
 
@@ -169,7 +233,7 @@ private:
         const std::size_t leaf = corners[i];
         marks[i] = this->Tree.hasOwn(this->Tree.nodes[leaf]) &&
                        GapCriterion::strong().mayDrop(this->Tree, pathToLeaf(this->Tree, leaf),
-                         this->sampleOf(leaf), longest[leaf])
+                         this->Tree.sampleOf(leaf), longest[leaf])
                      ? 1
                      : 0;
       });
@@ -195,7 +259,8 @@ private:
         {
           const auto b = static_cast<std::size_t>(tetrahedron.corners[j]);
           const double length =
-            offsetBetween(positionOf(this->sampleOf(a)), positionOf(this->sampleOf(b))).length;
+            offsetBetween(positionOf(this->Tree.sampleOf(a)), positionOf(this->Tree.sampleOf(b)))
+              .length;
           longest[a] = std::max(longest[a], length);
           longest[b] = std::max(longest[b], length);
         }
@@ -253,11 +318,6 @@ private:
         });
     }
     return piece;
-  }
-
-  const TSample& sampleOf(std::size_t leaf) const
-  {
-    return this->Tree.samples[this->Tree.nodes[leaf].begin];
   }
 
   const Execution& Run;

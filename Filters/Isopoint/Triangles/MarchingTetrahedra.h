@@ -3,13 +3,11 @@
 #define isopoint_MarchingTetrahedra_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Interpolation.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
-#include "Isopoint/Extraction/CrossingEdge.h"
+#include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
-#include "Isopoint/Tree/LeafValueCache.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Tree/CoincidentSamples.h"
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
@@ -31,6 +29,7 @@ struct EdgeTriangles
   /// One for each vertex, ordered, each once. Of edges whose crossings are one sample, since that
   /// has the isovalue, the first.
   std::vector<CrossingEdge<TSample>> edges;
+  std::vector<Vector> positions;          // of the crossings
   std::vector<SurfaceTriangle> triangles; // ordered
 };
 
@@ -103,8 +102,7 @@ private:
           found.insert(found.end(), polygon.pairs.begin(),
             polygon.pairs.begin() + static_cast<std::ptrdiff_t>(polygon.count));
         }
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
+        keepUnique(found);
       });
   }
 
@@ -112,12 +110,7 @@ private:
   std::vector<T> collectedOfAll(const Collect& collect) const
   {
     constexpr std::size_t grain = 4096;
-    return collected<T>(this->Run, this->Tetrahedra.size(), grain, collect);
-  }
-
-  const TSample& sampleOf(Id leaf) const
-  {
-    return this->Tree.samples[this->Tree.nodes[static_cast<std::size_t>(leaf)].begin];
+    return collected<T>(this->Run, { this->Tetrahedra.size(), 8 * grain, grain }, collect);
   }
 
   void placeVertices()
@@ -132,15 +125,15 @@ private:
         for (std::size_t i = begin; i < end; ++i)
         {
           const auto [lower, upper] = this->Pairs[i];
-          const bool isLowerFirst = this->sampleOf(lower).id < this->sampleOf(upper).id;
+          const bool isLowerFirst = this->Tree.sampleOf(lower).id < this->Tree.sampleOf(upper).id;
           const Id first = isLowerFirst ? lower : upper;
           const Id second = isLowerFirst ? upper : lower;
           const double parameter = edgeParameter(values.at(static_cast<std::size_t>(first)),
             values.at(static_cast<std::size_t>(second)), this->Isovalue);
-          this->Edges[i] = { this->sampleOf(first).id, this->sampleOf(second).id, parameter, first,
-            second };
-          this->Positions[i] = interpolate(
-            positionOf(this->sampleOf(first)), positionOf(this->sampleOf(second)), parameter);
+          this->Edges[i] = { this->Tree.sampleOf(first).id, this->Tree.sampleOf(second).id,
+            parameter, first, second };
+          this->Positions[i] = interpolate(positionOf(this->Tree.sampleOf(first)),
+            positionOf(this->Tree.sampleOf(second)), parameter);
         }
       });
   }
@@ -166,7 +159,7 @@ private:
       for (const Id end : { edge.firstLeaf, edge.secondLeaf })
       {
         if (edge.crossing == (end == edge.firstLeaf ? 0.0 : 1.0) ||
-            this->Positions[i] == positionOf(this->sampleOf(end)))
+            this->Positions[i] == positionOf(this->Tree.sampleOf(end)))
         {
           add(end, i);
           merged.emplace_back(i, end);
@@ -249,9 +242,11 @@ private:
       [this](std::size_t a, std::size_t b) { return this->Edges[a] < this->Edges[b]; });
     EdgeTriangles<TSample> result;
     result.edges.reserve(order.size());
+    result.positions.reserve(order.size());
     for (const std::size_t vertex : order)
     {
       result.edges.push_back(this->Edges[vertex]);
+      result.positions.push_back(this->Positions[vertex]);
     }
     result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
     return result;

@@ -2,7 +2,7 @@
 #ifndef isopoint_SurfacePart_h
 #define isopoint_SurfacePart_h
 
-#include "Isopoint/Triangles/SurfaceTriangle.h"
+#include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <cstddef>

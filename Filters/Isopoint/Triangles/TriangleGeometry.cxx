@@ -85,15 +85,7 @@ std::vector<std::size_t> verticesOf(
       isUsed[vertex] = true;
     }
   }
-  std::vector<std::size_t> vertices;
-  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
-  {
-    if (isUsed[vertex])
-    {
-      vertices.push_back(vertex);
-    }
-  }
-  return vertices;
+  return markedOf(isUsed);
 }
 
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
@@ -146,7 +138,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   {
     constexpr std::size_t grain = 8192;
     const std::vector<std::size_t> turned =
-      collected<std::size_t>(execution, suspects.size(), grain,
+      collected<std::size_t>(execution, { suspects.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
           std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -170,8 +162,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
         fits[vertex].position = unmoved[vertex];
       }
     }
-    std::sort(suspects.begin(), suspects.end());
-    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+    keepUnique(suspects);
   }
 }
 

@@ -6,13 +6,17 @@
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
 #include "Isopoint/Splat/Splat.h"
-#include "Isopoint/Triangles/SurfaceTriangle.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
+
+/// Three different vertices of a surface, the lowest first. Seen from the side of lower values they
+/// stand counterclockwise: the right-hand normal points to decreasing values.
+using SurfaceTriangle = std::array<std::size_t, 3>;
 
 /// The vertices of triangles, each once, in ascending order.
 /// @param vertexCount above every vertex
