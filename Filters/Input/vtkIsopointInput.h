@@ -13,8 +13,9 @@ struct Execution;
 struct vtkIsopointBlock;
 
 /**
- * Loads the samples of the blocks of all ranks as one cloud, in the order of the ranks, into an extractor, which reads the arrays in place. If the extractors hold the same
- * positions already, only the values are replaced, and the tree is kept. Collective. Throws what
+ * Loads the samples of the blocks of all ranks as one cloud, in the order of the ranks, into an
+ * extractor, which reads the arrays in place. If the extractors hold the same positions already,
+ * only the values are replaced, and the tree is kept. Collective. Throws what
  * IsosurfaceExtractor::load() throws.
  * @param blocks of this rank, perhaps none
  */
