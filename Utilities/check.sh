@@ -49,10 +49,11 @@ import os
 entries = {}
 for entry in json.load(open("build/release/compile_commands.json")):
     path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
-    if path.startswith(("Filters/", "Plugin/", "RayTracing/", "Rendering/")):
+    core = "build/release/Filters/Isopoint/"  # configured sources
+    if path.startswith((core, "Filters/", "Plugin/", "RayTracing/", "Rendering/")):
         entries.setdefault(path, entry)
 json.dump(list(entries.values()), open("build/release/lint/compile_commands.json", "w"))
-for path in sorted(entries, key=lambda path: (not path.startswith("Filters/Isopoint/"), path)):
+for path in sorted(entries, key=lambda path: ("Filters/Isopoint/" not in path, path)):
     print(path, end="\0")
 END
     xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/release/lint 2>&1 |

@@ -134,7 +134,8 @@ void Picture::findDistances(
     for (std::size_t index = begin * this->Width; index < end * this->Width; ++index)
     {
       const double column = half + static_cast<double>(index % this->Width);
-      const double row = half + static_cast<double>(index / this->Width);
+      const std::size_t line = index / this->Width;
+      const double row = half + static_cast<double>(line);
       float skipped = 0.0f;
       const Ray ray = camera.through(column / this->Width, row / this->Height, skipped);
       this->Distances[index] = skipped + scene.closest(ray).distance;

@@ -46,6 +46,7 @@ public:
     this->visit(SampleTree<TSample>::rootNode);
     const std::vector<std::vector<Id>> asked = this->Group.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
+    answers.reserve(asked.size());
     for (const std::vector<Id>& ids : asked)
     {
       answers.push_back(valuesOf(execution, ids, read));
