@@ -230,7 +230,7 @@ private:
   {
     const End& first = a.id < b.id ? a : b;
     const End& second = a.id < b.id ? b : a;
-    this->Edges.push_back({ first.id, second.id,
+    this->Edges.push_back({ { first.id, second.id },
       edgeParameter(first.value, second.value, this->Isovalue), first.leaf, second.leaf });
   }
 

@@ -159,7 +159,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
           followsFit ? surface.fits[i].position : interpolate(first, second, edge.crossing);
         const double parameter =
           followsFit ? nearestParameter(first, second, surface.positions[i]) : edge.crossing;
-        surface.edges[i] = { edge.first, edge.second, parameter };
+        surface.edges[i] = { { edge.first, edge.second }, parameter };
         surface.leaves[i] = { edge.firstLeaf, edge.secondLeaf };
         const bool isDecreasing = !(values.at(edge.firstLeaf) < context.isovalue);
         surface.decreasingEdges[i] =

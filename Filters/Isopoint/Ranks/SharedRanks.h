@@ -110,7 +110,7 @@ public:
       [&](int, std::size_t i)
       {
         const SentEdge& edge = open[i];
-        edges[ownCount + i] = { edge.first, edge.second, edge.crossing,
+        edges[ownCount + i] = { { edge.first, edge.second }, edge.crossing,
           static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[0])),
           static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[1])) };
       });

@@ -130,7 +130,7 @@ private:
           const Id second = isLowerFirst ? upper : lower;
           const double parameter = edgeParameter(values.at(static_cast<std::size_t>(first)),
             values.at(static_cast<std::size_t>(second)), this->Isovalue);
-          this->Edges[i] = { this->Tree.sampleOf(first).id, this->Tree.sampleOf(second).id,
+          this->Edges[i] = { { this->Tree.sampleOf(first).id, this->Tree.sampleOf(second).id },
             parameter, first, second };
           this->Positions[i] = interpolate(positionOf(this->Tree.sampleOf(first)),
             positionOf(this->Tree.sampleOf(second)), parameter);
