@@ -51,13 +51,6 @@ long stop()
 
 #ifdef __SANITIZE_ADDRESS__
 
-/// CGAL::Kd_tree::build() of CGAL 5.5 leaks the 56 bytes of its bounding box if it runs out of
-/// memory after allocating them; its callers cannot free them.
-extern "C" const char* __lsan_default_suppressions()
-{
-  return "leak:CGAL/Kd_tree.h";
-}
-
 extern "C" void* __real_realloc(void* memory, std::size_t size);
 extern "C" void* __wrap_realloc(void* memory, std::size_t size)
 {
@@ -72,6 +65,11 @@ void* operator new(std::size_t size)
     throw std::bad_alloc();
   }
   return memory;
+}
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+  return fails(size) ? nullptr : std::malloc(size);
 }
 
 void operator delete(void* memory) noexcept
