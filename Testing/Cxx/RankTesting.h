@@ -222,7 +222,9 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
       for (std::size_t i = 0; i < requests.size(); ++i)
       {
         const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
-        EXPECT_TRUE(std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end()));
+        // Vertices on creases of triangles follow behind all others.
+        EXPECT_TRUE(requests[i].triangles ||
+                    std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end()));
         const Description own = described(extracted);
         const std::lock_guard<std::mutex> lock(mutex);
         all[i].insert(all[i].end(), own.begin(), own.end());
