@@ -223,10 +223,10 @@ public:
    * yields for that cloud, bit for bit, however the cloud is dealt out; each point is in the output
    * of one rank. All ranks have to update the filter, with the same options. A rank may have no
    * samples. If ghost levels are requested of the output, however many, the points within 24
-   * rings of neighbors around those of a rank (five without splats) follow behind these, with all their arrays, marked in
-   * "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. Null, or a controller of
-   * one process: the filter runs on its own. Default: the global controller when the filter is
-   * created (that of MPI in ParaView's servers and in pvbatch).
+   * rings of neighbors around those of a rank (five without splats) follow behind these, with all
+   * their arrays, marked in "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL.
+   * Null, or a controller of one process: the filter runs on its own. Default: the global
+   * controller when the filter is created (that of MPI in ParaView's servers and in pvbatch).
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController() const;
