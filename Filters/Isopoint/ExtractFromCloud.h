@@ -94,6 +94,7 @@ ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surfa
   result.surface = std::move(surface);
   result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
   result.surface.leaves = {};
+  result.splats.reserve(splats.empty() ? 0 : indices.size());
   for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
   {
     result.splats.push_back(splats[indices[i]]);
@@ -129,7 +130,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
 {
   WorkProgress progress(execution);
   TriangleExtraction<TSample, TRanks> extraction(
-    execution, cloud.tree, ranks, cloud.neighborhoods, request.isosurface);
+    execution, cloud.tree, ranks, cloud.neighborhoods, cloud.band, request.isosurface);
   TriangleSurface found = extraction.extract(progress, work::writing);
   throwIfAborted(execution);
   ExtractedIsosurface result;

@@ -8,11 +8,13 @@
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 #include "Isopoint/Ranks/SharedTree.h"
 #include "Isopoint/Ranks/ValueExchange.h"
+#include "Isopoint/Tetrahedra/Band.h"
 #include "Isopoint/Tree/Loading.h"
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -28,7 +30,8 @@ struct SampleCloud
 {
   SampleTree<TSample> tree;
   NeighborhoodCache<typename TSample::Id> neighborhoods;
-  std::vector<std::uint64_t> begins; // see SharedTree; of a cloud on ranks
+  std::vector<std::uint64_t> begins;    // see SharedTree; of a cloud on ranks
+  std::unique_ptr<Band> band = nullptr; // of the last triangles, if it is worth its memory
 };
 
 /// What IsosurfaceExtractor::extract() does, for one layout of samples. Each layout is compiled in

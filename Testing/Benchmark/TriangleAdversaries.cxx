@@ -22,6 +22,7 @@
 #include <ctime>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -311,8 +312,9 @@ Found find(const Cloud& cloud, double isovalue, std::size_t threads)
   isopoint::IsosurfaceRequest request;
   request.isovalue = isovalue;
   isopoint::SingleRank<TSample> rank(tree);
+  std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-    execution, tree, rank, none, request);
+    execution, tree, rank, none, band, request);
   isopoint::WorkProgress progress(execution);
   const std::size_t crossing = extraction.tetrahedra(progress, 0.0).size();
   return { crossing, extraction.counts() };
@@ -362,8 +364,8 @@ double measure(const Adversary& adversary, const Options& options)
   }
   std::printf("| %s | %zu | %.2f | %.2f | %zu + %zu in %zu rounds%s | %zu%s |\n",
     adversary.name.c_str(), cloud.size(), full, ours / full, found.counts.band,
-    found.counts.inserted, found.counts.rounds, found.counts.isWhole ? ", all" : "", found.crossing,
-    found.crossing == expected ? "" : ", WRONG");
+    found.counts.size - found.counts.band, found.counts.rounds, found.counts.isWhole ? ", all" : "",
+    found.crossing, found.crossing == expected ? "" : ", WRONG");
   std::fflush(stdout);
   return ours / full;
 }

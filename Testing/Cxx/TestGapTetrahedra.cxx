@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -34,8 +35,9 @@ std::vector<Corners> foundInGaps(const Cloud& cloud, double isovalue, std::size_
   isopoint::IsosurfaceRequest request;
   request.isovalue = isovalue;
   isopoint::SingleRank<TSample> rank(tree);
+  std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-    execution, tree, rank, none, request);
+    execution, tree, rank, none, band, request);
   isopoint::WorkProgress progress(execution);
   auto tetrahedra = extraction.tetrahedra(progress, 0.0);
   const std::vector<char> isInGap =

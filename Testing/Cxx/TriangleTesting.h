@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -172,8 +173,9 @@ Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads =
   isopoint::IsosurfaceRequest request;
   request.isovalue = isovalue;
   isopoint::SingleRank<TSample> rank(tree);
+  std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-    execution, tree, rank, none, request);
+    execution, tree, rank, none, band, request);
   isopoint::WorkProgress progress(execution);
   Found found;
   found.corners = cornersOf(tree, extraction.tetrahedra(progress, 0.0));
@@ -193,8 +195,9 @@ inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
     isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine(rank);
   nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
   isopoint::SharedLeafMeans<TSample> means(tree);
+  std::unique_ptr<isopoint::Band> band;
   isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
-    execution, tree, rank, means, isovalue);
+    execution, tree, rank, means, isovalue, band);
   Found found;
   found.corners = cornersOf(tree, finder.find(nodes));
   found.counts = finder.counts();

@@ -7,8 +7,11 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -133,8 +136,45 @@ struct ItemBatches
   std::size_t grain;
 };
 
+/// What threads need to work on items: made when all others are in use, and kept for later ranges.
+template <class TWorker>
+class WorkerPool
+{
+public:
+  /// @param makeWorker called from any thread
+  /// @param work(worker) not used by another thread meanwhile; dropped if this throws
+  template <class MakeWorker, class Work>
+  void use(const MakeWorker& makeWorker, const Work& work)
+  {
+    std::unique_ptr<TWorker> worker = this->takeFree();
+    if (!worker)
+    {
+      worker.reset(new TWorker(makeWorker()));
+    }
+    work(*worker);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Free.push_back(std::move(worker));
+  }
+
+private:
+  std::unique_ptr<TWorker> takeFree()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Free.empty())
+    {
+      return nullptr;
+    }
+    std::unique_ptr<TWorker> worker = std::move(this->Free.back());
+    this->Free.pop_back();
+    return worker;
+  }
+
+  std::mutex Mutex;
+  std::vector<std::unique_ptr<TWorker>> Free;
+};
+
 /// Works on the items 0 .. batches.count - 1.
-/// @param makeWorker() what one thread needs to work on a range of items
+/// @param makeWorker() what one thread needs to work on items; used for many ranges
 /// @param work(worker, item)
 /// @throws Aborted, and what the work throws
 template <class MakeWorker, class Work>
@@ -142,15 +182,19 @@ void forEachItem(
   const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
   const Work& work, const BatchDone& batchDone = [](double) {})
 {
+  WorkerPool<std::decay_t<decltype(makeWorker())>> workers;
   forBatches(
     execution, batches.count, batches.batchPerThread, batches.grain,
     [&](std::size_t begin, std::size_t end)
     {
-      auto worker = makeWorker();
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        work(worker, i);
-      }
+      workers.use(makeWorker,
+        [&](auto& worker)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            work(worker, i);
+          }
+        });
     },
     batchDone);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -48,23 +49,40 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   const std::size_t bucketCount =
     std::min<std::size_t>(elements.size() / 2048 + 1, 64 * execution.threads);
   const std::uint64_t keysPerBucket = keyCount / bucketCount + 1;
-  const auto bucketOf = [&](const T& element) { return key(element) / keysPerBucket; };
+  const auto bucketOf = [&](const T& element)
+  { return static_cast<std::size_t>(key(element) / keysPerBucket); };
 
-  std::vector<std::size_t> ends(bucketCount + 1, 0);
-  for (const T& element : elements)
+  // Each thread counts and deals the elements of one part, which have places of their own.
+  const std::size_t partCount = execution.threads;
+  const auto forElements = [&](const auto& use)
   {
-    ++ends[bucketOf(element) + 1];
-  }
+    forRanges(execution, partCount, 1,
+      [&](std::size_t firstPart, std::size_t lastPart)
+      {
+        for (std::size_t part = firstPart; part < lastPart; ++part)
+        {
+          const std::size_t end = elements.size() * (part + 1) / partCount;
+          for (std::size_t i = elements.size() * part / partCount; i < end; ++i)
+          {
+            use(part * bucketCount + bucketOf(elements[i]), elements[i]);
+          }
+        }
+      });
+  };
+  std::vector<std::size_t> begins(partCount * bucketCount, 0);
+  forElements([&](std::size_t place, const T&) { ++begins[place]; });
+  std::vector<std::size_t> ends(bucketCount + 1, 0);
   for (std::size_t bucket = 0; bucket < bucketCount; ++bucket)
   {
-    ends[bucket + 1] += ends[bucket];
+    ends[bucket + 1] = ends[bucket];
+    for (std::size_t part = 0; part < partCount; ++part)
+    {
+      std::size_t& begin = begins[part * bucketCount + bucket];
+      ends[bucket + 1] += std::exchange(begin, ends[bucket + 1]);
+    }
   }
-  std::vector<std::size_t> begins(ends.begin(), ends.end() - 1);
   std::vector<T> dealt(elements.size());
-  for (const T& element : elements)
-  {
-    dealt[begins[bucketOf(element)]++] = element;
-  }
+  forElements([&](std::size_t place, const T& element) { dealt[begins[place]++] = element; });
 
   std::vector<std::size_t> counts(bucketCount);
   throwIfAborted(execution);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/FitFrame.h"
 
+#include "Isopoint/Base/Selection.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace isopoint
 {
@@ -70,31 +73,56 @@ void FitFrame::add(const FitSample* first, const FitSample* last)
 }
 
 /// Adds the `nearest` nearest samples in their order, and then so the nearest others, up to `most`
-/// in all.
+/// in all. Of those at the same distance the first ones are nearer.
 void FitFrame::addNearest(
   const FitSample* samples, std::size_t count, std::size_t nearest, std::size_t most)
 {
-  this->ByDistance.clear();
+  this->Distances.resize(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const Vector place = this->placeOf(samples[i].position);
-    this->ByDistance.emplace_back(dot(place, place), i);
+    this->Distances[i] = dot(place, place);
   }
-  const auto begin = this->ByDistance.begin();
-  const auto middle = begin + static_cast<std::ptrdiff_t>(nearest);
-  const auto end = begin + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(begin, middle, this->ByDistance.end());
-  std::nth_element(middle, end, this->ByDistance.end());
-  const auto comesFirst = [](const auto& a, const auto& b) { return a.second < b.second; };
-  std::sort(begin, middle, comesFirst);
-  std::sort(middle, end, comesFirst);
-  for (auto next = begin; next != end; ++next)
+  NearestChoice isNear = this->choiceOf(nearest);
+  NearestChoice isKept = this->choiceOf(most);
+  this->Others.clear();
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (std::isfinite(next->first))
+    const bool isTaken = isKept.takes(this->Distances[i]) && std::isfinite(this->Distances[i]);
+    if (isNear.takes(this->Distances[i]))
     {
-      this->add(samples[next->second]);
+      if (isTaken)
+      {
+        this->add(samples[i]);
+      }
+    }
+    else if (isTaken)
+    {
+      this->Others.push_back(i);
     }
   }
+  for (const std::size_t i : this->Others)
+  {
+    this->add(samples[i]);
+  }
+}
+
+/// The choice of the `count` least distances, the first ones of equal ones.
+FitFrame::NearestChoice FitFrame::choiceOf(std::size_t count)
+{
+  if (count == 0)
+  {
+    return { -1.0, 0 };
+  }
+  if (count == this->Distances.size())
+  {
+    return { std::numeric_limits<double>::infinity(), count };
+  }
+  this->Ranked = this->Distances;
+  const double limit = numberOfRank(this->Ranked.data(), this->Ranked.size(), count - 1);
+  const auto less = std::count_if(this->Distances.begin(), this->Distances.end(),
+    [limit](double distance) { return distance < limit; });
+  return { limit, count - static_cast<std::size_t>(less) };
 }
 
 Vector FitFrame::positionAt(const Vector& place) const

@@ -7,7 +7,6 @@
 #include "Isopoint/Fit/LocalFit.h"
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -45,6 +44,21 @@ public:
   std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
 
 private:
+  /// Distances up to a limit, of those that are equal to it the first ones.
+  struct NearestChoice
+  {
+    double limit;
+    std::size_t equalCount; // that are still to be taken
+
+    bool takes(double distance)
+    {
+      const bool isEqual = distance == this->limit && this->equalCount > 0;
+      this->equalCount -= isEqual ? 1 : 0;
+      return distance < this->limit || isEqual;
+    }
+  };
+
+  NearestChoice choiceOf(std::size_t count);
   void addNearest(
     const FitSample* samples, std::size_t count, std::size_t nearest, std::size_t most);
   void add(const FitSample& sample)
@@ -65,7 +79,9 @@ private:
   double Value = 1.0;  // and of values
   double MeanDistance = 0.0;
   bool IsUsable = false;
-  std::vector<std::pair<double, std::size_t>> ByDistance; // squared, and the samples
+  std::vector<double> Distances;   // squared, of samples that are added
+  std::vector<double> Ranked;      // the same in another order
+  std::vector<std::size_t> Others; // than the nearest samples
 };
 
 } // namespace isopoint

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Fit/LocalFitter.h"
 
+#include "Isopoint/Base/Selection.h"
 #include "Isopoint/Fit/CreaseFit.h"
 #include "Isopoint/Fit/Polynomial.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace isopoint
@@ -167,19 +167,18 @@ void LocalFitter::weighRobustly()
         residuals[i] =
           (samples.value[i] - affine->valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
       });
-    std::vector<double>& sorted = this->Residuals;
-    sorted.resize(samples.count());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
+    std::vector<double>& all = this->Residuals;
+    all.resize(samples.count());
+    for (std::size_t i = 0; i < all.size(); ++i)
     {
-      sorted[i] = FrameSamples::at(residuals, i);
+      all[i] = FrameSamples::at(residuals, i);
     }
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    if (!(*middle > 0.0))
+    const double middle = numberOfRank(all.data(), all.size(), all.size() / 2);
+    if (!(middle > 0.0))
     {
       return;
     }
-    const double scale = 1.0 / *middle;
+    const double scale = 1.0 / middle;
     samples.forEachGroup(
       [&](std::size_t i)
       {

@@ -40,20 +40,27 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
     NearestNumbers effect = NearestNumbers::Zero();
     for (std::size_t i = 0; i < coefficientCount(polynomial.degree); ++i)
     {
-      effect += unit[i] * reduced[i];
+      effect += unit(i) * reduced[i];
     }
     return effect;
   };
-  const NearestNumbers rest = 1.0 - weight * effectOn(reduced); // of the determinant without it
+  const auto ofSamples = [&](std::size_t i) -> const NearestNumbers& { return reduced[i]; };
+  const NearestNumbers rest = 1.0 - weight * effectOn(ofSamples); // of the determinant without it
   const NearestNumbers residual =
     weight * (nearestOf(samples.value) - polynomial.valueAt(x, y, z)) / rest;
-  std::array<double, 4> effects; // of all on the value, and on the slopes
-  for (std::size_t i = 0; i < effects.size(); ++i)
+  // The value, and the slopes, side by side.
+  std::array<Lanes, NormalEquations<Degree>::size> units;
+  units.fill(Lanes::Zero());
+  for (std::size_t i = 0; i < laneCount; ++i)
   {
-    std::array<double, NormalEquations<Degree>::size> unit{};
-    unit[i] = 1.0;
-    equations.reduce(polynomial.degree, unit);
-    const NearestNumbers effect = weight * effectOn(unit);
+    units[i][static_cast<Eigen::Index>(i)] = 1.0;
+  }
+  equations.reduce(polynomial.degree, units);
+  std::array<double, laneCount> effects; // of all samples on them
+  for (std::size_t i = 0; i < laneCount; ++i)
+  {
+    const NearestNumbers effect =
+      weight * effectOn([&](std::size_t j) { return units[j][static_cast<Eigen::Index>(i)]; });
     effects[i] = sumOfSquares(effect);
   }
   // The residual of a sample without which the others determine less is rounding alone.

@@ -134,7 +134,7 @@ public:
     }
   }
 
-  void shareCells(std::vector<SplatCell>& cells)
+  void shareCells(RawArray<SplatCell>& cells)
   {
     std::vector<SentCell> sent(cells.size());
     for (const std::size_t i : this->OwnIndices)

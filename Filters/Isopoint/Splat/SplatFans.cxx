@@ -62,7 +62,7 @@ void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
 /// A point's cell with its sides towards points whose cells have none towards it replaced by the
 /// corner where the sides before and after meet or, if that is far away, marked as overlapping. See
 /// docs/algorithm.md, section 12.6. O(1)
-SplatCell withMutualSides(const std::vector<SplatCell>& cells, std::size_t point)
+SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
 {
   SplatCell cell = cells[point];
   for (std::size_t side = 0; side < cell.count;)
@@ -170,7 +170,7 @@ class CornerJoiner
 {
 public:
   CornerJoiner(const SurfacePoints& points, const std::vector<Splat>& splats,
-    const std::vector<LoweredCell>& cells)
+    const RawArray<LoweredCell>& cells)
     : Points(points)
     , Splats(splats)
     , Cells(cells)
@@ -292,7 +292,7 @@ private:
 
   const SurfacePoints& Points;
   const std::vector<Splat>& Splats;
-  const std::vector<LoweredCell>& Cells;
+  const RawArray<LoweredCell>& Cells;
 };
 
 /// Sets all of a splat but its normal.
@@ -333,12 +333,13 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
 
 } // namespace
 
-void shapeSplats(const Execution& execution, const SurfacePoints& points,
-  std::vector<SplatCell> cells, const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
+void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArray<SplatCell> cells,
+  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
 {
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
-  std::vector<LoweredCell> lowered(cells.size());
+  RawArray<LoweredCell> lowered;
+  lowered.resize(cells.size());
   forBatches(
     execution, cells.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)
@@ -349,7 +350,7 @@ void shapeSplats(const Execution& execution, const SurfacePoints& points,
       }
     },
     [&](double share) { execution.progress(0.5 * share); });
-  std::vector<SplatCell>().swap(cells);
+  cells = {};
   const CornerJoiner joiner(points, splats, lowered);
   forBatches(
     execution, shaped.size(), batch, grain,

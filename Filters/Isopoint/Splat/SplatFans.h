@@ -3,6 +3,7 @@
 #define isopoint_SplatFans_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Splat/Curvature.h"
 #include "Isopoint/Splat/Splat.h"
 
@@ -52,8 +53,8 @@ constexpr int fanRings = 4 * static_cast<int>(mostMeeting);
 /// @param shaped the points whose splats are made
 /// @param splats of which normals are set; all else is set here
 /// @throws std::bad_alloc, Aborted
-void shapeSplats(const Execution& execution, const SurfacePoints& points,
-  std::vector<SplatCell> cells, const std::vector<std::size_t>& shaped, std::vector<Splat>& splats);
+void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArray<SplatCell> cells,
+  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats);
 
 } // namespace isopoint
 

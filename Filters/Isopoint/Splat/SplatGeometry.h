@@ -47,7 +47,7 @@ public:
 
   /// Sets the normals, or cells, of points that are other ranks' own.
   void shareNormals(std::vector<Splat>& /*splats*/) const {}
-  void shareCells(std::vector<SplatCell>& /*cells*/) const {}
+  void shareCells(RawArray<SplatCell>& /*cells*/) const {}
 
 private:
   std::vector<std::size_t> Indices;
@@ -85,7 +85,8 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
     return splats;
   }
   constexpr double cellsShare = 0.4;
-  std::vector<SplatCell> cells(splats.size());
+  RawArray<SplatCell> cells; // those of other ranks' points are set by shareCells()
+  cells.resize(splats.size());
   const std::vector<std::size_t>& own = chosen.own();
   chosen.forEach(
     execution, { own.size(), batch, grain },

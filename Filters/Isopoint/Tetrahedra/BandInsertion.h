@@ -5,12 +5,12 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Tetrahedra/BandKernel.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_lock_grid_3.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
@@ -33,16 +33,13 @@
 namespace isopoint::band
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-
 /// The leaf of a vertex, and the side of its value, in the bits of one number.
 class VertexInfo
 {
 public:
   VertexInfo() = default;
-  explicit VertexInfo(const BandSite& site)
-    : Bits(2 * site.leaf + (site.isBelow ? 1 : 0))
+  VertexInfo(std::uint64_t leaf, bool isBelow)
+    : Bits(2 * leaf + (isBelow ? 1 : 0))
   {
   }
 
@@ -188,6 +185,10 @@ private:
   }
 
   const BandSite& siteAt(std::size_t place) const { return this->Sites[this->Order[place]]; }
+  VertexInfo infoAt(std::size_t place) const
+  {
+    return { this->siteAt(place).leaf, this->siteAt(place).isBelow };
+  }
 
   void insertAlone(std::size_t begin, std::size_t end)
   {
@@ -209,7 +210,7 @@ private:
   {
     reserveCells(this->Cells);
     hint = this->Cells.insert(pointAt(this->siteAt(place).position), hint);
-    hint->info() = VertexInfo(this->siteAt(place));
+    hint->info() = this->infoAt(place);
     ++this->Done;
   }
 
@@ -352,7 +353,7 @@ private:
       const Vertex vertex = this->Cells.insert(point, hint, &hasLocks);
       if (hasLocks)
       {
-        vertex->info() = VertexInfo(this->siteAt(place));
+        vertex->info() = this->infoAt(place);
         hint = vertex;
       }
     }

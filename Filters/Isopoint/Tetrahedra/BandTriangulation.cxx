@@ -59,12 +59,13 @@ Vector positionOf(const Point& point)
 class BandTriangulation::Internals
 {
 public:
-  explicit Internals(const Execution& execution)
-    : Run(execution)
+  explicit Internals(const CoordinateUnit& unit)
+    : Unit(unit)
+    , Cells(band::Kernel(&this->Unit))
   {
   }
 
-  const Execution& Run;
+  CoordinateUnit Unit; // of all positions
   Triangulation Cells;
   std::vector<Cell> Open; // the listed ones
 
@@ -107,8 +108,8 @@ public:
   }
 };
 
-BandTriangulation::BandTriangulation(const Execution& execution)
-  : Inside(std::make_unique<Internals>(execution))
+BandTriangulation::BandTriangulation(const CoordinateUnit& unit)
+  : Inside(std::make_unique<Internals>(unit))
 {
 }
 
@@ -122,11 +123,24 @@ BandTriangulation::~BandTriangulation()
 #endif
 }
 
-void BandTriangulation::insert(
-  const std::vector<BandSite>& sites, const std::function<void(double share)>& step)
+void BandTriangulation::insert(const Execution& execution, const std::vector<BandSite>& sites,
+  const std::function<void(double share)>& step)
 {
   this->Inside->Open = {};
-  band::Insertion(this->Inside->Run, this->Inside->Cells, sites, step).run();
+  for (const BandSite& site : sites)
+  {
+    this->Inside->Unit.add(site.position);
+  }
+  band::Insertion(execution, this->Inside->Cells, sites, step).run();
+}
+
+void BandTriangulation::setSides(const std::function<bool(std::uint64_t leaf)>& isBelow)
+{
+  for (const Vertex vertex : this->Inside->Cells.finite_vertex_handles())
+  {
+    const std::uint64_t leaf = vertex->info().leaf();
+    vertex->info() = VertexInfo(leaf, isBelow(leaf));
+  }
 }
 
 std::size_t BandTriangulation::size() const

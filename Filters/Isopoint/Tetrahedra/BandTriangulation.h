@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
+#include "Isopoint/Tetrahedra/CoordinateUnit.h"
 #include "Isopoint/Tetrahedra/SphereFunction.h"
 
 #include <array>
@@ -44,19 +45,23 @@ struct CrossingTetrahedron
 class BandTriangulation
 {
 public:
-  /// @param execution must outlive this; large insertions run on its threads, where TBB is
-  /// available
-  explicit BandTriangulation(const Execution& execution);
+  /// @param unit of all positions that are asked for, and have not been inserted
+  explicit BandTriangulation(const CoordinateUnit& unit);
   BandTriangulation(const BandTriangulation&) = delete;
   BandTriangulation& operator=(const BandTriangulation&) = delete;
   ~BandTriangulation();
 
-  /// Adds samples, none of which coincide with another one.
+  /// Adds samples, none of which coincide with another one; many at a time on all threads, where
+  /// oneTBB is available.
   /// @param step(share) called from the calling thread with the share that is done, every few
   /// milliseconds
   /// @throws what step throws, and then some of them are added; std::bad_alloc, after which this
   /// can only be destroyed
-  void insert(const std::vector<BandSite>& sites, const std::function<void(double share)>& step);
+  void insert(const Execution& execution, const std::vector<BandSite>& sites,
+    const std::function<void(double share)>& step);
+
+  /// Sets the sides of the isovalue on which samples are. O(samples)
+  void setSides(const std::function<bool(std::uint64_t leaf)>& isBelow);
 
   std::size_t size() const;
 

@@ -4,7 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
-#include "Isopoint/Tetrahedra/BandTriangulation.h"
+#include "Isopoint/Tetrahedra/Band.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"
 #include "Isopoint/Tree/CoincidentSamples.h"
@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -27,8 +28,8 @@ namespace isopoint
 /// What finding the crossing tetrahedra took.
 struct TetrahedraCounts
 {
-  std::size_t band = 0;     // samples near the surface, tetrahedrized first
-  std::size_t inserted = 0; // added since
+  std::size_t band = 0; // samples near the surface
+  std::size_t size = 0; // samples that were tetrahedrized in the end
   std::size_t rounds = 0;
   bool isWhole = false; // whether all samples were tetrahedrized in the end
 };
@@ -47,14 +48,16 @@ public:
 
   /// @param tree refined around the isovalue (see NarrowBand); will be refined further
   /// @param values of the tree's leaves
+  /// @param kept the band of an earlier search in this tree, or null; becomes that of this one,
+  /// unless it is large
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    SharedLeafMeans<TSample>& values, double isovalue)
+    SharedLeafMeans<TSample>& values, double isovalue, std::unique_ptr<Band>& kept)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Means(values)
     , Isovalue(isovalue)
-    , Band(execution)
+    , Kept(kept)
   {
   }
 
@@ -66,13 +69,15 @@ public:
   {
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
     this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
+    this->gather(leaves);
+    this->begin(leaves);
     if (this->areMany(this->Counts.band))
     {
       this->insertAll();
     }
-    this->insert(std::move(leaves));
+    this->insert(leaves);
     this->spanSpace();
-    while (!this->Counts.isWhole && this->Band.dimension() == 3)
+    while (!this->Current->isWhole && this->triangulation().dimension() == 3)
     {
       ++this->Counts.rounds;
       if (!this->certify() && !this->checkSides())
@@ -84,17 +89,53 @@ public:
         this->insertAll();
       }
     }
-    this->Counts.inserted = this->Band.size() - this->Counts.band;
-    return this->crossing();
+    this->Counts.size = this->triangulation().size();
+    this->Counts.isWhole = this->Current->isWhole;
+    std::vector<CrossingTetrahedron<Id>> found = this->crossing();
+    if (this->Current->isSmall(this->Tree.samples.size()))
+    {
+      this->Kept = std::move(this->Current);
+    }
+    this->Current.reset();
+    return found;
   }
 
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
-  std::vector<CrossingTetrahedron<Id>> crossing() const
+  /// The unit of the coordinates of this rank's samples, unless it is so small that few of those
+  /// around a tetrahedron are within the units for which doubles are exact.
+  static CoordinateUnit unitOfSamples(const Execution& execution, const SampleTree<TSample>& tree)
+  {
+    double volume = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      volume *= tree.region.upper[axis] - tree.region.lower[axis];
+    }
+    constexpr double leastShare = 1.0 / 128.0; // of the mean spacing
+    const CoordinateUnit none(
+      leastShare * std::cbrt(volume / static_cast<double>(tree.samples.size())));
+    CoordinateUnit unit = none;
+    std::mutex mutex;
+    constexpr std::size_t grain = 65536;
+    forRanges(execution, tree.samples.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        CoordinateUnit ofRange = none;
+        for (std::size_t i = begin; i < end && ofRange.value() > 0.0; ++i)
+        {
+          ofRange.add(positionOf(tree.samples[i]));
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        unit.add(ofRange);
+      });
+    return unit;
+  }
+
+  std::vector<CrossingTetrahedron<Id>> crossing()
   {
     std::vector<CrossingTetrahedron<Id>> result;
-    this->Band.visitCrossing(
+    this->triangulation().visitCrossing(
       [&result](const CrossingTetrahedron<std::uint64_t>& tetrahedron)
       {
         CrossingTetrahedron<Id> narrow{ {}, tetrahedron.belowCount, tetrahedron.isAtHull };
@@ -151,13 +192,53 @@ private:
     return touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow);
   }
 
-  /// Adds leaves to the band: those of this rank, and of all others.
+  BandTriangulation& triangulation() { return this->Current->triangulation; }
+
+  /// Adds those of all other ranks to leaves of this one, and brings them into an order that is the
+  /// same for any number of threads and on all ranks.
   /// @param leaves in any order, with repetitions
-  void insert(std::vector<std::size_t> leaves)
+  void gather(std::vector<std::size_t>& leaves)
   {
     this->Ranks.gatherLeaves(leaves);
-    this->Marks.grow(this->Tree.nodes.size());
-    this->Band.insert(this->newSites(leaves),
+    std::sort(leaves.begin(), leaves.end(),
+      [this](std::size_t a, std::size_t b)
+      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  }
+
+  /// Goes on with the band that was kept, if it holds most of the leaves and not many others, or
+  /// begins a new one. Nothing is kept while it changes: it may fail.
+  /// @param leaves gathered
+  void begin(const std::vector<std::size_t>& leaves)
+  {
+    this->Current = std::move(this->Kept);
+    const bool isNew = this->Ranks.isAny(!this->Current);
+    if (isNew || !this->isOfUse(leaves))
+    {
+      this->Current.reset();
+      this->Current = std::make_unique<Band>(unitOfSamples(this->Run, this->Tree));
+      return;
+    }
+    LeafValueCache<TSample> values(this->Tree, this->Means);
+    this->triangulation().setSides([&](std::uint64_t leaf)
+      { return values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
+  }
+
+  bool isOfUse(const std::vector<std::size_t>& leaves)
+  {
+    constexpr std::size_t mostTimes = 3;
+    this->Current->marks.grow(this->Tree.nodes.size());
+    const auto known = static_cast<std::size_t>(std::count_if(leaves.begin(), leaves.end(),
+      [this](std::size_t leaf) { return this->Current->marks.has(leaf, bandmarks::inBand); }));
+    return 2 * known >= leaves.size() && this->triangulation().size() <= mostTimes * leaves.size();
+  }
+
+  /// Adds leaves to the band.
+  /// @param leaves gathered
+  void insert(const std::vector<std::size_t>& leaves)
+  {
+    this->Current->marks.grow(this->Tree.nodes.size());
+    this->triangulation().insert(this->Run, this->newSites(leaves),
       [this](double share)
       {
         throwIfAborted(this->Run);
@@ -165,22 +246,24 @@ private:
       });
   }
 
-  /// Marks leaves as those of the band. @returns those that were not
-  std::vector<BandSite> newSites(std::vector<std::size_t>& leaves)
+  /// @param leaves of this rank, in any order, with repetitions
+  void gatherAndInsert(std::vector<std::size_t> leaves)
   {
-    // In the same order for any number of threads and on all ranks.
-    std::sort(leaves.begin(), leaves.end(),
-      [this](std::size_t a, std::size_t b)
-      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
-    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+    this->gather(leaves);
+    this->insert(leaves);
+  }
+
+  /// Marks leaves as those of the band. @returns those that were not
+  std::vector<BandSite> newSites(const std::vector<std::size_t>& leaves)
+  {
     LeafValueCache<TSample> values(this->Tree, this->Means);
     std::vector<BandSite> sites;
     sites.reserve(leaves.size());
     for (const std::size_t leaf : leaves)
     {
-      if (!this->Marks.has(leaf, bandmarks::inBand))
+      if (!this->Current->marks.has(leaf, bandmarks::inBand))
       {
-        this->Marks.set(leaf, bandmarks::inBand);
+        this->Current->marks.set(leaf, bandmarks::inBand);
         sites.push_back(
           { positionOf(this->Tree.sampleOf(leaf)), leaf, values.at(leaf) < this->Isovalue });
       }
@@ -192,7 +275,7 @@ private:
   void split(const std::vector<std::size_t>& nodes)
   {
     splitFurther(this->Run, this->Tree, nodes);
-    this->Marks.grow(this->Tree.nodes.size());
+    this->Current->marks.grow(this->Tree.nodes.size());
   }
 
   /// Inserts all samples.
@@ -209,14 +292,14 @@ private:
           leaves.push_back(leaf.nodeIndex());
         }
       });
-    this->insert(std::move(leaves));
-    this->Counts.isWhole = true;
+    this->gatherAndInsert(std::move(leaves));
+    this->Current->isWhole = true;
   }
 
   /// Inserts samples until the band's are not coplanar, unless all are.
   void spanSpace()
   {
-    while (this->Band.size() > 0 && this->Band.dimension() < 3)
+    while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
     {
       const std::optional<std::size_t> node = this->nodeOffBand();
       std::vector<std::size_t> leaves;
@@ -232,7 +315,7 @@ private:
       {
         return;
       }
-      this->insert(std::move(leaves));
+      this->gatherAndInsert(std::move(leaves));
     }
   }
 
@@ -248,7 +331,7 @@ private:
         const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
         for (std::size_t i = node.begin; i < end && !found && this->Tree.hasOwn(node); ++i)
         {
-          if (this->Band.raisesDimension(positionOf(this->Tree.samples[i])))
+          if (this->triangulation().raisesDimension(positionOf(this->Tree.samples[i])))
           {
             found = below.nodeIndex();
           }
@@ -270,13 +353,13 @@ private:
   bool certify()
   {
     throwIfAborted(this->Run);
-    const std::size_t openCount = this->Band.listOpenCells();
-    this->Visits += this->Band.cellCount();
+    const std::size_t openCount = this->triangulation().listOpenCells();
+    this->Visits += this->triangulation().cellCount();
     SearchResult result = this->searchSpheres(openCount);
     if (!this->Ranks.isAny(this->isSpent()))
     {
       this->split(result.unsplit);
-      this->insert(std::move(result.leaves));
+      this->gatherAndInsert(std::move(result.leaves));
     }
     return this->Ranks.isAny(openCount > 0);
   }
@@ -290,7 +373,7 @@ private:
       this->Run, openCount, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
-        SphereSearch<TSample> search(this->Tree, this->Band, this->Marks);
+        SphereSearch<TSample> search(this->Tree, this->triangulation(), this->Current->marks);
         std::vector<std::size_t> leaves;
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)
@@ -301,7 +384,7 @@ private:
           }
           else if (search.isComplete())
           {
-            this->Band.certify(i);
+            this->triangulation().certify(i);
           }
           this->Visits += search.visits() - visits;
           ++this->Searches;
@@ -319,7 +402,8 @@ private:
   /// @returns whether there were any
   bool checkSides()
   {
-    SideCheck<TSample> check(this->Run, this->Tree, this->Band, this->Marks, this->Means);
+    SideCheck<TSample> check(
+      this->Run, this->Tree, this->triangulation(), this->Current->marks, this->Means);
     std::vector<std::size_t> leaves;
     std::vector<std::size_t> unsplit;
     for (const std::size_t node : check.find(this->Isovalue))
@@ -328,7 +412,7 @@ private:
     }
     const bool isAnyWrong = !leaves.empty() || !unsplit.empty();
     this->split(unsplit);
-    this->insert(std::move(leaves));
+    this->gatherAndInsert(std::move(leaves));
     return this->Ranks.isAny(isAnyWrong);
   }
 
@@ -368,8 +452,8 @@ private:
   TRanks& Ranks;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
-  BandTriangulation Band;
-  NodeMarks Marks;
+  std::unique_ptr<Band>& Kept;
+  std::unique_ptr<Band> Current;
   std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists, or as long as these
   std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;

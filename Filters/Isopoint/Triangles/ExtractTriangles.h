@@ -9,6 +9,7 @@
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/NarrowBand.h"
+#include "Isopoint/Tetrahedra/Band.h"
 #include "Isopoint/Tetrahedra/CrossingTetrahedra.h"
 #include "Isopoint/Triangles/CreaseMesh.h"
 #include "Isopoint/Triangles/GapTetrahedra.h"
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -42,12 +44,15 @@ public:
   /// @param tree will be refined
   /// @param ranks SingleRank, or SharedRanks
   /// @param neighborhoods of the tree's leaves that are known
+  /// @param band see CrossingTetrahedraFinder
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    const NeighborhoodCache<Id>& neighborhoods, const IsosurfaceRequest& request)
+    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<Band>& band,
+    const IsosurfaceRequest& request)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Neighborhoods(neighborhoods)
+    , KeptBand(band)
     , Request(request)
     , Means(tree)
   {
@@ -90,7 +95,7 @@ public:
     const double count = work::isopointsForNode * static_cast<double>(nodes.size());
     const Execution part = progress.part(count * work::tetrahedrizing, count * laterWork);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue);
+      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->KeptBand);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     this->Counts = finder.counts();
     return found;
@@ -148,6 +153,7 @@ private:
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const NeighborhoodCache<Id>& Neighborhoods;
+  std::unique_ptr<Band>& KeptBand;
   const IsosurfaceRequest& Request;
   SharedLeafMeans<TSample> Means;
   TetrahedraCounts Counts;

@@ -11,8 +11,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
-#include <limits>
+#include <numeric>
 #include <vector>
 
 namespace isopoint
@@ -66,87 +67,76 @@ public:
     return false;
   }
 
-  /// O(1), except for the first time: O(n log n). @throws std::bad_alloc
+  /// O(tetrahedra at a corner), except for the first time: O(n). @throws std::bad_alloc
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
   {
-    if (this->Neighbors.empty())
+    if (this->Begins.empty())
     {
-      this->listNeighbors();
+      this->listAtCorners();
     }
-    for (const std::size_t neighbor : this->Neighbors[tetrahedron])
+    const auto& [corners, belowCount, isAtHull] = this->Tetrahedra[tetrahedron];
+    for (std::size_t opposite = 0; opposite < 4; ++opposite)
     {
-      if (neighbor != none)
+      const bool isBelow = opposite < belowCount;
+      if (belowCount != (isBelow ? 1 : 3)) // else all corners of the facet are on one side
       {
-        visit(neighbor);
+        this->visitAcross(tetrahedron, corners[opposite], visit);
       }
     }
   }
 
 private:
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-  struct Facet
+  /// Lists the tetrahedra at each leaf, one list after the other.
+  void listAtCorners()
   {
-    std::array<typename TSample::Id, 3> corners; // ascending
-    std::size_t tetrahedron;
-  };
-
-  void listNeighbors()
-  {
-    this->Neighbors.resize(this->Tetrahedra.size(), { none, none, none, none });
-    std::vector<Facet> facets;
-    facets.reserve(4 * this->Tetrahedra.size());
+    std::vector<std::size_t> places(this->Tree.nodes.size() + 1, 0);
+    for (const Tetrahedron& tetrahedron : this->Tetrahedra)
+    {
+      for (const auto corner : tetrahedron.corners)
+      {
+        ++places[static_cast<std::size_t>(corner) + 1];
+      }
+    }
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    this->Begins = places;
+    this->AtCorners.resize(places.back());
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
-      addFacets(this->Tetrahedra[i], i, facets);
-    }
-    std::sort(facets.begin(), facets.end(),
-      [](const Facet& a, const Facet& b) { return a.corners < b.corners; });
-    for (std::size_t i = 1; i < facets.size(); ++i)
-    {
-      if (facets[i - 1].corners == facets[i].corners)
+      for (const auto corner : this->Tetrahedra[i].corners)
       {
-        this->addNeighbor(facets[i - 1].tetrahedron, facets[i].tetrahedron);
-        this->addNeighbor(facets[i].tetrahedron, facets[i - 1].tetrahedron);
+        this->AtCorners[places[static_cast<std::size_t>(corner)]++] = i;
       }
     }
   }
 
-  static void addFacets(
-    const Tetrahedron& tetrahedron, std::size_t number, std::vector<Facet>& facets)
+  /// Visits the other tetrahedron at the facet opposite to a corner, if there is one.
+  template <class Visit>
+  void visitAcross(std::size_t tetrahedron, typename TSample::Id opposite, const Visit& visit) const
   {
-    for (std::size_t opposite = 0; opposite < 4; ++opposite)
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    const auto shared = static_cast<std::size_t>(corners[0] == opposite ? corners[1] : corners[0]);
+    for (std::size_t place = this->Begins[shared]; place < this->Begins[shared + 1]; ++place)
     {
-      const bool isBelow = opposite < tetrahedron.belowCount;
-      if (tetrahedron.belowCount == (isBelow ? 1 : 3))
+      const std::size_t other = this->AtCorners[place];
+      const auto& otherCorners = this->Tetrahedra[other].corners;
+      const auto isShared = [&](typename TSample::Id corner)
       {
-        continue; // all corners of the facet are on one side
-      }
-      Facet facet{ {}, number };
-      std::size_t place = 0;
-      for (std::size_t corner = 0; corner < 4; ++corner)
+        return corner == opposite ||
+               std::find(otherCorners.begin(), otherCorners.end(), corner) != otherCorners.end();
+      };
+      if (other != tetrahedron && std::all_of(corners.begin(), corners.end(), isShared))
       {
-        if (corner != opposite)
-        {
-          facet.corners[place++] = tetrahedron.corners[corner];
-        }
+        visit(other);
       }
-      std::sort(facet.corners.begin(), facet.corners.end());
-      facets.push_back(facet);
     }
-  }
-
-  void addNeighbor(std::size_t tetrahedron, std::size_t neighbor)
-  {
-    std::array<std::size_t, 4>& all = this->Neighbors[tetrahedron];
-    *std::find(all.begin(), all.end(), none) = neighbor;
   }
 
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
-  /// Of each: as many as there are, then none. Listed once there is a gap.
-  std::vector<std::array<std::size_t, 4>> Neighbors;
+  // Listed once there is a gap: the tetrahedra at the corners, and where those of a leaf begin.
+  std::vector<std::size_t> AtCorners;
+  std::vector<std::size_t> Begins;
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
@@ -212,8 +202,8 @@ private:
   /// criterion. In clouds without gaps these are few, so that next to no edge is looked at.
   std::vector<char> crowdedLeaves()
   {
-    const std::vector<double> longest = this->longestEdges(); // at each leaf, by node
-    std::vector<std::size_t> corners;                         // in the same order on all ranks
+    const std::vector<std::atomic<double>> longest = this->longestEdges(); // at each leaf, by node
+    std::vector<std::size_t> corners; // in the same order on all ranks
     for (std::size_t leaf = 0; leaf < longest.size(); ++leaf)
     {
       if (longest[leaf] > 0.0)
@@ -247,25 +237,38 @@ private:
     return marksOfNodes;
   }
 
-  std::vector<double> longestEdges() const
+  std::vector<std::atomic<double>> longestEdges() const
   {
-    std::vector<double> longest(this->Tree.nodes.size(), 0.0);
-    for (const Tetrahedron& tetrahedron : this->Tetrahedra)
+    std::vector<std::atomic<double>> longest(this->Tree.nodes.size());
+    const auto raise = [&longest](std::size_t leaf, double length)
     {
-      for (std::size_t i = 0; i < 4; ++i)
+      double former = longest[leaf].load(std::memory_order_relaxed);
+      while (former < length &&
+             !longest[leaf].compare_exchange_weak(former, length, std::memory_order_relaxed))
       {
-        const auto a = static_cast<std::size_t>(tetrahedron.corners[i]);
-        for (std::size_t j = i + 1; j < 4; ++j)
-        {
-          const auto b = static_cast<std::size_t>(tetrahedron.corners[j]);
-          const double length =
-            offsetBetween(positionOf(this->Tree.sampleOf(a)), positionOf(this->Tree.sampleOf(b)))
-              .length;
-          longest[a] = std::max(longest[a], length);
-          longest[b] = std::max(longest[b], length);
-        }
       }
-    }
+    };
+    constexpr std::size_t grain = 4096;
+    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t tetrahedron = begin; tetrahedron < end; ++tetrahedron)
+        {
+          const auto& corners = this->Tetrahedra[tetrahedron].corners;
+          std::array<Vector, 4> positions;
+          std::transform(corners.begin(), corners.end(), positions.begin(),
+            [this](Id corner) { return positionOf(this->Tree.sampleOf(corner)); });
+          for (std::size_t i = 0; i < 4; ++i)
+          {
+            for (std::size_t j = i + 1; j < 4; ++j)
+            {
+              const double length = offsetBetween(positions[i], positions[j]).length;
+              raise(static_cast<std::size_t>(corners[i]), length);
+              raise(static_cast<std::size_t>(corners[j]), length);
+            }
+          }
+        }
+      });
     return longest;
   }
 

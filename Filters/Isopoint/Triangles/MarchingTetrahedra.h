@@ -58,6 +58,7 @@ public:
   {
     this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
       [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
+    this->indexPairs();
     this->placeVertices();
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
@@ -173,10 +174,31 @@ private:
     }
   }
 
+  /// Notes where the pairs of each few consecutive leaves begin.
+  void indexPairs()
+  {
+    this->LeavesPerPart = 4 * this->Tree.nodes.size() / (this->Pairs.size() + 1) + 1;
+    this->PartBegins.assign(this->Tree.nodes.size() / this->LeavesPerPart + 2, 0);
+    for (const LeafPair& pair : this->Pairs)
+    {
+      ++this->PartBegins[this->partOf(pair) + 1];
+    }
+    std::partial_sum(this->PartBegins.begin(), this->PartBegins.end(), this->PartBegins.begin());
+  }
+
+  std::size_t partOf(const LeafPair& pair) const
+  {
+    return static_cast<std::size_t>(pair.first) / this->LeavesPerPart;
+  }
+
   std::size_t vertexOn(const LeafPair& pair) const
   {
-    return this->VertexOf[static_cast<std::size_t>(
-      std::lower_bound(this->Pairs.begin(), this->Pairs.end(), pair) - this->Pairs.begin())];
+    const std::size_t part = this->partOf(pair);
+    const auto placeOf = [this](std::size_t begin)
+    { return this->Pairs.begin() + static_cast<std::ptrdiff_t>(begin); };
+    const auto found =
+      std::lower_bound(placeOf(this->PartBegins[part]), placeOf(this->PartBegins[part + 1]), pair);
+    return this->VertexOf[static_cast<std::size_t>(found - this->Pairs.begin())];
   }
 
   /// The triangles, their vertices numbered as pairs are.
@@ -237,19 +259,57 @@ private:
   /// Orders vertices and triangles, and leaves out vertices without triangles.
   EdgeTriangles<TSample> ordered(const std::vector<SurfaceTriangle>& triangles) const
   {
-    std::vector<std::size_t> order = verticesOf(triangles, this->Edges.size());
-    std::sort(order.begin(), order.end(),
-      [this](std::size_t a, std::size_t b) { return this->Edges[a] < this->Edges[b]; });
+    const std::vector<std::size_t> order =
+      this->inOrderOfEdges(verticesOf(triangles, this->Edges.size()));
     EdgeTriangles<TSample> result;
-    result.edges.reserve(order.size());
-    result.positions.reserve(order.size());
-    for (const std::size_t vertex : order)
-    {
-      result.edges.push_back(this->Edges[vertex]);
-      result.positions.push_back(this->Positions[vertex]);
-    }
+    result.edges.resize(order.size());
+    result.positions.resize(order.size());
+    constexpr std::size_t grain = 4096;
+    forBatches(this->Run, order.size(), 8 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t place = begin; place < end; ++place)
+        {
+          result.edges[place] = this->Edges[order[place]];
+          result.positions[place] = this->Positions[order[place]];
+        }
+      });
     result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
     return result;
+  }
+
+  /// A vertex, and the ids of the samples at its edge's ends.
+  struct EdgeVertex
+  {
+    std::uint64_t first;
+    std::uint64_t second;
+    std::size_t vertex;
+
+    bool operator<(const EdgeVertex& other) const
+    {
+      return this->first != other.first ? this->first < other.first : this->second < other.second;
+    }
+    bool operator==(const EdgeVertex& other) const
+    {
+      return this->first == other.first && this->second == other.second;
+    }
+  };
+
+  std::vector<std::size_t> inOrderOfEdges(std::vector<std::size_t> vertices) const
+  {
+    std::vector<EdgeVertex> keyed;
+    keyed.reserve(vertices.size());
+    std::uint64_t most = 0;
+    for (const std::size_t vertex : vertices)
+    {
+      keyed.push_back({ this->Edges[vertex].first, this->Edges[vertex].second, vertex });
+      most = std::max(most, keyed.back().first);
+    }
+    keyed = sortedUnique(
+      this->Run, keyed, most + 1, [](const EdgeVertex& vertex) { return vertex.first; });
+    std::transform(keyed.begin(), keyed.end(), vertices.begin(),
+      [](const EdgeVertex& vertex) { return vertex.vertex; });
+    return vertices;
   }
 
   const Execution& Run;
@@ -258,6 +318,8 @@ private:
   const double Isovalue;
   const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;
   std::vector<LeafPair> Pairs; // of crossing edges, ordered
+  std::size_t LeavesPerPart = 1;
+  std::vector<std::size_t> PartBegins; // in the pairs, by their first leaves
   // One entry for each pair.
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<Vector> Positions;

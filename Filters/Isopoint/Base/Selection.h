@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Selection_h
+#define isopoint_Selection_h
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace isopoint
+{
+
+/// Moves the numbers that belong to front of others. The compiler makes no branch of it: which
+/// numbers these are is unpredictable. @returns how many there are. O(n)
+template <class Belongs>
+std::size_t moveToFront(double* numbers, std::size_t count, const Belongs& belongs)
+{
+  std::size_t front = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double number = numbers[i];
+    numbers[i] = numbers[front];
+    numbers[front] = number;
+    front += belongs(number) ? 1 : 0;
+  }
+  return front;
+}
+
+/// The number that would be at a place if all were sorted; not a number if one of them is not.
+/// Reorders them. Quicker than std::nth_element() for hundreds.
+/// @param place below count
+/// Complexity: O(n) on average
+inline double numberOfRank(double* numbers, std::size_t count, std::size_t place)
+{
+  constexpr std::size_t few = 8;
+  while (count > few)
+  {
+    const double first = numbers[0];
+    const double middle = numbers[count / 2];
+    const double last = numbers[count - 1];
+    const double pivot = std::max(std::min(first, middle), std::min(std::max(first, middle), last));
+    const std::size_t below =
+      moveToFront(numbers, count, [pivot](double number) { return number < pivot; });
+    if (place < below)
+    {
+      count = below;
+      continue;
+    }
+    numbers += below;
+    count -= below;
+    place -= below;
+    if (below == 0)
+    {
+      const std::size_t equal =
+        moveToFront(numbers, count, [pivot](double number) { return number <= pivot; });
+      if (place < equal || equal == 0)
+      {
+        return pivot;
+      }
+      numbers += equal;
+      count -= equal;
+      place -= equal;
+    }
+  }
+  std::sort(numbers, numbers + count);
+  return numbers[place];
+}
+
+} // namespace isopoint
+
+#endif
