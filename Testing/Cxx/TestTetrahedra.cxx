@@ -345,3 +345,35 @@ TEST(Tetrahedra, OfDegenerateCloudsAreNone)
     expectSameTetrahedra(withNoise(clouds::uniform(count, count), 0.5, count), 0.5);
   }
 }
+
+// The band of one isovalue is kept for the next: near ones, others far away, and back.
+TEST(Tetrahedra, OfOneIsovalueAfterAnother)
+{
+  triangles::KeptTetrahedra random(withSphere(clouds::uniform(40000, 3)));
+  for (const double isovalue : { 0.3, 0.31, 0.305, 0.2, 0.33, 0.34, 0.35, 0.36, -1.0, 0.36, 0.6 })
+  {
+    random.expectSame(isovalue);
+  }
+  for (const double side : { 32.0, 30.0 }) // exact, and rounded
+  {
+    triangles::KeptTetrahedra lattice(
+      withSphere(scaled(clouds::lattice(33, 33, 33), 1.0 / side, 1.0 / side, 1.0 / side)));
+    for (const double isovalue : { 0.3, 0.31, 0.32, 0.35, 0.3 })
+    {
+      lattice.expectSame(isovalue);
+    }
+  }
+  // All samples are tetrahedrized.
+  triangles::KeptTetrahedra noise(withNoise(clouds::uniform(3000, 4), 0.5, 5));
+  noise.expectSame(0.5);
+  noise.expectSame(0.4);
+}
+
+TEST(Tetrahedra, KeepsTheBandOfASurface)
+{
+  triangles::KeptTetrahedra kept(withSphere(clouds::uniform(40000, 3)));
+  const Found first = kept.expectSame(0.3);
+  EXPECT_EQ(0u, kept.expectSame(0.3).counts.size - first.counts.size);
+  EXPECT_LT(kept.expectSame(0.302).counts.size, first.counts.size + first.counts.size / 4);
+  EXPECT_LT(kept.expectSame(0.1).counts.size, first.counts.size); // another band
+}

@@ -183,6 +183,45 @@ Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads =
   return found;
 }
 
+/// The crossing tetrahedra of one isovalue after another, in one tree, with the band kept.
+class KeptTetrahedra
+{
+public:
+  explicit KeptTetrahedra(Cloud cloud)
+    : Samples(std::move(cloud))
+    , Tree(isopoint::loadSamples<TSample>(
+        this->Run, this->Samples.size(), clouds::readerOf(this->Samples)))
+  {
+  }
+
+  /// Expects those of the full tetrahedrization. @returns what was found
+  Found expectSame(double isovalue)
+  {
+    isopoint::IsosurfaceRequest request;
+    request.isovalue = isovalue;
+    isopoint::SingleRank<TSample> rank(this->Tree);
+    isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
+      this->Run, this->Tree, rank, this->None, this->Band, request);
+    isopoint::WorkProgress progress(this->Run);
+    Found found;
+    found.corners = cornersOf(this->Tree, extraction.tetrahedra(progress, 0.0));
+    found.counts = extraction.counts();
+    const std::vector<Corners> expected = fullTetrahedra(this->Samples, isovalue);
+    EXPECT_EQ(found.corners.size(), expected.size()) << isovalue;
+    EXPECT_TRUE(found.corners == expected) << isovalue;
+    return found;
+  }
+
+private:
+  using TSample = isopoint::WideSample;
+
+  Cloud Samples;
+  isopoint::Execution Run;
+  isopoint::SampleTree<TSample> Tree;
+  isopoint::NeighborhoodCache<TSample::Id> None;
+  std::unique_ptr<isopoint::Band> Band;
+};
+
 /// Finds them from a band of a share of the nodes that a narrow band yields, the first of them.
 inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
 {

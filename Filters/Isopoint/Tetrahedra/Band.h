@@ -5,6 +5,7 @@
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tree/NodeMarks.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace isopoint
@@ -21,11 +22,12 @@ struct Band
   }
 
   /// Whether it is worth its memory between extractions, where a tree of this many samples is kept:
-  /// a vertex takes about as much as 30 samples.
+  /// a sample of the band takes about as much as 30 of the tree, 700 bytes.
   bool isSmall(std::size_t sampleCount) const
   {
     constexpr std::size_t leastRatio = 8;
-    return leastRatio * this->triangulation.size() <= sampleCount;
+    constexpr std::size_t alwaysSmall = 50000;
+    return this->triangulation.size() <= std::max(alwaysSmall, sampleCount / leastRatio);
   }
 
   BandTriangulation triangulation;

@@ -49,10 +49,10 @@ private:
 
   bool divides(double coordinate) const
   {
-    constexpr double mostUnits = 0x1p62; // in 64 bits
-    const double units = coordinate / this->Unit;
-    return std::abs(units) < mostUnits &&
-           static_cast<double>(static_cast<std::int64_t>(units)) == units;
+    constexpr double mostUnits = 0x1p62;          // in 64 bits
+    const double units = coordinate / this->Unit; // may underflow to 0
+    return coordinate == 0.0 || (std::abs(units) >= 1.0 && std::abs(units) < mostUnits &&
+                                  static_cast<double>(static_cast<std::int64_t>(units)) == units);
   }
 
   /// Of a number other than 0; 0 of one that is not finite.
