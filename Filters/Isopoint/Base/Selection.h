@@ -25,8 +25,8 @@ std::size_t moveToFront(double* numbers, std::size_t count, const Belongs& belon
   return front;
 }
 
-/// The number that would be at a place if all were sorted; not a number if one of them is not.
-/// Reorders them. Quicker than std::nth_element() for hundreds.
+/// The number that would be at a place if all were sorted. Reorders them. If one of them is not a
+/// number, the result is any of them. Quicker than std::nth_element() for hundreds.
 /// @param place below count
 /// Complexity: O(n) on average
 inline double numberOfRank(double* numbers, std::size_t count, std::size_t place)

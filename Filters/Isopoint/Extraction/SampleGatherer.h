@@ -196,6 +196,9 @@ private:
   /// More neighbors than that are not taken whole.
   static constexpr std::size_t mostNeighbors = 256;
 
+  /// Of leaves about which something is kept, or memory would grow with the surface.
+  static constexpr std::size_t mostLists = 4096;
+
   struct End
   {
     Id leaf;
@@ -216,7 +219,6 @@ private:
       static_cast<std::size_t>(leaf), mostNeighbors, memory);
     if (!memory.empty())
     {
-      constexpr std::size_t mostLists = 4096; // or memory would grow with the surface
       if (this->RecentlyFound.size() == mostLists)
       {
         this->RecentlyFound.clear();
@@ -241,6 +243,10 @@ private:
   /// The spacing of the samples around an end.
   double spacingAt(const End& end)
   {
+    if (this->Spacings.size() >= mostLists)
+    {
+      this->Spacings.clear();
+    }
     const auto [known, isNew] = this->Spacings.try_emplace(end.leaf, 0.0);
     if (isNew)
     {

@@ -92,7 +92,7 @@ public:
     this->Counts.size = this->triangulation().size();
     this->Counts.isWhole = this->Current->isWhole;
     std::vector<CrossingTetrahedron<Id>> found = this->crossing();
-    if (this->Current->isSmall(this->Tree.samples.size()))
+    if (this->Current->isSmall(this->Tree.ownCount()))
     {
       this->Kept = std::move(this->Current);
     }
@@ -118,13 +118,14 @@ private:
     CoordinateUnit unit = none;
     std::mutex mutex;
     constexpr std::size_t grain = 65536;
-    forRanges(execution, tree.samples.size(), grain,
+    const std::size_t first = tree.isPartial ? tree.ownBegin : 0;
+    forRanges(execution, tree.ownCount(), grain,
       [&](std::size_t begin, std::size_t end)
       {
         CoordinateUnit ofRange = none;
         for (std::size_t i = begin; i < end && ofRange.value() > 0.0; ++i)
         {
-          ofRange.add(positionOf(tree.samples[i]));
+          ofRange.add(positionOf(tree.samples[first + i]));
         }
         const std::lock_guard<std::mutex> lock(mutex);
         unit.add(ofRange);

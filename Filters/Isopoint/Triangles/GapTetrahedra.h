@@ -110,12 +110,23 @@ private:
     }
   }
 
+  std::size_t countAt(std::size_t leaf) const
+  {
+    return this->Begins[leaf + 1] - this->Begins[leaf];
+  }
+
   /// Visits the other tetrahedron at the facet opposite to a corner, if there is one.
   template <class Visit>
   void visitAcross(std::size_t tetrahedron, typename TSample::Id opposite, const Visit& visit) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    const auto shared = static_cast<std::size_t>(corners[0] == opposite ? corners[1] : corners[0]);
+    // The corner with the fewest: one in a void has very many.
+    std::size_t shared = static_cast<std::size_t>(corners[0] == opposite ? corners[1] : corners[0]);
+    for (const auto corner : corners)
+    {
+      const auto leaf = static_cast<std::size_t>(corner);
+      shared = corner != opposite && this->countAt(leaf) < this->countAt(shared) ? leaf : shared;
+    }
     for (std::size_t place = this->Begins[shared]; place < this->Begins[shared + 1]; ++place)
     {
       const std::size_t other = this->AtCorners[place];
