@@ -112,7 +112,7 @@ TEST(Predicates, AreThoseOfCgalForMoreBits)
   }
 }
 
-// On the sphere x^2 + y^2 + z^2 = 21^2 * 5^2 but for one unit.
+// The fifth place is on the sphere of radius 105 through the others, or one unit off it.
 TEST(Predicates, SeeOneUnitOnLargeSpheres)
 {
   const std::array<Vector, 4> corners{ { { 105.0, 0.0, 0.0 }, { 30.0, 45.0, 90.0 },

@@ -71,7 +71,7 @@ public:
     this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
     this->gather(leaves);
     this->begin(leaves);
-    if (this->areMany(this->Counts.band))
+    if (!this->Current->isWhole && this->areMany(this->Counts.band))
     {
       this->insertAll();
     }

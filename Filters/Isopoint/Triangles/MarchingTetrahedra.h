@@ -278,21 +278,10 @@ private:
     return result;
   }
 
-  /// A vertex, and the ids of the samples at its edge's ends.
-  struct EdgeVertex
+  /// A vertex, in the order of its edge.
+  struct EdgeVertex : SampleEdge
   {
-    std::uint64_t first;
-    std::uint64_t second;
     std::size_t vertex;
-
-    bool operator<(const EdgeVertex& other) const
-    {
-      return this->first != other.first ? this->first < other.first : this->second < other.second;
-    }
-    bool operator==(const EdgeVertex& other) const
-    {
-      return this->first == other.first && this->second == other.second;
-    }
   };
 
   std::vector<std::size_t> inOrderOfEdges(std::vector<std::size_t> vertices) const
@@ -302,7 +291,7 @@ private:
     std::uint64_t most = 0;
     for (const std::size_t vertex : vertices)
     {
-      keyed.push_back({ this->Edges[vertex].first, this->Edges[vertex].second, vertex });
+      keyed.push_back({ this->Edges[vertex], vertex });
       most = std::max(most, keyed.back().first);
     }
     keyed = sortedUnique(
