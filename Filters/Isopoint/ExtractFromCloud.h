@@ -3,6 +3,7 @@
 #define isopoint_ExtractFromCloud_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
@@ -94,7 +95,7 @@ ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surfa
   result.surface = std::move(surface);
   result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
   result.surface.leaves = {};
-  result.splats.reserve(splats.empty() ? 0 : indices.size());
+  reserveOnHugePages(result.splats, splats.empty() ? 0 : indices.size());
   for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
   {
     result.splats.push_back(splats[indices[i]]);

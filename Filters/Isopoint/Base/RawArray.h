@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -25,15 +26,13 @@ inline std::uintptr_t pageSize()
 #endif
 
 /// Asks for huge pages behind memory that will be written, where the system offers them and there
-/// is so much of it that it was mapped for one allocation alone: the first writes then take far
-/// fewer page faults, and reads in any order fewer page walks. Memory that is never written still
-/// takes no pages, except for the rest of a huge one.
-inline void preferHugePages(void* memory, std::size_t bytes)
+/// is more of it than `least` bytes: the first writes then take far fewer page faults, and reads in
+/// any order fewer page walks. Memory that is never written still takes no pages, except for the
+/// rest of a huge one.
+inline void preferHugePages(void* memory, std::size_t bytes, std::size_t least)
 {
 #ifdef MADV_HUGEPAGE
-  // From this size on, glibc maps each allocation separately, whatever its settings.
-  constexpr std::size_t alwaysMapped = std::size_t{ 1 } << 25;
-  if (bytes > alwaysMapped)
+  if (bytes > least)
   {
     // Whole pages, with the one that holds the allocator's own data: advice for a part of a mapping
     // divides it, and then it could not grow by remapping.
@@ -44,7 +43,31 @@ inline void preferHugePages(void* memory, std::size_t bytes)
 #else
   static_cast<void>(memory);
   static_cast<void>(bytes);
+  static_cast<void>(least);
 #endif
+}
+
+/// Makes room for so many elements, on huge pages if there are many. The vector may be filled from
+/// then on. @throws std::bad_alloc
+template <class T>
+void reserveOnHugePages(std::vector<T>& vector, std::size_t count)
+{
+  constexpr std::size_t few = std::size_t{ 1 } << 22; // bytes: twice the usual huge page
+  if (vector.capacity() < count)
+  {
+    vector.reserve(count);
+    preferHugePages(vector.data(), count * sizeof(T), few);
+  }
+}
+
+/// Elements without a value of their own, on huge pages if there are many. @throws std::bad_alloc
+template <class T>
+std::vector<T> onHugePages(std::size_t count)
+{
+  std::vector<T> vector;
+  reserveOnHugePages(vector, count);
+  vector.resize(count);
+  return vector;
 }
 
 /// Addresses for this many bytes, most of which will never be written: only pages that are written
@@ -148,7 +171,7 @@ public:
     this->Elements = checked(reserveSpread(bytes));
     this->Size = this->Capacity = size;
     this->IsSpread = true;
-    preferHugePages(this->Elements + first, bytesOf(count));
+    preferHugePages(this->Elements + first, bytesOf(count), alwaysMapped);
   }
 
   /// Gives back the memory of some elements, as far as the system can, whose values are lost.
@@ -164,6 +187,10 @@ public:
   const T& operator[](std::size_t i) const { return this->Elements[i]; }
 
 private:
+  /// From this size on, glibc maps each allocation separately, whatever its settings, so that it
+  /// can grow by remapping.
+  static constexpr std::size_t alwaysMapped = std::size_t{ 1 } << 25;
+
   static std::size_t bytesOf(std::size_t count)
   {
     if (count > std::numeric_limits<std::size_t>::max() / sizeof(T))
@@ -188,7 +215,7 @@ private:
     const std::size_t bytes = bytesOf(capacity);
     this->Elements = checked(std::realloc(static_cast<void*>(this->Elements), bytes));
     this->Capacity = capacity;
-    preferHugePages(this->Elements, bytes);
+    preferHugePages(this->Elements, bytes, alwaysMapped);
   }
 
   void release()

@@ -3,6 +3,7 @@
 #define isopoint_ExtractIsosurface_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
@@ -137,10 +138,10 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
 {
   Isosurface surface;
   surface.isovalue = context.isovalue;
-  surface.edges.resize(edges.size());
-  surface.positions.resize(edges.size());
-  surface.decreasingEdges.resize(edges.size());
-  surface.leaves.resize(edges.size());
+  surface.edges = onHugePages<IsopointEdge>(edges.size());
+  surface.positions = onHugePages<Vector>(edges.size());
+  surface.decreasingEdges = onHugePages<Vector>(edges.size());
+  surface.leaves = onHugePages<EdgeLeaves>(edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
   forBatches(execution, edges.size(), 8 * grain, grain,

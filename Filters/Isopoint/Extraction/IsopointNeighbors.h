@@ -3,6 +3,7 @@
 #define isopoint_IsopointNeighbors_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
@@ -29,7 +30,7 @@ namespace isopoint
 inline std::vector<std::size_t> inOrderOfLeaves(
   const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
 {
-  std::vector<std::size_t> begins(nodeCount + 1, 0);
+  std::vector<std::size_t> begins = onHugePages<std::size_t>(nodeCount + 1);
   for (const EdgeLeaves& edge : leaves)
   {
     ++begins[edge.first + 1];
@@ -68,7 +69,8 @@ public:
     : Tree(tree)
     , Bounds(tree)
   {
-    std::vector<Id> numbers(tree.nodes.size(), 0); // of the leaves that edges end in; 0 is none
+    // Of the leaves that edges end in; 0 is none.
+    std::vector<Id> numbers = onHugePages<Id>(tree.nodes.size());
     this->numberLeaves(leaves, numbers);
     this->listIsopoints();
     std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
@@ -306,6 +308,9 @@ private:
           }
         }
       });
+    reserveOnHugePages(this->Touching.all,
+      std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 },
+        [](std::size_t sum, const std::vector<Id>& part) { return sum + part.size(); }));
     for (std::size_t part = 0; part < parts.size(); ++part)
     {
       const std::size_t last = std::min(count, (part + 1) * grain);

@@ -2,6 +2,7 @@
 #ifndef isopoint_Isosurface_h
 #define isopoint_Isosurface_h
 
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
@@ -135,7 +136,7 @@ inline Isosurface chosenIsopoints(
   const auto chosen = [&indices](const auto& all)
   {
     std::decay_t<decltype(all)> few;
-    few.reserve(all.empty() ? 0 : indices.size());
+    reserveOnHugePages(few, all.empty() ? 0 : indices.size());
     for (std::size_t i = 0; !all.empty() && i < indices.size(); ++i)
     {
       few.push_back(all[indices[i]]);

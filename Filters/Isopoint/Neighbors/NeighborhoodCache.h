@@ -2,6 +2,8 @@
 #ifndef isopoint_NeighborhoodCache_h
 #define isopoint_NeighborhoodCache_h
 
+#include "Isopoint/Base/RawArray.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -58,7 +60,8 @@ public:
     this->Offsets.resize(std::max(this->Offsets.size(), nodeCount), 0);
     if (this->Lists.capacity() < this->Lists.size() + records.size())
     {
-      this->Lists.reserve(std::max(2 * this->Lists.size(), this->Lists.size() + records.size()));
+      reserveOnHugePages(
+        this->Lists, std::max(2 * this->Lists.size(), this->Lists.size() + records.size()));
     }
     for (std::size_t i = 0; i < records.size(); i += 2 + static_cast<std::size_t>(records[i + 1]))
     {

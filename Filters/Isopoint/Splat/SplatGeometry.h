@@ -3,6 +3,7 @@
 #define isopoint_SplatGeometry_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Splat/CellCutter.h"
 #include "Isopoint/Splat/Splat.h"
 #include "Isopoint/Splat/SplatFans.h"
@@ -66,7 +67,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options,
   TChosen& chosen)
 {
-  std::vector<Splat> splats(points.positions.size());
+  std::vector<Splat> splats = onHugePages<Splat>(points.positions.size());
   std::vector<std::size_t> unfitted = setFieldNormals(points, options, splats);
   chosen.keepOwn(unfitted);
   throwIfAborted(execution);

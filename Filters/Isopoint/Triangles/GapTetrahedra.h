@@ -4,6 +4,7 @@
 
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Offset.h"
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/GapSpread.h"
@@ -90,7 +91,7 @@ private:
   /// Lists the tetrahedra at each leaf, one list after the other.
   void listAtCorners()
   {
-    std::vector<std::size_t> places(this->Tree.nodes.size() + 1, 0);
+    std::vector<std::size_t> places = onHugePages<std::size_t>(this->Tree.nodes.size() + 1);
     for (const Tetrahedron& tetrahedron : this->Tetrahedra)
     {
       for (const auto corner : tetrahedron.corners)
@@ -99,8 +100,9 @@ private:
       }
     }
     std::partial_sum(places.begin(), places.end(), places.begin());
+    reserveOnHugePages(this->Begins, places.size());
     this->Begins = places;
-    this->AtCorners.resize(places.back());
+    this->AtCorners = onHugePages<std::size_t>(places.back());
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
       for (const auto corner : this->Tetrahedra[i].corners)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
+#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Splat/SplatNormals.h"
 
@@ -43,7 +44,7 @@ using Corner = std::pair<std::size_t, std::size_t>;
 std::vector<Corner> cornersByVertex(const std::vector<SurfaceTriangle>& triangles)
 {
   std::vector<Corner> corners;
-  corners.reserve(3 * triangles.size());
+  reserveOnHugePages(corners, 3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     for (const std::size_t vertex : triangles[i])
@@ -92,13 +93,13 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)
 {
-  std::vector<std::size_t> number(vertexCount);
+  std::vector<std::size_t> number = onHugePages<std::size_t>(vertexCount);
   for (std::size_t place = 0; place < order.size(); ++place)
   {
     number[order[place]] = place;
   }
   std::vector<SurfaceTriangle> result;
-  result.reserve(triangles.size());
+  reserveOnHugePages(result, triangles.size());
   for (const auto& [a, b, c] : triangles)
   {
     SurfaceTriangle corners{ number[a], number[b], number[c] };
@@ -131,7 +132,8 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
-  std::vector<std::size_t> suspects(triangles.size()); // all at first, then those that changed
+  // All at first, then those that changed.
+  std::vector<std::size_t> suspects = onHugePages<std::size_t>(triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
   std::vector<Corner> corners; // ordered, once there is a triangle that is turned over
   while (!suspects.empty())
@@ -169,7 +171,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
 std::vector<Splat> vertexNormals(
   const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField)
 {
-  std::vector<Splat> splats(points.positions.size(), Splat{});
+  std::vector<Splat> splats = onHugePages<Splat>(points.positions.size());
   SplatOptions options;
   options.fieldNormals = areOfField;
   const std::vector<std::size_t> others = setFieldNormals(points, options, splats);
