@@ -16,7 +16,9 @@
 #include "vtkSTLWriter.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
+#include <string>
 
 namespace
 {
@@ -110,9 +112,11 @@ TEST(IsosurfaceFilter, ServesFiltersOfMeshes)
   EXPECT_EQ(countFeatureEdges(decimation->GetOutput()), 0);
   vtkNew<vtkSTLWriter> writer;
   writer->SetInputConnection(filter->GetOutputPort());
-  writer->SetFileName("IsosurfaceFilter.stl");
+  const std::string path = testing::TempDir() + "IsosurfaceFilter.stl";
+  writer->SetFileName(path.c_str());
   writer->SetFileTypeToBinary();
   EXPECT_EQ(writer->Write(), 1);
+  EXPECT_EQ(std::remove(path.c_str()), 0);
 }
 
 /// The triangles look to the same side as those of vtkContourFilter on VTK's own tetrahedra, and
