@@ -62,6 +62,23 @@ ExtractionRequest triangles(double isovalue)
   return request;
 }
 
+/// Extracts everything there is, on several threads and after other extractions.
+void expectSameOfEverything(const clouds::Cloud& cloud)
+{
+  IsosurfaceExtractor kept = loaded(cloud);
+  std::size_t points = 0;
+  for (const ExtractionRequest& request : { whole(0.3, FitOrder::Cubic),
+         whole(0.3, FitOrder::Crease, 0.5), whole(-0.1, FitOrder::Quadratic), triangles(0.3),
+         plain(0.2, 20.0), whole(0.3, FitOrder::Cubic) })
+  {
+    const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
+    expectSame(expected, loaded(cloud, 5).extract(clouds::executionOn(5), request));
+    expectSame(expected, kept.extract(clouds::executionOn(2), request));
+    points += expected.surface.size();
+  }
+  EXPECT_GT(points, 500u);
+}
+
 // Large enough for nodes that all threads split together.
 constexpr std::size_t manySamples = 400000;
 
@@ -83,28 +100,27 @@ TEST(SameResult, ForAnyNumberOfThreads)
   }
 }
 
+TEST(SameResult, OfEverythingInUnevenClouds)
+{
+  expectSameOfEverything(clouds::coincident(clouds::uniform(10000, 9), 0.02));
+  expectSameOfEverything(clouds::clustered(2000, 7));
+}
+
+TEST(SameResult, OfEverythingInALattice)
+{
+  expectSameOfEverything(clouds::lattice(12, 12, 12));
+}
+
 // Fits use representatives of large neighborhoods, as on lines and curves; these must not depend on
 // what was extracted before.
-TEST(SameResult, OfEverythingForAnyThreadsAndFormerExtractions)
+TEST(SameResult, OfEverythingOnLines)
 {
-  const std::vector<ExtractionRequest> requests{ whole(0.3, FitOrder::Cubic),
-    whole(0.3, FitOrder::Crease, 0.5), whole(-0.1, FitOrder::Quadratic), triangles(0.3),
-    plain(0.2, 20.0), whole(0.3, FitOrder::Cubic) };
-  for (const clouds::Cloud& cloud :
-    { clouds::coincident(clouds::uniform(10000, 9), 0.02), clouds::clustered(2000, 7),
-      clouds::lattice(12, 12, 12), clouds::lines(1500, 3, 0, 5), clouds::curves(1500, 6) })
-  {
-    IsosurfaceExtractor kept = loaded(cloud);
-    std::size_t points = 0;
-    for (const ExtractionRequest& request : requests)
-    {
-      const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
-      expectSame(expected, loaded(cloud, 5).extract(clouds::executionOn(5), request));
-      expectSame(expected, kept.extract(clouds::executionOn(2), request));
-      points += expected.surface.size();
-    }
-    EXPECT_GT(points, 500u);
-  }
+  expectSameOfEverything(clouds::lines(1500, 3, 0, 5));
+}
+
+TEST(SameResult, OfEverythingOnCurves)
+{
+  expectSameOfEverything(clouds::curves(1500, 6));
 }
 
 // What stands far away has no influence: the samples in the left one of two blocks have the same
