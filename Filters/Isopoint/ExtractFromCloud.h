@@ -3,7 +3,6 @@
 #define isopoint_ExtractFromCloud_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Extraction/ExtractIsosurface.h"
 #include "Isopoint/Extraction/IsopointNeighbors.h"
@@ -35,10 +34,11 @@ template <class TSample>
 class WholeSurface : public AllPoints
 {
 public:
-  WholeSurface(const Execution& /*execution*/, SingleRank<TSample>& /*ranks*/,
+  WholeSurface(const Execution& execution, SingleRank<TSample>& /*ranks*/,
     const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
     Isosurface whole, bool /*hasFits*/)
     : AllPoints(whole.size())
+    , Run(execution)
     , Tree(tree)
     , Whole(std::move(whole))
   {
@@ -51,8 +51,8 @@ public:
     {
       return;
     }
-    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
-    this->Ordered = chosenIsopoints(this->Whole, this->Order);
+    this->Order = inOrderOfLeaves(this->Run, this->Whole.leaves, this->Tree.nodes.size());
+    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
   }
 
   const Isosurface& surface() const { return this->Ordered; }
@@ -62,10 +62,7 @@ public:
   std::vector<std::size_t> home() const
   {
     std::vector<std::size_t> places(this->Order.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      places[this->Order[i]] = i;
-    }
+    forEachIndex(this->Run, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
     return places;
   }
   std::vector<std::size_t> elsewhere() const { return {}; }
@@ -75,6 +72,7 @@ public:
   void share(std::vector<Splat>& /*splats*/) const {}
 
 private:
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   Isosurface Whole;
   std::vector<std::size_t> Order;
@@ -88,26 +86,22 @@ inline constexpr int ghostRings = 5;
 /// Some isopoints of a surface, with their splats.
 /// @param splats of all of `indices`' surface, or empty
 template <class TSample>
-ExtractedIsosurface withSplats(const SampleTree<TSample>& tree, Isosurface surface,
-  const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
+ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSample>& tree,
+  Isosurface surface, const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
 {
   ExtractedIsosurface result;
   result.surface = std::move(surface);
-  result.surface.coincident = coincidentEnds(tree, result.surface.leaves);
+  result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
   result.surface.leaves = {};
-  reserveOnHugePages(result.splats, splats.empty() ? 0 : indices.size());
-  for (std::size_t i = 0; i < indices.size() && !splats.empty(); ++i)
-  {
-    result.splats.push_back(splats[indices[i]]);
-  }
+  result.splats = chosenOf(execution, splats, indices);
   return result;
 }
 
 /// The part of a surface of triangles that is on this rank.
 /// @param all what is found on each of them
 template <class TSample>
-ExtractedIsosurface partOnRank(SharedRanks<TSample>& ranks, const SampleTree<TSample>& tree,
-  const ExtractedIsosurface& all, int rings)
+ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
+  const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
 {
   std::vector<std::size_t> vertexRanks;
   for (const EdgeLeaves& leaves : all.surface.leaves)
@@ -116,8 +110,11 @@ ExtractedIsosurface partOnRank(SharedRanks<TSample>& ranks, const SampleTree<TSa
   }
   const auto rank = static_cast<std::size_t>(ranks.team().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
-  ExtractedIsosurface result =
-    withSplats(tree, chosenIsopoints(all.surface, part.vertices), all.splats, part.vertices);
+  ExtractedIsosurface result;
+  result.surface = chosenIsopoints(execution, all.surface, part.vertices);
+  result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
+  result.surface.leaves = {};
+  result.normals = chosenOf(execution, all.normals, part.vertices);
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
@@ -141,8 +138,9 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
   if (request.splats)
   {
     const Isosurface& surface = result.surface;
-    result.splats = vertexNormals({ surface.positions, surface.decreasingEdges, surface.fits },
-      result.triangles, request.splats->fieldNormals);
+    result.normals =
+      vertexNormals(execution, { surface.positions, surface.decreasingEdges, surface.fits },
+        result.triangles, request.splats->fieldNormals);
   }
   return result;
 }
@@ -154,8 +152,8 @@ ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSa
   if (team)
   {
     SharedRanks<TSample> ranks(*team, cloud.tree, cloud.begins);
-    return partOnRank(
-      ranks, cloud.tree, findTriangles(execution, cloud, ranks, request), request.ghostRings);
+    return partOnRank(execution, ranks, cloud.tree, findTriangles(execution, cloud, ranks, request),
+      request.ghostRings);
   }
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
@@ -206,12 +204,12 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
   if (ghosts)
   {
     const std::vector<std::size_t> elsewhere = surroundings.elsewhere();
-    *ghosts =
-      withSplats(cloud.tree, chosenIsopoints(surroundings.surface(), elsewhere), splats, elsewhere);
+    *ghosts = withSplats(part, cloud.tree, chosenIsopoints(part, surroundings.surface(), elsewhere),
+      splats, elsewhere);
     ghosts->areElsewhere.resize(elsewhere.size(), true);
   }
   const std::vector<std::size_t> home = surroundings.home();
-  ExtractedIsosurface result = withSplats(cloud.tree, surroundings.takeHome(), splats, home);
+  ExtractedIsosurface result = withSplats(part, cloud.tree, surroundings.takeHome(), splats, home);
   result.droppedInGaps = dropped;
   return result;
 }

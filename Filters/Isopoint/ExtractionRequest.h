@@ -24,7 +24,7 @@ struct ExtractionRequest
   std::optional<SplatOptions> splats = std::nullopt;
   /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
   /// Delaunay tetrahedrization of the samples (docs/triangles.md). The angle and the minimum
-  /// spacing then have no effect, and splats have normals alone.
+  /// spacing then have no effect, and normals take the place of splats.
   bool triangles = false;
   /// Of a cloud on ranks: how many rings of triangles of other ranks, all with a vertex in the part
   /// within, are added around those of this one. The same on all ranks.
@@ -36,6 +36,7 @@ struct ExtractedIsosurface
 {
   Isosurface surface;
   std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
+  std::vector<Vector> normals;            // likewise, of vertices of triangles
   std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
   std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
   /// Crossing edges, or tetrahedra of triangles, that were left out since they lie in gaps. Of a

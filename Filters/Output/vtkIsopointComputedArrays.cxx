@@ -2,6 +2,7 @@
 #include "Output/vtkIsopointComputedArrays.h"
 
 #include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
 
 #include "vtkDataArray.h"
@@ -10,7 +11,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 
@@ -65,33 +66,54 @@ vtkIsopointComputedArrays::vtkIsopointComputedArrays(const Choice& choice, vtkId
 {
 }
 
-void vtkIsopointComputedArrays::Append(const isopoint::ExtractedIsosurface& extracted)
+void vtkIsopointComputedArrays::Append(
+  const isopoint::Execution& execution, const isopoint::ExtractedIsosurface& extracted)
 {
-  for (std::size_t i = 0; i < extracted.surface.size(); ++i, ++this->Next)
-  {
-    const bool isCounted = extracted.areElsewhere.empty() || !extracted.areElsewhere[i];
-    this->Counted += isCounted ? 1 : 0;
-    if (!extracted.splats.empty())
+  const std::vector<isopoint::LocalFit>& fits = extracted.surface.fits;
+  std::atomic<vtkIdType> counted{ 0 };
+  std::atomic<vtkIdType> withoutFit{ 0 };
+  constexpr std::size_t grain = 4096;
+  isopoint::forRanges(execution, extracted.surface.size(), grain,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->SetSplat(extracted.splats[i]);
-    }
-    if (!extracted.surface.fits.empty())
-    {
-      this->SetFit(extracted.surface.fits[i], isCounted);
-    }
-  }
+      vtkIdType countedOfRange = 0;
+      vtkIdType withoutFitOfRange = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const vtkIdType tuple = this->Next + static_cast<vtkIdType>(i);
+        const bool isCounted = extracted.areElsewhere.empty() || !extracted.areElsewhere[i];
+        countedOfRange += isCounted ? 1 : 0;
+        if (!extracted.splats.empty())
+        {
+          this->SetSplat(tuple, extracted.splats[i]);
+        }
+        if (!extracted.normals.empty())
+        {
+          set(this->Normals, tuple, extracted.normals[i].data());
+        }
+        if (!fits.empty())
+        {
+          this->SetFit(tuple, fits[i]);
+          withoutFitOfRange += fits[i].order || !isCounted ? 0 : 1;
+        }
+      }
+      counted += countedOfRange;
+      withoutFit += withoutFitOfRange;
+    });
+  this->Next += static_cast<vtkIdType>(extracted.surface.size());
+  this->Counted += counted;
+  this->WithoutFit += withoutFit;
 }
 
-void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
+void vtkIsopointComputedArrays::SetSplat(vtkIdType tuple, const isopoint::Splat& splat)
 {
   const double radius = asFloatRadius(splat.radius);
-  set(this->Normals, this->Next, splat.normal.data());
-  set(this->Radius, this->Next, &radius);
-  set(this->SplatAxis, this->Next, splat.axis.data());
+  set(this->Normals, tuple, splat.normal.data());
+  set(this->Radius, tuple, &radius);
+  set(this->SplatAxis, tuple, splat.axis.data());
   if (this->SplatPolygon)
   {
-    std::array<float, polygonNumbers> polygon{};
-    auto* next = polygon.data();
+    float* next = this->SplatPolygon->GetPointer(polygonNumbers * tuple);
     for (const isopoint::SplatCorner& corner : splat.corners)
     {
       for (const float number :
@@ -100,17 +122,15 @@ void vtkIsopointComputedArrays::SetSplat(const isopoint::Splat& splat)
         *next++ = number;
       }
     }
-    this->SplatPolygon->SetTypedTuple(this->Next, polygon.data());
   }
 }
 
-void vtkIsopointComputedArrays::SetFit(const isopoint::LocalFit& fit, bool isCounted)
+void vtkIsopointComputedArrays::SetFit(vtkIdType tuple, const isopoint::LocalFit& fit)
 {
   const double order =
     this->Chosen.IsProjected && fit.order ? static_cast<double>(*fit.order) : 0.0;
-  this->WithoutFit += fit.order || !isCounted ? 0 : 1;
-  set(this->Gradients, this->Next, fit.gradient.data());
-  set(this->ProjectionOrder, this->Next, &order);
+  set(this->Gradients, tuple, fit.gradient.data());
+  set(this->ProjectionOrder, tuple, &order);
 }
 
 std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const

@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+namespace isopoint
+{
+struct Execution;
+}
 class vtkDataArray;
 class vtkFloatArray;
 class vtkPointData;
@@ -43,7 +47,7 @@ public:
   /**
    * Writes the tuples of the next surface.
    */
-  void Append(const isopoint::ExtractedIsosurface& extracted);
+  void Append(const isopoint::Execution& execution, const isopoint::ExtractedIsosurface& extracted);
 
   /**
    * The number of isopoints written so far, and of those around which no fit holds, without those
@@ -59,8 +63,8 @@ public:
   std::vector<std::string> AddTo(vtkPointData* pointData) const;
 
 private:
-  void SetSplat(const isopoint::Splat& splat);
-  void SetFit(const isopoint::LocalFit& fit, bool isCounted);
+  void SetSplat(vtkIdType tuple, const isopoint::Splat& splat);
+  void SetFit(vtkIdType tuple, const isopoint::LocalFit& fit);
 
   Choice Chosen;
   vtkIdType Next = 0;

@@ -2,6 +2,7 @@
 #include "Output/vtkIsopointOutput.h"
 
 #include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
 
 #include "vtkCellArray.h"
@@ -32,19 +33,20 @@ vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& su
   return static_cast<vtkIdType>(count);
 }
 
-vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
+vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& execution,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(type);
   vtkAllocateTuples(points->GetData(), vtkCountIsopoints(surfaces));
-  vtkIdType next = 0;
+  vtkIdType first = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
   {
-    for (const isopoint::Vector& position : extracted.surface.positions)
-    {
-      points->SetPoint(next++, position.data());
-    }
+    const std::vector<isopoint::Vector>& positions = extracted.surface.positions;
+    isopoint::forEachIndex(execution, positions.size(),
+      [&](std::size_t i)
+      { points->GetData()->SetTuple(first + static_cast<vtkIdType>(i), positions[i].data()); });
+    first += static_cast<vtkIdType>(positions.size());
   }
   return points;
 }
@@ -78,7 +80,7 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
 }
 
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
-  const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+  const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
   vtkIdType count = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
@@ -87,17 +89,18 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   }
   vtkNew<vtkIdTypeArray> connectivity;
   vtkAllocateTuples(connectivity, 3 * count);
-  vtkIdType next = 0;
+  vtkIdType* corners = connectivity->GetPointer(0);
   vtkIdType firstPoint = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
   {
-    for (const isopoint::SurfaceTriangle& triangle : extracted.triangles)
-    {
-      for (const std::size_t vertex : triangle)
+    const std::vector<isopoint::SurfaceTriangle>& triangles = extracted.triangles;
+    isopoint::forEachIndex(execution, triangles.size(),
+      [&](std::size_t i)
       {
-        connectivity->SetValue(next++, firstPoint + static_cast<vtkIdType>(vertex));
-      }
-    }
+        std::transform(triangles[i].begin(), triangles[i].end(), corners + 3 * i,
+          [firstPoint](std::size_t vertex) { return firstPoint + static_cast<vtkIdType>(vertex); });
+      });
+    corners += 3 * triangles.size();
     firstPoint += static_cast<vtkIdType>(extracted.surface.size());
   }
   return newCells(3, connectivity);

@@ -9,6 +9,10 @@
 
 #include <vector>
 
+namespace isopoint
+{
+struct Execution;
+}
 class vtkCellArray;
 class vtkDataObject;
 class vtkPoints;
@@ -24,7 +28,7 @@ vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& su
  * @param type VTK_FLOAT or VTK_DOUBLE
  * @throws std::bad_alloc
  */
-vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(
+vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& execution,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type);
 
 /**
@@ -38,7 +42,7 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
  * @throws std::bad_alloc
  */
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
-  const std::vector<isopoint::ExtractedIsosurface>& surfaces);
+  const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces);
 
 /**
  * Adds ghost arrays to the output of some surfaces, which mark as duplicates the points that are

@@ -223,12 +223,12 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   const bool isSingle = precision == vtkAlgorithm::SINGLE_PRECISION ||
                         (precision == vtkAlgorithm::DEFAULT_PRECISION && haveFloatPositions);
   const vtkSmartPointer<vtkPoints> points =
-    vtkNewIsopointPositions(surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
+    vtkNewIsopointPositions(this->Execution, surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
   output->SetPoints(points);
   if (this->Options.Triangles)
   {
-    output->SetPolys(vtkNewIsopointTriangles(surfaces));
+    output->SetPolys(vtkNewIsopointTriangles(this->Execution, surfaces));
   }
   else
   {
@@ -246,7 +246,7 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   vtkIsopointComputedArrays computed(this->Options.GetArrays(), count);
   for (const isopoint::ExtractedIsosurface& surface : surfaces)
   {
-    computed.Append(surface);
+    computed.Append(this->Execution, surface);
     isopoint::throwIfAborted(this->Execution);
   }
   this->Findings.UnprojectedPoints += static_cast<std::uint64_t>(

@@ -139,6 +139,10 @@ inline std::string described(const isopoint::ExtractedIsosurface& extracted, std
     put(splat.axis);
     put(splat.corners);
   }
+  if (!extracted.normals.empty())
+  {
+    put(extracted.normals[i]);
+  }
   for (const std::uint64_t id : { surface.edges[i].first, surface.edges[i].second })
   {
     if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))

@@ -240,12 +240,12 @@ TEST(Triangles, HaveNormalsAgainstTheGradient)
   const Cloud cloud = withField(clouds::uniform(30000, 4), distanceFromSphere);
   const auto expectInward = [](const ExtractedIsosurface& extracted, double leastCosine)
   {
-    ASSERT_EQ(extracted.splats.size(), extracted.surface.size());
+    ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
       const Vector& p = extracted.surface.positions[i];
       const Vector inward = isopoint::directionOf({ 0.5 - p[0], 0.5 - p[1], 0.5 - p[2] });
-      EXPECT_GT(isopoint::dot(inward, extracted.splats[i].normal), leastCosine);
+      EXPECT_GT(isopoint::dot(inward, extracted.normals[i]), leastCosine);
     }
   };
   expectInward(trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic)), 0.99);

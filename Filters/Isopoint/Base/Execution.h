@@ -108,6 +108,23 @@ inline void forRanges(
   }
 }
 
+/// Work on each of the items 0 .. count - 1, which takes next to no time for one.
+/// @param work(item) from any thread
+/// @throws what the work throws
+template <class Work>
+void forEachIndex(const Execution& execution, std::size_t count, const Work& work)
+{
+  constexpr std::size_t grain = 4096;
+  forRanges(execution, count, grain,
+    [&work](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        work(i);
+      }
+    });
+}
+
 /// Called after each batch with the share of the items that are done.
 using BatchDone = std::function<void(double share)>;
 
@@ -197,26 +214,6 @@ void forEachItem(
         });
     },
     batchDone);
-}
-
-/// What ranges of items yield together, in any order.
-/// @param collect(begin, end, found) appends what a range yields; from any thread
-/// @throws Aborted, std::bad_alloc, and what collecting throws
-template <class T, class Collect>
-std::vector<T> collected(
-  const Execution& execution, const ItemBatches& batches, const Collect& collect)
-{
-  std::vector<T> all;
-  std::mutex mutex;
-  forBatches(execution, batches.count, batches.batchPerThread, batches.grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<T> found;
-      collect(begin, end, found);
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.insert(all.end(), found.begin(), found.end());
-    });
-  return all;
 }
 
 } // namespace isopoint

@@ -2,6 +2,8 @@
 #ifndef isopoint_RawArray_h
 #define isopoint_RawArray_h
 
+#include "Isopoint/Base/HugePages.h"
+
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -10,65 +12,10 @@
 #include <new>
 #include <sys/mman.h>
 #include <type_traits>
-#include <unistd.h>
 #include <utility>
-#include <vector>
 
 namespace isopoint
 {
-
-#ifdef __linux__
-/// The size of the system's pages, in bytes.
-inline std::uintptr_t pageSize()
-{
-  return static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-}
-#endif
-
-/// Asks for huge pages behind memory that will be written, where the system offers them and there
-/// is more of it than `least` bytes: the first writes then take far fewer page faults, and reads in
-/// any order fewer page walks. Memory that is never written still takes no pages, except for the
-/// rest of a huge one.
-inline void preferHugePages(void* memory, std::size_t bytes, std::size_t least)
-{
-#ifdef MADV_HUGEPAGE
-  if (bytes > least)
-  {
-    // Whole pages, with the one that holds the allocator's own data: advice for a part of a mapping
-    // divides it, and then it could not grow by remapping.
-    const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % pageSize();
-    // Advice that is not taken changes nothing.
-    static_cast<void>(madvise(static_cast<char*>(memory) - before, before + bytes, MADV_HUGEPAGE));
-  }
-#else
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
-  static_cast<void>(least);
-#endif
-}
-
-/// Makes room for so many elements, on huge pages if there are many. The vector may be filled from
-/// then on. @throws std::bad_alloc
-template <class T>
-void reserveOnHugePages(std::vector<T>& vector, std::size_t count)
-{
-  constexpr std::size_t few = std::size_t{ 1 } << 22; // bytes: twice the usual huge page
-  if (vector.capacity() < count)
-  {
-    vector.reserve(count);
-    preferHugePages(vector.data(), count * sizeof(T), few);
-  }
-}
-
-/// Elements without a value of their own, on huge pages if there are many. @throws std::bad_alloc
-template <class T>
-std::vector<T> onHugePages(std::size_t count)
-{
-  std::vector<T> vector;
-  reserveOnHugePages(vector, count);
-  vector.resize(count);
-  return vector;
-}
 
 /// Addresses for this many bytes, most of which will never be written: only pages that are written
 /// take memory, and none is set aside. Where the system knows no such thing, plain memory.

@@ -3,7 +3,7 @@
 #define isopoint_SortUnique_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/HugePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -82,7 +82,7 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
       ends[bucket + 1] += std::exchange(begin, ends[bucket + 1]);
     }
   }
-  std::vector<T> dealt = onHugePages<T>(elements.size());
+  std::vector<T> dealt = onHugePages<T>(execution, elements.size());
   forElements([&](std::size_t place, const T& element) { dealt[begins[place]++] = element; });
 
   std::vector<std::size_t> counts(bucketCount);

@@ -3,7 +3,7 @@
 #define isopoint_ExtractIsosurface_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
@@ -138,10 +138,10 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
 {
   Isosurface surface;
   surface.isovalue = context.isovalue;
-  surface.edges = onHugePages<IsopointEdge>(edges.size());
-  surface.positions = onHugePages<Vector>(edges.size());
-  surface.decreasingEdges = onHugePages<Vector>(edges.size());
-  surface.leaves = onHugePages<EdgeLeaves>(edges.size());
+  surface.edges = onHugePages<IsopointEdge>(execution, edges.size());
+  surface.positions = onHugePages<Vector>(execution, edges.size());
+  surface.decreasingEdges = onHugePages<Vector>(execution, edges.size());
+  surface.leaves = onHugePages<EdgeLeaves>(execution, edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
   forBatches(execution, edges.size(), 8 * grain, grain,
@@ -179,11 +179,8 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
 {
   try
   {
-    for (const std::vector<TId>& records : found)
-    {
-      throwIfAborted(execution);
-      neighborhoods.add(records, nodeCount);
-    }
+    throwIfAborted(execution);
+    neighborhoods.add(execution, found, nodeCount);
   }
   catch (const std::bad_alloc&)
   {

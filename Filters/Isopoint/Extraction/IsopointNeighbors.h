@@ -2,8 +2,10 @@
 #ifndef isopoint_IsopointNeighbors_h
 #define isopoint_IsopointNeighbors_h
 
+#include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/HugePages.h"
+#include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
@@ -16,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace isopoint
@@ -28,20 +29,11 @@ namespace isopoint
 /// @param nodeCount of the tree
 /// Complexity: O(nodes + isopoints)
 inline std::vector<std::size_t> inOrderOfLeaves(
-  const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
+  const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
 {
-  std::vector<std::size_t> begins = onHugePages<std::size_t>(nodeCount + 1);
-  for (const EdgeLeaves& edge : leaves)
-  {
-    ++begins[edge.first + 1];
-  }
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<std::size_t> order(leaves.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    order[begins[leaves[i].first]++] = i;
-  }
-  return order;
+  return ItemLists(execution, nodeCount, leaves.size(),
+    [&leaves](std::size_t i) { return std::array<std::size_t, 1>{ leaves[i].first }; })
+    .all();
 }
 
 /// The isopoints around each isopoint: those whose edges end in leaves around its own edge, so that
@@ -70,9 +62,10 @@ public:
     , Bounds(tree)
   {
     // Of the leaves that edges end in; 0 is none.
-    std::vector<Id> numbers = onHugePages<Id>(tree.nodes.size());
-    this->numberLeaves(leaves, numbers);
-    this->listIsopoints();
+    std::vector<Id> numbers = onHugePages<Id>(execution, tree.nodes.size());
+    this->numberLeaves(execution, leaves, numbers);
+    this->Isopoints = ItemLists(execution, this->Leaves.size(), this->Ends.size(),
+      [this](std::size_t isopoint) { return this->Ends[isopoint]; });
     std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
     for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
     {
@@ -140,7 +133,7 @@ public:
       this->Visited.clear();
       this->Listed.clear();
       this->addAround(leaf);
-      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
+      for (const std::size_t isopoint : this->Neighbors.isopointsAt(leaf))
       {
         if (this->Neighbors.Ends[isopoint][0] == leaf)
         {
@@ -171,7 +164,7 @@ public:
         return;
       }
       this->addLeaf(leaf);
-      for (const Id touching : this->Neighbors.Touching.at(leaf))
+      for (const Id touching : this->Neighbors.touching(leaf))
       {
         this->addLeaf(touching);
       }
@@ -183,7 +176,7 @@ public:
       {
         return;
       }
-      for (const std::size_t isopoint : this->Neighbors.Isopoints.at(leaf))
+      for (const std::size_t isopoint : this->Neighbors.isopointsAt(leaf))
       {
         if (this->Listed.add(isopoint))
         {
@@ -208,22 +201,23 @@ private:
   /// No leaf is added once this many isopoints are listed.
   static constexpr std::size_t mostIsopoints = 2048;
 
-  /// Lists one after the other in memory.
-  template <class T>
-  struct Lists
+  /// The isopoints whose edges end in a leaf.
+  NodeList<std::size_t> isopointsAt(Id leaf) const
   {
-    std::vector<std::size_t> ends; // of the lists; the first one is empty
-    std::vector<T> all;
+    const NodeList<std::size_t> isopoints = this->Isopoints.at(leaf);
+    return isopoints.count > most ? NodeList<std::size_t>{} : isopoints;
+  }
 
-    NodeList<T> at(std::size_t list) const
-    {
-      const std::size_t begin = this->ends[list - 1];
-      return { this->all.data() + begin, this->ends[list] - begin };
-    }
-  };
+  /// The leaves that touch one.
+  NodeList<Id> touching(Id leaf) const
+  {
+    const std::size_t begin = this->TouchingEnds[leaf - 1];
+    return { this->Touching.data() + begin, this->TouchingEnds[leaf] - begin };
+  }
 
   /// Numbers the leaves from 1 on, in the order of their nodes: close ones are close in memory.
-  void numberLeaves(const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
+  void numberLeaves(
+    const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
   {
     for (const EdgeLeaves& edge : leaves)
     {
@@ -239,39 +233,11 @@ private:
         this->Leaves.push_back(static_cast<Id>(node));
       }
     }
-    this->Ends.reserve(leaves.size());
-    for (const EdgeLeaves& edge : leaves)
-    {
-      this->Ends.push_back({ numbers[edge.first], numbers[edge.second] });
-    }
-  }
-
-  void listIsopoints()
-  {
-    std::vector<std::size_t> counts(this->Leaves.size(), 0);
-    for (const std::array<Id, 2>& ends : this->Ends)
-    {
-      ++counts[ends[0]];
-      ++counts[ends[1]];
-    }
-    std::vector<std::size_t>& listEnds = this->Isopoints.ends;
-    listEnds.assign(1, 0);
-    for (std::size_t leaf = 1; leaf < counts.size(); ++leaf)
-    {
-      counts[leaf] = counts[leaf] > most ? 0 : counts[leaf];
-      listEnds.push_back(listEnds.back() + counts[leaf]);
-    }
-    this->Isopoints.all.resize(listEnds.back());
-    for (std::size_t i = this->Ends.size(); i-- > 0;)
-    {
-      for (const Id leaf : this->Ends[i])
-      {
-        if (counts[leaf] > 0)
-        {
-          this->Isopoints.all[listEnds[leaf - 1] + --counts[leaf]] = i;
-        }
-      }
-    }
+    this->Ends = onHugePages<std::array<Id, 2>>(execution, leaves.size());
+    forEachIndex(execution, leaves.size(),
+      [&](std::size_t i) {
+        this->Ends[i] = { numbers[leaves[i].first], numbers[leaves[i].second] };
+      });
   }
 
   /// Lists for each leaf the others that touch it.
@@ -283,7 +249,7 @@ private:
     constexpr std::size_t batch = 64;
     const std::size_t count = this->Leaves.size() - 1;
     std::vector<std::vector<Id>> parts((count + grain - 1) / grain);
-    this->Touching.ends.resize(count + 1, 0);
+    this->TouchingEnds.resize(count + 1, 0);
     forBatches(execution, parts.size(), batch, 1,
       [&](std::size_t begin, std::size_t end)
       {
@@ -304,30 +270,23 @@ private:
                 parts[part].push_back(numbers[node]);
               }
             }
-            this->Touching.ends[leaf] = parts[part].size();
+            this->TouchingEnds[leaf] = parts[part].size();
           }
         }
       });
-    reserveOnHugePages(this->Touching.all,
-      std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 },
-        [](std::size_t sum, const std::vector<Id>& part) { return sum + part.size(); }));
-    for (std::size_t part = 0; part < parts.size(); ++part)
-    {
-      const std::size_t last = std::min(count, (part + 1) * grain);
-      for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
-      {
-        this->Touching.ends[leaf] += this->Touching.all.size();
-      }
-      this->Touching.all.insert(this->Touching.all.end(), parts[part].begin(), parts[part].end());
-    }
+    this->Touching = joined(execution, parts);
+    const std::vector<std::size_t> begins = beginsOf(parts);
+    forEachIndex(execution, count,
+      [&](std::size_t leaf) { this->TouchingEnds[leaf + 1] += begins[leaf / grain]; });
   }
 
   const SampleTree<TSample>& Tree;
-  mutable SampleBounds<TSample> Bounds; // computed once, from any thread
-  std::vector<Id> Leaves;               // node indices of the leaves that edges end in, by number
-  std::vector<std::array<Id, 2>> Ends;  // of the isopoints' edges, numbers of leaves
-  Lists<std::size_t> Isopoints;         // whose edges end in each leaf, ascending
-  Lists<Id> Touching;                   // each leaf, numbers of leaves
+  mutable SampleBounds<TSample> Bounds;  // computed once, from any thread
+  std::vector<Id> Leaves;                // node indices of the leaves that edges end in, by number
+  std::vector<std::array<Id, 2>> Ends;   // of the isopoints' edges, numbers of leaves
+  ItemLists Isopoints;                   // whose edges end in each leaf, by number
+  std::vector<Id> Touching;              // each leaf, numbers of leaves, one list after the other
+  std::vector<std::size_t> TouchingEnds; // of these lists; the first one is empty
 };
 
 } // namespace isopoint

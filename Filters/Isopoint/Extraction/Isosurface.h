@@ -2,7 +2,9 @@
 #ifndef isopoint_Isosurface_h
 #define isopoint_Isosurface_h
 
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/Collected.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
@@ -129,46 +131,55 @@ struct Isosurface
   }
 };
 
+/// The elements of some indices, in their order; none of none at all. @throws std::bad_alloc
+template <class T>
+std::vector<T> chosenOf(
+  const Execution& execution, const std::vector<T>& all, const std::vector<std::size_t>& indices)
+{
+  if (all.empty())
+  {
+    return {};
+  }
+  std::vector<T> chosen = onHugePages<T>(execution, indices.size());
+  forEachIndex(execution, indices.size(), [&](std::size_t i) { chosen[i] = all[indices[i]]; });
+  return chosen;
+}
+
 /// The isopoints of some indices of a surface, in their order, without coincident samples.
 inline Isosurface chosenIsopoints(
-  const Isosurface& surface, const std::vector<std::size_t>& indices)
+  const Execution& execution, const Isosurface& surface, const std::vector<std::size_t>& indices)
 {
-  const auto chosen = [&indices](const auto& all)
-  {
-    std::decay_t<decltype(all)> few;
-    reserveOnHugePages(few, all.empty() ? 0 : indices.size());
-    for (std::size_t i = 0; !all.empty() && i < indices.size(); ++i)
-    {
-      few.push_back(all[indices[i]]);
-    }
-    return few;
-  };
   Isosurface few;
   few.isovalue = surface.isovalue;
-  few.edges = chosen(surface.edges);
-  few.positions = chosen(surface.positions);
-  few.decreasingEdges = chosen(surface.decreasingEdges);
-  few.leaves = chosen(surface.leaves);
-  few.fits = chosen(surface.fits);
+  few.edges = chosenOf(execution, surface.edges, indices);
+  few.positions = chosenOf(execution, surface.positions, indices);
+  few.decreasingEdges = chosenOf(execution, surface.decreasingEdges, indices);
+  few.leaves = chosenOf(execution, surface.leaves, indices);
+  few.fits = chosenOf(execution, surface.fits, indices);
   return few;
 }
 
 /// The coincident samples among the ends of edges, by lowest id.
 template <class TSample>
 std::vector<CoincidentSamples> coincidentEnds(
-  const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
+  const Execution& execution, const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
 {
-  std::vector<std::size_t> leaves;
-  for (const EdgeLeaves& edge : edges)
-  {
-    for (const std::size_t leaf : { edge.first, edge.second })
-    {
-      if (tree.nodes[leaf].count() > 1)
+  constexpr std::size_t grain = 4096;
+  std::vector<std::size_t> leaves =
+    collected<std::size_t>(execution, { edges.size(), 64 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
-        leaves.push_back(leaf);
-      }
-    }
-  }
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          for (const std::size_t leaf : { edges[i].first, edges[i].second })
+          {
+            if (tree.nodes[leaf].count() > 1)
+            {
+              found.push_back(leaf);
+            }
+          }
+        }
+      });
   keepUnique(leaves);
   std::vector<CoincidentSamples> result;
   for (const std::size_t leaf : leaves)

@@ -2,6 +2,7 @@
 #ifndef isopoint_NarrowBand_h
 #define isopoint_NarrowBand_h
 
+#include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Extraction/ExpectedWork.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"

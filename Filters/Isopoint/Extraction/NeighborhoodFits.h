@@ -3,7 +3,7 @@
 #define isopoint_NeighborhoodFits_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
@@ -105,14 +105,14 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 {
   const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
   { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
-  std::vector<TreePlace> places;
-  reserveOnHugePages(places, edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i)
-  {
-    const auto [lower, upper] =
-      std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
-    places.push_back({ lower, upper, i });
-  }
+  std::vector<TreePlace> places = onHugePages<TreePlace>(execution, edges.size());
+  forEachIndex(execution, edges.size(),
+    [&](std::size_t i)
+    {
+      const auto [lower, upper] =
+        std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
+      places[i] = { lower, upper, i };
+    });
   return sortedUnique(
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
@@ -144,7 +144,7 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
   const std::vector<CrossingEdge<TSample>>& edges)
 {
-  std::vector<LocalFit> fits = onHugePages<LocalFit>(edges.size());
+  std::vector<LocalFit> fits = onHugePages<LocalFit>(execution, edges.size());
   fitAt(execution, context, ranks, request, edges, placesOf(execution, context.tree, edges), fits);
   return fits;
 }

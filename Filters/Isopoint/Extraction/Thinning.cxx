@@ -207,7 +207,7 @@ void thin(const Execution& execution, double minimumSpacing, Isosurface& surface
   {
     return;
   }
-  Isosurface thinned = chosenIsopoints(surface, kept);
+  Isosurface thinned = chosenIsopoints(execution, surface, kept);
   thinned.coincident = std::move(surface.coincident);
   surface = std::move(thinned);
 }

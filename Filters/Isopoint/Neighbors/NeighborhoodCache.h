@@ -2,7 +2,10 @@
 #ifndef isopoint_NeighborhoodCache_h
 #define isopoint_NeighborhoodCache_h
 
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/Collected.h"
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/HugePages.h"
+#include "Isopoint/Base/NodeList.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,22 +17,10 @@
 namespace isopoint
 {
 
-/// A part of a list of numbers, as of nodes: mostly the neighbors of a leaf.
-template <class TId>
-struct NodeList
-{
-  const TId* first = nullptr;
-  std::size_t count = 0;
-
-  bool isEmpty() const { return this->count == 0; }
-  const TId* begin() const { return this->first; }
-  const TId* end() const { return this->first + this->count; }
-  std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
-};
-
 /// The neighborhoods of leaves near surfaces extracted before. They do not depend on isovalues,
 /// angles or values, and finding them is most of the work of an extraction from a tree that is
-/// refined already. Memory: one number for each neighbor and one for each node.
+/// refined already. Memory: one number for each neighbor, two for each neighborhood, and one for
+/// each node.
 template <class TId>
 class NeighborhoodCache
 {
@@ -52,29 +43,44 @@ public:
     return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
   }
 
-  /// Adds neighborhoods, one after the other as node index, count, neighbors.
+  /// Adds neighborhoods: lists of them, one after the other as node index, count, neighbors.
   /// @param nodeCount above every node index
   /// @throws std::bad_alloc, the cache as before
-  void add(const std::vector<TId>& records, std::size_t nodeCount)
+  void add(
+    const Execution& execution, const std::vector<std::vector<TId>>& lists, std::size_t nodeCount)
   {
+    const std::vector<std::size_t> begins = beginsOf(lists, this->Lists.size());
     this->Offsets.resize(std::max(this->Offsets.size(), nodeCount), 0);
-    if (this->Lists.capacity() < this->Lists.size() + records.size())
+    if (this->Lists.capacity() < begins.back())
     {
-      reserveOnHugePages(
-        this->Lists, std::max(2 * this->Lists.size(), this->Lists.size() + records.size()));
+      reserveOnHugePages(this->Lists, std::max(2 * this->Lists.size(), begins.back()));
     }
-    for (std::size_t i = 0; i < records.size(); i += 2 + static_cast<std::size_t>(records[i + 1]))
-    {
-      const auto record = records.begin() + static_cast<std::ptrdiff_t>(i);
-      this->Offsets[static_cast<std::size_t>(record[0])] = static_cast<TId>(this->Lists.size());
-      this->Lists.insert(
-        this->Lists.end(), record + 1, record + 2 + static_cast<std::ptrdiff_t>(record[1]));
-    }
+    this->Lists.resize(begins.back());
+    forRanges(execution, lists.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t list = begin; list < end; ++list)
+        {
+          this->set(begins[list], lists[list]);
+        }
+      });
   }
 
 private:
-  std::vector<TId> Offsets;                     // by node index, into Lists; 0: not known
-  std::vector<TId> Lists = std::vector<TId>(1); // count, neighbors; the first number is unused
+  /// Copies neighborhoods, and notes where they are.
+  void set(std::size_t begin, const std::vector<TId>& neighborhoods)
+  {
+    std::copy(neighborhoods.begin(), neighborhoods.end(), this->Lists.data() + begin);
+    for (std::size_t i = 0; i < neighborhoods.size();)
+    {
+      const auto node = static_cast<std::size_t>(neighborhoods[i]);
+      this->Offsets[node] = static_cast<TId>(begin + i + 1);
+      i += 2 + static_cast<std::size_t>(neighborhoods[i + 1]);
+    }
+  }
+
+  std::vector<TId> Offsets; // by node index, into Lists; 0: not known
+  std::vector<TId> Lists;   // node, count, neighbors
 };
 
 /// A budget of listed neighbors, shared by all threads. To list a neighborhood is quicker than to

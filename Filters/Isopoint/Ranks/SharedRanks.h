@@ -166,7 +166,7 @@ public:
           std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
       }
     }
-    surface = chosenIsopoints(surface, markedOf(this->Group.exchange(answers).front()));
+    surface = chosenIsopoints(execution, surface, markedOf(this->Group.exchange(answers).front()));
   }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)

@@ -97,7 +97,7 @@ public:
   std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
 
   /// The surface of home().
-  Isosurface takeHome() const { return chosenIsopoints(this->All, this->home()); }
+  Isosurface takeHome() const { return chosenIsopoints(this->Run, this->All, this->home()); }
 
   // What computeSplats() needs; see AllPoints.
 
@@ -334,7 +334,7 @@ private:
     order.erase(std::unique(order.begin(), order.end(),
                   [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
       order.end());
-    this->All = chosenIsopoints(both, order);
+    this->All = chosenIsopoints(this->Run, both, order);
     std::sort(this->Surrounded.begin(), this->Surrounded.end());
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
@@ -368,7 +368,8 @@ private:
         this->Shaped.push_back(i);
       }
     }
-    for (const std::size_t i : inOrderOfLeaves(this->All.leaves, this->Tree.nodes.size()))
+    for (const std::size_t i :
+      inOrderOfLeaves(this->Run, this->All.leaves, this->Tree.nodes.size()))
     {
       if (isOwn[i])
       {

@@ -79,25 +79,16 @@ Vector decreasingSide(
 
 } // namespace
 
-std::vector<std::size_t> setFieldNormals(
-  const SurfacePoints& points, const SplatOptions& options, std::vector<Splat>& splats)
+std::optional<Vector> fieldNormal(const SurfacePoints& points, std::size_t point)
 {
-  std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < splats.size(); ++i)
+  if (points.fits.empty() || !points.fits[point].isGradientFitted)
   {
-    const bool isFitted =
-      options.fieldNormals && !points.fits.empty() && points.fits[i].isGradientFitted;
-    const double length = isFitted ? lengthOf(points.fits[i].gradient) : 0.0;
-    if (std::isnormal(length)) // denormal gradients have lost their direction
-    {
-      splats[i].normal = scaled(-1.0, directionOf(points.fits[i].gradient));
-    }
-    else
-    {
-      others.push_back(i);
-    }
+    return std::nullopt;
   }
-  return others;
+  const Vector& gradient = points.fits[point].gradient;
+  return std::isnormal(lengthOf(gradient)) // denormal gradients have lost their direction
+           ? std::optional(scaled(-1.0, directionOf(gradient)))
+           : std::nullopt;
 }
 
 Vector planeNormal(

@@ -2,21 +2,46 @@
 #ifndef isopoint_SplatNormals_h
 #define isopoint_SplatNormals_h
 
+#include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Splat/NearbyPoints.h"
 #include "Isopoint/Splat/Splat.h"
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace isopoint
 {
 
-/// Sets normals against the fits' gradients, where fits held and options.fieldNormals is set.
-/// @returns the points whose normals are still to be found
+/// The normal against the gradient of a point's fit, if one held.
+std::optional<Vector> fieldNormal(const SurfacePoints& points, std::size_t point);
+
+/// Finds normals against the fits' gradients, if wanted and where fits held.
+/// @param set(point, normal) from any thread
+/// @returns the points whose normals are still to be found, ascending
+/// @throws std::bad_alloc
+template <class Set>
 std::vector<std::size_t> setFieldNormals(
-  const SurfacePoints& points, const SplatOptions& options, std::vector<Splat>& splats);
+  const Execution& execution, const SurfacePoints& points, bool areOfField, const Set& set)
+{
+  std::vector<char> areLeft(points.positions.size(), 1);
+  if (areOfField)
+  {
+    forEachIndex(execution, areLeft.size(),
+      [&](std::size_t i)
+      {
+        if (const std::optional<Vector> normal = fieldNormal(points, i))
+        {
+          set(i, *normal);
+          areLeft[i] = 0;
+        }
+      });
+  }
+  return markedOf(areLeft);
+}
 
 /// The normal of the least-squares plane through a point and others around it ([RL06] section 8),
 /// turned to the side to which values decrease along the edges around; the direction of the point's

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
+#include "Isopoint/Base/Collected.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Tetrahedra/BandInsertion.h"
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 namespace isopoint
 {
@@ -67,7 +70,33 @@ public:
 
   CoordinateUnit Unit; // of all positions
   Triangulation Cells;
-  std::vector<Cell> Open; // the listed ones
+  std::vector<Cell> All;    // those beyond the hull included; or none, after insertions
+  std::vector<Cell> Listed; // by the last request
+
+  /// Lists the cells for which a test holds, if the dimension is 3. @returns their number
+  template <class Test>
+  std::size_t list(const Execution& execution, const Test& test)
+  {
+    this->Listed.clear();
+    if (this->Cells.dimension() < 3)
+    {
+      return 0;
+    }
+    if (this->All.empty())
+    {
+      reserveOnHugePages(this->All, this->Cells.tds().cells().size());
+      const auto all = this->Cells.all_cell_handles();
+      std::copy(all.begin(), all.end(), std::back_inserter(this->All));
+    }
+    constexpr std::size_t grain = 16384;
+    this->Listed = collected<Cell>(execution, { this->All.size(), 32 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<Cell>& found)
+      {
+        std::copy_if(this->All.begin() + static_cast<std::ptrdiff_t>(begin),
+          this->All.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found), test);
+      });
+    return this->Listed.size();
+  }
 
   /// Whether a cell has corners on both sides.
   bool isCrossing(Cell cell) const
@@ -126,7 +155,7 @@ BandTriangulation::~BandTriangulation()
 void BandTriangulation::insert(const Execution& execution, const std::vector<BandSite>& sites,
   const std::function<void(double share)>& step)
 {
-  this->Inside->Open = {};
+  this->dropLists();
   for (const BandSite& site : sites)
   {
     this->Inside->Unit.add(site.position);
@@ -185,32 +214,20 @@ bool BandTriangulation::raisesDimension(const Vector& position) const
   }
 }
 
-std::size_t BandTriangulation::listOpenCells()
+std::size_t BandTriangulation::listOpenCells(const Execution& execution)
 {
-  const Triangulation& cells = this->Inside->Cells;
-  std::vector<Cell>& open = this->Inside->Open;
-  open.clear();
-  if (cells.dimension() == 3)
-  {
-    for (const Cell cell : cells.all_cell_handles())
-    {
-      if (!cell->info().isCertified && this->Inside->isCrossing(cell))
-      {
-        open.push_back(cell);
-      }
-    }
-  }
-  return open.size();
+  return this->Inside->list(execution,
+    [this](Cell cell) { return !cell->info().isCertified && this->Inside->isCrossing(cell); });
 }
 
 bool BandTriangulation::isBeyondHull(std::size_t openCell) const
 {
-  return this->Inside->infiniteIndexOf(this->Inside->Open[openCell]) >= 0;
+  return this->Inside->infiniteIndexOf(this->Inside->Listed[openCell]) >= 0;
 }
 
 TetrahedronCorners BandTriangulation::tetrahedronAt(std::size_t openCell) const
 {
-  const Cell cell = this->Inside->Open[openCell];
+  const Cell cell = this->Inside->Listed[openCell];
   return { positionOf(cell->vertex(0)->point()), positionOf(cell->vertex(1)->point()),
     positionOf(cell->vertex(2)->point()), positionOf(cell->vertex(3)->point()) };
 }
@@ -219,7 +236,7 @@ HullFacetCorners BandTriangulation::hullFacetAt(std::size_t openCell) const
 {
   // A place beyond the hull would take the infinite vertex' place in the orientation.
   constexpr int facets[4][3] = { { 2, 1, 3 }, { 0, 2, 3 }, { 1, 0, 3 }, { 0, 1, 2 } };
-  const Cell cell = this->Inside->Open[openCell];
+  const Cell cell = this->Inside->Listed[openCell];
   const int* const facet = facets[this->Inside->infiniteIndexOf(cell)];
   return { positionOf(cell->vertex(facet[0])->point()), positionOf(cell->vertex(facet[1])->point()),
     positionOf(cell->vertex(facet[2])->point()) };
@@ -229,12 +246,12 @@ bool BandTriangulation::isInside(std::size_t openCell, const Vector& position) c
 {
   constexpr bool decidesTies = true;
   return this->Inside->Cells.side_of_sphere(
-           this->Inside->Open[openCell], pointAt(position), decidesTies) == CGAL::ON_BOUNDED_SIDE;
+           this->Inside->Listed[openCell], pointAt(position), decidesTies) == CGAL::ON_BOUNDED_SIDE;
 }
 
 void BandTriangulation::certify(std::size_t openCell)
 {
-  this->Inside->Open[openCell]->info().isCertified = true;
+  this->Inside->Listed[openCell]->info().isCertified = true;
 }
 
 std::vector<bool> BandTriangulation::areBelow(const std::vector<Vector>& positions) const
@@ -252,24 +269,26 @@ std::vector<bool> BandTriangulation::areBelow(const std::vector<Vector>& positio
   return below;
 }
 
-void BandTriangulation::visitCrossing(
-  const std::function<void(const CrossingTetrahedron<std::uint64_t>&)>& visit) const
+std::size_t BandTriangulation::listCrossingTetrahedra(const Execution& execution)
 {
-  const Triangulation& cells = this->Inside->Cells;
-  if (cells.dimension() < 3)
-  {
-    return;
-  }
-  for (const Cell cell : cells.finite_cell_handles())
-  {
-    if (this->Inside->isCrossing(cell))
-    {
-      CrossingTetrahedron<std::uint64_t> tetrahedron = bySides({ cell->vertex(0)->info(),
-        cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
-      tetrahedron.isAtHull = this->Inside->isCrossingAtHull(cell);
-      visit(tetrahedron);
-    }
-  }
+  return this->Inside->list(execution, [this](Cell cell)
+    { return this->Inside->isCrossing(cell) && !this->Inside->Cells.is_infinite(cell); });
+}
+
+void BandTriangulation::dropLists()
+{
+  this->Inside->All = {};
+  this->Inside->Listed = {};
+}
+
+CrossingTetrahedron<std::uint64_t> BandTriangulation::crossingTetrahedronAt(
+  std::size_t tetrahedron) const
+{
+  const Cell cell = this->Inside->Listed[tetrahedron];
+  CrossingTetrahedron<std::uint64_t> result = bySides({ cell->vertex(0)->info(),
+    cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
+  result.isAtHull = this->Inside->isCrossingAtHull(cell);
+  return result;
 }
 
 } // namespace isopoint

@@ -74,9 +74,10 @@ public:
   /// Whether a sample at this position would raise the dimension.
   bool raisesDimension(const Vector& position) const;
 
-  /// Lists the crossing cells that were not certified, if the dimension is 3. The list is valid
-  /// until the next insertion. @returns their number. O(cells)
-  std::size_t listOpenCells();
+  /// Lists the crossing cells that were not certified, if the dimension is 3. Lists are valid until
+  /// the next insertion. @returns their number. O(cells)
+  /// @throws std::bad_alloc, Aborted
+  std::size_t listOpenCells(const Execution& execution);
 
   /// Of the listed cells: whether it is a facet of the hull; the corners of a tetrahedron, and
   /// those of a facet.
@@ -96,9 +97,16 @@ public:
   /// Quickest if consecutive positions lie close together.
   std::vector<bool> areBelow(const std::vector<Vector>& positions) const;
 
-  /// Visits the crossing tetrahedra, in any order. O(cells)
-  void visitCrossing(
-    const std::function<void(const CrossingTetrahedron<std::uint64_t>&)>& visit) const;
+  /// Lists the crossing tetrahedra, in any order, in place of the open cells. @returns their
+  /// number. O(cells)
+  /// @throws std::bad_alloc, Aborted
+  std::size_t listCrossingTetrahedra(const Execution& execution);
+
+  /// Drops lists, which take memory.
+  void dropLists();
+
+  /// One of the listed crossing tetrahedra. From any thread.
+  CrossingTetrahedron<std::uint64_t> crossingTetrahedronAt(std::size_t tetrahedron) const;
 
 private:
   class Internals;

@@ -3,6 +3,7 @@
 #define isopoint_CrossingTetrahedra_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Tetrahedra/Band.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
@@ -135,15 +136,18 @@ private:
 
   std::vector<CrossingTetrahedron<Id>> crossing()
   {
-    std::vector<CrossingTetrahedron<Id>> result;
-    this->triangulation().visitCrossing(
-      [&result](const CrossingTetrahedron<std::uint64_t>& tetrahedron)
+    std::vector<CrossingTetrahedron<Id>> result = onHugePages<CrossingTetrahedron<Id>>(
+      this->Run, this->triangulation().listCrossingTetrahedra(this->Run));
+    forEachIndex(this->Run, result.size(),
+      [&](std::size_t i)
       {
-        CrossingTetrahedron<Id> narrow{ {}, tetrahedron.belowCount, tetrahedron.isAtHull };
-        std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(),
-          narrow.corners.begin(), [](std::uint64_t leaf) { return static_cast<Id>(leaf); });
-        result.push_back(narrow);
+        const auto [corners, belowCount, isAtHull] = this->triangulation().crossingTetrahedronAt(i);
+        result[i].belowCount = belowCount;
+        result[i].isAtHull = isAtHull;
+        std::transform(corners.begin(), corners.end(), result[i].corners.begin(),
+          [](std::uint64_t leaf) { return static_cast<Id>(leaf); });
       });
+    this->triangulation().dropLists();
     return result;
   }
 
@@ -354,7 +358,7 @@ private:
   bool certify()
   {
     throwIfAborted(this->Run);
-    const std::size_t openCount = this->triangulation().listOpenCells();
+    const std::size_t openCount = this->triangulation().listOpenCells(this->Run);
     this->Visits += this->triangulation().cellCount();
     SearchResult result = this->searchSpheres(openCount);
     if (!this->Ranks.isAny(this->isSpent()))

@@ -2,6 +2,7 @@
 #ifndef isopoint_SideCheck_h
 #define isopoint_SideCheck_h
 
+#include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 #include "Isopoint/Tetrahedra/SphereSearch.h"

@@ -2,6 +2,7 @@
 #ifndef isopoint_TreeRefinement_h
 #define isopoint_TreeRefinement_h
 
+#include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Tree/Path.h"

@@ -260,7 +260,7 @@ private:
     if (kept.size() < surface.size())
     {
       const std::size_t dropped = surface.droppedEdges;
-      surface = chosenIsopoints(surface, kept);
+      surface = chosenIsopoints(this->Run, surface, kept);
       surface.droppedEdges = dropped;
     }
   }

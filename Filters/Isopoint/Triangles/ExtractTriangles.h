@@ -145,7 +145,7 @@ private:
       meshCreases(this->Run, surface.vertices, surface.triangles, this->Request.partsCreases);
     }
     surface.droppedTetrahedra = this->Dropped;
-    surface.vertices.coincident = coincidentEnds(this->Tree, surface.vertices.leaves);
+    surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
     return surface;
   }
 

@@ -3,8 +3,8 @@
 #define isopoint_GapTetrahedra_h
 
 #include "Isopoint/Base/Execution.h"
+#include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Base/Offset.h"
-#include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
 #include "Isopoint/Neighbors/GapSpread.h"
@@ -14,7 +14,6 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace isopoint
@@ -28,8 +27,10 @@ class TetrahedronParts
 public:
   using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
 
-  TetrahedronParts(const SampleTree<TSample>& tree, const std::vector<Tetrahedron>& tetrahedra)
-    : Tree(tree)
+  TetrahedronParts(const Execution& execution, const SampleTree<TSample>& tree,
+    const std::vector<Tetrahedron>& tetrahedra)
+    : Run(execution)
+    , Tree(tree)
     , Tetrahedra(tetrahedra)
   {
   }
@@ -72,9 +73,13 @@ public:
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
   {
-    if (this->Begins.empty())
+    if (this->AtLeaves.isEmpty())
     {
-      this->listAtCorners();
+      this->AtLeaves = ItemLists(
+        this->Run, this->Tree.nodes.size(),
+        this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
+          return this->Tetrahedra[item].corners;
+        });
     }
     const auto& [corners, belowCount, isAtHull] = this->Tetrahedra[tetrahedron];
     for (std::size_t opposite = 0; opposite < 4; ++opposite)
@@ -88,35 +93,6 @@ public:
   }
 
 private:
-  /// Lists the tetrahedra at each leaf, one list after the other.
-  void listAtCorners()
-  {
-    std::vector<std::size_t> places = onHugePages<std::size_t>(this->Tree.nodes.size() + 1);
-    for (const Tetrahedron& tetrahedron : this->Tetrahedra)
-    {
-      for (const auto corner : tetrahedron.corners)
-      {
-        ++places[static_cast<std::size_t>(corner) + 1];
-      }
-    }
-    std::partial_sum(places.begin(), places.end(), places.begin());
-    reserveOnHugePages(this->Begins, places.size());
-    this->Begins = places;
-    this->AtCorners = onHugePages<std::size_t>(places.back());
-    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-    {
-      for (const auto corner : this->Tetrahedra[i].corners)
-      {
-        this->AtCorners[places[static_cast<std::size_t>(corner)]++] = i;
-      }
-    }
-  }
-
-  std::size_t countAt(std::size_t leaf) const
-  {
-    return this->Begins[leaf + 1] - this->Begins[leaf];
-  }
-
   /// Visits the other tetrahedron at the facet opposite to a corner, if there is one.
   template <class Visit>
   void visitAcross(std::size_t tetrahedron, typename TSample::Id opposite, const Visit& visit) const
@@ -127,11 +103,11 @@ private:
     for (const auto corner : corners)
     {
       const auto leaf = static_cast<std::size_t>(corner);
-      shared = corner != opposite && this->countAt(leaf) < this->countAt(shared) ? leaf : shared;
+      const bool hasFewer = this->AtLeaves.at(leaf).count < this->AtLeaves.at(shared).count;
+      shared = corner != opposite && hasFewer ? leaf : shared;
     }
-    for (std::size_t place = this->Begins[shared]; place < this->Begins[shared + 1]; ++place)
+    for (const std::size_t other : this->AtLeaves.at(shared))
     {
-      const std::size_t other = this->AtCorners[place];
       const auto& otherCorners = this->Tetrahedra[other].corners;
       const auto isShared = [&](typename TSample::Id corner)
       {
@@ -145,11 +121,10 @@ private:
     }
   }
 
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
-  // Listed once there is a gap: the tetrahedra at the corners, and where those of a leaf begin.
-  std::vector<std::size_t> AtCorners;
-  std::vector<std::size_t> Begins;
+  ItemLists AtLeaves; // tetrahedra, listed once there is a gap
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
@@ -169,7 +144,7 @@ public:
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
-    , Parts(tree, tetrahedra)
+    , Parts(execution, tree, tetrahedra)
     , Spread(execution, tree, ranks, this->Parts)
   {
   }

@@ -2,8 +2,9 @@
 #ifndef isopoint_MarchingTetrahedra_h
 #define isopoint_MarchingTetrahedra_h
 
+#include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/Isosurface.h"
@@ -117,8 +118,8 @@ private:
 
   void placeVertices()
   {
-    this->Edges = onHugePages<CrossingEdge<TSample>>(this->Pairs.size());
-    this->Positions = onHugePages<Vector>(this->Pairs.size());
+    this->Edges = onHugePages<CrossingEdge<TSample>>(this->Run, this->Pairs.size());
+    this->Positions = onHugePages<Vector>(this->Run, this->Pairs.size());
     constexpr std::size_t grain = 4096;
     forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
@@ -143,7 +144,7 @@ private:
   /// Edges that cross at one of their ends are crossed at one vertex there.
   void mergeAtSamples()
   {
-    this->VertexOf = onHugePages<std::size_t>(this->Edges.size());
+    this->VertexOf = onHugePages<std::size_t>(this->Run, this->Edges.size());
     std::iota(this->VertexOf.begin(), this->VertexOf.end(), std::size_t{ 0 });
     std::unordered_map<Id, std::size_t> vertexAt; // by leaf
     const auto add = [&](Id leaf, std::size_t edge)
@@ -263,17 +264,13 @@ private:
     const std::vector<std::size_t> order =
       this->inOrderOfEdges(verticesOf(triangles, this->Edges.size()));
     EdgeTriangles<TSample> result;
-    result.edges = onHugePages<CrossingEdge<TSample>>(order.size());
-    result.positions = onHugePages<Vector>(order.size());
-    constexpr std::size_t grain = 4096;
-    forBatches(this->Run, order.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+    result.edges = onHugePages<CrossingEdge<TSample>>(this->Run, order.size());
+    result.positions = onHugePages<Vector>(this->Run, order.size());
+    forEachIndex(this->Run, order.size(),
+      [&](std::size_t place)
       {
-        for (std::size_t place = begin; place < end; ++place)
-        {
-          result.edges[place] = this->Edges[order[place]];
-          result.positions[place] = this->Positions[order[place]];
-        }
+        result.edges[place] = this->Edges[order[place]];
+        result.positions[place] = this->Positions[order[place]];
       });
     result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
     return result;

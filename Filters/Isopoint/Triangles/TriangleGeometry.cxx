@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
-#include "Isopoint/Base/RawArray.h"
+#include "Isopoint/Base/Collected.h"
+#include "Isopoint/Base/HugePages.h"
+#include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Splat/SplatNormals.h"
 
@@ -11,7 +13,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
-#include <utility>
+#include <optional>
 
 namespace isopoint
 {
@@ -36,35 +38,6 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
       std::ldexp(w[2], -exponent) };
   };
   return cross(toUnit(u), toUnit(v));
-}
-
-/// A vertex, and a triangle that has it.
-using Corner = std::pair<std::size_t, std::size_t>;
-
-std::vector<Corner> cornersByVertex(const std::vector<SurfaceTriangle>& triangles)
-{
-  std::vector<Corner> corners;
-  reserveOnHugePages(corners, 3 * triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    for (const std::size_t vertex : triangles[i])
-    {
-      corners.emplace_back(vertex, i);
-    }
-  }
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-/// @param corners ordered
-void addTrianglesAt(
-  std::size_t vertex, const std::vector<Corner>& corners, std::vector<std::size_t>& triangles)
-{
-  auto corner = std::lower_bound(corners.begin(), corners.end(), Corner(vertex, 0));
-  for (; corner != corners.end() && corner->first == vertex; ++corner)
-  {
-    triangles.push_back(corner->second);
-  }
 }
 
 bool hasDirection(const Vector& vector)
@@ -93,19 +66,17 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)
 {
-  std::vector<std::size_t> number = onHugePages<std::size_t>(vertexCount);
-  for (std::size_t place = 0; place < order.size(); ++place)
-  {
-    number[order[place]] = place;
-  }
-  std::vector<SurfaceTriangle> result;
-  reserveOnHugePages(result, triangles.size());
-  for (const auto& [a, b, c] : triangles)
-  {
-    SurfaceTriangle corners{ number[a], number[b], number[c] };
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.push_back(corners);
-  }
+  std::vector<std::size_t> number = onHugePages<std::size_t>(execution, vertexCount);
+  forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
+  std::vector<SurfaceTriangle> result = onHugePages<SurfaceTriangle>(execution, triangles.size());
+  forEachIndex(execution, triangles.size(),
+    [&](std::size_t i)
+    {
+      const auto& [a, b, c] = triangles[i];
+      SurfaceTriangle& corners = result[i];
+      corners = { number[a], number[b], number[c] };
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    });
   return sortedUnique(execution, result, order.size(),
     [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
 }
@@ -133,9 +104,9 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   // All at first, then those that changed.
-  std::vector<std::size_t> suspects = onHugePages<std::size_t>(triangles.size());
+  std::vector<std::size_t> suspects = onHugePages<std::size_t>(execution, triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
-  std::vector<Corner> corners; // ordered, once there is a triangle that is turned over
+  std::optional<ItemLists> trianglesAt; // each vertex, once one is turned over
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 8192;
@@ -147,9 +118,11 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
             suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
             [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
         });
-    if (corners.empty() && !turned.empty())
+    if (!trianglesAt && !turned.empty())
     {
-      corners = cornersByVertex(triangles);
+      trianglesAt.emplace(execution, fits.size(), triangles.size(),
+        [&triangles](std::size_t triangle) -> const SurfaceTriangle&
+        { return triangles[triangle]; });
     }
     suspects.clear();
     for (const std::size_t triangle : turned)
@@ -158,7 +131,8 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
       {
         if (isMoved(vertex))
         {
-          addTrianglesAt(vertex, corners, suspects);
+          const NodeList<std::size_t> around = trianglesAt->at(vertex);
+          suspects.insert(suspects.end(), around.begin(), around.end());
         }
         fits[vertex].order.reset();
         fits[vertex].position = unmoved[vertex];
@@ -168,21 +142,20 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   }
 }
 
-std::vector<Splat> vertexNormals(
-  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField)
+std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField)
 {
-  std::vector<Splat> splats = onHugePages<Splat>(points.positions.size());
-  SplatOptions options;
-  options.fieldNormals = areOfField;
-  const std::vector<std::size_t> others = setFieldNormals(points, options, splats);
+  std::vector<Vector> normals = onHugePages<Vector>(execution, points.positions.size());
+  const std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
+    [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
   if (others.empty())
   {
-    return splats;
+    return normals;
   }
-  std::vector<bool> isOther(splats.size(), false);
+  std::vector<char> isOther(normals.size(), 0);
   for (const std::size_t vertex : others)
   {
-    isOther[vertex] = true;
+    isOther[vertex] = 1;
   }
   for (const SurfaceTriangle& triangle : triangles)
   {
@@ -197,16 +170,16 @@ std::vector<Splat> vertexNormals(
     {
       if (isOther[vertex])
       {
-        splats[vertex].normal = sum(splats[vertex].normal, 1.0, normal);
+        normals[vertex] = sum(normals[vertex], 1.0, normal);
       }
     }
   }
   for (const std::size_t vertex : others)
   {
-    Vector& normal = splats[vertex].normal;
+    Vector& normal = normals[vertex];
     normal = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
   }
-  return splats;
+  return normals;
 }
 
 } // namespace isopoint

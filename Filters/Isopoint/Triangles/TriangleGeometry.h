@@ -40,16 +40,15 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(triangles), and O(n log n) if any is turned over, however many rounds it takes
+/// Complexity: O(triangles), however many rounds it takes
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 
-/// The normals of vertices, as splats of which nothing else is set: against the fits' gradients, if
-/// wanted and where there are such; else the mean of the normals of their triangles, weighted by
-/// area.
+/// The normals of vertices: against the fits' gradients, if wanted and where there are such; else
+/// the mean of the normals of their triangles, weighted by area.
 /// @throws std::bad_alloc
-std::vector<Splat> vertexNormals(
-  const SurfacePoints& points, const std::vector<SurfaceTriangle>& triangles, bool areOfField);
+std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField);
 
 } // namespace isopoint
 
