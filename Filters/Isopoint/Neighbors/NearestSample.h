@@ -7,6 +7,7 @@
 #include "Isopoint/Tree/SampleTree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace isopoint
@@ -46,16 +47,34 @@ public:
   {
     if (!this->Tree.isEmpty())
     {
-      this->visit(SampleTree<TSample>::rootNode, this->Tree.region);
+      this->visitSmallestAround();
     }
     return this->Found;
   }
 
 private:
+  /// Visits the smallest node that holds all samples within reach.
+  void visitSmallestAround()
+  {
+    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+    Region region = this->Tree.region;
+    while (this->Tree.nodes[nodeIndex].isSplit())
+    {
+      const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+      const double beyond = this->Place[node.axis] - node.plane;
+      if (!(std::abs(beyond) > this->Distance))
+      {
+        break;
+      }
+      (beyond > 0.0 ? region.lower : region.upper)[node.axis] = node.plane;
+      nodeIndex = this->Tree.child(node, beyond > 0.0);
+    }
+    this->visit(nodeIndex, region);
+  }
+
   void visit(std::size_t nodeIndex, const Region& region)
   {
-    constexpr double slack = 0.999; // for rounding
-    if (!this->Condition.mayHoldIn(region) || slack * this->distanceTo(region) > this->Distance)
+    if (!this->isNear(region) || !this->Condition.mayHoldIn(region))
     {
       return;
     }
@@ -82,7 +101,8 @@ private:
     }
   }
 
-  double distanceTo(const Region& region) const
+  /// Whether a region may hold a sample as near as the nearest found.
+  bool isNear(const Region& region) const
   {
     Vector gap{};
     for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +110,16 @@ private:
       gap[axis] = std::max(
         { region.lower[axis] - this->Place[axis], this->Place[axis] - region.upper[axis], 0.0 });
     }
-    return lengthOf(gap);
+    constexpr double slack = 0.999; // for rounding
+    return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
+  }
+
+  /// Whether an offset is longer than the distance of the nearest found along one axis alone:
+  /// lengths take far longer to compute.
+  bool isFarther(const Vector& offset) const
+  {
+    return std::abs(offset[0]) > this->Distance || std::abs(offset[1]) > this->Distance ||
+           std::abs(offset[2]) > this->Distance;
   }
 
   /// The part of a region that is near enough, with room for rounding.
@@ -108,6 +137,10 @@ private:
   void consider(const TSample& sample)
   {
     const Vector offset = difference(positionOf(sample), this->Place);
+    if (this->isFarther(offset))
+    {
+      return;
+    }
     const double distance = lengthOf(offset);
     const bool isNearer =
       distance < this->Distance ||

@@ -171,6 +171,10 @@ private:
     const Vector offset = difference(position, this->Query.place);
     const double height = dot(offset, this->Query.normal);
     const double ahead = dot(offset, this->Query.direction);
+    if (!this->isOfUse(height, ahead))
+    {
+      return; // before its length, which takes far longer to compute
+    }
     const double length = lengthOf(offset);
     if (ahead < leastCosineAhead * length || length > this->Query.reach)
     {
@@ -184,6 +188,12 @@ private:
     {
       this->Below = std::max(this->Below, ahead);
     }
+  }
+
+  /// Whether samples ahead, at a height above the plane, are farther ahead than those found.
+  bool isOfUse(double height, double ahead) const
+  {
+    return (height >= 0.0 && ahead > this->Above) || (height <= 0.0 && ahead > this->Below);
   }
 
   const SampleTree<TSample>& Tree;
