@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lists that threads make together, against their definitions.
+#include "Clouds.h"
+
+#include "Isopoint/Base/Collected.h"
+#include "Isopoint/Base/HugePages.h"
+#include "Isopoint/Base/ItemLists.h"
+#include "Isopoint/Neighbors/NeighborhoodCache.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace
+{
+
+using Numbers = std::vector<std::size_t>;
+
+Numbers asVector(const isopoint::NodeList<std::size_t>& list)
+{
+  return { list.begin(), list.end() };
+}
+
+} // namespace
+
+TEST(ItemLists, ListItemsAtTheirPlacesAscending)
+{
+  constexpr std::size_t placeCount = 100;
+  clouds::Random random(1);
+  std::vector<std::array<std::uint32_t, 2>> places; // the last one has no items
+  for (std::size_t i = 0; i < 1000; ++i)
+  {
+    const auto first = static_cast<std::uint32_t>((placeCount - 2) * random());
+    places.push_back({ first, first + 1 });
+  }
+  std::vector<Numbers> expected(placeCount);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    for (const std::size_t place : places[i])
+    {
+      expected[place].push_back(i);
+    }
+  }
+  const isopoint::ItemLists lists(clouds::executionOn(3), placeCount, places.size(),
+    [&places](std::size_t item) { return places[item]; });
+  Numbers all;
+  for (std::size_t place = 0; place < placeCount; ++place)
+  {
+    EXPECT_EQ(asVector(lists.at(place)), expected[place]);
+    all.insert(all.end(), expected[place].begin(), expected[place].end());
+  }
+  EXPECT_EQ(lists.all(), all);
+  EXPECT_FALSE(lists.isEmpty());
+}
+
+TEST(ItemLists, OfNothingAreEmpty)
+{
+  const isopoint::ItemLists lists({}, 3, 0, [](std::size_t item) { return Numbers{ item }; });
+  EXPECT_TRUE(lists.isEmpty());
+  EXPECT_EQ(lists.at(2).count, 0u);
+  EXPECT_TRUE(isopoint::ItemLists().isEmpty());
+}
+
+TEST(Collected, IsWhatAllRangesFind)
+{
+  for (const std::size_t count : { 0, 1, 10, 1000 })
+  {
+    const auto even = [](std::size_t begin, std::size_t end, Numbers& found)
+    {
+      for (std::size_t i = begin + begin % 2; i < end; i += 2)
+      {
+        found.push_back(i);
+      }
+    };
+    Numbers found =
+      isopoint::collected<std::size_t>(clouds::executionOn(3), { count, 40, 10 }, even);
+    std::sort(found.begin(), found.end());
+    Numbers expected;
+    even(0, count, expected);
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(Collected, JoinsListsInTheirOrder)
+{
+  EXPECT_EQ(isopoint::joined<int>({}, {}), std::vector<int>());
+  EXPECT_EQ(isopoint::joined<int>(clouds::executionOn(2), { { 3, 1 }, {}, { 2 } }),
+    std::vector<int>({ 3, 1, 2 }));
+}
+
+// Larger than several huge pages, some of which no thread can take at once.
+TEST(HugePages, VectorsHaveNoValues)
+{
+  for (const std::size_t threads : { 1, 3 })
+  {
+    std::vector<std::uint64_t> numbers =
+      isopoint::onHugePages<std::uint64_t>(clouds::executionOn(threads), 3000001);
+    ASSERT_EQ(numbers.size(), 3000001u);
+    EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 0u), 3000001);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    EXPECT_EQ(numbers.back(), 3000000u);
+  }
+}
+
+TEST(NeighborhoodCache, KnowsWhatWasAdded)
+{
+  isopoint::NeighborhoodCache<std::uint32_t> cache;
+  EXPECT_TRUE(cache.at(0).isEmpty());
+  EXPECT_EQ(cache.room(100), 100u);
+  cache.add(clouds::executionOn(2), { { 4, 2, 7, 9, 0, 1, 4 }, {}, { 7, 1, 4 } }, 10);
+  cache.add({}, { { 12, 3, 1, 2, 3 } }, 20);
+  const auto neighborsOf = [&cache](std::size_t node)
+  { return std::vector<std::uint32_t>(cache.at(node).begin(), cache.at(node).end()); };
+  using Nodes = std::vector<std::uint32_t>;
+  EXPECT_EQ(neighborsOf(4), (Nodes{ 7, 9 }));
+  EXPECT_EQ(neighborsOf(0), (Nodes{ 4 }));
+  EXPECT_EQ(neighborsOf(7), (Nodes{ 4 }));
+  EXPECT_EQ(neighborsOf(12), (Nodes{ 1, 2, 3 }));
+  for (const std::size_t unknown : { 1, 9, 13, 19, 20, 1000 })
+  {
+    EXPECT_TRUE(cache.at(unknown).isEmpty());
+  }
+  EXPECT_EQ(cache.room(20), 5u);
+  EXPECT_EQ(cache.room(10), 0u);
+}
