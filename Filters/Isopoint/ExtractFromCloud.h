@@ -83,7 +83,7 @@ private:
 /// seen, so are those that they overlap (docs/ranks.md).
 inline constexpr int ghostRings = 5;
 
-/// Some isopoints of a surface, with their splats.
+/// Some isopoints of a surface, with their splats. @throws std::bad_alloc, Aborted
 /// @param splats of all of `indices`' surface, or empty
 template <class TSample>
 ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSample>& tree,
@@ -92,12 +92,12 @@ ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSam
   ExtractedIsosurface result;
   result.surface = std::move(surface);
   result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
-  result.surface.leaves = {};
+  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
   result.splats = chosenOf(execution, splats, indices);
   return result;
 }
 
-/// The part of a surface of triangles that is on this rank.
+/// The part of a surface of triangles that is on this rank. @throws std::bad_alloc, Aborted
 /// @param all what is found on each of them
 template <class TSample>
 ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
@@ -110,10 +110,8 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
   }
   const auto rank = static_cast<std::size_t>(ranks.team().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
-  ExtractedIsosurface result;
-  result.surface = chosenIsopoints(execution, all.surface, part.vertices);
-  result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
-  result.surface.leaves = {};
+  ExtractedIsosurface result = withSplats(execution, tree,
+    chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
   result.normals = chosenOf(execution, all.normals, part.vertices);
   result.areElsewhere = std::move(part.areElsewhere);
   result.triangles = std::move(part.triangles);
@@ -157,7 +155,7 @@ ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSa
   }
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
-  result.surface.leaves = {};
+  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
   return result;
 }
 

@@ -106,6 +106,18 @@ TEST(SameResult, OfEverythingInUnevenClouds)
   expectSameOfEverything(clouds::clustered(clouds::lessIfSlow(2000), 7));
 }
 
+// Large enough for several ranges of its points and vertices.
+TEST(SameResult, OfManyPointsForAnyThreads)
+{
+  const clouds::Cloud cloud = clouds::uniform(60000, 8);
+  for (const ExtractionRequest& request : { whole(0.3, FitOrder::Cubic), triangles(0.3) })
+  {
+    const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
+    EXPECT_GT(expected.surface.size(), 4096u);
+    expectSame(expected, loaded(cloud, 3).extract(clouds::executionOn(3), request));
+  }
+}
+
 TEST(SameResult, OfEverythingInALattice)
 {
   expectSameOfEverything(clouds::lattice(12, 12, 12));

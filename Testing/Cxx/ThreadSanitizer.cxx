@@ -23,7 +23,7 @@ extern "C"
     return 0;
   }
 
-  // Embree's threads, on which it calls the ray tracer back, synchronize inside the library.
+  // Embree's threads synchronize inside the library, which calls nothing of the project.
   const char* __tsan_default_suppressions()
   {
     return "race:libembree\ncalled_from_lib:libembree\n";

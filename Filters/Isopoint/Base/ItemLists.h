@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -18,8 +19,6 @@ namespace isopoint
 class ItemLists
 {
 public:
-  ItemLists() = default;
-
   /// @param placesOf(item) the places of an item, different ones below placeCount
   /// @throws std::bad_alloc
   /// Complexity: O(places + items)
@@ -46,8 +45,6 @@ public:
     }
   }
 
-  bool isEmpty() const { return this->Items.empty(); }
-
   NodeList<std::size_t> at(std::size_t place) const
   {
     const std::size_t begin = this->Begins[place];
@@ -55,7 +52,7 @@ public:
   }
 
   /// The lists of all places, one after the other.
-  const std::vector<std::size_t>& all() const { return this->Items; }
+  std::vector<std::size_t> all() && { return std::move(this->Items); }
 
 private:
   std::vector<std::size_t> Begins; // by place, and the end of the last list

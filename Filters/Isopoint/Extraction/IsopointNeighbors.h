@@ -6,6 +6,7 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/ItemLists.h"
+#include "Isopoint/Base/NodeList.h"
 #include "Isopoint/Extraction/Isosurface.h"
 #include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Neighbors/GapCriterion.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -64,7 +66,7 @@ public:
     // Of the leaves that edges end in; 0 is none.
     std::vector<Id> numbers = onHugePages<Id>(execution, tree.nodes.size());
     this->numberLeaves(execution, leaves, numbers);
-    this->Isopoints = ItemLists(execution, this->Leaves.size(), this->Ends.size(),
+    this->Isopoints.emplace(execution, this->Leaves.size(), this->Ends.size(),
       [this](std::size_t isopoint) { return this->Ends[isopoint]; });
     std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
     for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
@@ -201,10 +203,10 @@ private:
   /// No leaf is added once this many isopoints are listed.
   static constexpr std::size_t mostIsopoints = 2048;
 
-  /// The isopoints whose edges end in a leaf.
+  /// The isopoints whose edges end in a leaf; none if they are more than `most`.
   NodeList<std::size_t> isopointsAt(Id leaf) const
   {
-    const NodeList<std::size_t> isopoints = this->Isopoints.at(leaf);
+    const NodeList<std::size_t> isopoints = this->Isopoints->at(leaf);
     return isopoints.count > most ? NodeList<std::size_t>{} : isopoints;
   }
 
@@ -284,7 +286,7 @@ private:
   mutable SampleBounds<TSample> Bounds;  // computed once, from any thread
   std::vector<Id> Leaves;                // node indices of the leaves that edges end in, by number
   std::vector<std::array<Id, 2>> Ends;   // of the isopoints' edges, numbers of leaves
-  ItemLists Isopoints;                   // whose edges end in each leaf, by number
+  std::optional<ItemLists> Isopoints;    // whose edges end in each leaf, by number
   std::vector<Id> Touching;              // each leaf, numbers of leaves, one list after the other
   std::vector<std::size_t> TouchingEnds; // of these lists; the first one is empty
 };

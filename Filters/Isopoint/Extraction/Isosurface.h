@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -159,7 +158,7 @@ inline Isosurface chosenIsopoints(
   return few;
 }
 
-/// The coincident samples among the ends of edges, by lowest id.
+/// The coincident samples among the ends of edges, by lowest id. @throws std::bad_alloc, Aborted
 template <class TSample>
 std::vector<CoincidentSamples> coincidentEnds(
   const Execution& execution, const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)

@@ -114,8 +114,9 @@ private:
     return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
   }
 
-  /// Whether an offset is longer than the distance of the nearest found along one axis alone:
-  /// lengths take far longer to compute.
+  /// Whether an offset is longer than the distance of the nearest found along one axis alone, and
+  /// so is its length, which is not rounded to less than a component: lengths take far longer to
+  /// compute.
   bool isFarther(const Vector& offset) const
   {
     return std::abs(offset[0]) > this->Distance || std::abs(offset[1]) > this->Distance ||

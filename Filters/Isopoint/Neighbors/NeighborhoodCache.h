@@ -45,7 +45,7 @@ public:
 
   /// Adds neighborhoods: lists of them, one after the other as node index, count, neighbors.
   /// @param nodeCount above every node index
-  /// @throws std::bad_alloc, the cache as before
+  /// @throws std::bad_alloc, after which some of them may be known
   void add(
     const Execution& execution, const std::vector<std::vector<TId>>& lists, std::size_t nodeCount)
   {

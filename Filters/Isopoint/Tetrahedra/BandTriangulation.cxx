@@ -277,8 +277,8 @@ std::size_t BandTriangulation::listCrossingTetrahedra(const Execution& execution
 
 void BandTriangulation::dropLists()
 {
-  this->Inside->All = {};
-  this->Inside->Listed = {};
+  this->Inside->All = std::vector<Cell>();
+  this->Inside->Listed = std::vector<Cell>();
 }
 
 CrossingTetrahedron<std::uint64_t> BandTriangulation::crossingTetrahedronAt(

@@ -102,7 +102,7 @@ public:
   /// @throws std::bad_alloc, Aborted
   std::size_t listCrossingTetrahedra(const Execution& execution);
 
-  /// Drops lists, which take memory.
+  /// Gives back the memory of lists.
   void dropLists();
 
   /// One of the listed crossing tetrahedra. From any thread.

@@ -14,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -73,9 +74,9 @@ public:
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
   {
-    if (this->AtLeaves.isEmpty())
+    if (!this->AtLeaves)
     {
-      this->AtLeaves = ItemLists(
+      this->AtLeaves.emplace(
         this->Run, this->Tree.nodes.size(),
         this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
           return this->Tetrahedra[item].corners;
@@ -103,10 +104,10 @@ private:
     for (const auto corner : corners)
     {
       const auto leaf = static_cast<std::size_t>(corner);
-      const bool hasFewer = this->AtLeaves.at(leaf).count < this->AtLeaves.at(shared).count;
+      const bool hasFewer = this->AtLeaves->at(leaf).count < this->AtLeaves->at(shared).count;
       shared = corner != opposite && hasFewer ? leaf : shared;
     }
-    for (const std::size_t other : this->AtLeaves.at(shared))
+    for (const std::size_t other : this->AtLeaves->at(shared))
     {
       const auto& otherCorners = this->Tetrahedra[other].corners;
       const auto isShared = [&](typename TSample::Id corner)
@@ -124,7 +125,7 @@ private:
   const Execution& Run;
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
-  ItemLists AtLeaves; // tetrahedra, listed once there is a gap
+  std::optional<ItemLists> AtLeaves; // tetrahedra, listed once there is a gap
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.

@@ -4,6 +4,7 @@
 #include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/ItemLists.h"
+#include "Isopoint/Base/NodeList.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Splat/SplatNormals.h"
 

@@ -40,7 +40,8 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(triangles), however many rounds it takes
+/// Complexity: O(vertices + triangles), and O(n log n) where many are turned over, however many
+/// rounds it takes
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 
