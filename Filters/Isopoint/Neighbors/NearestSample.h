@@ -47,31 +47,14 @@ public:
   {
     if (!this->Tree.isEmpty())
     {
-      this->visitSmallestAround();
+      const Region box = this->within(this->Tree.region);
+      this->visit(smallestAround(this->Tree, SampleTree<TSample>::rootNode, box), box);
     }
     return this->Found;
   }
 
 private:
-  /// Visits the smallest node that holds all samples within reach.
-  void visitSmallestAround()
-  {
-    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
-    Region region = this->Tree.region;
-    while (this->Tree.nodes[nodeIndex].isSplit())
-    {
-      const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-      const double beyond = this->Place[node.axis] - node.plane;
-      if (!(std::abs(beyond) > this->Distance))
-      {
-        break;
-      }
-      (beyond > 0.0 ? region.lower : region.upper)[node.axis] = node.plane;
-      nodeIndex = this->Tree.child(node, beyond > 0.0);
-    }
-    this->visit(nodeIndex, region);
-  }
-
+  /// @param region a part of the node's that contains all samples of it that count
   void visit(std::size_t nodeIndex, const Region& region)
   {
     if (!this->isNear(region) || !this->Condition.mayHoldIn(region))

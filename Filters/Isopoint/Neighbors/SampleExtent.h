@@ -69,7 +69,7 @@ private:
   /// @throws MissingNode at a node whose samples another rank holds
   void visit(std::size_t nodeIndex, const Region& box)
   {
-    nodeIndex = this->smallestAround(nodeIndex, box);
+    nodeIndex = smallestAround(this->Tree, nodeIndex, box);
     if (!this->mayContribute(box))
     {
       return;
@@ -91,21 +91,6 @@ private:
       double& bound = isUpper ? part.lower[node.axis] : part.upper[node.axis];
       bound = isUpper ? std::max(bound, node.plane) : std::min(bound, node.plane);
       this->visit(this->Tree.child(node, isUpper), part);
-    }
-  }
-
-  /// The node below another one whose region contains a box, as far down as nodes are split.
-  std::size_t smallestAround(std::size_t nodeIndex, const Region& box) const
-  {
-    for (;;)
-    {
-      const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-      if (!node.isSplit() ||
-          (box.lower[node.axis] <= node.plane && box.upper[node.axis] >= node.plane))
-      {
-        return nodeIndex;
-      }
-      nodeIndex = this->Tree.child(node, box.lower[node.axis] > node.plane);
     }
   }
 

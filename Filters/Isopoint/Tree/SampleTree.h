@@ -111,6 +111,23 @@ struct SampleTree
   }
 };
 
+/// The node below another one whose region contains a box, as far down as nodes are split.
+template <class TSample>
+std::size_t smallestAround(
+  const SampleTree<TSample>& tree, std::size_t nodeIndex, const Region& box)
+{
+  for (;;)
+  {
+    const Node<TSample>& node = tree.nodes[nodeIndex];
+    if (!node.isSplit() ||
+        (box.lower[node.axis] <= node.plane && box.upper[node.axis] >= node.plane))
+    {
+      return nodeIndex;
+    }
+    nodeIndex = tree.child(node, box.lower[node.axis] > node.plane);
+  }
+}
+
 inline std::size_t siblingOf(std::size_t nodeIndex)
 {
   return nodeIndex ^ 1;
