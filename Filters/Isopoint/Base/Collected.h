@@ -28,20 +28,35 @@ std::vector<std::size_t> beginsOf(const std::vector<std::vector<T>>& lists, std:
   return begins;
 }
 
+/// Work on lists that follow each other, short ones many at a time.
+/// @param begins of the lists, as beginsOf() returns them
+/// @param work(list) from any thread
+/// @throws what the work throws
+template <class Work>
+void forEachList(
+  const Execution& execution, const std::vector<std::size_t>& begins, const Work& work)
+{
+  constexpr std::size_t few = 65536; // elements that are not worth a thread
+  const std::size_t count = begins.size() - 1;
+  const std::size_t grain = few * count / (begins.back() - begins.front() + 1) + 1;
+  forRanges(execution, count, grain,
+    [&work](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t list = begin; list < end; ++list)
+      {
+        work(list);
+      }
+    });
+}
+
 /// Lists, one after the other. @throws std::bad_alloc
 template <class T>
 std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists)
 {
   const std::vector<std::size_t> begins = beginsOf(lists);
   std::vector<T> all = onHugePages<T>(execution, begins.back());
-  forRanges(execution, lists.size(), 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        std::copy(lists[i].begin(), lists[i].end(), all.data() + begins[i]);
-      }
-    });
+  forEachList(execution, begins,
+    [&](std::size_t i) { std::copy(lists[i].begin(), lists[i].end(), all.data() + begins[i]); });
   return all;
 }
 

@@ -13,6 +13,8 @@
 namespace isopoint
 {
 
+constexpr std::size_t usualHugePage = std::size_t{ 1 } << 21; // bytes
+
 #ifdef __linux__
 /// The size of the system's pages, in bytes.
 inline std::uintptr_t pageSize()
@@ -25,7 +27,8 @@ inline std::uintptr_t pageSize()
 /// is more of it than `least` bytes: the first writes then take far fewer page faults, and reads in
 /// any order fewer page walks. Memory that is never written still takes no pages, except for the
 /// rest of a huge one.
-inline void preferHugePages(void* memory, std::size_t bytes, std::size_t least)
+inline void preferHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes,
+  [[maybe_unused]] std::size_t least)
 {
 #ifdef MADV_HUGEPAGE
   if (bytes > least)
@@ -36,10 +39,6 @@ inline void preferHugePages(void* memory, std::size_t bytes, std::size_t least)
     // Advice that is not taken changes nothing.
     static_cast<void>(madvise(static_cast<char*>(memory) - before, before + bytes, MADV_HUGEPAGE));
   }
-#else
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
-  static_cast<void>(least);
 #endif
 }
 
@@ -48,7 +47,7 @@ inline void preferHugePages(void* memory, std::size_t bytes, std::size_t least)
 template <class T>
 void reserveOnHugePages(std::vector<T>& vector, std::size_t count)
 {
-  constexpr std::size_t few = std::size_t{ 1 } << 22; // bytes: twice the usual huge page
+  constexpr std::size_t few = 2 * usualHugePage;
   if (vector.capacity() < count)
   {
     vector.reserve(count);
@@ -58,10 +57,11 @@ void reserveOnHugePages(std::vector<T>& vector, std::size_t count)
 
 /// Lets all threads take the page faults of the first writes to memory that will be written at
 /// once, where the system can: one thread would take them one after the other.
-inline void takePages(const Execution& execution, void* memory, std::size_t bytes)
+inline void takePages([[maybe_unused]] const Execution& execution, [[maybe_unused]] void* memory,
+  [[maybe_unused]] std::size_t bytes)
 {
 #ifdef MADV_POPULATE_WRITE
-  constexpr std::size_t page = std::size_t{ 1 } << 21; // the usual huge one
+  constexpr std::size_t page = usualHugePage;
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const std::size_t before = (page - address % page) % page;
   if (execution.threads > 1 && bytes > before)
@@ -75,10 +75,6 @@ inline void takePages(const Execution& execution, void* memory, std::size_t byte
         static_cast<void>(madvise(first + begin * page, (end - begin) * page, MADV_POPULATE_WRITE));
       });
   }
-#else
-  static_cast<void>(execution);
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
 #endif
 }
 

@@ -4,8 +4,8 @@
 
 #include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/NodeList.h"
+#include "Isopoint/Base/RawArray.h"
 
 #include <algorithm>
 #include <atomic>
@@ -51,19 +51,8 @@ public:
   {
     const std::vector<std::size_t> begins = beginsOf(lists, this->Lists.size());
     this->Offsets.resize(std::max(this->Offsets.size(), nodeCount), 0);
-    if (this->Lists.capacity() < begins.back())
-    {
-      reserveOnHugePages(this->Lists, std::max(2 * this->Lists.size(), begins.back()));
-    }
     this->Lists.resize(begins.back());
-    forRanges(execution, lists.size(), 1,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t list = begin; list < end; ++list)
-        {
-          this->set(begins[list], lists[list]);
-        }
-      });
+    forEachList(execution, begins, [&](std::size_t list) { this->set(begins[list], lists[list]); });
   }
 
 private:
@@ -80,7 +69,7 @@ private:
   }
 
   std::vector<TId> Offsets; // by node index, into Lists; 0: not known
-  std::vector<TId> Lists;   // node, count, neighbors
+  RawArray<TId> Lists;      // node, count, neighbors
 };
 
 /// A budget of listed neighbors, shared by all threads. To list a neighborhood is quicker than to
