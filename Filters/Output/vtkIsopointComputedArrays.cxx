@@ -70,38 +70,29 @@ void vtkIsopointComputedArrays::Append(
   const isopoint::Execution& execution, const isopoint::ExtractedIsosurface& extracted)
 {
   const std::vector<isopoint::LocalFit>& fits = extracted.surface.fits;
-  std::atomic<vtkIdType> counted{ 0 };
   std::atomic<vtkIdType> withoutFit{ 0 };
-  constexpr std::size_t grain = 4096;
-  isopoint::forRanges(execution, extracted.surface.size(), grain,
-    [&](std::size_t begin, std::size_t end)
+  isopoint::forEachIndex(execution, extracted.surface.size(),
+    [&](std::size_t i)
     {
-      vtkIdType countedOfRange = 0;
-      vtkIdType withoutFitOfRange = 0;
-      for (std::size_t i = begin; i < end; ++i)
+      const vtkIdType tuple = this->Next + static_cast<vtkIdType>(i);
+      if (!extracted.splats.empty())
       {
-        const vtkIdType tuple = this->Next + static_cast<vtkIdType>(i);
-        const bool isCounted = extracted.areElsewhere.empty() || !extracted.areElsewhere[i];
-        countedOfRange += isCounted ? 1 : 0;
-        if (!extracted.splats.empty())
+        this->SetSplat(tuple, extracted.splats[i]);
+      }
+      if (!extracted.normals.empty())
+      {
+        set(this->Normals, tuple, extracted.normals[i].data());
+      }
+      if (!fits.empty())
+      {
+        this->SetFit(tuple, fits[i]);
+        if (!fits[i].order && (extracted.areElsewhere.empty() || !extracted.areElsewhere[i]))
         {
-          this->SetSplat(tuple, extracted.splats[i]);
-        }
-        if (!extracted.normals.empty())
-        {
-          set(this->Normals, tuple, extracted.normals[i].data());
-        }
-        if (!fits.empty())
-        {
-          this->SetFit(tuple, fits[i]);
-          withoutFitOfRange += fits[i].order || !isCounted ? 0 : 1;
+          ++withoutFit;
         }
       }
-      counted += countedOfRange;
-      withoutFit += withoutFitOfRange;
     });
   this->Next += static_cast<vtkIdType>(extracted.surface.size());
-  this->Counted += counted;
   this->WithoutFit += withoutFit;
 }
 

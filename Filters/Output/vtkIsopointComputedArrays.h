@@ -50,10 +50,9 @@ public:
   void Append(const isopoint::Execution& execution, const isopoint::ExtractedIsosurface& extracted);
 
   /**
-   * The number of isopoints written so far, and of those around which no fit holds, without those
-   * that are counted on other ranks.
+   * The number of isopoints written so far around which no fit holds, without those that are
+   * counted on other ranks.
    */
-  vtkIdType GetNumberCounted() const { return this->Counted; }
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
   /**
@@ -68,7 +67,6 @@ private:
 
   Choice Chosen;
   vtkIdType Next = 0;
-  vtkIdType Counted = 0;
   vtkIdType WithoutFit = 0;
   vtkSmartPointer<vtkDataArray> Normals;
   vtkSmartPointer<vtkDataArray> Radius;

@@ -247,10 +247,13 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   for (const isopoint::ExtractedIsosurface& surface : surfaces)
   {
     computed.Append(this->Execution, surface);
+    this->Findings.UnprojectedPoints += this->Findings.AreProjected ? 0 : surface.countHere();
     isopoint::throwIfAborted(this->Execution);
   }
-  this->Findings.UnprojectedPoints += static_cast<std::uint64_t>(
-    this->Findings.AreProjected ? computed.GetNumberWithoutFit() : computed.GetNumberCounted());
+  if (this->Findings.AreProjected)
+  {
+    this->Findings.UnprojectedPoints += static_cast<std::uint64_t>(computed.GetNumberWithoutFit());
+  }
   if (this->IsOnRanks() && this->GhostLevels > 0)
   {
     vtkAddIsopointGhosts(surfaces, output);
