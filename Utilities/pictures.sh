@@ -53,7 +53,8 @@ rm isosurface.png
 mv comparison.png "$root/docs/"
 mv ./*.png "$root/docs/examples/"
 if [[ $data ]]; then
-  draw env -u PV_PLUGIN_PATH pvbatch "$root/Testing/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
+  unset PV_PLUGIN_PATH # these load the plugin themselves, or need none
+  draw pvbatch "$root/Testing/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
   draw /usr/bin/python3 "$root/Testing/Benchmark/ray_traced_engine.py" "$data/volumes/engine_256x256x128_uint8.vti"
   mv ray_traced_engine.png "$root/docs/examples/"
 fi
