@@ -36,7 +36,7 @@ struct ExtractedIsosurface
 {
   Isosurface surface;
   std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
-  std::vector<Vector> normals;            // likewise, of vertices of triangles
+  std::vector<Vector> normals;            // one for each vertex of triangles, or empty likewise
   std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
   std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
   /// Crossing edges, or tetrahedra of triangles, that were left out since they lie in gaps. Of a

@@ -49,9 +49,10 @@ using SampleFor = std::conditional_t<std::is_same_v<TCoordinate, float>,
   std::conditional_t<std::is_same_v<TValue, float>, DoubleSampleOfFloat, WideSample>>;
 
 /// Extracts isosurfaces from one cloud of samples: the one door of the core, whose header brings
-/// all types that go through it. The tree and the neighborhoods are kept from one extraction to
-/// the next: the first takes O(n) for each level of the tree whose regions are not yet smaller than
-/// the surface; a further one only what its own narrow band adds.
+/// all types that go through it. The tree, the neighborhoods and, of triangles, the tetrahedrized
+/// samples (see IsosurfaceRequest::keepsBand) are kept from one extraction to the next: the first
+/// takes O(n) for each level of the tree whose regions are not yet smaller than the surface; a
+/// further one only what lies near its own surface.
 class IsosurfaceExtractor
 {
 public:

@@ -204,6 +204,9 @@ std::vector<isopoint::ExtractedIsosurface> vtkIsopointExtraction::ExtractIsovalu
   for (std::size_t i = 0; i < isovalues.size(); ++i)
   {
     request.isosurface.isovalue = isovalues[i];
+    // Small ones of many blocks would add up.
+    request.isosurface.keepsBand =
+      i + 1 < isovalues.size() || (this->Options.KeepTree && !this->Options.ContourBlocks);
     surfaces.push_back(
       extractor.extract(isopoint::partOf(this->Execution, progress[i], progress[i + 1]), request,
         hasGhosts ? &ghosts[i] : nullptr));

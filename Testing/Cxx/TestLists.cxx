@@ -86,9 +86,10 @@ TEST(Collected, IsWhatAllRangesFind)
 
 TEST(Collected, JoinsListsInTheirOrder)
 {
-  EXPECT_EQ(isopoint::joined<int>({}, {}), std::vector<int>());
-  EXPECT_EQ(isopoint::joined<int>(clouds::executionOn(2), { { 3, 1 }, {}, { 2 } }),
-    std::vector<int>({ 3, 1, 2 }));
+  const auto joined = [](const std::vector<std::vector<int>>& lists)
+  { return isopoint::joined(clouds::executionOn(2), lists, isopoint::beginsOf(lists)); };
+  EXPECT_EQ(joined({}), std::vector<int>());
+  EXPECT_EQ(joined({ { 3, 1 }, {}, { 2 } }), (std::vector<int>{ 3, 1, 2 }));
 }
 
 // Larger than several huge pages, some of which no thread can take at once.

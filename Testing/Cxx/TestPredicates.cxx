@@ -85,6 +85,7 @@ TEST(CoordinateUnit, IsNoneWhereItIsOfNoUse)
   EXPECT_EQ(0.0, unitOf({ { 1e-300, 1.0, 1.0 } }));
   EXPECT_EQ(0.0, unitOf({ { 1e-308, 1e-310, 0.0 } }));
   EXPECT_EQ(0.0, unitOf({ { 1.0, std::numeric_limits<double>::infinity(), 1.0 } }));
+  EXPECT_EQ(0.0, unitOf({ { 0x1p-560, 0x1p-560, 0.0 } }, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(0.0, unitOf({ { 1.0, std::numeric_limits<double>::denorm_min(), 1.0 } }));
   CoordinateUnit unit;
   unit.add({ 0.5, 0.5, 0.5 });

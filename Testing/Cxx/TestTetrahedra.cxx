@@ -377,3 +377,20 @@ TEST(Tetrahedra, KeepsTheBandOfASurface)
   EXPECT_LT(kept.expectSame(0.302).counts.size, first.counts.size + first.counts.size / 4);
   EXPECT_LT(kept.expectSame(0.1).counts.size, first.counts.size); // another band
 }
+
+TEST(Tetrahedra, KeepTheBandWhereThereIsNoSurface)
+{
+  triangles::KeptTetrahedra kept(withSphere(clouds::uniform(40000, 3)));
+  EXPECT_LT(1u, kept.expectSame(0.3).counts.rounds);
+  EXPECT_TRUE(kept.expectSame(1000.0).corners.empty());
+  EXPECT_EQ(1u, kept.expectSame(0.3).counts.rounds); // all is known
+}
+
+TEST(Tetrahedra, KeepNoBandUnlessItIsWanted)
+{
+  triangles::KeptTetrahedra kept(withSphere(clouds::uniform(5000, 3)));
+  kept.expectSame(0.3);
+  EXPECT_TRUE(kept.hasBand());
+  kept.expectSame(0.3, false);
+  EXPECT_FALSE(kept.hasBand());
+}

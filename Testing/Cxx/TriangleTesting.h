@@ -195,10 +195,11 @@ public:
   }
 
   /// Expects those of the full tetrahedrization. @returns what was found
-  Found expectSame(double isovalue)
+  Found expectSame(double isovalue, bool keepsBand = true)
   {
     isopoint::IsosurfaceRequest request;
     request.isovalue = isovalue;
+    request.keepsBand = keepsBand;
     isopoint::SingleRank<TSample> rank(this->Tree);
     isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
       this->Run, this->Tree, rank, this->None, this->Band, request);
@@ -211,6 +212,8 @@ public:
     EXPECT_TRUE(found.corners == expected) << isovalue;
     return found;
   }
+
+  bool hasBand() const { return this->Band != nullptr; }
 
 private:
   using TSample = isopoint::WideSample;

@@ -50,10 +50,11 @@ void forEachList(
 }
 
 /// Lists, one after the other. @throws std::bad_alloc
+/// @param begins of the lists, as beginsOf() returns them
 template <class T>
-std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists)
+std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists,
+  const std::vector<std::size_t>& begins)
 {
-  const std::vector<std::size_t> begins = beginsOf(lists);
   std::vector<T> all = onHugePages<T>(execution, begins.back());
   forEachList(execution, begins,
     [&](std::size_t i) { std::copy(lists[i].begin(), lists[i].end(), all.data() + begins[i]); });
@@ -77,7 +78,7 @@ std::vector<T> collected(
       const std::lock_guard<std::mutex> lock(mutex);
       lists.push_back(std::move(found));
     });
-  return joined(execution, lists);
+  return joined(execution, lists, beginsOf(lists));
 }
 
 } // namespace isopoint

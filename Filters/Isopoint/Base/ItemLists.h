@@ -19,7 +19,7 @@ namespace isopoint
 class ItemLists
 {
 public:
-  /// @param placesOf(item) the places of an item, different ones below placeCount
+  /// @param placesOf(item) the places of an item, each once and below placeCount; called twice
   /// @throws std::bad_alloc
   /// Complexity: O(places + items)
   template <class PlacesOf>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace isopoint
 {
@@ -28,7 +27,7 @@ std::size_t moveToFront(double* numbers, std::size_t count, const Belongs& belon
 /// The number that would be at a place if all were sorted. Reorders them. If one of them is not a
 /// number, the result is any of them. Quicker than std::nth_element() for hundreds.
 /// @param place below count
-/// Complexity: O(n) on average
+/// Complexity: O(n) on average, O(n^2) for the worst order
 inline double numberOfRank(double* numbers, std::size_t count, std::size_t place)
 {
   constexpr std::size_t few = 8;

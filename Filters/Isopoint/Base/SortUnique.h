@@ -38,8 +38,8 @@ void keepUnique(std::vector<T>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// The same with every thread: they are distributed over buckets
-/// by their key, and the buckets are sorted independently.
+/// The same on all threads: elements are distributed over buckets by their key, and the buckets are
+/// sorted independently of each other.
 /// @param key(element) a number below keyCount, monotonic in the elements' order
 /// @throws Aborted, std::bad_alloc
 /// Complexity: O(n log n)

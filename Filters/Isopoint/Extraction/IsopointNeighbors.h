@@ -276,8 +276,8 @@ private:
           }
         }
       });
-    this->Touching = joined(execution, parts);
     const std::vector<std::size_t> begins = beginsOf(parts);
+    this->Touching = joined(execution, parts, begins);
     forEachIndex(execution, count,
       [&](std::size_t leaf) { this->TouchingEnds[leaf + 1] += begins[leaf / grain]; });
   }

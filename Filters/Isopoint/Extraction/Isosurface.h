@@ -69,6 +69,9 @@ struct IsosurfaceRequest
   double angle = defaultAngle; // of the angle criterion, in degrees, 0 up to 180
   bool dropsGaps = false;      // whether what lies in gaps of the cloud is left out
   std::optional<FitRequest> fit = std::nullopt;
+  /// Of triangles: whether the samples near the surface stay tetrahedrized for the next extraction,
+  /// unless they are many (see Band).
+  bool keepsBand = true;
   /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that
   /// each has one normal.
   bool partsCreases = false;
@@ -130,7 +133,8 @@ struct Isosurface
   }
 };
 
-/// The elements of some indices, in their order; none of none at all. @throws std::bad_alloc
+/// The elements of some indices, in their order. @throws std::bad_alloc
+/// @param all if it is empty, so is the result, whatever the indices
 template <class T>
 std::vector<T> chosenOf(
   const Execution& execution, const std::vector<T>& all, const std::vector<std::size_t>& indices)

@@ -12,15 +12,15 @@
 namespace isopoint
 {
 
-/// The largest power of two that all coordinates of some positions are multiples of, as far as it
-/// is not too small to be of use. Differences of such coordinates are integers of few bits, as in
+/// The largest power of two that all coordinates of some positions are multiples of, unless it is
+/// too small to be of use. Differences of such coordinates are integers of few bits, as in
 /// lattices and grids of cells: polynomials of these are exact in double.
 class CoordinateUnit
 {
 public:
-  /// @param least units below that are of no use; 0 if any is, down to a millionth of a millionth
+  /// @param least units below that are of no use, nor are those below 2^-100; may not be a number
   explicit CoordinateUnit(double least = 0.0)
-    : Least(std::max(least, smallest))
+    : Least(std::max(smallest, least)) // in this order: what is not a number sets no limit
   {
   }
 

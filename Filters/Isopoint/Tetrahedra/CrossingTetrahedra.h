@@ -49,8 +49,8 @@ public:
 
   /// @param tree refined around the isovalue (see NarrowBand); will be refined further
   /// @param values of the tree's leaves
-  /// @param kept the band of an earlier search in this tree, or null; becomes that of this one,
-  /// unless it is large
+  /// @param kept the band of an earlier search in this tree, or null; becomes that of this one, or
+  /// null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     SharedLeafMeans<TSample>& values, double isovalue, std::unique_ptr<Band>& kept)
     : Run(execution)
@@ -71,6 +71,10 @@ public:
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
     this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
     this->gather(leaves);
+    if (leaves.empty()) // of all ranks: what is kept may serve the next isovalue
+    {
+      return {};
+    }
     this->begin(leaves);
     if (!this->Current->isWhole && this->areMany(this->Counts.band))
     {
@@ -105,7 +109,7 @@ public:
 
 private:
   /// The unit of the coordinates of this rank's samples, unless it is so small that few of those
-  /// around a tetrahedron are within the units for which doubles are exact.
+  /// around a tetrahedron are within the units for which doubles are exact. @throws Aborted
   static CoordinateUnit unitOfSamples(const Execution& execution, const SampleTree<TSample>& tree)
   {
     double volume = 1.0;
@@ -120,7 +124,7 @@ private:
     std::mutex mutex;
     constexpr std::size_t grain = 65536;
     const std::size_t first = tree.isPartial ? tree.ownBegin : 0;
-    forRanges(execution, tree.ownCount(), grain,
+    forBatches(execution, tree.ownCount(), 16 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         CoordinateUnit ofRange = none;

@@ -97,6 +97,10 @@ public:
     CrossingTetrahedraFinder<TSample, TRanks> finder(
       part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->KeptBand);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
+    if (!this->Request.keepsBand)
+    {
+      this->KeptBand.reset();
+    }
     this->Counts = finder.counts();
     return found;
   }
