@@ -87,7 +87,7 @@ template <class CgalPredicate, class Determinant>
 class UnitPredicate
 {
 public:
-  using result_type = typename CgalPredicate::result_type;
+  using result_type = CGAL::Sign; // not all versions of CGAL name it
 
   /// @param unit of the points' coordinates, or 0
   explicit UnitPredicate(double unit)
