@@ -10,7 +10,7 @@ Builds presets and runs their tests:
   address  all C++ tests with the address and undefined-behavior sanitizers
   thread   all C++ tests with the thread sanitizer
   fuzz     the fuzz targets of the core and of the filter, one minute each
-Without arguments all three, which takes hours on two cores, most of them the second.
+Without arguments all three, which takes over an hour on two cores.
 END
   exit
 fi

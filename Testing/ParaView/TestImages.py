@@ -49,8 +49,8 @@ def number_of_splats(view):
 
 
 def all_seen(count):
-    """Whether all 400 splats are seen; pixels at their rims make the measured number larger."""
-    return 400 < count < 440
+    """Whether all 400 splats are seen."""
+    return abs(count - 400) < 4
 
 
 def look_at(view, origin):
@@ -109,6 +109,7 @@ def main(plugin):
     simple.LoadPlugin(plugin)
     simple._DisableFirstRenderCameraReset()
     view = make_view(800)
+    view.UseFXAA = 0  # it smears rims, differently in each version
     keeps_precision(view)
     runs_out_of_memory(view)
 
