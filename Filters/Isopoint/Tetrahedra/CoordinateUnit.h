@@ -18,9 +18,9 @@ namespace isopoint
 class CoordinateUnit
 {
 public:
-  /// @param least units below that are of no use, nor are those below 2^-100; may not be a number
+  /// @param least units below that are of no use, nor are those below 2^-100; NaN: these alone
   explicit CoordinateUnit(double least = 0.0)
-    : Least(std::max(smallest, least)) // in this order: what is not a number sets no limit
+    : Least(std::max(smallest, least)) // in this order, which ignores a NaN
   {
   }
 
