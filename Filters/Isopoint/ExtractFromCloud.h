@@ -51,7 +51,7 @@ public:
     {
       return;
     }
-    this->Order = inOrderOfLeaves(this->Run, this->Whole.leaves, this->Tree.nodes.size());
+    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
     this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
   }
 

@@ -3,7 +3,6 @@
 #include "Clouds.h"
 
 #include "Isopoint/Base/Collected.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Neighbors/NeighborhoodCache.h"
 
@@ -47,8 +46,8 @@ TEST(ItemLists, ListItemsAtTheirPlacesAscending)
       expected[place].push_back(i);
     }
   }
-  isopoint::ItemLists lists(clouds::executionOn(3), placeCount, places.size(),
-    [&places](std::size_t item) { return places[item]; });
+  isopoint::ItemLists lists(
+    placeCount, places.size(), [&places](std::size_t item) { return places[item]; });
   Numbers all;
   for (std::size_t place = 0; place < placeCount; ++place)
   {
@@ -60,7 +59,7 @@ TEST(ItemLists, ListItemsAtTheirPlacesAscending)
 
 TEST(ItemLists, OfNothingAreEmpty)
 {
-  const isopoint::ItemLists lists({}, 3, 0, [](std::size_t item) { return Numbers{ item }; });
+  const isopoint::ItemLists lists(3, 0, [](std::size_t item) { return Numbers{ item }; });
   EXPECT_EQ(lists.at(2).count, 0u);
 }
 
@@ -90,20 +89,6 @@ TEST(Collected, JoinsListsInTheirOrder)
   { return isopoint::joined(clouds::executionOn(2), lists, isopoint::beginsOf(lists)); };
   EXPECT_EQ(joined({}), std::vector<int>());
   EXPECT_EQ(joined({ { 3, 1 }, {}, { 2 } }), (std::vector<int>{ 3, 1, 2 }));
-}
-
-// Larger than several huge pages, some of which no thread can take at once.
-TEST(HugePages, VectorsAreZero)
-{
-  for (const std::size_t threads : { 1, 3 })
-  {
-    std::vector<std::uint64_t> numbers =
-      isopoint::onHugePages<std::uint64_t>(clouds::executionOn(threads), 3000001);
-    ASSERT_EQ(numbers.size(), 3000001u);
-    EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 0u), 3000001);
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    EXPECT_EQ(numbers.back(), 3000000u);
-  }
 }
 
 TEST(NeighborhoodCache, KnowsWhatWasAdded)

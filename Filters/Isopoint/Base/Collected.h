@@ -3,7 +3,6 @@
 #define isopoint_Collected_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -55,7 +54,7 @@ template <class T>
 std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists,
   const std::vector<std::size_t>& begins)
 {
-  std::vector<T> all = onHugePages<T>(execution, begins.back());
+  std::vector<T> all(begins.back());
   forEachList(execution, begins,
     [&](std::size_t i) { std::copy(lists[i].begin(), lists[i].end(), all.data() + begins[i]); });
   return all;

@@ -2,8 +2,6 @@
 #ifndef isopoint_ItemLists_h
 #define isopoint_ItemLists_h
 
-#include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/NodeList.h"
 
 #include <cstddef>
@@ -23,9 +21,8 @@ public:
   /// @throws std::bad_alloc
   /// Complexity: O(places + items)
   template <class PlacesOf>
-  ItemLists(const Execution& execution, std::size_t placeCount, std::size_t itemCount,
-    const PlacesOf& placesOf)
-    : Begins(onHugePages<std::size_t>(execution, placeCount + 1))
+  ItemLists(std::size_t placeCount, std::size_t itemCount, const PlacesOf& placesOf)
+    : Begins(placeCount + 1)
   {
     for (std::size_t item = 0; item < itemCount; ++item)
     {
@@ -35,7 +32,7 @@ public:
       }
     }
     std::partial_sum(this->Begins.begin(), this->Begins.end(), this->Begins.begin());
-    this->Items = onHugePages<std::size_t>(execution, this->Begins.back());
+    this->Items.resize(this->Begins.back());
     for (std::size_t item = itemCount; item-- > 0;)
     {
       for (const auto place : placesOf(item))

@@ -3,7 +3,6 @@
 #define isopoint_SortUnique_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -82,7 +81,7 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
       ends[bucket + 1] += std::exchange(begin, ends[bucket + 1]);
     }
   }
-  std::vector<T> dealt = onHugePages<T>(execution, elements.size());
+  std::vector<T> dealt(elements.size());
   forElements([&](std::size_t place, const T& element) { dealt[begins[place]++] = element; });
 
   std::vector<std::size_t> counts(bucketCount);

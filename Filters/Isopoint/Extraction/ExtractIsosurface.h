@@ -3,7 +3,6 @@
 #define isopoint_ExtractIsosurface_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/EdgeFinder.h"
@@ -138,10 +137,10 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
 {
   Isosurface surface;
   surface.isovalue = context.isovalue;
-  surface.edges = onHugePages<IsopointEdge>(execution, edges.size());
-  surface.positions = onHugePages<Vector>(execution, edges.size());
-  surface.decreasingEdges = onHugePages<Vector>(execution, edges.size());
-  surface.leaves = onHugePages<EdgeLeaves>(execution, edges.size());
+  surface.edges.resize(edges.size());
+  surface.positions.resize(edges.size());
+  surface.decreasingEdges.resize(edges.size());
+  surface.leaves.resize(edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
   forBatches(execution, edges.size(), 8 * grain, grain,

@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Base/NodeList.h"
 #include "Isopoint/Extraction/Isosurface.h"
@@ -31,9 +30,9 @@ namespace isopoint
 /// @param nodeCount of the tree
 /// Complexity: O(nodes + isopoints)
 inline std::vector<std::size_t> inOrderOfLeaves(
-  const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
+  const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
 {
-  return ItemLists(execution, nodeCount, leaves.size(),
+  return ItemLists(nodeCount, leaves.size(),
     [&leaves](std::size_t i) { return std::array<std::size_t, 1>{ leaves[i].first }; })
     .all();
 }
@@ -64,9 +63,9 @@ public:
     , Bounds(tree)
   {
     // Of the leaves that edges end in; 0 is none.
-    std::vector<Id> numbers = onHugePages<Id>(execution, tree.nodes.size());
+    std::vector<Id> numbers(tree.nodes.size());
     this->numberLeaves(execution, leaves, numbers);
-    this->Isopoints.emplace(execution, this->Leaves.size(), this->Ends.size(),
+    this->Isopoints.emplace(this->Leaves.size(), this->Ends.size(),
       [this](std::size_t isopoint) { return this->Ends[isopoint]; });
     std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
     for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
@@ -235,7 +234,7 @@ private:
         this->Leaves.push_back(static_cast<Id>(node));
       }
     }
-    this->Ends = onHugePages<std::array<Id, 2>>(execution, leaves.size());
+    this->Ends.resize(leaves.size());
     forEachIndex(execution, leaves.size(),
       [&](std::size_t i) {
         this->Ends[i] = { numbers[leaves[i].first], numbers[leaves[i].second] };

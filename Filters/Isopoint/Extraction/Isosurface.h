@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Fit/LocalFit.h"
@@ -143,7 +142,7 @@ std::vector<T> chosenOf(
   {
     return {};
   }
-  std::vector<T> chosen = onHugePages<T>(execution, indices.size());
+  std::vector<T> chosen(indices.size());
   forEachIndex(execution, indices.size(), [&](std::size_t i) { chosen[i] = all[indices[i]]; });
   return chosen;
 }

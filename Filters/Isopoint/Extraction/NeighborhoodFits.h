@@ -3,7 +3,6 @@
 #define isopoint_NeighborhoodFits_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
@@ -105,7 +104,7 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 {
   const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
   { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
-  std::vector<TreePlace> places = onHugePages<TreePlace>(execution, edges.size());
+  std::vector<TreePlace> places(edges.size());
   forEachIndex(execution, edges.size(),
     [&](std::size_t i)
     {
@@ -144,7 +143,7 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
   const std::vector<CrossingEdge<TSample>>& edges)
 {
-  std::vector<LocalFit> fits = onHugePages<LocalFit>(execution, edges.size());
+  std::vector<LocalFit> fits(edges.size());
   fitAt(execution, context, ranks, request, edges, placesOf(execution, context.tree, edges), fits);
   return fits;
 }

@@ -368,8 +368,7 @@ private:
         this->Shaped.push_back(i);
       }
     }
-    for (const std::size_t i :
-      inOrderOfLeaves(this->Run, this->All.leaves, this->Tree.nodes.size()))
+    for (const std::size_t i : inOrderOfLeaves(this->All.leaves, this->Tree.nodes.size()))
     {
       if (isOwn[i])
       {

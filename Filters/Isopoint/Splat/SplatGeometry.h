@@ -3,7 +3,6 @@
 #define isopoint_SplatGeometry_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/RawArray.h"
 #include "Isopoint/Splat/CellCutter.h"
 #include "Isopoint/Splat/Splat.h"
@@ -68,7 +67,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options,
   TChosen& chosen)
 {
-  std::vector<Splat> splats = onHugePages<Splat>(execution, points.positions.size());
+  std::vector<Splat> splats(points.positions.size());
   std::vector<std::size_t> unfitted = setFieldNormals(execution, points, options.fieldNormals,
     [&splats](std::size_t point, const Vector& normal) { splats[point].normal = normal; });
   chosen.keepOwn(unfitted);

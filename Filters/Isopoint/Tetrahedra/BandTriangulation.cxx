@@ -2,7 +2,6 @@
 #include "Isopoint/Tetrahedra/BandTriangulation.h"
 
 #include "Isopoint/Base/Collected.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Tetrahedra/BandInsertion.h"
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -84,7 +83,7 @@ public:
     }
     if (this->All.empty())
     {
-      reserveOnHugePages(this->All, this->Cells.tds().cells().size());
+      this->All.reserve(this->Cells.tds().cells().size());
       const auto all = this->Cells.all_cell_handles();
       std::copy(all.begin(), all.end(), std::back_inserter(this->All));
     }

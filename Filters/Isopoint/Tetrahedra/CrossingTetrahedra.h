@@ -3,7 +3,6 @@
 #define isopoint_CrossingTetrahedra_h
 
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Neighbors/NeighborSearch.h"
 #include "Isopoint/Tetrahedra/Band.h"
 #include "Isopoint/Tetrahedra/SideCheck.h"
@@ -140,8 +139,8 @@ private:
 
   std::vector<CrossingTetrahedron<Id>> crossing()
   {
-    std::vector<CrossingTetrahedron<Id>> result = onHugePages<CrossingTetrahedron<Id>>(
-      this->Run, this->triangulation().listCrossingTetrahedra(this->Run));
+    std::vector<CrossingTetrahedron<Id>> result(
+      this->triangulation().listCrossingTetrahedra(this->Run));
     forEachIndex(this->Run, result.size(),
       [&](std::size_t i)
       {

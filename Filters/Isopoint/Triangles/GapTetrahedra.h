@@ -77,8 +77,7 @@ public:
     if (!this->AtLeaves)
     {
       this->AtLeaves.emplace(
-        this->Run, this->Tree.nodes.size(),
-        this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
+        this->Tree.nodes.size(), this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
           return this->Tetrahedra[item].corners;
         });
     }

@@ -4,7 +4,6 @@
 
 #include "Isopoint/Base/Collected.h"
 #include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/SortUnique.h"
 #include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/Isosurface.h"
@@ -118,8 +117,8 @@ private:
 
   void placeVertices()
   {
-    this->Edges = onHugePages<CrossingEdge<TSample>>(this->Run, this->Pairs.size());
-    this->Positions = onHugePages<Vector>(this->Run, this->Pairs.size());
+    this->Edges.resize(this->Pairs.size());
+    this->Positions.resize(this->Pairs.size());
     constexpr std::size_t grain = 4096;
     forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
@@ -144,7 +143,7 @@ private:
   /// Edges that cross at one of their ends are crossed at one vertex there.
   void mergeAtSamples()
   {
-    this->VertexOf = onHugePages<std::size_t>(this->Run, this->Edges.size());
+    this->VertexOf.resize(this->Edges.size());
     std::iota(this->VertexOf.begin(), this->VertexOf.end(), std::size_t{ 0 });
     std::unordered_map<Id, std::size_t> vertexAt; // by leaf
     const auto add = [&](Id leaf, std::size_t edge)
@@ -264,8 +263,8 @@ private:
     const std::vector<std::size_t> order =
       this->inOrderOfEdges(verticesOf(triangles, this->Edges.size()));
     EdgeTriangles<TSample> result;
-    result.edges = onHugePages<CrossingEdge<TSample>>(this->Run, order.size());
-    result.positions = onHugePages<Vector>(this->Run, order.size());
+    result.edges.resize(order.size());
+    result.positions.resize(order.size());
     forEachIndex(this->Run, order.size(),
       [&](std::size_t place)
       {

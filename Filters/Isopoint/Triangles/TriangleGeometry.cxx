@@ -2,7 +2,6 @@
 #include "Isopoint/Triangles/TriangleGeometry.h"
 
 #include "Isopoint/Base/Collected.h"
-#include "Isopoint/Base/HugePages.h"
 #include "Isopoint/Base/ItemLists.h"
 #include "Isopoint/Base/NodeList.h"
 #include "Isopoint/Base/SortUnique.h"
@@ -67,9 +66,9 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)
 {
-  std::vector<std::size_t> number = onHugePages<std::size_t>(execution, vertexCount);
+  std::vector<std::size_t> number(vertexCount);
   forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
-  std::vector<SurfaceTriangle> result = onHugePages<SurfaceTriangle>(execution, triangles.size());
+  std::vector<SurfaceTriangle> result(triangles.size());
   forEachIndex(execution, triangles.size(),
     [&](std::size_t i)
     {
@@ -105,7 +104,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   // All at first, then those that changed.
-  std::vector<std::size_t> suspects = onHugePages<std::size_t>(execution, triangles.size());
+  std::vector<std::size_t> suspects(triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
   std::optional<ItemLists> trianglesAt; // each vertex, once one is turned over
   while (!suspects.empty())
@@ -121,7 +120,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
         });
     if (!trianglesAt && !turned.empty())
     {
-      trianglesAt.emplace(execution, fits.size(), triangles.size(),
+      trianglesAt.emplace(fits.size(), triangles.size(),
         [&triangles](std::size_t triangle) -> const SurfaceTriangle&
         { return triangles[triangle]; });
     }
@@ -146,7 +145,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, bool areOfField)
 {
-  std::vector<Vector> normals = onHugePages<Vector>(execution, points.positions.size());
+  std::vector<Vector> normals(points.positions.size());
   const std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
     [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
   if (others.empty())
