@@ -20,8 +20,7 @@ namespace
 
 Vector placeOf(const FrameSamples& samples, std::size_t i)
 {
-  return { FrameSamples::at(samples.x, i), FrameSamples::at(samples.y, i),
-    FrameSamples::at(samples.z, i) };
+  return { samples.x[i], samples.y[i], samples.z[i] };
 }
 
 /// Fits pieces to samples that are known to belong to them.
@@ -89,14 +88,13 @@ private:
   {
     for (std::size_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
     {
-      FrameWeights own;
-      this->Samples->forEachGroup([&](std::size_t i) { own[i] = (*this->Weights)[i]; });
+      FrameWeights own = *this->Weights;
       std::size_t count = 0;
       for (std::size_t i = 0; i < this->Labels.size(); ++i)
       {
         const bool isOwn = this->Labels[i] == piece;
         count += isOwn ? 1 : 0;
-        FrameSamples::at(own, i) *= isOwn ? 1.0 : 0.0;
+        own[i] *= isOwn ? 1.0 : 0.0;
       }
       std::optional<Polynomial> polynomial;
       for (int tried = degree; tried > 0 && !polynomial; --tried)
@@ -126,8 +124,8 @@ private:
     for (std::size_t i = 0; i < this->Labels.size(); ++i)
     {
       const double residual = this->residualAt(i);
-      squares += FrameSamples::at(*this->Weights, i) * residual * residual;
-      weights += FrameSamples::at(*this->Weights, i);
+      squares += (*this->Weights)[i] * residual * residual;
+      weights += (*this->Weights)[i];
     }
     const auto count = static_cast<double>(this->Labels.size());
     this->Fit.residual =
@@ -137,7 +135,7 @@ private:
 
   double residualAt(std::size_t i) const
   {
-    return FrameSamples::at(this->Samples->value, i) -
+    return this->Samples->value[i] -
            this->Fit.pieces[this->Labels[i]].valueAt(placeOf(*this->Samples, i));
   }
 
@@ -147,7 +145,7 @@ private:
     for (std::size_t i = 0; i < this->Labels.size(); ++i)
     {
       const double residual = this->residualAt(i);
-      sums[this->Labels[i]] += FrameSamples::at(*this->Weights, i) * residual * residual;
+      sums[this->Labels[i]] += (*this->Weights)[i] * residual * residual;
     }
     return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   }
@@ -163,8 +161,7 @@ private:
         if (this->Labels[i] == piece)
         {
           const Vector place = placeOf(*this->Samples, i);
-          use(
-            i, FrameSamples::at(*this->Weights, i), Eigen::Vector3d(place[0], place[1], place[2]));
+          use(i, (*this->Weights)[i], Eigen::Vector3d(place[0], place[1], place[2]));
         }
       }
     };

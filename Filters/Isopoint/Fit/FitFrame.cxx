@@ -48,7 +48,9 @@ void FitFrame::enter(const FitEdge& edge, double isovalue)
     this->Value = unitOf(edge.increase);
     this->IsUsable = isNormal(this->Length) && isNormal(this->Value);
     this->Samples.valueError = edge.valueError / this->Value;
-    this->Increasing = scaled(1.0 / this->Length, edge.increasing);
+    this->PerLength = 1.0 / this->Length;
+    this->PerValue = 1.0 / this->Value;
+    this->Increasing = scaled(this->PerLength, edge.increasing);
   }
 }
 
@@ -67,9 +69,12 @@ void FitFrame::add(const FitSample* first, const FitSample* last)
   {
     this->addNearest(first, count, nearest, added);
   }
-  this->MeanDistance = this->Samples.sum([this](std::size_t group)
-                         { return Lanes(this->Samples.squaredDistance[group].sqrt()); }) /
-                       static_cast<double>(this->Samples.count());
+  Lanes sum = 0.0;
+  for (std::size_t group = 0; group < this->Samples.groupCount(); ++group)
+  {
+    sum += squareRoot(this->Samples.squaredDistance.group(group));
+  }
+  this->MeanDistance = sumOf(sum) / static_cast<double>(this->Samples.count());
 }
 
 /// Adds the `nearest` nearest samples in their order, and then so the nearest others, up to `most`

@@ -64,19 +64,21 @@ private:
   void add(const FitSample& sample)
   {
     this->Samples.add(
-      this->placeOf(sample.position), (sample.value - this->Isovalue) / this->Value);
+      this->placeOf(sample.position), (sample.value - this->Isovalue) * this->PerValue);
   }
   Vector placeOf(const Vector& position) const
   {
-    return scaled(1.0 / this->Length, difference(position, this->Origin));
+    return scaled(this->PerLength, difference(position, this->Origin));
   }
 
   FrameSamples Samples;
   Vector Origin{};
   double Isovalue = 0.0;
   Vector Increasing{};
-  double Length = 1.0; // the unit of lengths
-  double Value = 1.0;  // and of values
+  double Length = 1.0;    // the unit of lengths, a power of two
+  double Value = 1.0;     // and of values, likewise
+  double PerLength = 1.0; // their reciprocals, which are exact
+  double PerValue = 1.0;
   double MeanDistance = 0.0;
   bool IsUsable = false;
   std::vector<double> Distances;   // squared, of samples that are added

@@ -3,25 +3,45 @@
 #define isopoint_FrameSamples_h
 
 #include "Isopoint/Base/Vector.h"
-
-#include <Eigen/Core>
+#include "Isopoint/Fit/Lanes.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace isopoint
 {
 
-/// Numbers of four samples side by side. A sum over samples is that of each lane and then sumOf():
-/// it does not depend on how wide the processor's vectors are.
-constexpr std::size_t laneCount = 4;
-using Lanes = Eigen::Array<double, laneCount, 1>;
-
-inline double sumOf(const Lanes& lanes)
+/// One number for each sample of a fit, in groups of four.
+class SampleNumbers
 {
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
+public:
+  static constexpr std::size_t most = 256;
+
+  double& operator[](std::size_t sample) { return this->Numbers[sample]; }
+  double operator[](std::size_t sample) const { return this->Numbers[sample]; }
+
+  Lanes group(std::size_t i) const { return Lanes::load(this->Numbers.data() + laneCount * i); }
+  void setGroup(std::size_t i, const Lanes& lanes)
+  {
+    lanes.store(this->Numbers.data() + laneCount * i);
+  }
+
+  /// The first ones side by side.
+  template <std::size_t Count>
+  Pack<Count> first() const
+  {
+    return Pack<Count>::load(this->Numbers.data());
+  }
+
+private:
+  // Processors take a read for one of what was just written if the lower 12 bits of the addresses
+  // are the same, and wait: the same sample in other arrays must not be a power of two away.
+  static constexpr std::size_t unused = 24;
+
+  alignas(16) std::array<double, most + unused> Numbers;
+};
 
 /// Samples in the frame of a fit: offsets from an origin and values of a size near 1. The nearest
 /// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0, and
@@ -29,22 +49,22 @@ inline double sumOf(const Lanes& lanes)
 class FrameSamples
 {
 public:
-  static constexpr std::size_t most = 256;
-  static constexpr std::size_t nearest = 16;           // that come first
-  using Numbers = std::array<Lanes, most / laneCount>; // the first groupCount() are set
+  static constexpr std::size_t most = SampleNumbers::most;
+  static constexpr std::size_t nearest = 16; // that come first
 
-  Numbers x;
-  Numbers y;
-  Numbers z;
-  Numbers value;
-  Numbers squaredDistance; // from the origin
+  // The first groupCount() groups of these are set.
+  SampleNumbers x;
+  SampleNumbers y;
+  SampleNumbers z;
+  SampleNumbers value;
+  SampleNumbers squaredDistance; // from the origin
 
   double valueError = 0.0; // standard error that each value has at least
 
   std::size_t count() const { return this->Count; }
   std::size_t groupCount() const
   {
-    return (std::max(this->Count, nearest) + laneCount - 1) / laneCount;
+    return (std::max(this->count(), nearest) + laneCount - 1) / laneCount;
   }
 
   FrameSamples() { this->clear(); }
@@ -65,88 +85,36 @@ public:
     {
       this->clearGroup(this->Count / laneCount);
     }
-    at(this->x, this->Count) = offset[0];
-    at(this->y, this->Count) = offset[1];
-    at(this->z, this->Count) = offset[2];
-    at(this->value, this->Count) = sampleValue;
-    at(this->squaredDistance, this->Count) = dot(offset, offset);
+    this->x[this->Count] = offset[0];
+    this->y[this->Count] = offset[1];
+    this->z[this->Count] = offset[2];
+    this->value[this->Count] = sampleValue;
+    this->squaredDistance[this->Count] = dot(offset, offset);
     ++this->Count;
-  }
-
-  static double& at(Numbers& numbers, std::size_t sample)
-  {
-    return numbers[sample / laneCount][static_cast<Eigen::Index>(sample % laneCount)];
-  }
-  static double at(const Numbers& numbers, std::size_t sample)
-  {
-    return numbers[sample / laneCount][static_cast<Eigen::Index>(sample % laneCount)];
-  }
-
-  /// Calls use(group) for each group of four samples.
-  template <class Use>
-  void forEachGroup(const Use& use) const
-  {
-    const std::size_t groups = this->groupCount();
-    for (std::size_t group = 0; group < groups; ++group)
-    {
-      use(group);
-    }
-  }
-
-  /// The sum of term(group) over all samples.
-  template <class Term>
-  double sum(const Term& term) const
-  {
-    Lanes total = Lanes::Zero();
-    this->forEachGroup([&](std::size_t group) { total += term(group); });
-    return sumOf(total);
   }
 
 private:
   void clearGroup(std::size_t group)
   {
-    for (Numbers* const numbers :
+    for (SampleNumbers* const numbers :
       { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
     {
-      (*numbers)[group] = Lanes::Zero();
+      numbers->setGroup(group, 0.0);
     }
   }
 
-  std::size_t Count = 0;
+  std::uint32_t Count = 0;
 };
 
 /// One weight for each sample.
-using FrameWeights = FrameSamples::Numbers;
-
-/// The numbers of the nearest samples side by side.
-using NearestNumbers = Eigen::Array<double, FrameSamples::nearest, 1>;
-
-inline NearestNumbers nearestOf(const FrameSamples::Numbers& numbers)
-{
-  NearestNumbers result;
-  for (std::size_t i = 0; i < FrameSamples::nearest / laneCount; ++i)
-  {
-    result.segment<laneCount>(static_cast<Eigen::Index>(laneCount * i)) = numbers[i];
-  }
-  return result;
-}
-
-inline double sumOfSquares(const NearestNumbers& numbers)
-{
-  Lanes total = Lanes::Zero();
-  for (std::size_t i = 0; i < FrameSamples::nearest / laneCount; ++i)
-  {
-    total += numbers.segment<laneCount>(static_cast<Eigen::Index>(laneCount * i)).square();
-  }
-  return sumOf(total);
-}
+using FrameWeights = SampleNumbers;
 
 /// Sets the weights of the places behind the last sample to 0.
 inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
 {
   for (std::size_t i = samples.count(); i < laneCount * samples.groupCount(); ++i)
   {
-    FrameSamples::at(weights, i) = 0.0;
+    weights[i] = 0.0;
   }
 }
 
@@ -156,12 +124,12 @@ template <int Power>
 void weigh(const FrameSamples& samples, double meanDistance, double offset, FrameWeights& weights)
 {
   const double scale = 1.0 / (meanDistance * meanDistance);
-  samples.forEachGroup(
-    [&](std::size_t group)
-    {
-      const Lanes base = offset + scale * samples.squaredDistance[group];
-      weights[group] = 1.0 / (Power == 1 ? base : Lanes(base * base * base));
-    });
+  const std::size_t groups = samples.groupCount();
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    const Lanes base = offset + scale * samples.squaredDistance.group(group);
+    weights.setGroup(group, 1.0 / (Power == 1 ? base : base * base * base));
+  }
   endWeights(samples, weights);
 }
 

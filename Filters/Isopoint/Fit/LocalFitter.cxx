@@ -5,6 +5,7 @@
 #include "Isopoint/Fit/CreaseFit.h"
 #include "Isopoint/Fit/Polynomial.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace isopoint
@@ -160,18 +161,18 @@ void LocalFitter::weighRobustly()
     {
       return;
     }
-    FrameSamples::Numbers residuals;
-    samples.forEachGroup(
-      [&](std::size_t i)
-      {
-        residuals[i] =
-          (samples.value[i] - affine->valueAt(samples.x[i], samples.y[i], samples.z[i])).abs();
-      });
+    SampleNumbers residuals;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      residuals.setGroup(i, samples.value.group(i) - affine->valueAt(samples.x.group(i),
+                                                       samples.y.group(i), samples.z.group(i)));
+    }
     std::vector<double>& all = this->Residuals;
     all.resize(samples.count());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      all[i] = FrameSamples::at(residuals, i);
+      all[i] = std::abs(residuals[i]);
     }
     const double middle = numberOfRank(all.data(), all.size(), all.size() / 2);
     if (!(middle > 0.0))
@@ -179,13 +180,12 @@ void LocalFitter::weighRobustly()
       return;
     }
     const double scale = 1.0 / middle;
-    samples.forEachGroup(
-      [&](std::size_t i)
-      {
-        const Lanes relative = scale * residuals[i];
-        const Lanes factor = 1.0 + relative * relative;
-        this->Weights[i] = this->Steep[i] / (factor * factor);
-      });
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      const Lanes relative = scale * residuals.group(i);
+      const Lanes factor = 1.0 + relative * relative;
+      this->Weights.setGroup(i, this->Steep.group(i) / (factor * factor));
+    }
   }
 }
 

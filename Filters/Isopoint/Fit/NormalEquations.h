@@ -69,47 +69,65 @@ private:
 
   struct Products
   {
-    FrameSamples::Numbers ofPlane; // weight x^a
-    FrameSamples::Numbers ofRow;   // weight x^a y^b
+    SampleNumbers ofPlane; // weight x^a
+    SampleNumbers ofRow;   // weight x^a y^b
   };
+
+  // Several sums are taken in each pass over the samples: more of them would not stay in registers.
 
   /// All sums with x^a, and then those with higher powers of x.
   /// @param powers weight x^a
   template <int A>
-  void addPlane(
-    const FrameSamples& samples, const FrameSamples::Numbers& powers, Products& products)
+  void addPlane(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
   {
-    this->addRow<A, 0>(samples, powers, products);
-    if constexpr (A < Order)
+    if constexpr (A + 1 < Order)
     {
-      for (std::size_t i = 0; i < samples.groupCount(); ++i)
-      {
-        products.ofPlane[i] = powers[i] * samples.x[i];
-      }
+      this->addRows<A, 0>(samples, powers, products);
       this->addPlane<A + 1>(samples, products.ofPlane, products);
+    }
+    else
+    {
+      this->addLastPlanes<A>(samples, powers);
     }
   }
 
-  /// All sums with x^a y^b, and then those with higher powers of y.
+  /// All sums with x^a y^b, and then those with higher powers of y. With b = 0 the powers of x of
+  /// the next plane take the place of those that are not needed any more.
   /// @param powers weight x^a y^b
   template <int A, int B>
-  void addRow(const FrameSamples& samples, const FrameSamples::Numbers& powers, Products& products)
+  void addRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    if constexpr (A + B + 2 < Order)
+    {
+      this->addRow<A, B>(samples, powers, products);
+      this->addRows<A, B + 1>(samples, products.ofRow, products);
+    }
+    else
+    {
+      this->addLastRows<A, B>(samples, powers, products);
+    }
+  }
+
+  template <int A, int B>
+  void addRow(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
   {
     constexpr std::size_t count = Order - A - B + 1;
     std::array<Lanes, count> sums;
-    sums.fill(Lanes::Zero());
-    for (std::size_t i = 0; i < samples.groupCount(); ++i)
+    sums.fill(0.0);
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
     {
-      Lanes product = powers[i];
-      if constexpr (A + B < Order)
+      Lanes product = powers.group(i);
+      products.ofRow.setGroup(i, product * samples.y.group(i));
+      if constexpr (B == 0)
       {
-        products.ofRow[i] = product * samples.y[i];
+        products.ofPlane.setGroup(i, product * samples.x.group(i));
       }
       sums[0] += product;
 #pragma GCC unroll 8
       for (std::size_t c = 1; c < count; ++c)
       {
-        product *= samples.z[i];
+        product *= samples.z.group(i);
         sums[c] += product;
       }
     }
@@ -117,10 +135,64 @@ private:
     {
       this->Sums[A][B][c] = sumOf(sums[c]);
     }
-    if constexpr (A + B < Order)
+  }
+
+  /// The sums of the last three rows of a plane, a + b = Order - 2.
+  template <int A, int B>
+  void addLastRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    Lanes one = 0.0;
+    Lanes ofZ = 0.0;
+    Lanes ofZZ = 0.0;
+    Lanes ofY = 0.0;
+    Lanes ofYZ = 0.0;
+    Lanes ofYY = 0.0;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
     {
-      this->addRow<A, B + 1>(samples, products.ofRow, products);
+      const Lanes power = powers.group(i);
+      if constexpr (B == 0)
+      {
+        products.ofPlane.setGroup(i, power * samples.x.group(i));
+      }
+      const Lanes withY = power * samples.y.group(i);
+      const Lanes withZ = power * samples.z.group(i);
+      one += power;
+      ofZ += withZ;
+      ofZZ += withZ * samples.z.group(i);
+      ofY += withY;
+      ofYZ += withY * samples.z.group(i);
+      ofYY += withY * samples.y.group(i);
     }
+    this->Sums[A][B][0] = sumOf(one);
+    this->Sums[A][B][1] = sumOf(ofZ);
+    this->Sums[A][B][2] = sumOf(ofZZ);
+    this->Sums[A][B + 1][0] = sumOf(ofY);
+    this->Sums[A][B + 1][1] = sumOf(ofYZ);
+    this->Sums[A][B + 2][0] = sumOf(ofYY);
+  }
+
+  /// The sums of the last two planes, a = Order - 1.
+  template <int A>
+  void addLastPlanes(const FrameSamples& samples, const SampleNumbers& powers)
+  {
+    Lanes one = 0.0;
+    Lanes ofZ = 0.0;
+    Lanes ofY = 0.0;
+    Lanes ofX = 0.0;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      const Lanes power = powers.group(i);
+      one += power;
+      ofZ += power * samples.z.group(i);
+      ofY += power * samples.y.group(i);
+      ofX += power * samples.x.group(i);
+    }
+    this->Sums[A][0][0] = sumOf(one);
+    this->Sums[A][0][1] = sumOf(ofZ);
+    this->Sums[A][1][0] = sumOf(ofY);
+    this->Sums[A + 1][0][0] = sumOf(ofX);
   }
 
   double Sums[size][size][size];
@@ -138,10 +210,11 @@ public:
   NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
   {
     const Moments<2 * Degree> moments(samples, weights);
-    FrameSamples::Numbers weightedValues;
-    for (std::size_t i = 0; i < samples.groupCount(); ++i)
+    SampleNumbers weightedValues;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
     {
-      weightedValues[i] = weights[i] * samples.value[i];
+      weightedValues.setGroup(i, weights.group(i) * samples.value.group(i));
     }
     const Moments<Degree> ofValues(samples, weightedValues);
     this->factor(moments, std::make_index_sequence<size>());
@@ -185,11 +258,12 @@ public:
     const std::size_t count = coefficientCount(degree);
     for (std::size_t i = 0; i < count; ++i)
     {
-      p[i] *= this->Reciprocals[i];
-      for (std::size_t j = i + 1; j < count; ++j)
+      auto rest = p[i];
+      for (std::size_t j = 0; j < i; ++j)
       {
-        p[j] -= this->below(i, j) * p[i];
+        rest -= this->below(j, i) * p[j];
       }
+      p[i] = rest * this->Reciprocals[i];
     }
   }
 
@@ -199,7 +273,7 @@ public:
   {
     const std::array<const Number*, 3> coordinates{ &x, &y, &z };
     std::array<Number, size> result;
-    result[0] = Number::Ones();
+    result[0] = 1.0;
     for (std::size_t i = 1; i < size; ++i)
     {
       const auto& [former, axis] = coordinateProducts[i];
@@ -209,13 +283,9 @@ public:
   }
 
 private:
-  static constexpr std::size_t groups = (size + laneCount - 1) / laneCount;
-  using Column = std::array<Lanes, groups>;
+  using Column = std::array<double, (size + laneCount - 1) / laneCount * laneCount>;
 
-  double below(std::size_t column, std::size_t row) const
-  {
-    return this->Columns[column][row / laneCount][static_cast<Eigen::Index>(row % laneCount)];
-  }
+  double below(std::size_t column, std::size_t row) const { return this->Columns[column][row]; }
 
   /// One column of L after the other, with zeros on and above the diagonal.
   template <std::size_t... Indices>
@@ -231,35 +301,31 @@ private:
   template <std::size_t Index, std::size_t... Rows>
   bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
-    constexpr std::size_t first = Index / laneCount; // groups before that are not needed
-    constexpr auto lane = static_cast<Eigen::Index>(Index % laneCount);
-    Column rest;
-    rest[groups - 1] = Lanes::Zero();
-    ((rest[Rows / laneCount][static_cast<Eigen::Index>(Rows % laneCount)] =
-         Rows / laneCount < first ? 0.0 : moments.template product<Index, Rows>()),
-      ...);
-    const double diagonal = rest[first][lane];
+    constexpr std::size_t first = Index / 2 * 2; // in whole pairs
+    alignas(16) Column rest{};
+    ((rest[Rows] = Rows < first ? 0.0 : moments.template product<Index, Rows>()), ...);
+    const double diagonal = rest[Index];
     for (std::size_t former = 0; former < Index; ++former)
     {
       const double factor = this->below(former, Index);
-      for (std::size_t group = first; group < groups; ++group)
+      for (std::size_t row = first; row < rest.size(); ++row)
       {
-        rest[group] -= factor * this->Columns[former][group];
+        rest[row] -= factor * this->Columns[former][row];
       }
     }
-    const double pivot = rest[first][lane];
+    const double pivot = rest[Index];
     if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
     {
       return false;
     }
     this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
-    for (std::size_t group = first; group < groups; ++group)
+    for (std::size_t row = first; row < rest.size(); ++row)
     {
-      this->Columns[Index][group] = rest[group] * this->Reciprocals[Index];
+      this->Columns[Index][row] = rest[row] * this->Reciprocals[Index];
     }
-    for (Eigen::Index row = 0; row <= lane; ++row)
+    for (std::size_t row = first; row <= Index; ++row)
     {
-      this->Columns[Index][first][row] = 0.0;
+      this->Columns[Index][row] = 0.0;
     }
     for (int degree = 1; degree <= Degree; ++degree)
     {
@@ -268,8 +334,8 @@ private:
     return true;
   }
 
-  std::array<Column, size> Columns;     // of L, below the diagonal
-  std::array<double, size> Reciprocals; // of the diagonal of L
+  alignas(16) std::array<Column, size> Columns; // of L, below the diagonal
+  std::array<double, size> Reciprocals;         // of the diagonal of L
   std::array<double, size> RightSide;
   int Determined = 0;
 };

@@ -29,44 +29,50 @@ template <int Degree>
 ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Polynomial& polynomial,
   const FrameSamples& samples, const FrameWeights& weights)
 {
-  const NearestNumbers weight = nearestOf(weights);
-  const NearestNumbers x = nearestOf(samples.x);
-  const NearestNumbers y = nearestOf(samples.y);
-  const NearestNumbers z = nearestOf(samples.z);
+  constexpr std::size_t nearest = FrameSamples::nearest;
+  using Numbers = Pack<nearest>;
+  const Numbers weight = weights.first<nearest>();
+  const Numbers x = samples.x.first<nearest>();
+  const Numbers y = samples.y.first<nearest>();
+  const Numbers z = samples.z.first<nearest>();
   auto reduced = equations.products(x, y, z);
   equations.reduce(polynomial.degree, reduced);
   const auto effectOn = [&](const auto& unit)
   {
-    NearestNumbers effect = NearestNumbers::Zero();
+    Numbers effect = 0.0;
     for (std::size_t i = 0; i < coefficientCount(polynomial.degree); ++i)
     {
       effect += unit(i) * reduced[i];
     }
     return effect;
   };
-  const auto ofSamples = [&](std::size_t i) -> const NearestNumbers& { return reduced[i]; };
-  const NearestNumbers rest = 1.0 - weight * effectOn(ofSamples); // of the determinant without it
-  const NearestNumbers residual =
-    weight * (nearestOf(samples.value) - polynomial.valueAt(x, y, z)) / rest;
+  const auto ofSamples = [&](std::size_t i) -> const Numbers& { return reduced[i]; };
+  const Numbers rest = 1.0 - weight * effectOn(ofSamples); // of the determinant without it
+  const Numbers residual =
+    weight * (samples.value.first<nearest>() - polynomial.valueAt(x, y, z)) / rest;
   // The value, and the slopes, side by side.
   std::array<Lanes, NormalEquations<Degree>::size> units;
-  units.fill(Lanes::Zero());
+  units.fill(0.0);
   for (std::size_t i = 0; i < laneCount; ++i)
   {
-    units[i][static_cast<Eigen::Index>(i)] = 1.0;
+    std::array<double, laneCount> unit{};
+    unit[i] = 1.0;
+    units[i] = Lanes::load(unit.data());
   }
   equations.reduce(polynomial.degree, units);
   std::array<double, laneCount> effects; // of all samples on them
   for (std::size_t i = 0; i < laneCount; ++i)
   {
-    const NearestNumbers effect =
-      weight * effectOn([&](std::size_t j) { return units[j][static_cast<Eigen::Index>(i)]; });
-    effects[i] = sumOfSquares(effect);
+    effects[i] = sumOfSquares(weight * effectOn([&](std::size_t j) { return units[j][i]; }));
   }
   // The residual of a sample without which the others determine less is rounding alone.
-  const double meanSquare = rest.minCoeff() > leastPivot
-                              ? sumOfSquares(residual) / sumOfSquares(weight)
-                              : std::numeric_limits<double>::quiet_NaN();
+  bool isDetermined = true;
+  for (std::size_t i = 0; i < nearest; ++i)
+  {
+    isDetermined = isDetermined && rest[i] > leastPivot;
+  }
+  const double meanSquare = isDetermined ? sumOfSquares(residual) / sumOfSquares(weight)
+                                         : std::numeric_limits<double>::quiet_NaN();
   // Not a number stays one.
   return { std::max(std::sqrt(meanSquare), samples.valueError), std::sqrt(effects[0]),
     std::sqrt(effects[1] + effects[2] + effects[3]) };
