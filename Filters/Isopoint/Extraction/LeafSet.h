@@ -26,7 +26,8 @@ public:
   }
 
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  bool add(TId leaf)
+  /// Inlined by force: in large functions compilers give up on that.
+  [[gnu::always_inline]] bool add(TId leaf)
   {
     if (2 * this->Count >= this->Entries.size())
     {

@@ -69,12 +69,6 @@ void FitFrame::add(const FitSample* first, const FitSample* last)
   {
     this->addNearest(first, count, nearest, added);
   }
-  Lanes sum = 0.0;
-  for (std::size_t group = 0; group < this->Samples.groupCount(); ++group)
-  {
-    sum += squareRoot(this->Samples.squaredDistance.group(group));
-  }
-  this->MeanDistance = sumOf(sum) / static_cast<double>(this->Samples.count());
 }
 
 /// Adds the `nearest` nearest samples in their order, and then so the nearest others, up to `most`

@@ -31,9 +31,6 @@ public:
 
   const FrameSamples& samples() const { return this->Samples; }
 
-  /// The mean distance of the samples from the origin.
-  double meanDistance() const { return this->MeanDistance; }
-
   /// The edge, from the end below the isovalue to the other one.
   const Vector& increasing() const { return this->Increasing; }
 
@@ -79,7 +76,6 @@ private:
   double Value = 1.0;     // and of values, likewise
   double PerLength = 1.0; // their reciprocals, which are exact
   double PerValue = 1.0;
-  double MeanDistance = 0.0;
   bool IsUsable = false;
   std::vector<double> Distances;   // squared, of samples that are added
   std::vector<double> Ranked;      // the same in another order

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -67,11 +68,18 @@ public:
     return (std::max(this->count(), nearest) + laneCount - 1) / laneCount;
   }
 
+  /// The mean distance of the samples from the origin.
+  double meanDistance() const
+  {
+    return sumOf(Lanes::load(this->DistanceSums.data())) / static_cast<double>(this->Count);
+  }
+
   FrameSamples() { this->clear(); }
 
   void clear()
   {
     this->Count = 0;
+    this->DistanceSums = {};
     for (std::size_t group = 0; group < nearest / laneCount; ++group)
     {
       this->clearGroup(group);
@@ -89,7 +97,9 @@ public:
     this->y[this->Count] = offset[1];
     this->z[this->Count] = offset[2];
     this->value[this->Count] = sampleValue;
-    this->squaredDistance[this->Count] = dot(offset, offset);
+    const double squared = dot(offset, offset);
+    this->squaredDistance[this->Count] = squared;
+    this->DistanceSums[this->Count % laneCount] += std::sqrt(squared);
     ++this->Count;
   }
 
@@ -104,6 +114,7 @@ private:
   }
 
   std::uint32_t Count = 0;
+  std::array<double, laneCount> DistanceSums{}; // from the origin, of each lane
 };
 
 /// One weight for each sample.
@@ -121,8 +132,9 @@ inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
 /// Weights (offset + (d / s)^2)^-power, d being a sample's distance from the origin, s the mean of
 /// these.
 template <int Power>
-void weigh(const FrameSamples& samples, double meanDistance, double offset, FrameWeights& weights)
+void weigh(const FrameSamples& samples, double offset, FrameWeights& weights)
 {
+  const double meanDistance = samples.meanDistance();
   const double scale = 1.0 / (meanDistance * meanDistance);
   const std::size_t groups = samples.groupCount();
   for (std::size_t group = 0; group < groups; ++group)

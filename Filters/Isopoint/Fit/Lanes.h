@@ -3,7 +3,6 @@
 #define isopoint_Lanes_h
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -103,17 +102,6 @@ using Lanes = Pack<laneCount>;
 inline double sumOf(const Lanes& lanes)
 {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
-
-inline Lanes squareRoot(const Lanes& lanes)
-{
-  std::array<double, laneCount> roots;
-  lanes.store(roots.data());
-  for (double& root : roots)
-  {
-    root = std::sqrt(root);
-  }
-  return Lanes::load(roots.data());
 }
 
 /// The squares are added as those of samples are.

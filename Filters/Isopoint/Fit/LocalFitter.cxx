@@ -20,13 +20,13 @@ constexpr double smoothResidual = 0.0002;
 /// Weights so steep that a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
 {
-  weigh<3>(frame.samples(), frame.meanDistance(), 0.1, weights);
+  weigh<3>(frame.samples(), 0.1, weights);
 }
 
 /// Weights by which far samples count as well, as they have to in noise.
 void weighMildly(const FitFrame& frame, FrameWeights& weights)
 {
-  weigh<1>(frame.samples(), frame.meanDistance(), 1.0, weights);
+  weigh<1>(frame.samples(), 1.0, weights);
 }
 
 } // namespace
@@ -129,7 +129,7 @@ LocalFit LocalFitter::fit(
 
 bool LocalFitter::isSmooth(const PolynomialFit& found) const
 {
-  return found.relativeResidual <= smoothResidual * this->Frame.meanDistance();
+  return found.relativeResidual <= smoothResidual * this->Frame.samples().meanDistance();
 }
 
 /// The polynomial of the highest degree, down to two, that holds.
@@ -229,7 +229,8 @@ bool LocalFitter::fitCreases(LocalFit& fit)
   weighMildly(this->Frame, this->Weights);
   const std::optional<CreaseFit> crease = fitCrease(samples, this->Weights);
   if (!crease || !crease->isSharp() ||
-      !(crease->residual <= mostResidual * crease->leastSlope() * this->Frame.meanDistance()) ||
+      !(crease->residual <=
+        mostResidual * crease->leastSlope() * this->Frame.samples().meanDistance()) ||
       !(crease->residual < mostResidualShare * polynomialResidual(samples, this->Weights)))
   {
     return false;
