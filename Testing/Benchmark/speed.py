@@ -121,7 +121,8 @@ class Table:
         isopoints.SetInputData(self.samples)
         isopoints.SetValue(0, isovalue or self.isovalue)
         isopoints.SetComputeNormals(has_fit and is_all)
-        isopoints.SetComputeSplats(has_fit and is_all)
+        if kind is vtkScatteredIsopointFilter:
+            isopoints.SetComputeSplats(has_fit and is_all)
         isopoints.SetComputeGradients(has_fit and not is_all)
         isopoints.SetProjection(kind.CUBIC_FIT if has_fit else kind.NO_PROJECTION)
         isopoints.UseAllCoresOff()
