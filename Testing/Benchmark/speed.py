@@ -201,7 +201,7 @@ class Table:
 def compare(options):
     print("| cloud | samples | threads | method | seconds | times isopoints | times a copy | ns a sample |"
           " points | largest deviation | peak, bytes a sample |\n" + "|---" * 11 + "|")
-    for millions in (0.05, 0.25, 1, 4, 8, 16, 32, 64, 128):
+    for millions in (0.01, 0.05, 0.25, 1, 4, 8, 16, 32, 64, 128):
         if millions <= options.largest:
             positions = uniform(int(1e6 * millions), np.random.default_rng(1))
             table = Table("uniform", cloud(positions), options.threads)
@@ -209,7 +209,7 @@ def compare(options):
             if table.count <= MOST_WITH_PEERS:
                 table.add_peers(surface.GetNumberOfPoints())
     for sampling in (clustered, slab, lattice):
-        positions = sampling(4000000, np.random.default_rng(1))
+        positions = sampling(int(1e6 * min(4, options.largest)), np.random.default_rng(1))
         Table(sampling.__name__, cloud(positions), options.threads).add_ours()
     if options.file:
         path, isovalue = options.file
