@@ -122,7 +122,7 @@ struct FrameCase
     for (const FitSample& sample : samplesOf(field, count, 0.0, seed))
     {
       this->samples.add(sample.position, sample.value);
-      isopoint::FrameSamples::at(this->weights, this->samples.count() - 1) = 1.0;
+      this->weights[this->samples.count() - 1] = 1.0;
     }
     endWeights(this->samples, this->weights);
   }
@@ -200,16 +200,13 @@ TEST(CreaseFit, ResidualsAreCorrectedForTheCoefficients)
   }
   for (std::size_t i = 0; i < 120; ++i)
   {
-    const Vector p{ isopoint::FrameSamples::at(fitted.samples.x, i),
-      isopoint::FrameSamples::at(fitted.samples.y, i),
-      isopoint::FrameSamples::at(fitted.samples.z, i) };
+    const Vector p{ fitted.samples.x[i], fitted.samples.y[i], fitted.samples.z[i] };
     double value = -1e9;
     for (const isopoint::Polynomial& piece : crease->pieces)
     {
       value = std::max(value, crease->sense * piece.valueAt(p));
     }
-    const double residual =
-      isopoint::FrameSamples::at(fitted.samples.value, i) - crease->sense * value;
+    const double residual = fitted.samples.value[i] - crease->sense * value;
     squares += residual * residual;
   }
   EXPECT_NEAR(crease->residual, 120.0 / (120.0 - coefficients) * std::sqrt(squares / 120.0), 1e-9);

@@ -59,7 +59,7 @@ TEST(FitFrame, EqualDistancesAreTakenInTheirOrder)
   ASSERT_EQ(frame.samples().count(), 256u);
   for (std::size_t i = 0; i < 256; ++i)
   {
-    EXPECT_EQ(isopoint::FrameSamples::at(frame.samples().value, i), static_cast<double>(i) / 2.0);
+    EXPECT_EQ(frame.samples().value[i], static_cast<double>(i) / 2.0);
   }
 }
 

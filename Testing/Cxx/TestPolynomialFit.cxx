@@ -32,7 +32,7 @@ struct Case
   void add(const Vector& place, double value, double weight)
   {
     this->samples.add(place, value);
-    FrameSamples::at(this->weights, this->samples.count() - 1) = weight;
+    this->weights[this->samples.count() - 1] = weight;
     endWeights(this->samples, this->weights);
   }
 };
