@@ -142,6 +142,17 @@ TEST(SampleGatherer, FollowsTheDefinition)
   }
 }
 
+TEST(SampleGatherer, FollowsTheDefinitionOfMoreEndsThanAreKept)
+{
+  Cloud cloud = clouds::uniform(9000, 6);
+  clouds::Random random(7);
+  for (double& value : cloud.values)
+  {
+    value = random();
+  }
+  EXPECT_GT(expectTheDefinition(cloud, 0.5).edges, 10000u);
+}
+
 TEST(SampleGatherer, FollowsTheDefinitionWhereOneEndHasTooManyNeighbors)
 {
   const Seen seen = expectTheDefinition(clouds::layerBeforeOne(900, 4), 0.5);

@@ -5,6 +5,7 @@ Events as of a user's mouse are played to the window, in which a script reports 
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -83,10 +84,14 @@ def play(paraview, plugin, events, more=""):
         file.write(SCRIPT.format(plugin=plugin, more=more))
     with open(played, "w", encoding="utf-8") as file:
         file.write("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
-    done = subprocess.run(
-        [paraview, "--dr", "--script=" + script, "--test-script=" + played, "--exit"],
-        env=dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder), stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, universal_newlines=True, check=False)
+    try:
+        done = subprocess.run(
+            [paraview, "--dr", "--script=" + script, "--test-script=" + played, "--exit"],
+            env=dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder), stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, universal_newlines=True, check=False, timeout=300)
+    except subprocess.TimeoutExpired as expired:
+        print(expired.stdout)
+        sys.exit("failed: ParaView waits, in a dialog if an event could not be played")
     print(done.stdout)
     check("Success =  true" in done.stdout, "events could not be played")
     reports = [line[6:] for line in done.stdout.splitlines() if line.startswith("shown:")]
@@ -161,16 +166,24 @@ def help_is_at_labels(plugin, paraview):
                   "marks of points or cells.</p></body></html>")])
 
 
-def search_finds_the_filters_by_contour(plugin, paraview):
+def search_events(paraview, words):
+    """That type words into the dialog of the search. @returns also its button for what was found"""
+    version = subprocess.run([paraview, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             universal_newlines=True, check=True).stdout
+    opened = event("pqClientMainWindow/menubar/menuFilters", "activate", "Search...\tCtrl+Space")
+    if tuple(map(int, re.search(r"(\d+)\.(\d+)", version).groups())) >= (5, 13):
+        dialog = "pqClientMainWindow/QuickLaunchDialogExtended/"
+        return [opened, event(dialog + "Request", "set_string", words)], dialog + "CreateProxy"
     dialog = "pqClientMainWindow/QuickLaunchDialog"
     key_press = 6
+    return [opened] + [event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1")
+                       for key in words.upper()], dialog + "/selection"
+
+
+def search_finds_the_filters_by_contour(plugin, paraview):
     for name in ("Isopoints", "Isosurface"):
-        events = [event("pqClientMainWindow/menubar/menuFilters", "activate",
-                        "Search...\tCtrl+Space")]
-        events += [event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1")
-                   for key in f"CONTOUR {name}".upper()]
-        events += [expect_of(dialog + "/selection", "text", f"Contour Scattered {name}"),
-                   event(dialog + "/selection", "activate"), APPLY]
+        events, button = search_events(paraview, f"contour {name}")
+        events += [expect_of(button, "text", f"Contour Scattered {name}"), event(button, "activate"), APPLY]
         shown, _ = play(paraview, plugin, events, "isopoints = wavelet")
         check(len(shown) == 2, f"{name} were created")
 

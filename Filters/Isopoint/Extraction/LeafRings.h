@@ -21,7 +21,7 @@ namespace isopoint
 {
 
 /// The rings of cells around leaves, by the definitions of docs/algorithm.md, section 10.1. Those
-/// of the last few thousand leaves are kept: an edge shares its ends with several others close by
+/// of up to some thousands of leaves are kept: an edge shares its ends with several others close by
 /// in the tree. For one thread.
 template <class TSample>
 class LeafRings
@@ -33,9 +33,9 @@ public:
   struct Rings
   {
     Id leaf;
-    bool hasTooMany;                 // neighbors to take them whole
-    NodeList<Id> first;              // its neighbors, or none if they are too many
-    std::vector<Id> representatives; // of too many, if they were asked for
+    bool hasTooMany;    // neighbors to take them whole
+    NodeList<Id> first; // its neighbors; if they are too many, none or their representatives
+    std::vector<Id> representatives;
     std::optional<std::vector<Id>> second;
     std::optional<double> spacing;
   };
@@ -48,17 +48,20 @@ public:
   {
   }
 
-  /// Forgets all rings if memory would grow with the surface otherwise.
+  LeafRings(const LeafRings&) = delete; // lists refer to others
+  LeafRings& operator=(const LeafRings&) = delete;
+
+  /// Forgets all rings once there are many: memory must not grow with the surface.
   void makeRoom()
   {
     constexpr std::size_t mostLists = 4096;
-    constexpr std::size_t mostInSecond = std::size_t{ 1 } << 20;
+    constexpr std::size_t mostListed = std::size_t{ 1 } << 20;
     if (this->Known.size() > mostLists || this->Found.size() > mostLists ||
-        this->CountInSecond > mostInSecond)
+        this->CountListed > mostListed)
     {
       this->Known.clear();
       this->Found.clear();
-      this->CountInSecond = 0;
+      this->CountListed = 0;
     }
   }
 
@@ -75,8 +78,8 @@ public:
       .first->second;
   }
 
-  /// Lists representatives of too many neighbors as the first ring: one for each subtree whose size
-  /// over its distance is small.
+  /// Lists representatives of too many neighbors as the first ring, if that is not listed yet: one
+  /// for each subtree whose size over its distance is small.
   void represent(Rings& rings)
   {
     if (!rings.first.isEmpty())
@@ -90,10 +93,11 @@ public:
     this->Implicit.forEachSpread(
       smallSize, [&some](std::size_t neighbor) { some.push_back(static_cast<Id>(neighbor)); });
     rings.first = { some.data(), some.size() };
+    this->CountListed += some.size();
   }
 
-  /// The neighbors of the first ring's leaves across the isovalue, but for the leaf and its first
-  /// ring.
+  /// The neighbors of the first ring's leaves across the isovalue, other than the leaf and its
+  /// first ring: each once, in the order of the search. The first ring must be listed.
   const std::vector<Id>& secondOf(Rings& rings)
   {
     if (!rings.second)
@@ -119,13 +123,13 @@ public:
           }
         }
       }
-      this->CountInSecond += second.size();
+      this->CountListed += second.size();
       rings.second = std::move(second);
     }
     return *rings.second;
   }
 
-  /// The spacing of the samples of a leaf and its first ring.
+  /// The spacing of the samples of a leaf and its first ring, which must be listed.
   double spacingOf(Rings& rings)
   {
     if (!rings.spacing)
@@ -140,6 +144,8 @@ public:
     }
     return *rings.spacing;
   }
+
+  double valueOf(Id leaf) { return this->Values.at(static_cast<std::size_t>(leaf)); }
 
 private:
   /// The neighbors of a leaf; none if they are too many. Valid until the next call of makeRoom().
@@ -162,14 +168,11 @@ private:
     return neighbors;
   }
 
-  bool isBelow(Id leaf)
-  {
-    return this->Values.at(static_cast<std::size_t>(leaf)) < this->Context.isovalue;
-  }
+  bool isBelow(Id leaf) { return this->valueOf(leaf) < this->Context.isovalue; }
 
   Vector positionOfLeaf(Id leaf) const
   {
-    return positionOf(this->Tree.samples[this->Tree.nodes[static_cast<std::size_t>(leaf)].begin]);
+    return positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf)));
   }
 
   ExtractionContext<TSample>& Context;
@@ -178,7 +181,7 @@ private:
   LeafValueCache<TSample> Values;
   std::unordered_map<Id, Rings> Known;           // by leaf
   std::unordered_map<Id, std::vector<Id>> Found; // neighbors that were searched for, by leaf
-  std::size_t CountInSecond = 0;                 // leaves in all second rings
+  std::size_t CountListed = 0;                   // leaves in all second rings
   LeafSet<Id> Listed;
   SampleSpacing Spacing;
 };

@@ -25,8 +25,8 @@ public:
     }
   }
 
+  // Inlined by force: in large functions compilers give up on that.
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  /// Inlined by force: in large functions compilers give up on that.
   [[gnu::always_inline]] bool add(TId leaf)
   {
     if (2 * this->Count >= this->Entries.size())

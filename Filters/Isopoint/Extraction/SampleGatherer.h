@@ -2,12 +2,10 @@
 #ifndef isopoint_SampleGatherer_h
 #define isopoint_SampleGatherer_h
 
-#include "Isopoint/Base/Vector.h"
 #include "Isopoint/Extraction/ExtractionContext.h"
 #include "Isopoint/Extraction/LeafRings.h"
 #include "Isopoint/Extraction/LeafSet.h"
 #include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Tree/CoincidentSamples.h"
 
 #include <array>
 #include <cstddef>
@@ -28,8 +26,7 @@ public:
 
   explicit SampleGatherer(ExtractionContext<TSample>& context)
     : Tree(context.tree)
-    , Values(context.tree, context.leafMeans)
-    , Rings(context)
+    , AllRings(context)
   {
   }
 
@@ -41,19 +38,19 @@ public:
     this->Known.clear();
     this->Samples.clear();
     this->IsWide = false;
-    this->Rings.makeRoom();
+    this->AllRings.makeRoom();
     if (this->beginOf(secondLeaf) < this->beginOf(firstLeaf))
     {
       std::swap(firstLeaf, secondLeaf);
     }
-    this->Ends = { &this->Rings.at(firstLeaf), &this->Rings.at(secondLeaf) };
+    this->Ends = { &this->AllRings.at(firstLeaf), &this->AllRings.at(secondLeaf) };
     this->AreMany = this->Ends[0]->hasTooMany && this->Ends[1]->hasTooMany;
     for (EndRings* const end : this->Ends)
     {
       this->add(end->leaf);
       if (this->AreMany)
       {
-        this->Rings.represent(*end);
+        this->AllRings.represent(*end);
       }
       if (this->isTaken(*end))
       {
@@ -76,7 +73,7 @@ public:
     {
       if (this->isTaken(*end))
       {
-        this->addAll(this->Rings.secondOf(*end));
+        this->addAll(this->AllRings.secondOf(*end));
       }
     }
   }
@@ -94,7 +91,7 @@ public:
     {
       if (this->isTaken(*end))
       {
-        sum += this->Rings.spacingOf(*end);
+        sum += this->AllRings.spacingOf(*end);
         count += 1.0;
       }
     }
@@ -104,9 +101,8 @@ public:
   /// A leaf's sample.
   FitSample sampleAt(Id leaf)
   {
-    FitSample result;
-    this->getSample(leaf, result);
-    return result;
+    return { positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf))),
+      this->AllRings.valueOf(leaf) };
   }
 
 private:
@@ -128,17 +124,7 @@ private:
   {
     if (this->Known.add(leaf))
     {
-      this->getSample(leaf, this->Samples.emplace_back());
-    }
-  }
-
-  void getSample(Id leaf, FitSample& result)
-  {
-    result.value = this->Values.at(static_cast<std::size_t>(leaf));
-    const TSample& sample = this->Tree.samples[this->beginOf(leaf)];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      result.position[axis] = sample.position[axis];
+      this->Samples.push_back(this->sampleAt(leaf));
     }
   }
 
@@ -149,8 +135,7 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  LeafValueCache<TSample> Values;
-  LeafRings<TSample> Rings;
+  LeafRings<TSample> AllRings;
   std::array<EndRings*, 2> Ends{}; // of the present edge, in the order of the tree
   bool AreMany = false;            // whether both have too many neighbors
   LeafSet<Id> Known;               // leaves whose samples are taken

@@ -88,7 +88,8 @@ private:
   {
     for (std::size_t piece = 0; piece < this->Fit.pieces.size(); ++piece)
     {
-      FrameWeights own = *this->Weights;
+      FrameWeights own;
+      copyWeights(*this->Samples, *this->Weights, own);
       std::size_t count = 0;
       for (std::size_t i = 0; i < this->Labels.size(); ++i)
       {

@@ -38,7 +38,8 @@ public:
 
 private:
   // Processors take a read for one of what was just written if the lower 12 bits of the addresses
-  // are the same, and wait: the same sample in other arrays must not be a power of two away.
+  // are the same, and wait: the same sample in other arrays must not be a multiple of 4096 bytes
+  // away.
   static constexpr std::size_t unused = 24;
 
   alignas(16) std::array<double, most + unused> Numbers;
@@ -113,12 +114,21 @@ private:
     }
   }
 
-  std::uint32_t Count = 0;
+  std::uint32_t Count = 0; // not wider: groupCount() is then known not to overflow, nor to be 0
   std::array<double, laneCount> DistanceSums{}; // from the origin, of each lane
 };
 
 /// One weight for each sample.
 using FrameWeights = SampleNumbers;
+
+inline void copyWeights(const FrameSamples& samples, const FrameWeights& from, FrameWeights& to)
+{
+  const std::size_t groups = samples.groupCount();
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    to.setGroup(group, from.group(group));
+  }
+}
 
 /// Sets the weights of the places behind the last sample to 0.
 inline void endWeights(const FrameSamples& samples, FrameWeights& weights)

@@ -19,7 +19,7 @@ class Pack
 public:
   Pack() = default;
 
-  /// The same number everywhere.
+  /// Implicit: a number stands for as many of it.
   [[gnu::always_inline]] Pack(double number)
   {
     for (Pair& pair : this->Pairs)

@@ -152,7 +152,7 @@ std::optional<PolynomialFit> LocalFitter::fitHolding(const FrameWeights& weights
 void LocalFitter::weighRobustly()
 {
   const FrameSamples& samples = this->Frame.samples();
-  this->Weights = this->Steep;
+  copyWeights(samples, this->Steep, this->Weights);
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round)
   {

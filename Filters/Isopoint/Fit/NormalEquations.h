@@ -91,8 +91,8 @@ private:
     }
   }
 
-  /// All sums with x^a y^b, and then those with higher powers of y. With b = 0 the powers of x of
-  /// the next plane take the place of those that are not needed any more.
+  /// All sums with x^a y^b, and then those with higher powers of y. Rows with b = 0 replace
+  /// weight x^a in products.ofPlane by weight x^(a + 1), each group after it was read.
   /// @param powers weight x^a y^b
   template <int A, int B>
   void addRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
@@ -283,7 +283,7 @@ public:
   }
 
 private:
-  using Column = std::array<double, (size + laneCount - 1) / laneCount * laneCount>;
+  using Column = std::array<double, size>; // of even size
 
   double below(std::size_t column, std::size_t row) const { return this->Columns[column][row]; }
 
@@ -302,7 +302,7 @@ private:
   bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
     constexpr std::size_t first = Index / 2 * 2; // in whole pairs
-    alignas(16) Column rest{};
+    alignas(16) Column rest;
     ((rest[Rows] = Rows < first ? 0.0 : moments.template product<Index, Rows>()), ...);
     const double diagonal = rest[Index];
     for (std::size_t former = 0; former < Index; ++former)

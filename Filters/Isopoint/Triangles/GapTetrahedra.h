@@ -28,10 +28,8 @@ class TetrahedronParts
 public:
   using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
 
-  TetrahedronParts(const Execution& execution, const SampleTree<TSample>& tree,
-    const std::vector<Tetrahedron>& tetrahedra)
-    : Run(execution)
-    , Tree(tree)
+  TetrahedronParts(const SampleTree<TSample>& tree, const std::vector<Tetrahedron>& tetrahedra)
+    : Tree(tree)
     , Tetrahedra(tetrahedra)
   {
   }
@@ -121,7 +119,6 @@ private:
     }
   }
 
-  const Execution& Run;
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
   std::optional<ItemLists> AtLeaves; // tetrahedra, listed once there is a gap
@@ -144,7 +141,7 @@ public:
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
-    , Parts(execution, tree, tetrahedra)
+    , Parts(tree, tetrahedra)
     , Spread(execution, tree, ranks, this->Parts)
   {
   }
