@@ -27,7 +27,6 @@ vtkScatteredContourFilter::vtkScatteredContourFilter()
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->LastUpdate->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkScatteredContourFilter::~vtkScatteredContourFilter() = default;
@@ -39,6 +38,11 @@ void vtkScatteredContourFilter::SetController(vtkMultiProcessController* control
     this->LastUpdate->SetController(controller);
     this->Modified();
   }
+}
+
+void vtkScatteredContourFilter::SetUseGlobalController(bool use)
+{
+  this->SetController(use ? vtkMultiProcessController::GetGlobalController() : nullptr);
 }
 
 vtkMultiProcessController* vtkScatteredContourFilter::GetController() const
@@ -114,21 +118,27 @@ vtkTypeBool vtkScatteredContourFilter::ProcessRequest(
 int vtkScatteredContourFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-  if (this->LastUpdate->HasOtherRanks())
+  vtkInformation* const info = inputVector[0]->GetInformationObject(0);
+  if (!this->LastUpdate->HasOtherRanks())
   {
-    // Ghosts of the output are no reason to read the input with ghosts, which take no part.
-    inputVector[0]->GetInformationObject(0)->Set(
-      vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    // Neighbors of a piece's samples may be in any other piece.
+    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
   }
+  // Ghosts of the output are no reason to read the input with ghosts, which take no part.
+  info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return result;
 }
 
 int vtkScatteredContourFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->LastUpdate->Run([this](vtkIsopointOptions& options) { this->FillOptions(options); },
-    inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
+  // To return 0 would add an error of the executive to that of this filter.
+  this->ErrorCode =
+    this->LastUpdate->Run([this](vtkIsopointOptions& options) { this->FillOptions(options); },
+      inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
   return 1;
 }
 

@@ -7,6 +7,20 @@
  * and samples, and the guarantees that both give, are described there; the properties that both
  * have are here.
  *
+ * An update that fails reports one error and leaves the output empty. Update() returns 1 all the
+ * same. GetErrorCode() tells programs what failed, on all ranks: EINVAL for invalid input or
+ * options, ENOMEM for a lack of memory, vtkErrorCode::UnknownError for a bug. It is 0 after an
+ * update that succeeded, and after an abort, which leaves the output empty as well. The pipeline
+ * takes the empty output for the result: call Modified() to try again.
+ *
+ * If a piece of the output is requested (UpdatePiece(), or a writer of pieces), the filter asks for
+ * its whole input and extracts the whole surface. The piece is its share of the points, or of the
+ * triangles with their points, in the order of the output, without ghosts. All pieces together are
+ * the surface. Counts are those of all pieces. Several processes without a controller (see
+ * SetController()) get the pieces of one surface if each of them reads the whole input. If they
+ * have different samples, each gets only a piece of the surface of its own samples, and the first
+ * one a warning: give them a controller, or update without pieces.
+ *
  * @sa
  * vtkScatteredIsopointFilter vtkScatteredIsosurfaceFilter
  */
@@ -225,12 +239,18 @@ public:
    * samples. If ghost levels are requested of the output, however many, the points within 24
    * rings of neighbors around those of a rank (five without splats) follow behind these, with all
    * their arrays, marked in "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL.
-   * Null, or a controller of one process: the filter runs on its own. Default: the global
-   * controller when the filter is created (that of MPI in ParaView's servers and in pvbatch).
+   * Null, or a controller of one process: the filter runs on its own. Default: null. In
+   * ParaView filters have the global controller.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController() const;
   ///@}
+
+  /**
+   * Calls SetController() with the global controller, or with null. For callers that cannot pass an
+   * object, such as ParaView's proxies.
+   */
+  void SetUseGlobalController(bool use);
 
   ///@{
   /**

@@ -23,13 +23,17 @@ void vtkIsopointSplatMapper::SetInputConnection(int port, vtkAlgorithmOutput* in
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 {
+  this->Superclass::ShallowCopy(mapper);
   if (const auto other = vtkIsopointSplatMapper::SafeDownCast(mapper))
   {
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetRadius(other->GetRadius());
     this->SetRadiusScale(other->GetRadiusScale());
+    // The superclass passes on the other mapper's polygons, of which splats would be made again.
+    vtkIsopointSplatPolygons* const polygons = other->GetPolygons();
+    this->SetInputConnection(0,
+      polygons->GetNumberOfInputConnections(0) > 0 ? polygons->GetInputConnection(0, 0) : nullptr);
   }
-  this->Superclass::ShallowCopy(mapper);
 }
 
 //------------------------------------------------------------------------------

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatMesh.h"
 
+#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace
@@ -18,38 +22,35 @@ std::size_t indexOf(vtkIdType id)
   return static_cast<std::size_t>(id);
 }
 
+/// Calls of(i) for i from 0 to count - 1, on several threads, in batches.
+/// @param step called after each batch with the share of them that is done; false: no more batches
+/// @returns whether all batches were done
 template <class Function>
-void forPoints(vtkIdType points, const Function& of)
+bool forBatches(vtkIdType count, const vtkIsopointStep& step, const Function& of)
 {
-  vtkSMPTools::For(0, points,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType point = begin; point < end; ++point)
-      {
-        of(point);
-      }
-    });
-}
-
-/// A corner with its place along a line.
-struct Projected
-{
-  double Along;
-  vtkIdType Corner;
-
-  bool operator<(const Projected& other) const
+  constexpr vtkIdType batch = 1 << 17;
+  for (vtkIdType done = 0; done < count;)
   {
-    return this->Along != other.Along ? this->Along < other.Along : this->Corner < other.Corner;
+    const vtkIdType next = std::min(done + batch, count);
+    vtkSMPTools::For(done, next,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          of(i);
+        }
+      });
+    done = next;
+    if (!step(static_cast<double>(done) / static_cast<double>(count)))
+    {
+      return false;
+    }
   }
-};
-
-/// The direction of the line is askew to lattices of all kinds, so that few corners that are apart
-/// are close together along the line.
-double project(const vtkVector3d& place)
-{
-  return 0.5227 * place[0] + 0.6180 * place[1] + 0.5871 * place[2];
+  return true;
 }
 
+/// Whether two corners are one, up to rounding: along each axis they are no farther apart than both
+/// of their tolerances, and their normals differ by less than 0.06 degrees.
 bool areOne(const vtkIsopointCorner& a, const vtkIsopointCorner& b)
 {
   constexpr float turn = 1e-3f;
@@ -65,37 +66,147 @@ bool areOne(const vtkIsopointCorner& a, const vtkIsopointCorner& b)
   return true;
 }
 
-/// Which corners are one, up to rounding: those whose places are no farther apart than both of
-/// their tolerances, along each axis, and whose normals differ by less than 0.06 degrees. O(n log
-/// n), unless tolerances are large against the distances between corners.
-/// @returns for each corner the one that stands for all that it is one with, perhaps itself
-std::vector<vtkIdType> meetingCorners(const std::vector<vtkIsopointCorner>& corners)
-{
-  std::vector<Projected> sorted;
-  sorted.reserve(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    if (corners[i].Tolerance > 0.0f)
-    {
-      sorted.push_back({ project(corners[i].Place), static_cast<vtkIdType>(i) });
-    }
-  }
-  vtkSMPTools::Sort(sorted.begin(), sorted.end());
+/// Whole numbers, which may be beyond those of integer types.
+using Cell = std::array<double, 3>;
 
-  std::vector<vtkIdType> meetsAt(corners.size());
-  std::iota(meetsAt.begin(), meetsAt.end(), 0);
-  for (std::size_t i = 0; i < sorted.size(); ++i)
+/// The cell of a grid that a place, moved by an offset along all axes, is in.
+/// @param cells how many there are per unit of length
+Cell cellOf(const vtkVector3d& place, double offset, double cells)
+{
+  Cell cell;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const auto own = static_cast<std::size_t>(sorted[i].Corner);
-    const double end = sorted[i].Along + 2.0 * corners[own].Tolerance;
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].Along <= end; ++j)
+    cell[indexOf(axis)] = std::floor((place[axis] + offset) * cells) + 0.0; // -0 becomes 0
+  }
+  return cell;
+}
+
+std::uint64_t hashOf(int grid, const Cell& cell)
+{
+  constexpr std::uint64_t factor = 0x9E3779B97F4A7C15u;
+  auto hash = static_cast<std::uint64_t>(grid);
+  for (const double number : cell)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    hash = (hash ^ bits) * factor;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+/// The grid for a tolerance, by the binary logarithm of its spacing: at least twice the tolerance,
+/// and still small against a splat. There are few grids, since their spacings differ by a factor of
+/// 256 or more.
+int gridFor(float tolerance)
+{
+  constexpr int powers = 8;
+  return powers * static_cast<int>(std::floor(std::ilogb(tolerance) / double(powers)) + 1.0) + 1;
+}
+
+/// A corner in a cell.
+struct Entry
+{
+  std::uint64_t Hash; // of the cell
+  std::size_t Corner;
+
+  bool operator<(const Entry& other) const
+  {
+    return this->Hash != other.Hash ? this->Hash < other.Hash : this->Corner < other.Corner;
+  }
+};
+
+/// Calls visit(cell) for the cells of a grid that a corner is in, up to its tolerance.
+template <class Visit>
+void forCells(const vtkIsopointCorner& corner, int grid, const Visit& visit)
+{
+  const double cells = std::ldexp(1.0, -grid);
+  const Cell low = cellOf(corner.Place, -corner.Tolerance, cells);
+  const Cell high = cellOf(corner.Place, corner.Tolerance, cells);
+  const auto cellsAlong = [&](std::size_t axis) { return high[axis] > low[axis] ? 2 : 1; };
+  for (int x = 0; x < cellsAlong(0); ++x)
+  {
+    for (int y = 0; y < cellsAlong(1); ++y)
     {
-      const auto other = static_cast<std::size_t>(sorted[j].Corner);
-      if (meetsAt[other] == sorted[j].Corner && areOne(corners[own], corners[other]))
+      for (int z = 0; z < cellsAlong(2); ++z)
       {
-        meetsAt[other] = meetsAt[own];
+        visit(Cell{ (x ? high : low)[0], (y ? high : low)[1], (z ? high : low)[2] });
       }
     }
+  }
+}
+
+/// All corners in all cells that they are in, those of the same cell one after the other. Corners
+/// that are one have a cell in common: in the grid for the larger one of their tolerances.
+std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
+{
+  std::set<int> grids;
+  for (const vtkIsopointCorner& corner : corners)
+  {
+    if (corner.Tolerance > 0.0f)
+    {
+      grids.insert(gridFor(corner.Tolerance));
+    }
+  }
+  vtkSMPThreadLocal<std::vector<Entry>> found;
+  vtkSMPTools::For(0, static_cast<vtkIdType>(corners.size()),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      std::vector<Entry>& entries = found.Local();
+      for (std::size_t i = indexOf(begin); i < indexOf(end); ++i)
+      {
+        const bool isAlone = !(corners[i].Tolerance > 0.0f);
+        for (auto grid = isAlone ? grids.end() : grids.find(gridFor(corners[i].Tolerance));
+             grid != grids.end(); ++grid)
+        {
+          forCells(corners[i], *grid,
+            [&](const Cell& cell) {
+              entries.push_back({ hashOf(*grid, cell), i });
+            });
+        }
+      }
+    });
+  std::vector<Entry> all;
+  for (std::vector<Entry>& entries : found)
+  {
+    all.insert(all.end(), entries.begin(), entries.end());
+    std::vector<Entry>().swap(entries);
+  }
+  vtkSMPTools::Sort(all.begin(), all.end());
+  return all;
+}
+
+/// Which corners are one, directly or through others. O(n log n).
+/// @returns for each corner the first of those that it is one with, perhaps itself
+std::vector<vtkIdType> meetingCorners(const std::vector<vtkIsopointCorner>& corners)
+{
+  std::vector<vtkIdType> meetsAt(corners.size());
+  std::iota(meetsAt.begin(), meetsAt.end(), 0);
+  const auto firstOf = [&meetsAt](std::size_t i)
+  {
+    auto corner = static_cast<vtkIdType>(i);
+    while (meetsAt[indexOf(corner)] != corner)
+    {
+      corner = meetsAt[indexOf(corner)] = meetsAt[indexOf(meetsAt[indexOf(corner)])];
+    }
+    return corner;
+  };
+  const std::vector<Entry> entries = cornersByCell(corners);
+  for (auto begin = entries.begin(), entry = begin; entry != entries.end(); ++entry)
+  {
+    begin = entry->Hash != begin->Hash ? entry : begin;
+    const auto other = std::find_if(begin, entry,
+      [&](const Entry& earlier)
+      { return areOne(corners[earlier.Corner], corners[entry->Corner]); });
+    if (other != entry)
+    {
+      const auto [first, second] = std::minmax({ firstOf(other->Corner), firstOf(entry->Corner) });
+      meetsAt[indexOf(second)] = first;
+    }
+  }
+  for (vtkIdType& corner : meetsAt)
+  {
+    corner = meetsAt[indexOf(corner)]; // of a lower number, which is done
   }
   return meetsAt;
 }
@@ -103,17 +214,25 @@ std::vector<vtkIdType> meetingCorners(const std::vector<vtkIsopointCorner>& corn
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes, vtkIdType points)
-  : FirstVertices(indexOf(points) + 1, 0)
-  , FirstTriangles(indexOf(points) + 1, 0)
+bool vtkIsopointSplatMesh::Build(
+  const vtkIsopointSplatShapes& shapes, vtkIdType points, const vtkIsopointStep& step)
 {
-  forPoints(points,
+  this->FirstVertices.assign(indexOf(points) + 1, 0);
+  this->FirstTriangles.assign(indexOf(points) + 1, 0);
+  constexpr double third = 1.0 / 3.0;
+  const auto stepOf = [&step](double done)
+  { return [&step, done](double share) { return step(third * (done + share)); }; };
+  const bool isCounted = forBatches(points, stepOf(0.0),
     [&](vtkIdType point)
     {
       const vtkIsopointSplatFan fan = shapes.Fan(point);
       this->FirstVertices[indexOf(point) + 1] = fan.Vertices;
       this->FirstTriangles[indexOf(point) + 1] = fan.Triangles;
     });
+  if (!isCounted)
+  {
+    return false;
+  }
   std::partial_sum(
     this->FirstVertices.begin(), this->FirstVertices.end(), this->FirstVertices.begin());
   std::partial_sum(
@@ -122,7 +241,7 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
   this->Vertices.resize(indexOf(this->NumberOfVertices()));
   this->Corners.resize(indexOf(3 * this->NumberOfTriangles()));
   std::vector<vtkIdType> pointOfVertex(this->Vertices.size());
-  forPoints(points,
+  const bool isFilled = forBatches(points, stepOf(1.0),
     [&](vtkIdType point)
     {
       const vtkIsopointSplatFan fan = shapes.Fan(point);
@@ -159,6 +278,11 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
       }
     });
 
+  if (!isFilled)
+  {
+    return false;
+  }
+
   // A counting sort of points by the place of their vertices.
   this->MeetsAt = meetingCorners(this->Vertices);
   this->FirstMeeting.assign(this->MeetsAt.size() + 1, 0);
@@ -174,4 +298,5 @@ vtkIsopointSplatMesh::vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes,
   {
     this->MeetingPoints[indexOf(next[indexOf(this->MeetsAt[i])]++)] = pointOfVertex[i];
   }
+  return true;
 }

@@ -7,6 +7,7 @@
 #include "vtkType.h"
 #include "vtkVector.h"
 
+#include <functional>
 #include <vector>
 
 /// A corner of a splat.
@@ -17,12 +18,17 @@ struct vtkIsopointCorner
   float Tolerance = 0.0f; // how far others that are the same may be; 0: there are none
 };
 
+/// Called on the thread that started the work, with the share of it that is done. Returns whether
+/// the work goes on.
+using vtkIsopointStep = std::function<bool(double share)>;
+
 /// The triangles of all splats, in the order of the points. Each splat has vertices of its own.
 struct vtkIsopointSplatMesh
 {
   /// O(n log n) in the number of points.
+  /// @returns whether the mesh is complete; if not, `step` has ended the work
   /// @throws std::bad_alloc
-  vtkIsopointSplatMesh(const vtkIsopointSplatShapes& shapes, vtkIdType points);
+  bool Build(const vtkIsopointSplatShapes& shapes, vtkIdType points, const vtkIsopointStep& step);
 
   vtkIdType NumberOfVertices() const { return this->FirstVertices.back(); }
   vtkIdType NumberOfTriangles() const { return this->FirstTriangles.back(); }

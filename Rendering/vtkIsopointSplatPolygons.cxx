@@ -9,6 +9,8 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataPipeline.h"
 #include "vtkDataSet.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
@@ -26,6 +28,7 @@
 #include "vtkVersionMacros.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -79,13 +82,14 @@ void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
 template <class Function>
 void forTuples(vtkAbstractArray* array, vtkIdType tuples, const Function& of)
 {
-  if (vtkDataArray::SafeDownCast(array))
+  // Eight values of a bit array share a byte; strings change a state of their array.
+  if (vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT)
   {
     vtkSMPTools::For(0, tuples, of);
   }
   else
   {
-    of(0, tuples); // strings change a state of their array
+    of(0, tuples);
   }
 }
 
@@ -294,11 +298,13 @@ int vtkIsopointSplatPolygons::RequestData(
 {
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
+  this->ErrorCode = vtkErrorCode::NoError;
+  bool isDone = true;
   try
   {
     if (const auto data = vtkDataSet::SafeDownCast(input))
     {
-      this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
+      isDone = this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
     }
     else if (const auto blocks = vtkCompositeDataSet::SafeDownCast(input))
     {
@@ -307,7 +313,8 @@ int vtkIsopointSplatPolygons::RequestData(
       const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
       const auto all = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT));
       double done = 0.0;
-      for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+      for (iterator->InitTraversal(); isDone && !iterator->IsDoneWithTraversal();
+           iterator->GoToNextItem())
       {
         if (const auto block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
         {
@@ -315,7 +322,7 @@ int vtkIsopointSplatPolygons::RequestData(
           this->SetProgressShiftScale(done / std::max(all, 1.0), count / std::max(all, 1.0));
           done += count;
           vtkNew<vtkPolyData> made;
-          this->MakePolygons(block, made);
+          isDone = this->MakePolygons(block, made);
           polygons->SetDataSet(iterator, made);
         }
       }
@@ -323,23 +330,28 @@ int vtkIsopointSplatPolygons::RequestData(
   }
   catch (const std::bad_alloc&)
   {
-    output->Initialize();
+    isDone = false;
+    this->ErrorCode = ENOMEM;
     vtkErrorMacro("Out of memory: the splats of "
                   << input->GetNumberOfElements(vtkDataObject::POINT)
                   << " points are not drawn. Close other data, or pass fewer points.");
+  }
+  if (!isDone)
+  {
+    output->Initialize();
   }
   this->SetProgressShiftScale(0.0, 1.0);
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
+bool vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
 {
-  output->SetFieldData(input->GetFieldData());
+  output->GetFieldData()->ShallowCopy(input->GetFieldData());
   const vtkIdType count = input->GetNumberOfPoints();
   if (count == 0)
   {
-    return;
+    return true;
   }
   const vtkIsopointSplatShapes shapes(
     input, this->RadiusArrayName, this->Radius, this->RadiusScale);
@@ -350,21 +362,35 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   double first[3];
   input->GetPoint(0, first); // fills what data sets compute at the first call
+  const auto step = [this](double share)
+  {
+    this->UpdateProgress(share);
+    return !this->GetAbortExecute();
+  };
   // The shares of the time that parts take.
   constexpr double withMesh = 0.6;
   constexpr double withTriangles = 0.65;
   constexpr double withPoints = 0.95;
-  const vtkIsopointSplatMesh mesh(shapes, count);
-  this->UpdateProgress(withMesh);
+  vtkIsopointSplatMesh mesh;
+  if (!mesh.Build(shapes, count, [&step](double share) { return step(withMesh * share); }))
+  {
+    return false;
+  }
   setGeometry(mesh, typeOfPoints(input), output);
   setTriangles(mesh, output);
-  this->UpdateProgress(withTriangles);
+  if (!step(withTriangles))
+  {
+    return false;
+  }
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
   std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
   output->GetPointData()->AddArray(repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, ids));
-  this->UpdateProgress(withPoints);
+  if (!step(withPoints))
+  {
+    return false;
+  }
   const std::vector<vtkIdType> cells = vertexCells(input, mesh);
   if (!cells.empty())
   {
@@ -372,6 +398,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
       [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
     output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles, cells));
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -25,8 +25,9 @@
  * have no vertex in the middle.
  *
  * No splat is made of points that are hidden or duplicate ghosts, of points whose position or shape
- * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of
- * points.
+ * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the
+ * number of points. After an abort (SetAbortExecute()) the output is empty. A lack of memory is an
+ * error with an empty output, and GetErrorCode() is ENOMEM.
  *
  * @warning Filters that rotate or scale points leave the arrays of shapes as they were: rotate or
  * scale the actor instead. Filters that translate points do no harm.
@@ -97,7 +98,8 @@ private:
   vtkIsopointSplatPolygons(const vtkIsopointSplatPolygons&) = delete;
   void operator=(const vtkIsopointSplatPolygons&) = delete;
 
-  void MakePolygons(vtkDataSet* input, vtkPolyData* output);
+  /// @returns false if an abort was requested
+  bool MakePolygons(vtkDataSet* input, vtkPolyData* output);
 };
 
 #endif

@@ -28,8 +28,10 @@ struct vtkIsopointBlock
   static constexpr unsigned char Excluding =
     vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
-  /// The number of ids that stand for no leaf of a hyper tree grid, except for a coarse node or for
-  /// nothing. `Ghosts` excludes them.
+  /// The number of samples that `Ghosts` excludes.
+  vtkIdType NumberOfExcluded = 0;
+
+  /// Of a hyper tree grid: how many of the excluded ids are those of coarse nodes, or of none.
   vtkIdType NumberOfUnusedIds = 0;
 
   /// The number of its leaf in the traversal of a composite input; 0 if the input is no composite.

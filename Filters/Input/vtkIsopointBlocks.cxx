@@ -14,12 +14,13 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkInformation.h"
-#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <atomic>
 #include <sstream>
 #include <utility>
 
@@ -77,6 +78,37 @@ vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
                                 " Calculator.");
   }
   return scalars;
+}
+
+vtkSmartPointer<vtkDataSet> asPolyData(vtkPoints* points)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  return data;
+}
+
+/// The ghost array of a leaf's points, or null.
+vtkUnsignedCharArray* ownGhosts(vtkDataObject* leaf)
+{
+  auto* const dataSet = vtkDataSet::SafeDownCast(leaf);
+  return dataSet ? vtkGetIsopointGhosts(dataSet->GetPointData(), dataSet->GetNumberOfPoints())
+                 : nullptr;
+}
+
+/// How many of the first samples their ghosts, if there are any, exclude.
+vtkIdType countExcluded(
+  const isopoint::Execution& execution, vtkUnsignedCharArray* ghosts, vtkIdType samples)
+{
+  constexpr std::size_t grain = 65536;
+  std::atomic<vtkIdType> excluded{ 0 };
+  isopoint::forRanges(execution, static_cast<std::size_t>(ghosts ? samples : 0), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const unsigned char* const values = ghosts->GetPointer(0);
+      excluded += std::count_if(values + begin, values + end,
+        [](unsigned char value) { return (value & vtkIsopointBlock::Excluding) != 0; });
+    });
+  return excluded;
 }
 
 } // namespace
@@ -139,7 +171,7 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
         this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
       }
     });
-  this->KeptCenters.erase(this->KeptCenters.lower_bound(leaves), this->KeptCenters.end());
+  this->Kept.erase(this->Kept.lower_bound(leaves), this->Kept.end());
   if (remedy.empty())
   {
     throw vtkIsopointNothingError(
@@ -166,26 +198,44 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   if (!ofPoints && !ofCells)
   {
     this->PointsWithoutArray += elementCount(leaf);
+    this->Kept.erase(number);
     return;
   }
   vtkIsopointBlock block;
   block.Leaf = number;
   block.Attributes = ofPoints ? points : cells;
   block.Scalars = asScalars(ofPoints ? ofPoints : ofCells, leaf);
-  vtkIsopointInputState state = vtkGetIsopointGeometryState(leaf);
+
+  vtkIsopointInputState state = vtkGetIsopointGeometryState(execution, leaf);
+  state.push_back(ofPoints ? 0 : 1);
+  for (int i = 0; ofPoints && wholeExtent && i < 6; ++i)
+  {
+    state.push_back(static_cast<vtkMTimeType>(wholeExtent[i]));
+  }
+  if (!hasPoints) // its leaves have the ids of values
+  {
+    state.push_back(static_cast<vtkMTimeType>(block.Scalars->GetNumberOfTuples()));
+  }
+  Computed& computed = this->Kept[number];
+  if (computed.Of != state)
+  {
+    computed = Computed();
+    Compute(execution, leaf, block, wholeExtent, computed);
+    computed.Of = state;
+  }
   if (ofPoints)
   {
     block.Positions = vtkDataSet::SafeDownCast(leaf);
-    block.Ghosts = vtkFindGhostPoints(block.Positions, wholeExtent);
-    for (int i = 0; wholeExtent && i < 6; ++i)
-    {
-      state.push_back(static_cast<vtkMTimeType>(wholeExtent[i]));
-    }
   }
   else
   {
-    this->AddCenters(execution, leaf, state, block);
+    block.Positions = computed.Centers ? asPolyData(computed.Centers)
+                                       : vtkMakeDualGrid(vtkDataSet::SafeDownCast(leaf));
   }
+  block.Ghosts = computed.HasOwnGhosts ? ownGhosts(leaf) : computed.Ghosts.Get();
+  block.NumberOfExcluded = computed.NumberOfExcluded;
+  block.NumberOfUnusedIds = computed.NumberOfUnusedIds;
+
   if (block.Scalars->GetNumberOfTuples() != block.GetNumberOfSamples())
   {
     std::ostringstream message;
@@ -194,7 +244,6 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
             << block.GetNumberOfSamples() << (ofPoints ? " points." : " cells.") << remedyFor(leaf);
     throw vtkIsopointUsageError(message.str());
   }
-  state.push_back(ofPoints ? 0 : 1);
   vtkAppendIsopointArrayState(state, block.Scalars);
   if (block.GetNumberOfSamples() > 0)
   {
@@ -203,28 +252,35 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   }
 }
 
-void vtkIsopointBlocks::AddCenters(const isopoint::Execution& execution, vtkDataObject* leaf,
-  const vtkIsopointInputState& geometry, vtkIsopointBlock& block)
+void vtkIsopointBlocks::Compute(const isopoint::Execution& execution, vtkDataObject* leaf,
+  const vtkIsopointBlock& block, const int* wholeExtent, Computed& computed)
 {
+  vtkIdType samples = block.Scalars->GetNumberOfTuples();
+  auto* const dataSet = vtkDataSet::SafeDownCast(leaf);
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {
-    vtkFindLeafCenters(trees, block.Scalars->GetNumberOfTuples(), block);
-    return;
+    const vtkIsopointLeafCenters leaves = vtkFindLeafCenters(execution, trees, samples);
+    computed.Centers = leaves.Points;
+    computed.Ghosts = leaves.Ghosts;
+    computed.NumberOfUnusedIds = leaves.NumberOfUnusedIds;
   }
-  auto* const dataSet = vtkDataSet::SafeDownCast(leaf);
-  block.Ghosts = vtkFindGhostCells(dataSet);
-  block.Positions = vtkMakeDualGrid(dataSet);
-  if (!block.Positions)
+  else if (block.Attributes == dataSet->GetPointData())
   {
-    Centers& kept = this->KeptCenters[block.Leaf];
-    if (!kept.Points || kept.Geometry != geometry)
-    {
-      kept.Points = vtkComputeCellCenters(execution, dataSet);
-      kept.Geometry = geometry;
-    }
-    vtkNew<vtkPolyData> centers;
-    centers->SetPoints(kept.Points);
-    block.Positions = centers;
+    samples = dataSet->GetNumberOfPoints();
+    computed.Ghosts = vtkFindGhostPoints(execution, dataSet, wholeExtent);
+  }
+  else
+  {
+    samples = dataSet->GetNumberOfCells();
+    computed.Ghosts = vtkFindGhostCells(execution, dataSet);
+    computed.Centers =
+      vtkMakeDualGrid(dataSet) ? nullptr : vtkComputeCellCenters(execution, dataSet);
+  }
+  computed.HasOwnGhosts = computed.Ghosts && computed.Ghosts == ownGhosts(leaf);
+  computed.NumberOfExcluded = countExcluded(execution, computed.Ghosts, samples);
+  if (computed.HasOwnGhosts)
+  {
+    computed.Ghosts = nullptr; // arrays of the input are not kept
   }
 }
 

@@ -23,6 +23,7 @@ class vtkDataObject;
 class vtkDataSetAttributes;
 class vtkInformation;
 class vtkPoints;
+class vtkUnsignedCharArray;
 
 /**
  * The array to contour, as chosen by vtkAlgorithm::SetInputArrayToProcess().
@@ -53,9 +54,10 @@ private:
 
 /**
  * Presents a data object as samples: each of its data sets or hyper tree grids is a block. Computed
- * cell centers are kept from one call to the next while the cells do not change. Modified() must be
- * called for arrays that are changed in place, except ghost arrays and the mask of a hyper tree
- * grid, whose content is compared.
+ * cell centers, and ghosts that points and cells inherit from each other, are kept from one call to
+ * the next while the cells and their ghosts do not change. Modified() must be called for arrays
+ * that are changed in place, except ghost arrays and the mask of a hyper tree grid, whose content
+ * is compared.
  */
 class vtkIsopointBlocks
 {
@@ -76,25 +78,30 @@ public:
   /// The number of points (or cells, where there are more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
-  /// Drops all references to the input. Computed cell centers are kept.
+  /// Drops all references to the input. What was computed is kept.
   void ReleaseInput();
 
 private:
   void AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf, std::size_t number,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);
-  void AddCenters(const isopoint::Execution& execution, vtkDataObject* leaf,
-    const vtkIsopointInputState& geometry, vtkIsopointBlock& block);
 
-  struct Centers
+  /// What is computed of a leaf besides its samples' values.
+  struct Computed
   {
-    vtkIsopointInputState Geometry; // of the leaf
-    vtkSmartPointer<vtkPoints> Points;
+    vtkIsopointInputState Of;                     // what it was computed from
+    vtkSmartPointer<vtkPoints> Centers;           // of cells or leaves of hyper trees, or null
+    vtkSmartPointer<vtkUnsignedCharArray> Ghosts; // as vtkIsopointBlock::Ghosts, or null
+    bool HasOwnGhosts = false;                    // whether these are the array of the points
+    vtkIdType NumberOfExcluded = 0;
+    vtkIdType NumberOfUnusedIds = 0;
   };
+  static void Compute(const isopoint::Execution& execution, vtkDataObject* leaf,
+    const vtkIsopointBlock& block, const int* wholeExtent, Computed& computed);
 
   std::vector<vtkIsopointBlock> Blocks;
   std::vector<vtkIsopointInputState> States; // one for each block
   vtkIdType PointsWithoutArray = 0;
-  std::map<std::size_t, Centers> KeptCenters; // by leaf
+  std::map<std::size_t, Computed> Kept; // by leaf
 };
 
 /**

@@ -2,7 +2,6 @@
 #include "Input/vtkIsopointCellCenters.h"
 
 #include "Input/vtkIsopointAllocation.h"
-#include "Input/vtkIsopointBlock.h"
 #include "Input/vtkIsopointGhosts.h"
 #include "Isopoint/Base/Execution.h"
 
@@ -20,7 +19,6 @@
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -89,8 +87,10 @@ vtkSmartPointer<vtkDataSet> dualOf(vtkRectilinearGrid* grid)
 class LeafCollector
 {
 public:
-  LeafCollector(vtkPoints* points, vtkUnsignedCharArray* ghosts, vtkUnsignedCharArray* inputGhosts)
-    : Points(points)
+  LeafCollector(const isopoint::Execution& execution, vtkPoints* points,
+    vtkUnsignedCharArray* ghosts, vtkUnsignedCharArray* inputGhosts)
+    : Run(execution)
+    , Points(points)
     , Ghosts(ghosts)
     , InputGhosts(inputGhosts)
   {
@@ -119,7 +119,11 @@ public:
     {
       return;
     }
-    ++this->Leaves;
+    constexpr vtkIdType leavesOfStep = 1 << 16;
+    if (++this->Leaves % leavesOfStep == 0)
+    {
+      isopoint::throwIfAborted(this->Run);
+    }
     const bool isGhost = this->InputGhosts && this->InputGhosts->GetValue(id) != 0;
     if (!isGhost)
     {
@@ -148,6 +152,7 @@ private:
     }
   }
 
+  const isopoint::Execution& Run;
   vtkPoints* const Points;
   vtkUnsignedCharArray* const Ghosts;
   vtkUnsignedCharArray* const InputGhosts;
@@ -210,17 +215,19 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   return centers;
 }
 
-void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlock& block)
+vtkIsopointLeafCenters vtkFindLeafCenters(
+  const isopoint::Execution& execution, vtkHyperTreeGrid* input, vtkIdType count)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkAllocateTuples(points->GetData(), count);
-  block.Ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  vtkAllocateTuples(block.Ghosts, count);
-  std::fill_n(block.Ghosts->GetPointer(0), count,
+  vtkIsopointLeafCenters centers{ vtkSmartPointer<vtkPoints>::New(),
+    vtkSmartPointer<vtkUnsignedCharArray>::New(), 0 };
+  centers.Points->SetDataTypeToDouble();
+  vtkAllocateTuples(centers.Points->GetData(), count);
+  vtkAllocateTuples(centers.Ghosts, count);
+  std::fill_n(centers.Ghosts->GetPointer(0), count,
     static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT));
 
-  LeafCollector collector(points, block.Ghosts, vtkGetIsopointGhosts(input->GetCellData(), count));
+  LeafCollector collector(
+    execution, centers.Points, centers.Ghosts, vtkGetIsopointGhosts(input->GetCellData(), count));
   vtkHyperTreeGrid::vtkHyperTreeGridIterator trees;
   input->InitializeTreeIterator(trees);
   vtkNew<vtkHyperTreeGridNonOrientedGeometryCursor> cursor;
@@ -230,8 +237,6 @@ void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlo
     input->InitializeNonOrientedGeometryCursor(cursor, index);
     collector.Collect(cursor);
   }
-  block.NumberOfUnusedIds = count - collector.Leaves;
-  vtkNew<vtkPolyData> positions;
-  positions->SetPoints(points);
-  block.Positions = positions;
+  centers.NumberOfUnusedIds = count - collector.Leaves;
+  return centers;
 }

@@ -12,7 +12,7 @@ struct Execution;
 class vtkDataSet;
 class vtkHyperTreeGrid;
 class vtkPoints;
-struct vtkIsopointBlock;
+class vtkUnsignedCharArray;
 
 /**
  * The dual grid of an image or a rectilinear grid, whose points are the centers of the cells; it
@@ -29,11 +29,21 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const isopoint::Execution& execution, vtkDataSet* input);
 
 /**
- * Sets the positions and ghosts of a block to the leaves of a hyper tree grid. Sample ids are those
- * of its cell data, `count` in number; masked leaves, ghosts and ids that stand for no leaf take no
- * part (see vtkIsopointBlock::NumberOfUnusedIds).
- * @throws std::bad_alloc
+ * The leaves of a hyper tree grid as samples.
  */
-void vtkFindLeafCenters(vtkHyperTreeGrid* input, vtkIdType count, vtkIsopointBlock& block);
+struct vtkIsopointLeafCenters
+{
+  vtkSmartPointer<vtkPoints> Points;
+  vtkSmartPointer<vtkUnsignedCharArray> Ghosts; // as vtkIsopointBlock::Ghosts
+  vtkIdType NumberOfUnusedIds;                  // as vtkIsopointBlock::NumberOfUnusedIds
+};
+
+/**
+ * Sample ids are those of the grid's cell data, `count` in number; masked leaves, ghosts and ids
+ * without a leaf take no part.
+ * @throws std::bad_alloc, isopoint::Aborted
+ */
+vtkIsopointLeafCenters vtkFindLeafCenters(
+  const isopoint::Execution& execution, vtkHyperTreeGrid* input, vtkIdType count);
 
 #endif

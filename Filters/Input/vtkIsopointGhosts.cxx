@@ -2,6 +2,7 @@
 #include "Input/vtkIsopointGhosts.h"
 
 #include "Input/vtkIsopointAllocation.h"
+#include "Isopoint/Base/Execution.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -14,6 +15,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -38,18 +40,32 @@ vtkSmartPointer<vtkUnsignedCharArray> newGhosts(vtkIdType count)
   return ghosts;
 }
 
+/// @param visit(cell, point) called from any thread, for the points of a cell from one thread
 template <class Visitor>
-void forEachCellPoint(vtkDataSet* input, const Visitor& visit)
+void forEachCellPoint(const isopoint::Execution& execution, vtkDataSet* input, const Visitor& visit)
 {
-  vtkNew<vtkIdList> points;
-  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  const auto count = static_cast<std::size_t>(input->GetNumberOfCells());
+  if (count == 0)
   {
-    input->GetCellPoints(cell, points);
-    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
-    {
-      visit(cell, points->GetId(i));
-    }
+    return;
   }
+  // GetCellPoints() is thread-safe only after a first call from a single thread.
+  vtkNew<vtkIdList> first;
+  input->GetCellPoints(0, first);
+  constexpr std::size_t grain = 4096;
+  isopoint::forBatches(execution, count, 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      vtkNew<vtkIdList> points;
+      for (auto cell = static_cast<vtkIdType>(begin); cell < static_cast<vtkIdType>(end); ++cell)
+      {
+        input->GetCellPoints(cell, points);
+        for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+        {
+          visit(cell, points->GetId(i));
+        }
+      }
+    });
 }
 
 } // namespace
@@ -67,7 +83,8 @@ namespace
 {
 
 /// The points of a data set without regard to other ranks; see vtkFindGhostPoints().
-vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(vtkDataSet* input)
+vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
+  const isopoint::Execution& execution, vtkDataSet* input)
 {
   const vtkIdType count = input->GetNumberOfPoints();
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
@@ -82,12 +99,17 @@ vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(vtkDataSet* input)
   }
   constexpr unsigned char inExcludedCell = 1;
   constexpr unsigned char inSampleCell = 2;
-  std::vector<unsigned char> memberships(static_cast<std::size_t>(count), 0);
-  forEachCellPoint(input,
+  std::vector<std::atomic<unsigned char>> memberships(static_cast<std::size_t>(count));
+  forEachCellPoint(execution, input,
     [&](vtkIdType cell, vtkIdType point)
     {
-      memberships[static_cast<std::size_t>(point)] |=
+      const unsigned char bit =
         (cells->GetValue(cell) & excluding) != 0 ? inExcludedCell : inSampleCell;
+      std::atomic<unsigned char>& membership = memberships[static_cast<std::size_t>(point)];
+      if ((membership.load(std::memory_order_relaxed) & bit) == 0)
+      {
+        membership.fetch_or(bit, std::memory_order_relaxed);
+      }
     });
   const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
   for (vtkIdType point = 0; point < count; ++point)
@@ -108,9 +130,10 @@ bool goesOn(const int* extent, const int* wholeExtent)
 
 } // namespace
 
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input, const int* wholeExtent)
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(
+  const isopoint::Execution& execution, vtkDataSet* input, const int* wholeExtent)
 {
-  const vtkSmartPointer<vtkUnsignedCharArray> own = findOwnGhostPoints(input);
+  const vtkSmartPointer<vtkUnsignedCharArray> own = findOwnGhostPoints(execution, input);
   const int* const extent = wholeExtent && input->GetExtentType() == VTK_3D_EXTENT
                               ? input->GetInformation()->Get(vtkDataObject::DATA_EXTENT())
                               : nullptr;
@@ -138,7 +161,8 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input, cons
   return ghosts;
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input)
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(
+  const isopoint::Execution& execution, vtkDataSet* input)
 {
   const vtkIdType count = input->GetNumberOfCells();
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetCellData(), count);
@@ -159,7 +183,7 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input)
   }
   if (hasHiddenPoints)
   {
-    forEachCellPoint(input,
+    forEachCellPoint(execution, input,
       [&](vtkIdType cell, vtkIdType point)
       {
         if ((points->GetValue(point) & vtkDataSetAttributes::HIDDENPOINT) != 0)

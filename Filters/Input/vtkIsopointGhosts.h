@@ -5,6 +5,10 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+namespace isopoint
+{
+struct Execution;
+}
 class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkUnsignedCharArray;
@@ -21,15 +25,18 @@ vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtk
  * ghost array, ghosts. Points without cells take part. Null only if all points do.
  * @param wholeExtent of the structured grid of which the data set is a piece of one of several
  * ranks, or null: the last points along each axis, which the next piece has as well, are left out
- * @throws std::bad_alloc
+ * @returns the input's own array, or a new one
+ * @throws std::bad_alloc, isopoint::Aborted
  */
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(vtkDataSet* input, const int* wholeExtent);
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(
+  const isopoint::Execution& execution, vtkDataSet* input, const int* wholeExtent);
 
 /**
  * The cells of a data set that take no part, as vtkIsopointBlock::Ghosts: ghost and hidden cells,
  * those covered by a finer level, and those with a hidden point. Null if all cells take part.
- * @throws std::bad_alloc
+ * @throws std::bad_alloc, isopoint::Aborted
  */
-vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(vtkDataSet* input);
+vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(
+  const isopoint::Execution& execution, vtkDataSet* input);
 
 #endif

@@ -2,6 +2,7 @@
 #include "Input/vtkIsopointInputState.h"
 
 #include "Input/vtkIsopointCompatibility.h"
+#include "Isopoint/Base/Execution.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
@@ -23,6 +24,8 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkUnstructuredGridBase.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace
@@ -51,24 +54,44 @@ private:
   std::uint64_t Value = 14695981039346656037u;
 };
 
-/// Adds a hash of the flags in an array. Blanking a point or a cell and masking a node change flags
-/// in place without a new modification time.
+/// Adds hashes of the flags in an array, each of so many values. Blanking a point or a cell and
+/// masking a node change flags in place without a new modification time.
 template <class TArray>
-void addFlags(vtkIsopointInputState& state, TArray* flags)
+void addFlags(const isopoint::Execution& execution, vtkIsopointInputState& state, TArray* flags)
 {
   add(state, static_cast<vtkObject*>(flags));
-  Hash hash;
   const vtkIdType count = flags ? flags->GetNumberOfValues() : 0;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    hash.Add(static_cast<unsigned char>(flags->GetValue(i)));
-  }
-  state.push_back(hash.Get());
+  state.push_back(static_cast<vtkMTimeType>(count));
+  constexpr vtkIdType hashed = 1 << 16;
+  constexpr vtkIdType perNumber = 8;
+  const std::size_t first = state.size();
+  const auto hashes = static_cast<std::size_t>((count + hashed - 1) / hashed);
+  state.resize(first + hashes);
+  isopoint::forBatches(execution, hashes, 64, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Hash hash;
+        const vtkIdType last = std::min(static_cast<vtkIdType>(i + 1) * hashed, count);
+        for (vtkIdType value = static_cast<vtkIdType>(i) * hashed; value < last;)
+        {
+          std::uint64_t number = 0;
+          for (const vtkIdType next = std::min(value + perNumber, last); value < next; ++value)
+          {
+            number = number << 8 | static_cast<unsigned char>(flags->GetValue(value));
+          }
+          hash.Add(number);
+        }
+        state[first + i] = hash.Get();
+      }
+    });
 }
 
-void addGhosts(vtkIsopointInputState& state, vtkDataSetAttributes* attributes)
+void addGhosts(const isopoint::Execution& execution, vtkIsopointInputState& state,
+  vtkDataSetAttributes* attributes)
 {
-  addFlags(state,
+  addFlags(execution, state,
     vtkUnsignedCharArray::SafeDownCast(
       attributes ? attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) : nullptr));
 }
@@ -91,7 +114,8 @@ void addCoordinates(vtkIsopointInputState& state, vtkDataArray* x, vtkDataArray*
 
 /// Subdividing or replacing a tree, or numbering its nodes, does not change the grid's modification
 /// time.
-void addTrees(vtkIsopointInputState& state, vtkHyperTreeGrid* trees)
+void addTrees(
+  const isopoint::Execution& execution, vtkIsopointInputState& state, vtkHyperTreeGrid* trees)
 {
   // A uniform grid has no coordinates, and is modified where its origin and scale are.
   if (!vtkUniformHyperTreeGrid::SafeDownCast(trees))
@@ -99,26 +123,38 @@ void addTrees(vtkIsopointInputState& state, vtkHyperTreeGrid* trees)
     addCoordinates(
       state, trees->GetXCoordinates(), trees->GetYCoordinates(), trees->GetZCoordinates());
   }
-  addFlags(state, trees->GetMask());
+  addFlags(execution, state, trees->GetMask());
+  std::vector<vtkHyperTree*> all;
   vtkHyperTreeGrid::vtkHyperTreeGridIterator iterator;
   trees->InitializeTreeIterator(iterator);
   while (vtkHyperTree* const tree = iterator.GetNextTree())
   {
     add(state, tree);
-    Hash hash;
-    hash.Add(static_cast<std::uint64_t>(tree->GetTreeIndex()));
-    for (vtkIdType vertex = 0; vertex < tree->GetNumberOfVertices(); ++vertex)
-    {
-      hash.Add(static_cast<std::uint64_t>(tree->GetGlobalIndexFromLocal(vertex)));
-    }
     state.push_back(static_cast<vtkMTimeType>(tree->GetNumberOfVertices()));
-    state.push_back(hash.Get());
+    all.push_back(tree);
   }
+  const std::size_t first = state.size();
+  state.resize(first + all.size());
+  isopoint::forBatches(execution, all.size(), 64, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Hash hash;
+        hash.Add(static_cast<std::uint64_t>(all[i]->GetTreeIndex()));
+        for (vtkIdType vertex = 0; vertex < all[i]->GetNumberOfVertices(); ++vertex)
+        {
+          hash.Add(static_cast<std::uint64_t>(all[i]->GetGlobalIndexFromLocal(vertex)));
+        }
+        state[first + i] = hash.Get();
+      }
+    });
 }
 
 } // namespace
 
-vtkIsopointInputState vtkGetIsopointGeometryState(vtkDataObject* leaf)
+vtkIsopointInputState vtkGetIsopointGeometryState(
+  const isopoint::Execution& execution, vtkDataObject* leaf)
 {
   vtkIsopointInputState state{ leaf->vtkObject::GetMTime() };
   if (auto* const pointSet = vtkPointSet::SafeDownCast(leaf))
@@ -157,10 +193,10 @@ vtkIsopointInputState vtkGetIsopointGeometryState(vtkDataObject* leaf)
   }
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {
-    addTrees(state, trees);
+    addTrees(execution, state, trees);
   }
-  addGhosts(state, leaf->GetAttributes(vtkDataObject::POINT));
-  addGhosts(state, leaf->GetAttributes(vtkDataObject::CELL));
+  addGhosts(execution, state, leaf->GetAttributes(vtkDataObject::POINT));
+  addGhosts(execution, state, leaf->GetAttributes(vtkDataObject::CELL));
   return state;
 }
 

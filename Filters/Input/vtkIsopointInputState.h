@@ -6,6 +6,10 @@
 
 #include <vector>
 
+namespace isopoint
+{
+struct Execution;
+}
 class vtkDataArray;
 class vtkDataObject;
 
@@ -20,9 +24,12 @@ using vtkIsopointInputState = std::vector<vtkMTimeType>;
 
 /**
  * The state of everything that determines the positions of a leaf's points and cells, and which of
- * them are ghosts, hidden or masked. O(values of ghost arrays and mask + hyper trees)
+ * them are ghosts, hidden or masked. O(values of ghost arrays and mask + hyper trees), on the
+ * threads of the execution.
+ * @throws std::bad_alloc, isopoint::Aborted
  */
-vtkIsopointInputState vtkGetIsopointGeometryState(vtkDataObject* leaf);
+vtkIsopointInputState vtkGetIsopointGeometryState(
+  const isopoint::Execution& execution, vtkDataObject* leaf);
 
 /**
  * Appends the state of an array of values.

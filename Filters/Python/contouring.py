@@ -113,7 +113,6 @@ def contour(
     """
     filter_class = vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter
     isopoints = filter_class()
-    isopoints.SetController(None)
     data = _data_object(positions)
     if data is None:
         isopoints.SetInputData(_samples(positions, values, {} if arrays is None else arrays))
@@ -250,7 +249,8 @@ def _options_of(isopoints: vtkScatteredContourFilter) -> dict[str, str]:
     """The methods that set the filter's properties, by the properties' names in snake case."""
     base = next(c for c in type(isopoints).__mro__ if not c.__name__.startswith("vtkScattered"))
     inherited = set(dir(base))
-    others = {"SetValue", "SetNumberOfContours", "SetContourBlocks"}  # not of one vtkPolyData
+    # Outputs are one vtkPolyData, and a controller is an option of its own.
+    others = {"SetValue", "SetNumberOfContours", "SetContourBlocks", "SetUseGlobalController"}
     return {
         re.sub(r"(?<!^)(?=[A-Z])", "_", method[3:]).lower(): method
         for method in dir(isopoints)

@@ -9,6 +9,7 @@
 #include "Output/vtkIsopointEndSamples.h"
 #include "Output/vtkIsopointInterpolatedArrays.h"
 #include "Output/vtkIsopointOutput.h"
+#include "Output/vtkIsopointPiece.h"
 #include "Update/vtkIsopointExecution.h"
 #include "Update/vtkIsopointFindings.h"
 #include "Update/vtkIsopointOptions.h"
@@ -72,6 +73,18 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
       0, this->State.Input.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
   }
   this->Findings.Share(this->Team);
+  if (this->IsOnRanks())
+  {
+    return;
+  }
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int pieces = outputInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces > 1)
+  {
+    const int piece = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER());
+    vtkTakeIsopointPiece(piece, pieces, output);
+    this->Findings.IsPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
+  }
 }
 
 void vtkIsopointExtraction::CollectBlocks(vtkDataObject* input, const int* wholeExtent)

@@ -6,9 +6,6 @@
 #include "Isopoint/IsosurfaceExtractor.h"
 #include "Update/vtkIsopointOptions.h"
 
-#include "vtkType.h"
-#include "vtkUnsignedCharArray.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -202,6 +199,17 @@ std::vector<vtkIsopointMessage> describeReplacedArrays(const vtkIsopointFindings
   return messages;
 }
 
+vtkIsopointMessage describePieces(const vtkIsopointFindings& findings)
+{
+  if (!findings.IsPieceOfProcess)
+  {
+    return {};
+  }
+  return { "pieces of processes",
+    "Each process yields a piece of the surface of its own samples. If the processes have"
+    " different samples, call SetController() with the global controller." };
+}
+
 } // namespace
 
 void vtkIsopointFindings::Start(const vtkIsopointOptions& options)
@@ -234,15 +242,10 @@ void vtkIsopointFindings::CountSamples(
   this->Greatest = std::max(this->Greatest, greatest);
   for (const vtkIsopointBlock& block : blocks)
   {
-    const vtkIdType count = block.GetNumberOfSamples();
-    vtkIdType excluded = 0;
-    for (vtkIdType i = 0; block.Ghosts && i < count; ++i)
-    {
-      excluded += (block.Ghosts->GetValue(i) & vtkIsopointBlock::Excluding) != 0 ? 1 : 0;
-    }
-    this->NotFinite -= static_cast<std::uint64_t>(excluded);
-    this->Ghosts += static_cast<std::uint64_t>(excluded - block.NumberOfUnusedIds);
-    this->Samples += static_cast<std::uint64_t>(count - block.NumberOfUnusedIds);
+    this->NotFinite -= static_cast<std::uint64_t>(block.NumberOfExcluded);
+    this->Ghosts += static_cast<std::uint64_t>(block.NumberOfExcluded - block.NumberOfUnusedIds);
+    this->Samples +=
+      static_cast<std::uint64_t>(block.GetNumberOfSamples() - block.NumberOfUnusedIds);
   }
 }
 
@@ -269,6 +272,7 @@ std::vector<vtkIsopointMessage> vtkDescribeIsopointFindings(const vtkIsopointFin
   std::vector<vtkIsopointMessage> messages = describeIsovalues(findings);
   messages.push_back(describeSkipped(findings));
   messages.push_back(describeUnprojected(findings));
+  messages.push_back(describePieces(findings));
   const std::vector<vtkIsopointMessage> replaced = describeReplacedArrays(findings);
   messages.insert(messages.end(), replaced.begin(), replaced.end());
   messages.erase(std::remove_if(messages.begin(), messages.end(),

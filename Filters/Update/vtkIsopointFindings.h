@@ -51,6 +51,7 @@ struct vtkIsopointFindings
   std::uint64_t WithoutArray = 0;       // samples of blocks without the contoured array
   std::string Array;                    // its name, perhaps empty
   std::set<std::string> ReplacedArrays; // input arrays with the name of a computed one
+  bool IsPieceOfProcess = false;        // whether processes without a controller yield pieces
   /// The range of the samples that take part, empty without any.
   double Least = std::numeric_limits<double>::infinity();
   double Greatest = -std::numeric_limits<double>::infinity();

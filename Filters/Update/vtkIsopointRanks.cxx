@@ -129,6 +129,12 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
 }
 
+bool vtkHasOtherProcesses()
+{
+  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
 std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team)
 {
   if (team.size() == 1)

@@ -43,6 +43,11 @@ private:
 };
 
 /**
+ * Whether VTK's global controller has several processes.
+ */
+bool vtkHasOtherProcesses();
+
+/**
  * The number of ranks that run on the same cores as this rank, itself included. Collective.
  */
 std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team);

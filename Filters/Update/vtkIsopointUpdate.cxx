@@ -8,14 +8,15 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkLogger.h"
 #include "vtkSetGet.h"
 
+#include <cerrno>
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <utility>
 
 vtkIsopointUpdate::vtkIsopointUpdate(vtkAlgorithm* filter)
   : Filter(filter)
@@ -31,12 +32,12 @@ void vtkIsopointUpdate::SetController(vtkMultiProcessController* controller)
   this->Communicator.SetController(controller);
 }
 
-void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
+unsigned long vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
   vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
   this->Findings = vtkIsopointFindings();
   bool keepsTree = false;
-  std::string problem;
+  Failure failure;
   bool hasFailed = true;
   try
   {
@@ -55,19 +56,19 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   {
     try
     {
-      problem = this->DescribeFailure();
+      failure = this->DescribeFailure();
     }
     catch (const std::bad_alloc&)
     {
       this->Kept.Clear();
-      problem = "Out of memory."; // short enough to take none
+      failure = { "Out of memory.", ENOMEM }; // short enough to take none
     }
   }
   this->Filter->SetProgressShiftScale(0.0, 1.0);
   this->Kept.Input.ReleaseInput();
   if (hasFailed)
   {
-    this->ReportProblem(std::move(problem)); // first: the other ranks wait for it
+    this->Report(failure); // first: the other ranks wait for it
     vtkDataObject::GetData(outputInfo)->Initialize();
     this->Findings = vtkIsopointFindings();
   }
@@ -79,11 +80,12 @@ void vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fill
   {
     this->Kept.Clear();
   }
+  return failure.Code;
 }
 
-/// What to report of the exception that is being handled; what was kept is dropped where it may not
-/// be sound. Empty if there is nothing to report.
-std::string vtkIsopointUpdate::DescribeFailure()
+/// Describes the exception that is being handled; what was kept is dropped where it may not be
+/// sound.
+vtkIsopointUpdate::Failure vtkIsopointUpdate::DescribeFailure()
 {
   try
   {
@@ -99,42 +101,53 @@ std::string vtkIsopointUpdate::DescribeFailure()
   }
   catch (const vtkIsopointUsageError& error)
   {
-    return error.what();
+    return { error.what(), EINVAL };
   }
   catch (const std::bad_alloc&)
   {
     this->Kept.Clear();
-    return "Out of memory. Free memory, switch KeepTree off, or reduce the number of samples.";
+    return { "Out of memory. Free memory, switch KeepTree off, or reduce the number of samples.",
+      ENOMEM };
   }
   catch (const std::length_error& error)
   {
     this->Kept.Clear();
-    return std::string("Cannot build the tree of the samples (") + error.what() +
-           "). Merge coincident samples or reduce the number of samples.";
+    return { std::string("Cannot build the tree of the samples (") + error.what() +
+               "). Merge coincident samples or reduce the number of samples.",
+      EINVAL };
   }
   catch (const std::exception& error)
   {
     this->Kept.Clear();
-    return std::string("The extraction failed unexpectedly (") + error.what() +
-           "). Report this as a bug, with the input.";
+    return { std::string("The extraction failed unexpectedly (") + error.what() +
+               "). Report this as a bug, with the input.",
+      vtkErrorCode::UnknownError };
   }
   catch (...)
   {
     this->Kept.Clear();
-    return "The extraction failed unexpectedly. Report this as a bug, with the input.";
+    return { "The extraction failed unexpectedly. Report this as a bug, with the input.",
+      vtkErrorCode::UnknownError };
   }
 }
 
-void vtkIsopointUpdate::ReportProblem(std::string problem)
+/// Reports a failure on the first rank, and gives all ranks the same code.
+void vtkIsopointUpdate::Report(Failure& failure)
 {
   std::string message;
   try
   {
-    this->Team.together([&]() { message = vtkGatherIsopointProblem(this->Team, problem); });
+    this->Team.together(
+      [&]()
+      {
+        message = vtkGatherIsopointProblem(this->Team, failure.Problem);
+        failure.Code = static_cast<unsigned long>(this->Team.maximum(failure.Code));
+      });
   }
   catch (const std::exception&)
   {
-    message.swap(problem); // for lack of memory each rank reports its own
+    message.swap(failure.Problem); // for lack of memory each rank reports its own
+    failure.Code = ENOMEM;
   }
   if (!message.empty())
   {

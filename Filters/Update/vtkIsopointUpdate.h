@@ -36,15 +36,22 @@ public:
 
   /// Updates the output. Where that fails there is one error, and the output is empty. Collective.
   /// @param fillOptions called once
-  void Run(const std::function<void(vtkIsopointOptions&)>& fillOptions, vtkInformation* inputInfo,
-    vtkInformation* outputInfo);
+  /// @returns the error code, the same on all ranks: 0 if the update succeeded or was aborted
+  unsigned long Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
+    vtkInformation* inputInfo, vtkInformation* outputInfo);
 
   /// Of the last update; nothing if that failed.
   const vtkIsopointFindings& GetFindings() const { return this->Findings; }
 
 private:
-  std::string DescribeFailure();
-  void ReportProblem(std::string problem);
+  /// What went wrong, for the user and for programs. Both are empty after an abort.
+  struct Failure
+  {
+    std::string Problem; // empty on ranks that only another one's failure has stopped
+    unsigned long Code = 0;
+  };
+  Failure DescribeFailure();
+  void Report(Failure& failure);
   void ReportFindings();
   void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
 

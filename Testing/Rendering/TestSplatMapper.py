@@ -6,7 +6,7 @@ from scatteredisopoints import vtkIsopointSplatMapper
 from scenes import Scene, check, differs, polydata
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkActor
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 UP = [0.0, -1.0, 1.0]  # towards the scene's camera
 
@@ -60,11 +60,44 @@ def defaults_and_ranges():
         check(get() == 0.0, "least " + name)
         set_to(2.0)
     mapper.SetRadiusArrayName("size")
+    check("RadiusScale" in str(mapper), "PrintSelf")
+
+
+def shallow_copies():
+    """A copy draws the same picture of the same polygons, and has shapes of its own."""
+    source = vtkSphereSource()
+    source.SetThetaResolution(30)
+    source.SetPhiResolution(30)
+    mapper = vtkIsopointSplatMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.SetRadiusArrayName("size")
+    mapper.SetRadius(0.05)
+    mapper.SetRadiusScale(2.0)
+    mapper.SetScalarVisibility(False)
     copied = vtkIsopointSplatMapper()
     copied.ShallowCopy(mapper)
-    check(copied.GetRadius() == 2.0 and copied.GetRadiusScale() == 2.0, "ShallowCopy")
-    check(copied.GetRadiusArrayName() == "size", "ShallowCopy of names")
-    check("RadiusScale" in str(mapper), "PrintSelf")
+    check(copied.GetRadius() == 0.05 and copied.GetRadiusScale() == 2.0, "numbers of a copy")
+    check(copied.GetRadiusArrayName() == "size", "names of a copy")
+    check(not copied.GetScalarVisibility(), "what VTK's mapper copies")
+
+    def drawn(by):
+        actor = vtkActor()
+        actor.SetMapper(by)
+        return Scene(actor).image(), by.GetInputDataObject(0, 0).GetNumberOfElements(1)
+
+    original, polygons = drawn(mapper)
+    copy, polygons_of_copy = drawn(copied)
+    check(polygons_of_copy == polygons > 0, f"{polygons_of_copy} polygons of a copy for {polygons}")
+    check(np.array_equal(copy, original), "the picture of a copy")
+    copied.SetRadiusScale(1.0)
+    check(area(drawn(copied)[0]) < area(original), "smaller splats of the copy")
+    check(np.array_equal(drawn(mapper)[0], original), "the original stays as it was")
+    copied.ShallowCopy(vtkIsopointSplatMapper())
+    check(copied.GetInputDataObject(0, 0) is None, "a copy without input")
+    plain = vtkPolyDataMapper()
+    plain.SetInputConnection(source.GetOutputPort())
+    copied.ShallowCopy(plain)
+    check(drawn(copied)[1] > source.GetOutput().GetNumberOfCells(), "splats of another mapper's input")
 
 
 def bounds():
@@ -101,6 +134,7 @@ def bounds():
 if __name__ == "__main__":
     for test in (
         defaults_and_ranges,
+        shallow_copies,
         bounds,
         follows_changes,
     ):

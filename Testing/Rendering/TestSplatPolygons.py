@@ -5,7 +5,7 @@ import numpy as np
 from scatteredisopoints import vtkIsopointSplatPolygons
 from scenes import RING, TUBE, add_array, check, isopoints, polydata, subset, torus_splats
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkBitArray, vtkSMPTools, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
     vtkDataSetAttributes,
     vtkImageData,
@@ -240,6 +240,59 @@ def progress():
         check(len(shares) >= fewest and shares == sorted(shares), f"progress rises: {shares}")
 
 
+def aborts():
+    """An abort at any event leaves the output empty, and the next update is complete."""
+    torus = torus_splats(20_000)
+    blocks = vtkMultiBlockDataSet()
+    for i in range(6):
+        blocks.SetBlock(i, torus)
+    for data in (torus, blocks):
+        polygons = vtkIsopointSplatPolygons()
+        polygons.SetInputDataObject(data)
+        events = []
+        abort_at = 0
+
+        def watch(caller, _):
+            events.append(caller.GetProgress())
+            if len(events) == abort_at:
+                caller.SetAbortExecute(1)
+
+        polygons.AddObserver("ProgressEvent", watch)
+        polygons.Update()
+        count = polygons.GetOutputDataObject(0).GetNumberOfElements(1)
+        all_events = len(events)
+        for abort_at in range(1, all_events - 1):
+            events.clear()
+            polygons.Modified()
+            polygons.Update()
+            # One more step, and the pipeline's own last event.
+            check(len(events) <= abort_at + 2, f"work after the abort at event {abort_at}: {events}")
+            left = polygons.GetOutputDataObject(0).GetNumberOfElements(1)
+            check(left == 0 and polygons.GetErrorCode() == 0, f"output after the abort at {abort_at}")
+        abort_at = 0
+        polygons.SetAbortExecute(0)
+        polygons.Modified()
+        polygons.Update()
+        check(polygons.GetOutputDataObject(0).GetNumberOfElements(1) == count, "the next update")
+
+
+def bits_are_copied():
+    """Of arrays whose values share bytes, on several threads."""
+    torus = torus_splats(20_000)
+    values = np.arange(torus.GetNumberOfPoints()) ** 2 % 7 % 2
+    bits = vtkBitArray()
+    bits.SetName("bits")
+    for value in values:
+        bits.InsertNextValue(int(value))
+    torus.GetPointData().AddArray(bits)
+    add_array(torus, "integers", values.astype(np.int32))
+    vtkSMPTools.SetBackend("STDThread")
+    _, _, output = triangles_of(torus)
+    copied = output.GetPointData().GetArray("bits")
+    found = [copied.GetValue(i) for i in range(copied.GetNumberOfTuples())]
+    check(found == array(output, "integers").tolist(), "bits")
+
+
 def precision():
     """Far from the origin, in doubles, corners still meet."""
     offset = 1e7
@@ -262,6 +315,8 @@ if __name__ == "__main__":
         cells,
         blocks,
         progress,
+        aborts,
+        bits_are_copied,
         precision,
     ):
         print(test.__name__, flush=True)
