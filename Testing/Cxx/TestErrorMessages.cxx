@@ -3,8 +3,11 @@
 // is empty.
 #include "InputTesting.h"
 
+#include "vtkScatteredIsosurfaceFilter.h"
+
 #include "vtkStringArray.h"
 
+#include <cerrno>
 #include <limits>
 #include <string>
 #include <vector>
@@ -23,6 +26,7 @@ void expectError(
   const auto errors = watchErrors(filter);
   filter->Update();
   EXPECT_EQ(errors->Count, 1);
+  EXPECT_EQ(filter->GetErrorCode(), EINVAL);
   for (const std::string& part : parts)
   {
     EXPECT_NE(errors->Last.find(part), std::string::npos) << errors->Last;
@@ -71,6 +75,7 @@ TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
     errors->Count = 0;
     filter->Update();
     EXPECT_EQ(errors->Count, 1) << words;
+    EXPECT_EQ(filter->GetErrorCode(), EINVAL) << words;
     EXPECT_NE(errors->Last.find(words), std::string::npos) << errors->Last;
     expectEmpty(filter->GetOutput());
   };
@@ -106,5 +111,32 @@ TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
 
   filter->SetInputData(cloud);
   filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+}
+
+TEST(ErrorMessages, AFailedUpdateIsTriedAgainAfterModified)
+{
+  const auto cloud = newCloud(500);
+  vtkNew<vtkScatteredIsosurfaceFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetValue(0, 0.7);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "later");
+  const auto errors = watchErrors(filter);
+  filter->Update();
+  filter->Update();
+  EXPECT_EQ(errors->Count, 1);
+  EXPECT_EQ(filter->GetErrorCode(), EINVAL);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(errors->Count, 2);
+  const auto later = newArray<vtkDoubleArray>("later", 500);
+  later->DeepCopy(cloud->GetPointData()->GetArray("distance"));
+  later->SetName("later");
+  cloud->GetPointData()->AddArray(later);
+  cloud->Modified();
+  filter->Update();
+  EXPECT_EQ(errors->Count, 2);
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
 }

@@ -11,6 +11,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cerrno>
 #include <functional>
 #include <limits>
 
@@ -78,11 +79,13 @@ void failEach(const Prepare& prepare)
       {
         // No allocation failed, or only one of what would speed a later update up.
         ASSERT_EQ(everythingOf(filter), expected);
+        ASSERT_EQ(filter->GetErrorCode(), 0u);
       }
       else
       {
         ++failures;
         ASSERT_EQ(errors->Count, 1);
+        ASSERT_EQ(filter->GetErrorCode(), ENOMEM);
         ASSERT_NE(errors->Last.find("Out of memory"), std::string::npos) << errors->Last;
         ASSERT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
       }

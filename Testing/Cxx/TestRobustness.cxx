@@ -121,6 +121,7 @@ TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
       watcher->AbortAt = event;
       filter->Update();
       EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(0), 0) << event;
+      EXPECT_EQ(filter->GetErrorCode(), 0u);
       watcher->AbortAt = std::numeric_limits<std::size_t>::max();
       filter->SetAbortExecute(0);
       filter->Modified();
