@@ -82,6 +82,7 @@ def main(count, everything, kind):
     if RANK == 0:
         print(f"{SIZE} ranks, {count} samples; input made: peak {peak_memory():.0f} MB", flush=True)
     isopoints = kind()
+    isopoints.SetController(RANKS)
     isopoints.SetInputData(data)
     isopoints.UseAllCoresOff()
     if not everything:

@@ -24,9 +24,15 @@ def check(condition, message):
         sys.exit("failed: " + message)
 
 
+def is_hidden(element):
+    return element.get("panel_visibility") == "never"
+
+
 def vector_properties(root):
-    """Those that are set, of one value with a default: name, XML, the name in the class, and the default."""
+    """Those that users set, of one value with a default: name, XML, the name in the class, and the default."""
     for element in root.iter():
+        if is_hidden(element):
+            continue
         if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
             continue
         if element.get("information_only") == "1" or "command" not in element.attrib:
@@ -93,7 +99,8 @@ def filter_accepts(instance, name):
 
 def check_groups(proxy):
     """The panel shows groups of properties in the order of the XML, what is contoured first."""
-    names = [element.get("name") for element in proxy if element.tag.endswith("VectorProperty")]
+    names = [element.get("name") for element in proxy
+             if element.tag.endswith("VectorProperty") and not is_hidden(element)]
     groups = proxy.findall("PropertyGroup")
     grouped = [element.get("name") for group in groups for element in group]
     check(names[:2] == ["SelectInputScalars", "ContourValues"], f"first: {names[:2]}")

@@ -6,6 +6,7 @@
 Testing/Cxx/TestRanks*.cxx tests clouds, options and deals of samples on ranks that are threads.
 This is about what VTK's data and controllers add: arrays, blocks, pieces, ghosts, messages."""
 
+import errno
 import os
 import pickle
 import re
@@ -179,9 +180,10 @@ class RanksTestCase(unittest.TestCase):
         errors = []
         result = contour(data, RANKS, watch=errors.append, **options)
         self.assertEqual(result.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT), 0)
-        counts = gather(len(errors))
+        counts = gather((len(errors), result.GetErrorCode()))
         if RANK == 0:
-            self.assertEqual(counts, [1] + (SIZE - 1) * [0])
+            invalid = errno.EINVAL  # which all ranks tell
+            self.assertEqual(counts, [(1, invalid)] + (SIZE - 1) * [(0, invalid)])
 
 
 class RanksTest(RanksTestCase):
@@ -384,10 +386,49 @@ class RanksTest(RanksTestCase):
                 self.assertEqual(sum(parts, []), counts(whole, None, 0))
                 self.assertEqual(len(parts[0]), 1)
 
+    def test_without_a_controller_a_rank_does_not_wait_for_others(self):
+        data = poly_data(uniform(2000, 11), np.arange(2000))
+        for kind in FILTERS:
+            self.assertIsNone(kind().GetController())
+            if RANK == SIZE - 1:
+                isopoints = kind()
+                isopoints.SetInputData(data)
+                isopoints.SetValue(0, 0.3)
+                isopoints.Update()
+                self.assertGreater(isopoints.GetOutput().GetNumberOfPoints(), 100)
+            alone = kind()
+            alone.SetUseGlobalController(True)
+            self.assertIs(alone.GetController(), RANKS)
+            alone.SetUseGlobalController(False)
+            self.assertIsNone(alone.GetController())
+
+    def test_pieces_without_a_controller(self):
+        """Each rank yields a piece of its own samples' surface; the first one warns of that."""
+        data = poly_data(uniform(2000, 11), np.arange(2000))
+        for kind in FILTERS:
+            isopoints = kind()
+            isopoints.SetInputData(data)
+            isopoints.SetValue(0, 0.3)
+            texts = []
+
+            def note(_object, _event, text, texts=texts):
+                texts.append(text)
+
+            note.CallDataType = "string0"
+            isopoints.AddObserver("WarningEvent", note)
+            isopoints.UpdatePiece(RANK, SIZE, 0)
+            self.same(isopoints.GetOutput(), lambda: contour(data, None, kind).GetOutput())  # noqa: B023
+            isopoints.SetValue(0, 0.4)
+            isopoints.UpdatePiece(RANK, SIZE, 0)
+            self.assertEqual(len(texts), 1 if RANK == 0 and SIZE > 1 else 0)
+            if texts:
+                self.assertIn("SetController()", texts[0])
+
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
         data = poly_data(uniform(20000, 8), np.arange(20000))
         for kind in FILTERS:
             isopoints = kind()
+            isopoints.SetController(RANKS)
             isopoints.SetInputData(data)
             texts = []
             isopoints.AddObserver("ErrorEvent", lambda *_: texts.append(""))  # noqa: B023
@@ -397,6 +438,7 @@ class RanksTest(RanksTestCase):
             run(isopoints, (0.3,))
             self.assertEqual(isopoints.GetOutput().GetNumberOfPoints(), 0)
             self.assertEqual(texts, [])
+            self.assertEqual(isopoints.GetErrorCode(), 0)
             isopoints.RemoveAllObservers()
             isopoints.SetAbortExecute(0)
             isopoints.Modified()

@@ -155,6 +155,7 @@ def configured(number, filter_class):
         choose(random, 0.0, 0.0, 1000.0),
     )
     isopoints = filter_class()
+    isopoints.SetController(RANKS)
     is_of_cells = False
     kind = choose(random, "cloud", "cloud", "cloud", "image", "blocks")
     if kind == "image":
