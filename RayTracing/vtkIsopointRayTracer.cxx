@@ -31,9 +31,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -361,7 +361,7 @@ bool vtkIsopointRayTracer::Safely(const std::function<void()>& work)
     vtkErrorMacro("Out of memory: the scene is not traced. Show fewer points, or make the picture "
                   "smaller.");
   }
-  catch (const std::runtime_error& error)
+  catch (const std::exception& error)
   {
     vtkErrorMacro("The scene is not traced: " << error.what());
   }

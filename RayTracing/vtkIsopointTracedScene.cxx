@@ -80,7 +80,7 @@ bool vtkIsopointIsTraced(vtkProp* prop)
   {
     return false;
   }
-  if (mapper->GetNumberOfInputConnections(0) > 0)
+  if (mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
   }

@@ -22,6 +22,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 
 namespace
 {
@@ -105,16 +108,27 @@ raytracing::Material materialOf(
   return material;
 }
 
-/// The colors that a mapper gives to a polydata's scalars, and whether they are those of points
-/// (0), of cells (1) or of the field (2); null where it gives none. The mapper is left as it is.
-vtkSmartPointer<vtkUnsignedCharArray> mappedColors(
-  vtkMapper* mapper, vtkPolyData* data, int& cellFlag)
+/// The colors that a mapper gives to a polydata's scalars.
+struct MappedColors
+{
+  vtkSmartPointer<vtkUnsignedCharArray> Colors; // null if it gives none
+  bool OfCells = false;                         // rather than of points
+  vtkIdType Single = -1;                        // the tuple that all cells have, or -1
+};
+
+/// The mapper is left as it is.
+MappedColors mappedColors(vtkMapper* mapper, vtkPolyData* data)
 {
   // Another mapper with the same settings, since mapping keeps its result in the mapper.
   vtkNew<vtkOpenGLPolyDataMapper> colors;
   colors->vtkMapper::ShallowCopy(mapper);
   colors->SetInterpolateScalarsBeforeMapping(false);
-  return colors->MapScalars(data, 1.0, cellFlag);
+  MappedColors mapped;
+  int cellFlag = 0; // 0: of points, 1: of cells, 2: of the field, which has one tuple for each cell
+  mapped.Colors = colors->MapScalars(data, 1.0, cellFlag);
+  mapped.OfCells = cellFlag != 0;
+  mapped.Single = cellFlag == 2 ? colors->GetFieldDataTupleId() : -1;
+  return mapped;
 }
 
 /// The cells of a polydata as triangles, and the cell that each of them is of.
@@ -189,19 +203,20 @@ private:
   vtkNew<vtkPoints> CornerPoints;
 };
 
-void setColors(raytracing::Surface& surface, const Triangulation& triangulation,
-  vtkUnsignedCharArray* colors, int cellFlag)
+void setColors(
+  raytracing::Surface& surface, const Triangulation& triangulation, const MappedColors& mapped)
 {
-  const auto colorAt = [colors](vtkIdType tuple)
+  const auto colorAt = [&mapped](vtkIdType element)
   {
+    const vtkIdType tuple = mapped.Single >= 0 ? mapped.Single : element;
     raytracing::ColorBytes bytes = { 255, 255, 255, 255 };
-    if (tuple < colors->GetNumberOfTuples())
+    if (tuple < mapped.Colors->GetNumberOfTuples())
     {
-      colors->GetTypedTuple(tuple, bytes.data());
+      mapped.Colors->GetTypedTuple(tuple, bytes.data());
     }
     return bytes;
   };
-  surface.colorsOfTriangles = cellFlag == 1;
+  surface.colorsOfTriangles = mapped.OfCells;
   if (surface.colorsOfTriangles)
   {
     for (const vtkIdType cell : triangulation.Cells)
@@ -226,6 +241,10 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
     return nullptr;
   }
   const vtkIdType count = block.Data->GetNumberOfPoints();
+  if (count - 1 > static_cast<vtkIdType>(std::numeric_limits<std::uint32_t>::max()))
+  {
+    throw std::runtime_error("a block has more points than Embree can number. Split it.");
+  }
   vtkDataArray* normals = block.Data->GetPointData()->GetNormals();
   const bool isFlat = actor->GetProperty()->GetInterpolation() == VTK_FLAT;
   if (isFlat || (normals && normals->GetNumberOfTuples() < count))
@@ -245,13 +264,11 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
   }
   surface->color = vtkIsopointTracedVector(
     block.HasColor ? block.Color.data() : actor->GetProperty()->GetDiffuseColor());
-  int cellFlag = 0;
-  if (!block.HasColor)
+  const MappedColors mapped =
+    block.HasColor ? MappedColors() : mappedColors(actor->GetMapper(), block.Data);
+  if (mapped.Colors)
   {
-    if (const auto colors = mappedColors(actor->GetMapper(), block.Data, cellFlag))
-    {
-      setColors(*surface, triangulation, colors, cellFlag);
-    }
+    setColors(*surface, triangulation, mapped);
   }
   surface->triangles = std::move(triangulation.Triangles);
   surface->outward = raytracing::orientationOf(*surface);

@@ -82,11 +82,11 @@ struct TypedInterpolation
   const Isosurface& Surface;
   vtkIdType FirstTuple;
 
-  template <class TArray>
-  void operator()(TArray* input, vtkDataArray* outputArray) const
+  /// @param output may be of another class: what NewInstance() of an implicit array yields
+  template <class TInput, class TOutput>
+  void operator()(TInput* input, TOutput* output) const
   {
-    using T = typename TArray::ValueType;
-    auto* const output = TArray::FastDownCast(outputArray);
+    using T = typename TOutput::ValueType;
     interpolateComponents(
       this->Run, this->Surface, input->GetNumberOfComponents(),
       [&](std::uint64_t sample, int component)
@@ -106,7 +106,7 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
   vtkDataArray* input, vtkDataArray* output, vtkIdType firstTuple)
 {
   const TypedInterpolation typed{ execution, surface, firstTuple };
-  if (vtkArrayDispatch::Dispatch::Execute(input, typed, output))
+  if (vtkArrayDispatch::Dispatch2SameValueType::Execute(input, output, typed))
   {
     return;
   }

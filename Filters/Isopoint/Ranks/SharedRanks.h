@@ -22,6 +22,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace isopoint
@@ -129,6 +130,10 @@ public:
     for (const SampleEdge& wanted : united(this->Group.exchange(outgoing)))
     {
       const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
+      if (edge == edges.end() || wanted < *edge)
+      {
+        throw std::logic_error("ranks have found different edges");
+      }
       found.push_back(static_cast<std::size_t>(edge - edges.begin()));
     }
     keepUnique(found);
