@@ -1,32 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A table of borehole samples as the surface of an ore body: pvbatch csv_table.py"""
+"""A table of readings as the surface of a plume, colored by another column: pvbatch csv_table.py"""
 
 import numpy as np
 from paraview.simple import *
 
-# Stands for your file: samples every meter down 200 boreholes, with their grade.
+# Stands for your file: concentration and temperature at 40,000 places in the air behind a chimney.
 random = np.random.default_rng(1)
-x, y = random.uniform(0, 100, (2, 200))
-holes = np.array([(px, py, -z) for px, py in zip(x, y) for z in range(60)])
-grade = np.exp(-(((holes - [50, 50, -30]) / [30, 18, 12]) ** 2).sum(1)) + 0.1 * np.sin(holes[:, 0] / 9)
-np.savetxt("boreholes.csv", np.column_stack([holes, grade]), "%.4f", ",", header="x,y,z,grade", comments="")
+x, y, z = places = random.uniform(0, 1, (3, 40000)) * [[200], [80], [80]]
+height = 15 + 36 * (1 - np.exp(-x / 70)) + 4 * np.sin(x / 9)
+distance = np.hypot(y - 40 - 6 * np.sin(x / 20), z - height)
+width = (6 + x / 16) * (1 + 0.2 * np.sin(x / 5))
+concentration = np.exp(-x / 120) / (1 + np.exp(15 - x)) * np.exp(-0.5 * (distance / width) ** 2)
+temperature = 15 + 60 * np.exp(-x / 70) * np.exp(-distance / 30)
+np.savetxt("plume.csv", np.column_stack([*places, concentration, temperature]), "%.5f", ",",
+           header="x,y,z,concentration,temperature", comments="")
 
-table = CSVReader(FileName=["boreholes.csv"])
+table = CSVReader(FileName=["plume.csv"])
 points = TableToPoints(Input=table, XColumn="x", YColumn="y", ZColumn="z")
-ore = ScatteredIsosurface(Input=points, ContourBy=["POINTS", "grade"], Isosurfaces=[0.5])
+plume = ScatteredIsopoints(Input=points, ContourBy=["POINTS", "concentration"], Isosurfaces=[0.2])
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
 view.OrientationAxesVisibility = 0
 view.ViewSize = [600, 400]
-display = Show(ore)
-ColorBy(display, None)
-display.DiffuseColor = [0.85, 0.6, 0.3]
-boreholes = Show(points)
-boreholes.SetRepresentationType("Points")
-boreholes.Opacity = 0.3
-boreholes.ColorArrayName = ["POINTS", ""]
-boreholes.AmbientColor = boreholes.DiffuseColor = [0.4, 0.4, 0.5]
+display = Show(plume)
+ColorBy(display, ("POINTS", "temperature"))
+GetColorTransferFunction("temperature").ApplyPreset("Cool to Warm", True)
+readings = Show(points)
+readings.SetRepresentationType("Points")
+readings.Opacity = 0.08
+readings.ColorArrayName = ["POINTS", ""]
+readings.AmbientColor = readings.DiffuseColor = [0.4, 0.4, 0.5]
 ResetCamera()
-view.CameraPosition = [50, -170, 60]
+GetActiveCamera().Elevation(-65)
+GetActiveCamera().Azimuth(10)
+GetActiveCamera().Zoom(1.45)
 SaveScreenshot("csv_table.png", view)
