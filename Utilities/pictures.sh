@@ -42,7 +42,8 @@ draw()
 }
 
 draw pvbatch "$root/Utilities/demo.py" "$plugin"
-export PV_PLUGIN_PATH=${plugin%/*} # the demo loads the plugin itself
+draw pvbatch "$root/Testing/Benchmark/troubleshooting_pictures.py" "$plugin" "$root/docs/choosing"
+export PV_PLUGIN_PATH=${plugin%/*} # those above load the plugin themselves
 for name in amr_levels csv_table in_situ_simulation sharp_solid time_series; do
   draw pvbatch "$root/Examples/$name.py"
 done

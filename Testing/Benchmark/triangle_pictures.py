@@ -67,29 +67,55 @@ def place(camera, bounds, direction, up, zoom):
     camera.SetViewUp(*up)
 
 
-def pixels_of(column, bounds, camera, path):
-    """A picture as an array of rows, the lowest first. camera: direction, view up, zoom."""
-    if column is None:
-        return np.full((SIZE[1], SIZE[0], 3), 255, np.uint8)
-    surface, representation = column
+def new_view(size):
     view = simple.CreateView("RenderView")
-    view.ViewSize = SIZE
+    view.ViewSize = size
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
-    display = simple.Show(surface, view)
+    return view
+
+
+def show(source, view, representation, color):
+    display = simple.Show(source, view)
     display.SetRepresentationType(representation)
     display.ColorArrayName = ["POINTS", ""]
-    display.DiffuseColor = display.AmbientColor = COLOR
-    simple.ResetCamera(view)
-    place(view.GetActiveCamera(), bounds, *camera)
-    simple.SaveScreenshot(path, view, ImageResolution=SIZE)
-    simple.Delete(view)
+    display.DiffuseColor = display.AmbientColor = color
+    return display
+
+
+def read(path):
+    """A picture as an array of rows, the lowest first."""
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
     image = reader.GetOutput()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(SIZE[1], SIZE[0], -1)[:, :, :3]
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3]
+
+
+def write(pixels, path):
+    image = vtkImageData()
+    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetInputData(image)
+    writer.SetFileName(path)
+    writer.Write()
+
+
+def pixels_of(column, bounds, camera, path):
+    """camera: direction, view up, zoom."""
+    if column is None:
+        return np.full((SIZE[1], SIZE[0], 3), 255, np.uint8)
+    surface, representation = column
+    view = new_view(SIZE)
+    show(surface, view, representation, COLOR)
+    simple.ResetCamera(view)
+    place(view.GetActiveCamera(), bounds, *camera)
+    simple.SaveScreenshot(path, view, ImageResolution=SIZE)
+    simple.Delete(view)
+    return read(path)
 
 
 def main(plugin, folder, picture):
@@ -107,14 +133,7 @@ def main(plugin, folder, picture):
             path = os.path.join(scratch, "part.png")
             parts = [pixels_of(column, bounds, camera, path) for column in columns]
             rows.insert(0, np.concatenate(parts, axis=1))
-    pixels = np.concatenate(rows, axis=0)
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetFileName(picture)
-    writer.Write()
+    write(np.concatenate(rows, axis=0), picture)
 
 
 if __name__ == "__main__":

@@ -22,8 +22,14 @@ class Benchmarks(unittest.TestCase):
     def test_accuracy(self):
         self.check("accuracy.py", "--samples", "2000", "--fields", "sphere,cube", "--noise", "1")
 
+    def test_cost(self):
+        self.check("cost.py", "--samples", "0.02", "--runs", "1")
+
     def test_defaults(self):
         self.check("defaults.py", "--samples", "0.02", "--runs", "1")
+
+    def test_smoothing(self):
+        self.check("smoothing.py", "--samples", "2000")
 
     def test_speed(self):
         self.check("speed.py", "--largest", "0.01")
