@@ -5,8 +5,8 @@
 
 Prints a Markdown table of the distance to the center of a cube at random positions: for points and
 for triangles their number, elapsed seconds and processor seconds, medians of some runs, at a first
-isovalue; elapsed seconds at another isovalue; and the peak of memory in MB beyond the samples, which
-take 16 bytes each.
+isovalue; elapsed seconds at another isovalue; and the peak of memory in MB beyond the samples,
+which take 16 bytes each.
 """
 
 import argparse

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What averaging noisy samples over their neighbors does to a surface, beside fits alone.
 
-    PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 Testing/Benchmark/smoothing.py
+    PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 \\
+        Testing/Benchmark/smoothing.py
 
-Prints a Markdown table for a torus in random samples with noise. The unit of noise, radii and distances is
-the mean spacing of the samples, which is the mean rise of the values between neighbors as well. Radius 0 is
-without averaging. The table has the mean distance of isopoints from the torus and the mean error of their
-normals in degrees, without a fit, with normals of planes, and with the default fit.
+Prints a Markdown table for a torus in random samples with noise. The unit of noise, radii and
+distances is the mean spacing of the samples, which is the mean rise of the values between neighbors
+as well. Radius 0 is without averaging. The table has the mean distance of isopoints from the torus
+and the mean error of their normals in degrees, without a fit, with normals of planes, and with the
+default fit.
 """
 
 import argparse
@@ -45,8 +47,8 @@ def main():
     positions = analytic_surfaces.uniform(options.samples, random)
     spacing = 2 / options.samples ** (1 / 3)
     torus = analytic_surfaces.torus(spacing)
-    print("| noise | radius | distance, linear interpolation | normals | distance, cubic fit | normals |\n"
-          + "|---" * 6 + "|")
+    print("| noise | radius | distance, linear interpolation | normals | distance, cubic fit |"
+          " normals |\n" + "|---" * 6 + "|")
     for noise in 0.1, 0.3, 1.0:
         values = torus.value(positions) + noise * spacing * random.standard_normal(len(positions))
         for radius in 0, 1.5, 2, 3:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the pictures of docs/choosing.md: troubleshooting_pictures.py PLUGIN FOLDER, for pvbatch.
 
-Each picture has the trouble on the left and what remedies it on the right. All samples are made here. PLUGIN is
-ScatteredIsopoints.so, FOLDER receives the PNG files.
+Each picture has the trouble on the left and what remedies it on the right. All samples are made
+here. PLUGIN is ScatteredIsopoints.so, FOLDER receives the PNG files.
 """
 
 import os
@@ -19,6 +19,7 @@ import triangle_pictures as pictures
 
 SIZE = [200, 200]
 GRAY = [0.5, 0.5, 0.6]
+BOUNDS = (-0.9, 0.9) * 3
 CAMERA = (-0.52, -0.42, -0.74), (0.0, 1.0, 0.0), 1.35  # direction, view up, zoom
 FROM_BELOW = (0.0, 0.7, -0.7), (0.0, 1.0, 0.0), 1.35
 
@@ -73,20 +74,21 @@ class Album:
     def __init__(self, folder, scratch):
         self.folder, self.part = folder, os.path.join(scratch, "part.png")
 
-    def add(self, name, before, after, samples=None, camera=CAMERA, bounds=(-0.9, 0.9) * 3, draw=None):
-        """A picture of two surfaces, with their samples. draw(view, path, surface) draws instead of ParaView."""
+    def add(self, name, before, after, samples=None, camera=CAMERA, draw=None):
+        """A picture of two surfaces, and of samples. draw(view, path, surface) draws instead of
+        ParaView."""
         halves = []
         for surface in before, after:
             surface.UpdatePipeline()
-            print(name, surface.GetDataInformation().GetNumberOfPoints(), file=sys.__stdout__, flush=True)
+            information = surface.GetDataInformation()
+            is_mesh = information.GetNumberOfCells() != information.GetNumberOfPoints()
+            representation = "Surface" if is_mesh else "Isopoint Splats"
             view = pictures.new_view(SIZE)
-            is_mesh = surface.GetDataInformation().GetNumberOfCells() != \
-                surface.GetDataInformation().GetNumberOfPoints()
-            pictures.show(surface, view, "Surface" if is_mesh else "Isopoint Splats", pictures.COLOR)
+            pictures.show(surface, view, representation, pictures.COLOR)
             if samples:
                 pictures.show(samples, view, "Point Gaussian", GRAY).GaussianRadius = 0.012
             simple.ResetCamera(view)
-            pictures.place(view.GetActiveCamera(), bounds, *camera)
+            pictures.place(view.GetActiveCamera(), BOUNDS, *camera)
             if draw:
                 draw(view, self.part, surface)
             else:
@@ -129,11 +131,13 @@ def add_seams(album):
 
 
 def add_holes(album):
-    # The particles of a liquid alone, with the number of others in reach: a density that drops at the surface.
+    # The particles of a liquid alone, with the number of others in reach: a density that drops at
+    # the surface.
     positions = uniform(100000)
     positions = positions[torus(positions) < 0]
     reach = 0.14
-    near = np.array([(((positions - place) ** 2).sum(axis=1) < reach**2).sum() for place in positions])
+    near = np.array(
+        [(((positions - place) ** 2).sum(axis=1) < reach**2).sum() for place in positions])
     samples = source(cloud(positions, near.astype(float)))
     isovalue = 0.5 * near.max()
     album.add("holes", points(samples, isovalue), triangles(samples, isovalue))
