@@ -27,26 +27,35 @@
 namespace
 {
 
-/// The names of the arrays, for an error message.
+/// The names of the arrays, those that mark ghosts left out, for an error message.
 std::string arrayNames(vtkDataSetAttributes* attributes)
 {
-  std::ostringstream names;
+  std::string names;
   const int count = attributes ? attributes->GetNumberOfArrays() : 0;
   for (int i = 0; i < count; ++i)
   {
-    const char* const name = attributes->GetArrayName(i);
-    names << (i > 0 ? ", " : "") << (name ? name : "(unnamed)");
+    const char* const found = attributes->GetArrayName(i);
+    const std::string name = found ? found : "(unnamed)";
+    if (name != vtkDataSetAttributes::GhostArrayName())
+    {
+      names += (names.empty() ? "" : ", ") + name;
+    }
   }
-  return count > 0 ? names.str() : std::string("none");
+  return names.empty() ? "none" : names;
 }
 
 /// The remedy of an error about the array to process, with the arrays of a leaf.
 std::string remedyFor(vtkDataObject* leaf)
 {
-  return " Choose a scalar array with SetInputArrayToProcess() (Contour By in ParaView); the point"
-         " arrays are: " +
-         arrayNames(leaf->GetAttributes(vtkDataObject::POINT)) +
-         "; the cell arrays are: " + arrayNames(leaf->GetAttributes(vtkDataObject::CELL)) + ".";
+  const std::string ofPoints = arrayNames(leaf->GetAttributes(vtkDataObject::POINT));
+  const std::string ofCells = arrayNames(leaf->GetAttributes(vtkDataObject::CELL));
+  if (ofPoints == "none" && ofCells == "none")
+  {
+    return " There are no arrays: load point or cell arrays in the reader.";
+  }
+  return " Choose a scalar array by Contour By in ParaView, by SetInputArrayToProcess() in VTK; the"
+         " point arrays are: " +
+         ofPoints + "; the cell arrays are: " + ofCells + ".";
 }
 
 vtkIdType elementCount(vtkDataObject* leaf)

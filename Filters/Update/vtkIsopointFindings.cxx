@@ -92,8 +92,8 @@ vtkIsopointMessage describeIsovaluesOutside(
   const std::string isovalues = join(outside, digits);
   return { "isovalues outside of " + findings.Array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + describeArray(findings) + " is from " + least +
-      " to " + textOf(findings.Greatest, digits) +
-      ". Choose isovalues above the former and up to the latter." };
+      " to " + textOf(findings.Greatest, digits) + ". Choose isovalues that are greater than " +
+      least + ", up to " + textOf(findings.Greatest, digits) + "." };
 }
 
 /// Of isovalues in the range.
@@ -109,9 +109,9 @@ vtkIsopointMessage describeEmptyIsovalues(
   if (findings.AreTriangles)
   {
     reason = findings.DropsGaps
-               ? "all of it is in gaps, or the samples are in one plane. Turn DropGaps off; of"
-                 " samples in a plane extract points instead of triangles."
-               : "the samples are in one plane. Extract points instead of triangles.";
+               ? "all of it is in gaps, or the samples are in one plane. Turn DropGaps off; for"
+                 " samples in a plane apply Delaunay 2D and Contour instead."
+               : "the samples are in one plane. Apply Delaunay 2D and Contour instead.";
   }
   else if (!findings.DropsGaps)
   {
@@ -180,10 +180,9 @@ vtkIsopointMessage describeUnprojected(const vtkIsopointFindings& findings)
              tenths(findings.UnprojectedPoints, points),
     "No fit holds at " + std::to_string(findings.UnprojectedPoints) + " of " +
       std::to_string(points) +
-      " points: the surface may be rough. Smooth noise first. For drill"
-      " holes, shells and other samples on lines or surfaces " +
-      (findings.AreTriangles ? "set" : "extract triangles (Scattered Isosurface), or set") +
-      " the projection to none." };
+      " points: the surface may be rough. Smooth the values if they are noisy. For samples on a"
+      " surface, such as a plane or a shell, set Projection to None. Samples along lines, such as"
+      " drill holes, do not determine a surface." };
 }
 
 std::vector<vtkIsopointMessage> describeReplacedArrays(const vtkIsopointFindings& findings)

@@ -26,7 +26,7 @@ void vtkIsopointOptions::Check() const
   if (std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
         [](double value) { return std::isnan(value); }))
   {
-    throw vtkIsopointUsageError("An isovalue is not a number. Set isovalues with SetValue().");
+    throw vtkIsopointUsageError("An isovalue is not a number. Choose numbers as isovalues.");
   }
   this->ForEach(
     [](const char* name, double value, double least, double greatest)
@@ -34,8 +34,8 @@ void vtkIsopointOptions::Check() const
       if (!(value >= least && value <= greatest))
       {
         std::ostringstream message;
-        message << name << " is " << value << ", which is out of range. Set one within " << least
-                << " and " << greatest << " with Set" << name << "().";
+        message << name << " is " << value << ", which is out of range. Set it to a value from "
+                << least << " to " << greatest << ".";
         throw vtkIsopointUsageError(message.str());
       }
     });
@@ -56,7 +56,7 @@ void vtkIsopointOptions::CheckOnRanks(isopoint::Team& team) const
   {
     throw vtkIsopointUsageError(
       "The filters of the ranks have different options. Set the same on all of them, or contour"
-      " each rank's samples separately with SetController(nullptr).");
+      " each rank's samples separately by setting Controller to null.");
   }
 }
 

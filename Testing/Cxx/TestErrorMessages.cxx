@@ -52,6 +52,16 @@ TEST(ErrorMessages, AMissingArrayIsNamedWithItsAssociationAndTheArraysPresent)
     { "no active point or cell scalars", remedy, offer });
 }
 
+TEST(ErrorMessages, WhereAReaderHasLoadedNoArrayItIsSaidToLoadOne)
+{
+  const auto image = newImage(4, 0.25, -1.0, -1.0, -1.0);
+  const auto ghosts = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 125);
+  ghosts->FillValue(0);
+  image->GetPointData()->AddArray(ghosts);
+  expectError(image, vtkDataObject::FIELD_ASSOCIATION_POINTS, "f",
+    { "no point array named \"f\"", "load point or cell arrays in the reader" });
+}
+
 TEST(ErrorMessages, AnArrayOfAnotherLengthIsNamedWithBothLengths)
 {
   const auto image = newImage(4, 0.25, -1.0, -1.0, -1.0);
@@ -93,11 +103,11 @@ TEST(ErrorMessages, InvalidUseYieldsOneErrorThatNamesTheCauseAndAnEmptyOutput)
   for (const double angle : { -1.0, 180.5, std::numeric_limits<double>::quiet_NaN() })
   {
     filter->SetAngle(angle);
-    expectError("within 0 and 180");
+    expectError("out of range. Set it to a value from 0 to 180.");
   }
   filter->SetAngle(54.7);
   filter->SetMinimumSpacing(std::numeric_limits<double>::quiet_NaN());
-  expectError("within 0 and 1");
+  expectError("MinimumSpacing is nan, which is out of range. Set it to a value from 0 to 1.");
   filter->SetMinimumSpacing(0.0);
   filter->SetNumberOfContours(2);
   filter->SetValue(0, std::numeric_limits<double>::quiet_NaN());

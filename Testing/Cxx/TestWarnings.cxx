@@ -117,7 +117,7 @@ TEST(Warnings, FiguresThatDifferLookDifferent)
   filter->SetValue(0, 300.0001);
   expectWarning(filter, { "at 300.0001: ", "from 300 to 300.00004" });
   filter->SetValue(0, 300.0); // no sample is below
-  expectWarning(filter, { "above the former and up to the latter" });
+  expectWarning(filter, { "greater than 300, up to 300.00004" });
 }
 
 TEST(Warnings, AVoidThatIsLeftWithoutPointsIsExplained)
@@ -146,7 +146,10 @@ TEST(Warnings, APlaneWithoutTrianglesIsExplained)
     cloud->GetPoint(i, position);
     cloud->GetPoints()->SetPoint(i, position[0], position[1], 0.0);
   }
-  expectWarning(newFilterOf<vtkScatteredIsosurfaceFilter>(cloud), { "in one plane" });
+  // No filter recommends the other.
+  expectWarning(newFilterOf<vtkScatteredIsosurfaceFilter>(cloud),
+    { "in one plane", "apply Delaunay 2D and Contour instead." });
+  expectWarning(newFilterOf(cloud), { "such as a plane or a shell, set Projection to None" });
 }
 
 TEST(Warnings, SamplesThatTakeNoPartDoNotWidenTheRange)
@@ -233,7 +236,7 @@ TEST(Warnings, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
                               std::to_string(filter->GetOutput()->GetNumberOfPoints()) + " points";
   EXPECT_NE(warnings.front().find("No fit holds at " + figures), std::string::npos)
     << warnings.front();
-  EXPECT_NE(warnings.front().find("Scattered Isosurface"), std::string::npos) << warnings.front();
+  EXPECT_NE(warnings.front().find("Projection"), std::string::npos) << warnings.front();
   EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
   EXPECT_TRUE(warningsOf(filter).empty());
