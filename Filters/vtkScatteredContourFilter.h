@@ -158,16 +158,15 @@ public:
 
   ///@{
   /**
-   * Whether the surface ends where the spacing of the samples jumps, as at voids, at the free
-   * surface of a fluid, or between groups of boreholes. Dropped are the isopoints on edges longer
-   * than twice the spacing of the samples behind both ends, if these edges are connected, through
-   * others like them, with one that is longer than four times that. The spacing behind the end x of
-   * an edge {x, y} is the distance from x to the second nearest sample position (the third nearest
-   * for the factor of four) within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the direction
-   * from y to x; it is infinite if there are fewer. Edges with an end in common are connected. So
-   * edges between a dense and a sparse region, to an isolated sample, and between lines or slices
-   * of samples remain, and closed surfaces amid samples stay closed. For triangles see
-   * vtkScatteredIsosurfaceFilter. Default: on.
+   * Whether the surface ends where the spacing of the samples jumps, as at voids or at the free
+   * surface of a fluid. Dropped are the isopoints on edges longer than twice the spacing of the
+   * samples behind both ends, if these edges are connected, through others like them, with one that
+   * is longer than four times that. The spacing behind the end x of an edge {x, y} is the distance
+   * from x to the second nearest sample position (the third nearest for the factor of four) within
+   * 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the direction from y to x; it is infinite if
+   * there are fewer. Edges with an end in common are connected. So edges between a dense and a
+   * sparse region, to an isolated sample, and between lines or slices of samples remain, and closed
+   * surfaces amid samples stay closed. For triangles see vtkScatteredIsosurfaceFilter. Default: on.
    */
   vtkSetMacro(DropGaps, vtkTypeBool);
   vtkGetMacro(DropGaps, vtkTypeBool);
