@@ -20,13 +20,13 @@ vtkStandardNewMacro(vtkSMIsopointArrayDomain);
 namespace
 {
 
-/// Whether an array numbers points or cells, or marks ghosts. Readers of finite elements make the
-/// former attributes, which data of several blocks may lose.
-bool isBookkeeping(vtkPVDataInformation* data, const std::string& name, int association)
+/// Whether an array numbers points or cells. Readers of finite elements make such arrays
+/// attributes, which data of several blocks may lose.
+bool isIds(vtkPVDataInformation* data, const std::string& name, int association)
 {
-  static const std::set<std::string> names{ vtkDataSetAttributes::GhostArrayName(),
-    "vtkOriginalPointIds", "vtkOriginalCellIds", "GlobalNodeId", "GlobalElementId",
-    "GlobalPointIds", "GlobalCellIds", "PedigreeNodeId", "PedigreeElementId" };
+  static const std::set<std::string> names{ "vtkOriginalPointIds", "vtkOriginalCellIds",
+    "GlobalNodeId", "GlobalElementId", "GlobalPointIds", "GlobalCellIds", "PedigreeNodeId",
+    "PedigreeElementId" };
   const auto isAttribute = [&](int type)
   {
     vtkPVDataSetAttributesInformation* const attributes =
@@ -43,7 +43,7 @@ bool isBookkeeping(vtkPVDataInformation* data, const std::string& name, int asso
 bool isField(vtkPVDataInformation* data, const char* name, int association)
 {
   vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
-  if (!array || isBookkeeping(data, name, association))
+  if (!array || isIds(data, name, association))
   {
     return false;
   }
@@ -99,6 +99,23 @@ void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
   {
     this->SetDefaultValues(property, false);
   }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMIsopointArrayDomain::IsFilteredArray(
+  vtkPVDataInformation* data, int association, const char* name)
+{
+  if (std::string(name) == vtkDataSetAttributes::GhostArrayName())
+  {
+    return true;
+  }
+  vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
+  double range[2] = { 0.0, 0.0 };
+  if (array)
+  {
+    array->GetComponentFiniteRange(0, range);
+  }
+  return range[0] > range[1] && array->GetNumberOfTuples() > 0;
 }
 
 //------------------------------------------------------------------------------

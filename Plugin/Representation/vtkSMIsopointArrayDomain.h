@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkSMIsopointArrayDomain
- * @brief   a list of arrays whose default has isosurfaces
+ * @brief   a list of arrays that have isosurfaces
  *
- * The default is that of vtkSMArrayListDomain, unless that array is constant (as the numbers of
- * blocks often are), the ids of points or cells, or their ghost marks: then it is the first one in
- * the list that is none of these.
+ * The arrays are those of vtkSMArrayListDomain, without ghost marks and arrays that have no finite
+ * value (such as arrays of strings). The default is that of vtkSMArrayListDomain, unless that array
+ * is constant (as the numbers of blocks often are) or holds the ids of points or cells: then it is
+ * the first one in the list that does neither.
  */
 #ifndef vtkSMIsopointArrayDomain_h
 #define vtkSMIsopointArrayDomain_h
@@ -38,6 +39,8 @@ public:
 protected:
   vtkSMIsopointArrayDomain() = default;
   ~vtkSMIsopointArrayDomain() override = default;
+
+  bool IsFilteredArray(vtkPVDataInformation* data, int association, const char* name) override;
 
 private:
   bool IsReplaceable(vtkSMProperty* property);

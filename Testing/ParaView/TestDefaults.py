@@ -6,9 +6,11 @@ import sys
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringArray, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
 from scripting import check
+
 
 def filters():
     return simple.ScatteredIsopoints, simple.ScatteredIsosurface
@@ -73,6 +75,46 @@ def ids_and_ghosts_come_last():
             check(chosen == [association, "stress"], f"no ids: {chosen}")
 
 
+def offered(isopoints):
+    arrays = isopoints.SMProxy.GetProperty("SelectInputScalars").FindDomain("vtkSMArrayListDomain")
+    return [arrays.GetString(i) for i in range(arrays.GetNumberOfStrings())]
+
+
+def arrays_without_isosurfaces_are_not_offered():
+    """Strings, ghost marks, and arrays without a number."""
+    for association in ("POINTS", "CELLS"):
+        ghosts = dict(vtkGhostType=lambda p: (p[:, 0] < 2).astype(np.uint8))
+        data = lattice(association, **ghosts, none=number(np.nan), some=lambda p: np.where(
+            p[:, 0] < 2, np.nan, distance(p)))
+        names = vtkStringArray()
+        names.SetName("names")
+        names.SetNumberOfValues(12**3)
+        attributes = data.GetCellData() if association == "CELLS" else data.GetPointData()
+        attributes.AddArray(names)
+        for create in filters():
+            isopoints = create(Input=produced(data))
+            check(offered(isopoints) == ["some"], f"offered: {offered(isopoints)}")
+            check(isopoints.ContourBy[1] == "some", "the default is among them")
+            without = create(Input=produced(lattice(association, **ghosts)))
+            check(not offered(without) and not without.ContourBy[1], "no ghost marks")
+            check("load point or cell arrays in the reader" in messages_of(without.UpdatePipeline),
+                  "what to do without arrays")
+
+
+def messages_of(function):
+    """What is reported meanwhile."""
+    usual, collecting = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkOutputWindow.SetInstance(collecting)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    try:
+        function()
+    finally:
+        vtkOutputWindow.SetInstance(usual)
+        vtkLogger.SetStderrVerbosity(verbosity)
+    return collecting.GetOutput()
+
+
 def active_scalars_come_first_unless_constant():
     data = lattice("POINTS", BlockId=number(0), first=distance, second=distance)
     data.GetPointData().SetActiveScalars("second")
@@ -134,6 +176,7 @@ def main(plugin):
     simple.LoadPlugin(plugin)
     first_array_with_a_range()
     ids_and_ghosts_come_last()
+    arrays_without_isosurfaces_are_not_offered()
     active_scalars_come_first_unless_constant()
     input_matters_rather_than_the_active_source()
     isovalue_follows_the_array()
