@@ -2,6 +2,7 @@
 #include "vtkSMIsopointSourceProxy.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
 #include "vtkPVPluginTracker.h"
 #include "vtkSMTrace.h"
 
@@ -30,6 +31,19 @@ std::string findPluginFile()
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
+{
+  this->Superclass::AddConsumer(property, consumer);
+  const std::string writer = consumer && consumer->GetXMLName() ? consumer->GetXMLName() : "";
+  if (writer == "PSTLWriter" && std::strcmp(this->GetXMLName(), "ScatteredIsopoints") == 0)
+  {
+    vtkOutputWindowDisplayWarningText(
+      "STL files hold triangles, and isopoints have none: the file will be empty. Save Scattered"
+      " Isosurface or Isopoint Splat Polygons instead.\n");
+  }
+}
 
 //------------------------------------------------------------------------------
 void vtkSMIsopointSourceProxy::CreateVTKObjects()

@@ -6,6 +6,8 @@
  * ParaView asks a filter for its information properties where a panel or a script calls for that.
  * This proxy does so after each update, so that counters are always those of the last one.
  *
+ * Where points are saved as STL, it warns that the file will be empty.
+ *
  * Traces load the plugin, if it is not loaded when they are run, before they create the filter.
  */
 #ifndef vtkSMIsopointSourceProxy_h
@@ -24,6 +26,7 @@ protected:
   vtkSMIsopointSourceProxy() = default;
   ~vtkSMIsopointSourceProxy() override = default;
 
+  void AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer) override;
   void CreateVTKObjects() override;
   void PostUpdateData(bool usesCache) override;
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the filters do as they come: the array, the isovalue and what is computed by default."""
 
+import os
 import sys
 
 import numpy as np
@@ -9,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringArray, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
-from scripting import check
+from scripting import FOLDER, check
 
 
 def filters():
@@ -115,6 +116,16 @@ def messages_of(function):
     return collecting.GetOutput()
 
 
+def triangles_are_saved_as_stl():
+    """Isopoints have none, which is said."""
+    source = produced(lattice("POINTS", distance=distance))
+    for create, words in zip(filters(), ("Save Scattered Isosurface", "")):
+        isopoints = create(Input=source)
+        isopoints.UpdatePipeline()
+        said = messages_of(lambda: simple.SaveData(os.path.join(FOLDER, "surface.stl"), isopoints))
+        check(words in said and bool(said) == bool(words), f"said of {isopoints}: {said}")
+
+
 def active_scalars_come_first_unless_constant():
     data = lattice("POINTS", BlockId=number(0), first=distance, second=distance)
     data.GetPointData().SetActiveScalars("second")
@@ -177,6 +188,7 @@ def main(plugin):
     first_array_with_a_range()
     ids_and_ghosts_come_last()
     arrays_without_isosurfaces_are_not_offered()
+    triangles_are_saved_as_stl()
     active_scalars_come_first_unless_constant()
     input_matters_rather_than_the_active_source()
     isovalue_follows_the_array()
