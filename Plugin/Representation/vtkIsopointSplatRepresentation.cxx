@@ -5,9 +5,30 @@
 #include "vtkIsopointSplatPolygons.h"
 
 #include "vtkCommand.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkIsopointSplatRepresentation);
+
+namespace
+{
+
+bool lacksNormals(vtkDataObject* data)
+{
+  std::vector<vtkDataSet*> leaves = vtkCompositeDataSet::GetDataSets(data);
+  return std::any_of(leaves.begin(), leaves.end(),
+    [](vtkDataSet* leaf)
+    { return leaf->GetNumberOfPoints() > 0 && !leaf->GetPointData()->GetNormals(); });
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
@@ -42,6 +63,21 @@ void vtkIsopointSplatRepresentation::SetRadiusScale(double scale)
 {
   this->Polygons->SetRadiusScale(scale);
   this->MarkModified();
+}
+
+//------------------------------------------------------------------------------
+int vtkIsopointSplatRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (this->Polygons->GetRadius() == 0.0 && lacksNormals(vtkDataObject::GetData(inputVector[0])))
+  {
+    vtkWarningMacro("Isopoint Splats shows nothing of points without normals. Choose another"
+                    " representation.");
+    vtkNew<vtkInformationVector> nothing;
+    vtkInformationVector* inputs[] = { nothing };
+    return this->Superclass::RequestData(request, inputs, outputVector);
+  }
+  return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkIsopointSplatRepresentation
- * @brief   renders the points of any data set as one lit surface
+ * @brief   renders points with normals as one lit surface
  *
  * ParaView's representation "Isopoint Splats": its surface representation with
  * vtkIsopointSplatPolygons in place of the filter that extracts surfaces. Selections of points and
  * cells hold those of the input, whose splats are seen.
+ *
+ * Points without normals would be octahedra. They are drawn only with a Radius, and there is a
+ * warning otherwise.
  *
  * @sa vtkIsopointSplatPolygons, vtkIsopointPolygonMapper
  */
@@ -37,6 +40,9 @@ public:
 protected:
   vtkIsopointSplatRepresentation();
   ~vtkIsopointSplatRepresentation() override = default;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 private:
   vtkIsopointSplatRepresentation(const vtkIsopointSplatRepresentation&) = delete;

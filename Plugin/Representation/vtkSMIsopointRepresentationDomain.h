@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkSMIsopointRepresentationDomain
- * @brief   makes "Isopoint Splats" the default representation of isopoints
+ * @brief   offers "Isopoint Splats" for isopoints, and makes it their default representation
  *
  * A domain of a property of the representation's proxy, which is part of one with the property
- * "Representation" that it sets. Of other data the default is left as it is.
+ * "Representation" that it sets. Of other data the default is left as it is. Data without the
+ * arrays of splats are not offered them: the type is taken from the list "RepresentationTypesInfo".
  *
  * The required property "Input" yields the data.
  */
@@ -13,8 +14,10 @@
 
 #include "vtkSMDomain.h"
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
+#include "vtkWeakPointer.h"
 
 class vtkPVDataInformation;
+class vtkSMStringVectorProperty;
 
 class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRepresentationDomain
   : public vtkSMDomain
@@ -31,6 +34,11 @@ public:
   static bool AreIsopoints(vtkPVDataInformation* data);
 
   /**
+   * Offers splats, or not, whenever the input or the list of types changes.
+   */
+  void Update(vtkSMProperty* requestingProperty) override;
+
+  /**
    * Sets the property if the data are isopoints. @returns whether it did
    */
   int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
@@ -40,6 +48,10 @@ protected:
   ~vtkSMIsopointRepresentationDomain() override = default;
 
 private:
+  void OfferSplats();
+
+  vtkWeakPointer<vtkSMStringVectorProperty> Types; // that are offered, in the order of their names
+
   vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
   void operator=(const vtkSMIsopointRepresentationDomain&) = delete;
 };

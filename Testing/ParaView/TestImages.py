@@ -37,7 +37,7 @@ def shown(data, view):
     source.GetClientSideObject().SetOutput(data)
     source.UpdatePipeline()
     display = simple.Show(source, view)
-    display.SetRepresentationType("Isopoint Splats")
+    display.Representation = "Isopoint Splats"  # which is not offered: there are no normals
     display.SplatRadius = 0.4
     display.ColorArrayName = ["POINTS", ""]
     return source

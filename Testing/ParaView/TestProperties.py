@@ -177,7 +177,7 @@ def check_representation(root):
 
 def check_mentioned_representations(roots):
     view = simple.CreateView("RenderView")
-    display = simple.Show(simple.Sphere(), view)
+    display = simple.Show(simple.ScatteredIsopoints(Input=simple.Wavelet(), Isosurfaces=[150.0]), view)
     known = list(display.GetProperty("Representation").Available)
     check("Isopoint Splats" in known, f"the representation among {known}")
     names = r"((?:[A-Z]\w*)(?: [A-Z]\w*)*)"

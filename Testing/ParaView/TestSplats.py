@@ -178,14 +178,20 @@ def colors_and_hides_blocks(view, display):
 
 
 def other_data(view):
-    """Every data set with points offers the splats; composite ones show all their blocks."""
+    """Splats are not offered without radii. Where they are set anyway, as in a state, points without
+    normals are drawn only with a radius of the user's; composite data show all their blocks."""
     sphere = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[-24, 0, 0])
     other = simple.Sphere(ThetaResolution=80, PhiResolution=80, Radius=12.0, Center=[24, 0, 0])
     grouped = simple.GroupDatasets(Input=[sphere, other])
-    for source in (simple.Wavelet(WholeExtent=[-25, 25] * 3), sphere, grouped):
+    wavelet = simple.Wavelet(WholeExtent=[-25, 25] * 3)
+    for source in (wavelet, sphere, grouped):
         display = simple.Show(source, view)
-        display.SetRepresentationType("Isopoint Splats")
-        check(display.Representation == "Isopoint Splats", "offered")
+        check("Isopoint Splats" not in display.GetProperty("Representation").Available, "not offered")
+        display.Representation = "Isopoint Splats"
+        simple.Render(view)
+        image = pixels(view)
+        if image is not None:
+            check(covered(image).any() == (source is not wavelet), "only with normals or a radius")
         display.SplatRadius = 1.5
         display.ColorArrayName = ["POINTS", ""]
         display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 0.0]
