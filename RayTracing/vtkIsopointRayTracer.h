@@ -75,7 +75,7 @@ public:
 
   ///@{
   /**
-   * Whether surfaces take away light from each other. Default: on.
+   * Whether surfaces cast shadows. Default: on.
    */
   vtkSetMacro(Shadows, vtkTypeBool);
   vtkGetMacro(Shadows, vtkTypeBool);

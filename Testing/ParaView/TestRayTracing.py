@@ -69,7 +69,7 @@ def can_be_exported(view, shown):
     simple.ExportView(path, view=view, SamplesPerPixel=4, Magnification=2)
     mirror = read(path)
     check(mirror.shape == (480, 640, 3), "twice as large")
-    difference = np.abs(mirror - ray_trace(view, samples=4, size=(640, 480)))
+    difference = np.abs(mirror - ray_trace(view, samples=4, size=(640, 480), ambient_light=0.3))
     check(difference.max() <= 1, "a mirror, in tiles")
     check(psnr(mirror[::2, ::2], exported) < 30, "the material is that of the view")
     shown.Interpolation = "Gouraud"
@@ -85,7 +85,7 @@ def has_the_annotations_of_the_view(view, shown):
         size = [magnification * each for each in view.ViewSize]
         simple.SaveScreenshot(path, view, ImageResolution=size)
         drawn = read(path)
-        simple.ExportView(path, view=view, SamplesPerPixel=16, Shadows=0,
+        simple.ExportView(path, view=view, SamplesPerPixel=16, Shadows=0, AmbientLight=0.0,
                           Magnification=magnification)
         exported = read(path)
         check(exported.shape == drawn.shape, "as large as a screenshot")
