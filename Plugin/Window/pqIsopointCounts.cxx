@@ -2,6 +2,7 @@
 #include "pqIsopointCounts.h"
 
 #include "pqCoreUtilities.h"
+#include "pqIsopointLabels.h"
 
 #include "vtkCommand.h"
 #include "vtkSMDocumentation.h"
@@ -13,7 +14,9 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QString>
+#include <QTimer>
 
+#include <algorithm>
 #include <string>
 
 namespace
@@ -31,7 +34,6 @@ bool endsWith(const std::string& text, const std::string& end)
 pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
   : Superclass(proxy, parent)
 {
-  this->setShowLabel(false);
   auto* const layout = new QFormLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   for (unsigned int i = 0; i < group->GetNumberOfProperties(); ++i)
@@ -62,15 +64,21 @@ pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group,
     }
   }
   this->updateTexts();
+  // Once the panel is complete; this group is in the panels of all filters of this plugin.
+  QTimer::singleShot(0, this, [this]() { pqShowHelpAtLabels(this->parentWidget()); });
 }
 
 void pqIsopointCounts::updateTexts()
 {
   const auto number = [](vtkSMProperty* property)
-  { return QString::number(vtkSMPropertyHelper(property).GetAsIdType()); };
+  { return vtkSMPropertyHelper(property).GetAsIdType(); };
+  const bool isUpdated = std::any_of(this->Counts.begin(), this->Counts.end(),
+    [&](const Count& count) { return count.Whole && number(count.Whole) > 0; });
   for (const Count& count : this->Counts)
   {
-    count.Text->setText(
-      count.Whole ? number(count.Part) + " of " + number(count.Whole) : number(count.Part));
+    const QString part = QString::number(number(count.Part));
+    count.Text->setText(!isUpdated    ? QString()
+                        : count.Whole ? part + " of " + QString::number(number(count.Whole))
+                                      : part);
   }
 }

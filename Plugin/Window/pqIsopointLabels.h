@@ -2,21 +2,10 @@
 #ifndef pqIsopointLabels_h
 #define pqIsopointLabels_h
 
-#include <QObject>
+class QWidget;
 
-#include <memory>
-
-/// Shows the help of a property of the filters at its label too: ParaView shows it at what is to
-/// the right of that alone.
-class pqIsopointLabels
-{
-public:
-  /// Called when the plugin is loaded into the window.
-  void startup();
-  void shutdown();
-
-private:
-  std::unique_ptr<QObject> Watcher;
-};
+/// Shows the help of each property in a panel at its label too: ParaView shows it only at what is
+/// to the right of the label.
+void pqShowHelpAtLabels(QWidget* panel);
 
 #endif

@@ -6,32 +6,7 @@
 
 #include <QAction>
 #include <QList>
-#include <QMenu>
 #include <QObject>
-#include <QString>
-
-namespace
-{
-
-/// The entry of a filter in the window's menus; null if there is none.
-QAction* findAction(const QString& filter)
-{
-  const QList<QMenu*> menus = pqCoreUtilities::mainWidget()->findChildren<QMenu*>();
-  for (const QMenu* const menu : menus)
-  {
-    const QList<QAction*> actions = menu->actions();
-    for (QAction* const action : actions)
-    {
-      if (action->objectName() == filter)
-      {
-        return action;
-      }
-    }
-  }
-  return nullptr;
-}
-
-} // namespace
 
 void pqIsopointSearch::startup()
 {
@@ -53,11 +28,12 @@ void pqIsopointSearch::updateEntries()
   qDeleteAll(former);
   for (const char* const filter : { "ScatteredIsopoints", "ScatteredIsosurface" })
   {
-    if (QAction* const action = findAction(filter))
+    // Actions of the filter menu have the names of their filters.
+    if (auto* const action = pqCoreUtilities::mainWidget()->findChild<QAction*>(filter))
     {
       auto* const entry =
-        new QAction(action->icon(), "Contour " + action->text(), this->Entries.get());
-      entry->setObjectName("Contour" + action->objectName()); // the search tells them apart by it
+        new QAction(action->icon(), action->text() + " (contour)", this->Entries.get());
+      entry->setObjectName(action->objectName() + "Contour"); // the search tells them apart by it
       entry->setEnabled(action->isEnabled());
       entry->setData(action->data());
       QObject::connect(entry, &QAction::triggered, action, &QAction::trigger);
