@@ -2,10 +2,14 @@
 #include "pqIsopointRayTracing.h"
 
 #include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
+#include "pqIsopointLabels.h"
+#include "pqProgressManager.h"
 #include "pqProxyWidgetDialog.h"
 #include "pqRenderView.h"
+#include "pqRepresentation.h"
 #include "vtkIsopointRayTracingExporter.h"
 
 #include "vtkNew.h"
@@ -18,25 +22,50 @@
 #include "vtkSmartPointer.h"
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QEventLoop>
 #include <QList>
 #include <QMenu>
 #include <QPointer>
+#include <QProgressBar>
 #include <QProgressDialog>
 #include <QPushButton>
 #include <QString>
-#include <QTimer>
 
+#include <algorithm>
 #include <cmath>
 
 namespace
 {
 
+/// Whether there is something to trace.
+bool showsSomething(pqView* view)
+{
+  if (!qobject_cast<pqRenderView*>(view))
+  {
+    return false;
+  }
+  const QList<pqRepresentation*> all = view->getRepresentations();
+  return std::any_of(
+    all.begin(), all.end(), [](pqRepresentation* each) { return each->isVisible(); });
+}
+
+/// Lets the user press buttons of the dialog in front while ParaView draws, and keeps everything
+/// else waiting: timers and messages of a server may change what is being drawn.
+void processInput()
+{
+  pqProgressManager* const progress = pqApplicationCore::instance()->getProgressManager();
+  const bool before = progress->unblockEvents(true); // else it drops what the mouse does
+  QCoreApplication::processEvents(
+    QEventLoop::ExcludeSocketNotifiers | QEventLoop::X11ExcludeTimers);
+  progress->unblockEvents(before);
+}
+
 /// Asks for a file and for options, and traces the active view.
 void exportActiveView()
 {
   const QPointer<pqView> view = pqActiveObjects::instance().activeView();
-  if (!qobject_cast<pqRenderView*>(view))
+  if (!showsSomething(view))
   {
     return;
   }
@@ -64,6 +93,7 @@ void exportActiveView()
   options.setObjectName("RayTracingOptions");
   options.setWindowTitle("Export Ray-Traced Picture");
   options.setApplyChangesImmediately(true);
+  pqShowHelpAtLabels(&options);
   if (options.exec() == QDialog::Accepted)
   {
     SM_SCOPED_TRACE(ExportView)
@@ -88,7 +118,7 @@ void pqIsopointRayTracing::startup()
 void pqIsopointRayTracing::shutdown()
 {
   vtkIsopointRayTracingExporter::SetMonitor(nullptr);
-  this->Entry.reset();
+  delete this->Entry;
 }
 
 void pqIsopointRayTracing::addMenuEntry()
@@ -98,10 +128,12 @@ void pqIsopointRayTracing::addMenuEntry()
   {
     return;
   }
-  auto entry = std::make_unique<QAction>("Export Ray-Traced Picture...");
+  auto* const entry = new QAction("Export Ray-Traced Picture...", menu);
   entry->setObjectName("actionExportRayTracedPicture");
   entry->setToolTip("Write the view as a ray-traced PNG picture, with shadows and reflections.");
-  QObject::connect(entry.get(), &QAction::triggered, entry.get(), &exportActiveView);
+  QObject::connect(entry, &QAction::triggered, entry, &exportActiveView);
+  QObject::connect(menu, &QMenu::aboutToShow, entry,
+    [entry]() { entry->setEnabled(showsSomething(pqActiveObjects::instance().activeView())); });
   QAction* behind = nullptr; // the entry for other exports
   const QList<QAction*> actions = menu->actions();
   for (int i = 0; i + 1 < actions.size(); ++i)
@@ -111,8 +143,8 @@ void pqIsopointRayTracing::addMenuEntry()
       behind = actions[i + 1];
     }
   }
-  menu->insertAction(behind, entry.get());
-  this->Entry = std::move(entry);
+  menu->insertAction(behind, entry);
+  this->Entry = entry;
 }
 
 bool pqIsopointRayTracing::show(double share)
@@ -128,18 +160,14 @@ bool pqIsopointRayTracing::show(double share)
     this->Dialog = std::make_unique<QProgressDialog>(
       "Tracing rays...", QString(), 0, all, pqCoreUtilities::mainWidget());
     this->Dialog->setObjectName("RayTracingProgress");
-    auto* const stop = new QPushButton("Stop");
-    stop->setObjectName("Stop");
-    this->Dialog->setCancelButton(stop);
-    this->Dialog->setWindowTitle("Export Ray-Traced Picture");
+    this->Dialog->setCancelButton(new QPushButton("Stop"));
+    this->Bar = new QProgressBar; // setting it, unlike the dialog, processes no events
+    this->Dialog->setBar(this->Bar);
+    this->Dialog->setWindowTitle("Ray Tracing");
     this->Dialog->setWindowModality(Qt::ApplicationModal);
-    this->Dialog->setAutoReset(false);
-    this->Dialog->setAutoClose(false);
     this->Dialog->show();
   }
-  this->Dialog->setValue(static_cast<int>(std::floor(all * share)));
-  QEventLoop events; // of the button too
-  QTimer::singleShot(1, &events, &QEventLoop::quit);
-  events.exec();
+  this->Bar->setValue(static_cast<int>(std::floor(all * share)));
+  processInput();
   return !this->Dialog->wasCanceled();
 }

@@ -3,9 +3,11 @@
 #define pqIsopointRayTracing_h
 
 #include <QObject>
+#include <QPointer>
 
 #include <memory>
 
+class QProgressBar;
 class QProgressDialog;
 
 /// Exports of ray-traced pictures: an entry in the menu File, and the progress of all such exports,
@@ -26,8 +28,9 @@ private:
   /// Shows the share of an export that is done. @returns whether it is to go on
   bool show(double share);
 
-  std::unique_ptr<QObject> Entry;
+  QPointer<QObject> Entry;                 // of the menu
   std::unique_ptr<QProgressDialog> Dialog; // while an export is under way
+  QProgressBar* Bar = nullptr;             // of the dialog
 };
 
 #endif

@@ -9,7 +9,11 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from xml.sax.saxutils import quoteattr
+
+from mouse import Mouse
 
 # Runs in the window. It reports at each picture, the last time at the end.
 SCRIPT = """
@@ -76,27 +80,33 @@ APPLY = event(PANEL + "Accept", "activate")
 ADVANCED = event(PANEL + "SearchBox/AdvancedButton", "set_boolean", "true")
 
 
-def play(paraview, plugin, events, more=""):
-    """What is shown after the events, by the names of the pipeline's items."""
+def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
+    """What is shown after the events, by the names of the pipeline's items. Meanwhile another thread
+    may do something with the process."""
     folder = tempfile.mkdtemp(dir=FOLDER)
     script, played = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
     with open(script, "w", encoding="utf-8") as file:
         file.write(SCRIPT.format(plugin=plugin, more=more))
     with open(played, "w", encoding="utf-8") as file:
         file.write("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
-    try:
-        done = subprocess.run(
+    with subprocess.Popen(
             [paraview, "--dr", "--script=" + script, "--test-script=" + played, "--exit"],
             env=dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder), stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, universal_newlines=True, check=False, timeout=300)
-    except subprocess.TimeoutExpired as expired:
-        print(expired.stdout)
-        sys.exit("failed: ParaView waits, in a dialog if an event could not be played")
-    print(done.stdout)
-    check("Success =  true" in done.stdout, "events could not be played")
-    reports = [line[6:] for line in done.stdout.splitlines() if line.startswith("shown:")]
+            stderr=subprocess.STDOUT, universal_newlines=True) as process:
+        if meanwhile:
+            threading.Thread(target=meanwhile, args=[process], daemon=True).start()
+        try:
+            said, _ = process.communicate(timeout=300)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            print(process.communicate()[0])
+            sys.exit("failed: ParaView waits, in a dialog if an event could not be played")
+    print(said)
+    check(("Success =  true" in said) == possible,
+          "events could not be played" if possible else "events could be played")
+    reports = [line[6:] for line in said.splitlines() if line.startswith("shown:")]
     check(reports, "nothing was reported")
-    return json.loads(reports[-1]), done.stdout
+    return json.loads(reports[-1]), said
 
 
 def inputs_are_hidden(plugin, paraview):
@@ -151,7 +161,10 @@ isopoints.UpdatePipeline()
     panel = f"{FRAME}ProxyPanel/isopoint_counts/"
     for name in ("Scattered Isopoints", "Scattered Isosurface"):
         _, said = play(paraview, plugin, [
-            choose(name), expect_of(panel + "NumberOfSkippedSamples", "text", "0 of 0"), APPLY,
+            choose(name), expect_of(panel + "NumberOfSkippedSamples", "text", ""),
+            expect_of(panel + "NumberOfDroppedInGaps", "text", ""),
+            expect_of(f"{FRAME}ProxyPanel/1QWidget3/1QLabel0", "text", "<html><b>Last Update</b></html>"),
+            APPLY,
             expect_of(panel + "NumberOfSkippedSamples", "text", "1 of 9261")], more)
         check("WARN" not in said and "Warning" not in said, "no message of what is no problem")
 
@@ -162,8 +175,9 @@ def help_is_at_labels(plugin, paraview):
         choose("Scattered Isopoints"),
         expect_of(f"{FRAME}ProxyPanel/1QLabel0", "toolTip",
                   '<html><head/><body><p align="justify">The scalar, at points or cells, whose isosurfaces '
-                  "are extracted. By default the first array that is neither constant nor the ids or ghost "
-                  "marks of points or cells.</p></body></html>")])
+                  "are extracted. By default the active scalars, unless there are none or they are "
+                  "constant or ids: then the first array in the list that is neither constant nor "
+                  "ids.</p></body></html>")])
 
 
 def search_events(paraview, words):
@@ -183,7 +197,7 @@ def search_events(paraview, words):
 def search_finds_the_filters_by_contour(plugin, paraview):
     for name in ("Isopoints", "Isosurface"):
         events, button = search_events(paraview, f"contour {name}")
-        events += [expect_of(button, "text", f"Contour Scattered {name}"), event(button, "activate"), APPLY]
+        events += [expect_of(button, "text", f"Scattered {name} (contour)"), event(button, "activate"), APPLY]
         shown, _ = play(paraview, plugin, events, "isopoints = wavelet")
         check(len(shown) == 2, f"{name} were created")
 
@@ -208,19 +222,31 @@ isopoints.UpdatePipeline()
 
 
 def pictures_are_traced(plugin, paraview):
-    """By an entry of the menu, with a button that stops it."""
+    """By an entry of the menu, with a button that stops it; an empty view is not."""
     path = os.path.join(FOLDER, "traced.png")
     options = "pqClientMainWindow/RayTracingOptions/"
-    samples = (options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
-               "SamplesPerPixel/IntRangeWidget/LineEdit")
-    for count, stop in (("60000", [event("pqClientMainWindow/RayTracingProgress/Stop", "activate")]),
-                        ("1", [])):
+    panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
+    samples = panel + "SamplesPerPixel/IntRangeWidget/"
+    choose_file = [
+        event("pqClientMainWindow/menubar/menu_File", "activate", "actionExportRayTracedPicture"),
+        event("pqClientMainWindow/FileExportDialog", "filesSelected", path)]
+    for count, meanwhile in (("2000", stop_tracing), ("1", None)):
         play(paraview, plugin, [
-            event("pqClientMainWindow/menubar/menu_File", "activate", "actionExportRayTracedPicture"),
-            event("pqClientMainWindow/FileExportDialog", "filesSelected", path),
-            event(samples, "set_string", count), event(options + "widget/OKButton", "activate"),
-            *stop])
-        check(os.path.exists(path) == (not stop), f"{count} samples: {'stopped' if stop else 'written'}")
+            *choose_file, expect_of(samples + "Slider", "maximum", "256"),
+            expect_of(panel + "1QLabel2", "toolTip", '<html><head/><body><p align="justify">The apparent size '
+                      "of lights, in degrees. Larger lights cast softer shadows.</p></body></html>"),
+            event(samples + "LineEdit", "set_string", count),
+            event(options + "widget/OKButton", "activate")], meanwhile=meanwhile)
+        check(os.path.exists(path) == (not meanwhile), f"{count} samples: stopped or written")
+    play(paraview, plugin, choose_file, "simple.Hide(isopoints, view)", possible=False)
+
+
+def stop_tracing(paraview):
+    """Clicks at the button in the lower right corner of the dialog while rays are traced."""
+    mouse = Mouse()
+    while paraview.poll() is None:
+        mouse.click("Ray Tracing", 50, 25)
+        time.sleep(0.2)
 
 
 def main(plugin, paraview):
