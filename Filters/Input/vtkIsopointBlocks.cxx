@@ -53,8 +53,8 @@ std::string remedyFor(vtkDataObject* leaf)
   {
     return " There are no arrays: load point or cell arrays in the reader.";
   }
-  return " Choose a scalar array by Contour By in ParaView, by SetInputArrayToProcess() in VTK; the"
-         " point arrays are: " +
+  return " Choose a scalar array (Contour By in ParaView, SetInputArrayToProcess() in VTK); the point"
+         " arrays are: " +
          ofPoints + "; the cell arrays are: " + ofCells + ".";
 }
 
