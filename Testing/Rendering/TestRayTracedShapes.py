@@ -11,6 +11,8 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes, vtkLight
 
 SIZE = 300
+VTK_SCALAR_MODE_USE_CELL_FIELD_DATA = 4
+VTK_SCALAR_MODE_USE_FIELD_DATA = 5
 
 
 def traced(scene, samples=9, shadows=False):
@@ -103,6 +105,35 @@ def colors():
     compare("highlights", shiny)
 
 
+def colors_of_the_field():
+    """Field data have a color for each cell, or one that all cells have."""
+    data = torus_mesh(40, 20)
+    add_array(data, "f", np.arange(data.GetNumberOfCells()) % 7 / 6.0)
+    values = data.GetPointData().GetArray("f")
+    data.GetPointData().RemoveArray("f")
+    data.GetFieldData().AddArray(values)
+    data.GetCellData().AddArray(values)
+
+    def colored(mode, tuple_of_all=-1):
+        actor = actor_of(data, splats=False)
+        actor.GetProperty().LightingOff()
+        mapper = actor.GetMapper()
+        mapper.ScalarVisibilityOn()
+        mapper.SetScalarMode(mode)
+        mapper.SelectColorArray("f")
+        mapper.SetFieldDataTupleId(tuple_of_all)
+        mapper.SetScalarRange(0, 1)
+        return traced(Scene(actor, size=SIZE))
+
+    of_cells = colored(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA)
+    of_field = colored(VTK_SCALAR_MODE_USE_FIELD_DATA)
+    check((of_field == of_cells).all(), "a color for each cell")
+    single = colored(VTK_SCALAR_MODE_USE_FIELD_DATA, 6)
+    seen = [len(np.unique(picture[:, SIZE // 2 - 20 : SIZE // 2 + 20].reshape(-1, 3), axis=0))
+            for picture in (of_cells, single)]
+    check(seen[1] < seen[0] / 3, f"one color for all cells: {seen[1]} of {seen[0]} colors")
+
+
 def blocks():
     torus = torus_splats(200_000)
     moved = torus.NewInstance()
@@ -145,5 +176,6 @@ shapes()
 small_bodies()
 transforms()
 colors()
+colors_of_the_field()
 blocks()
 opacities()
