@@ -155,12 +155,14 @@ public:
    * Whether to compute splats, which cover the surface: the splat of an isopoint is the fan of
    * triangles between it and each two consecutive corners of the part of the surface that is nearer
    * to it than to others. Splats bend as the surface does, end where it ends or has a crease, and
-   * share most corners with their neighbors. Default: on.
+   * share most corners with their neighbors. "Radius" is a point array; the others are cell arrays
+   * of the vertices, of which cell i is that of point i. They are hidden from ParaView's menus
+   * (vtkAbstractArray::GUI_HIDE()). Default: on.
    *
    * - "Radius" (one float, positive, in units of the coordinates) is the distance of the farthest
    *   corner, the size of a disk for mappers that draw such.
    * - "SplatAxis" (three floats, in units of the coordinates) is a tangential vector t1 as long as
-   *   the radius; t2 is normal x t1.
+   *   the radius; t2 is normal x t1. It is the active vectors, so that transforms rotate it.
    * - "SplatPolygon" (40 floats, five for each of eight corners, counterclockwise seen from the tip
    *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
    *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners

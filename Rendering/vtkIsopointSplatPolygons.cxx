@@ -3,6 +3,7 @@
 
 #include "vtkIsopointSplatMesh.h"
 #include "vtkIsopointSplatShapes.h"
+#include "vtkIsopointVertexCells.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -12,7 +13,6 @@
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
-#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -31,7 +31,6 @@
 #include <cerrno>
 #include <limits>
 #include <new>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -139,12 +138,11 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
 }
 
 /// An array of cells at the triangles.
-/// @param cells of the points
 vtkSmartPointer<vtkAbstractArray> atTriangles(
-  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh, const std::vector<vtkIdType>& cells)
+  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh, const vtkIsopointVertexCells& cells)
 {
   const auto copy = emptyLike(array, mesh.NumberOfTriangles());
-  forTuples(array, static_cast<vtkIdType>(cells.size()),
+  forTuples(array, static_cast<vtkIdType>(mesh.FirstTriangles.size()) - 1,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType point = begin; point < end; ++point)
@@ -152,25 +150,26 @@ vtkSmartPointer<vtkAbstractArray> atTriangles(
         const auto i = static_cast<std::size_t>(point);
         for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
         {
-          copy->SetTuple(k, cells[i], array);
+          copy->SetTuple(k, cells.Any(point), array);
         }
       }
     });
   return copy;
 }
 
-/// An array of ids, each repeated from one offset to the next.
+/// An array of ids of points, each repeated from one offset to the next.
+template <class IdOf>
 vtkSmartPointer<vtkIdTypeArray> repeatedIds(
-  const char* name, const std::vector<vtkIdType>& offsets, const std::vector<vtkIdType>& ids)
+  const char* name, const std::vector<vtkIdType>& offsets, const IdOf& idOf)
 {
   const auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
   array->SetNumberOfValues(offsets.back());
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
   {
     for (vtkIdType k = offsets[i]; k < offsets[i + 1]; ++k)
     {
-      array->SetValue(k, ids[i]);
+      array->SetValue(k, idOf(static_cast<vtkIdType>(i)));
     }
   }
   return array;
@@ -207,33 +206,18 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
   }
 }
 
-/// The first vertex cell of each point, or nothing if a drawn point has none.
-std::vector<vtkIdType> vertexCells(vtkDataSet* data, const vtkIsopointSplatMesh& mesh)
+/// Whether each drawn point has a vertex cell.
+bool haveVertices(const vtkIsopointVertexCells& cells, const vtkIsopointSplatMesh& mesh)
 {
-  std::vector<vtkIdType> cells(static_cast<std::size_t>(data->GetNumberOfPoints()), -1);
-  vtkNew<vtkIdList> points;
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  for (std::size_t i = 0; i + 1 < mesh.FirstTriangles.size(); ++i)
   {
-    const int type = data->GetCellType(cell);
-    if (type != VTK_VERTEX && type != VTK_POLY_VERTEX)
+    if (mesh.FirstTriangles[i] < mesh.FirstTriangles[i + 1] &&
+        cells.Any(static_cast<vtkIdType>(i)) < 0)
     {
-      continue;
-    }
-    data->GetCellPoints(cell, points);
-    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
-    {
-      vtkIdType& own = cells[static_cast<std::size_t>(points->GetId(i))];
-      own = own < 0 ? cell : own;
+      return false;
     }
   }
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    if (cells[i] < 0 && mesh.FirstTriangles[i] < mesh.FirstTriangles[i + 1])
-    {
-      return {};
-    }
-  }
-  return cells;
+  return true;
 }
 
 int typeOfPoints(vtkDataSet* data)
@@ -353,8 +337,9 @@ bool vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   {
     return true;
   }
+  const vtkIsopointVertexCells cells(input);
   const vtkIsopointSplatShapes shapes(
-    input, this->RadiusArrayName, this->Radius, this->RadiusScale);
+    input, cells, this->RadiusArrayName, this->Radius, this->RadiusScale);
   const std::string problem = shapes.Problem();
   if (!problem.empty())
   {
@@ -384,19 +369,18 @@ bool vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
-  std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
-  std::iota(ids.begin(), ids.end(), 0);
-  output->GetPointData()->AddArray(repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, ids));
+  output->GetPointData()->AddArray(
+    repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, [](vtkIdType point) { return point; }));
   if (!step(withPoints))
   {
     return false;
   }
-  const std::vector<vtkIdType> cells = vertexCells(input, mesh);
-  if (!cells.empty())
+  if (haveVertices(cells, mesh))
   {
     copyArrays(input->GetCellData(), output->GetCellData(),
       [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
-    output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles, cells));
+    output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles,
+      [&cells](vtkIdType point) { return cells.Any(point); }));
   }
   return true;
 }

@@ -7,18 +7,21 @@
  * the splats of isopoints are a surface for any mapper, filter, writer or exporter.
  *
  * Input is a data set with points, or composite data of such. The shape of a splat is given by
- * point arrays:
- * - "SplatAxis" and "SplatPolygon", as vtkScatteredIsopointFilter writes them, and the active
- *   normals: up to eight corners, each with its own height and normal;
- * - otherwise the array RadiusArrayName, or Radius, and the active normals: a regular octagon in
- *   the plane orthogonal to the normal, whose corners are a radius away from the point;
+ * arrays:
+ * - the cell arrays "SplatAxis" and "SplatPolygon", as vtkScatteredIsopointFilter writes them, of
+ *   the first VTK_VERTEX of the point, and the active normals of the points: up to eight corners,
+ *   each with its own height and normal. The arrays may be point arrays, too;
+ * - where there is none, or its axis is not orthogonal to the normal, the point array
+ *   RadiusArrayName, or Radius, and the active normals: a regular octagon in the plane orthogonal
+ *   to the normal, whose corners are a radius away from the point;
  * - where there is no normal, or none of a length: an octahedron of that radius.
  *
  * Output is a vtkPolyData of triangles, or a vtkMultiBlockDataSet of these with the structure of
  * the input (a vtkPartitionedDataSetCollection stays one from VTK 9.3 on). The vertices have the
  * point arrays of their isopoint except for those of its shape, "Normals", and the isopoint's id in
- * "vtkOriginalPointIds". If each drawn point has a vertex cell, the triangles have the cell arrays
- * of that cell and its id in "vtkOriginalCellIds". Cells of other kinds are ignored.
+ * "vtkOriginalPointIds". If each drawn point has a vertex cell (VTK_VERTEX, otherwise
+ * VTK_POLY_VERTEX), the triangles have the cell arrays of that cell except for those of its shape,
+ * and its id in "vtkOriginalCellIds". Cells of other kinds are ignored.
  *
  * Each splat has vertices of its own. Where corners of several are one, real-valued arrays have the
  * mean of their points, so that colors are interpolated as on a mesh. Splats that are nearly flat
@@ -29,8 +32,9 @@
  * number of points. After an abort (SetAbortExecute()) the output is empty. A lack of memory is an
  * error with an empty output, and GetErrorCode() is ENOMEM.
  *
- * @warning Filters that rotate or scale points leave the arrays of shapes as they were: rotate or
- * scale the actor instead. Filters that translate points do no harm.
+ * @warning Filters that rotate points have to rotate the active normals and the active vectors of
+ * cells ("SplatAxis") with them, as vtkTransformFilter does. Filters that mirror or stretch points
+ * distort the splats: do so to the actor instead.
  *
  * @sa vtkIsopointSplatMapper, vtkScatteredIsopointFilter
  */

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatShapes.h"
 
+#include "vtkIsopointVertexCells.h"
+
 #include "vtkBoundingBox.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -83,36 +86,44 @@ int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int cor
 }
 
 //------------------------------------------------------------------------------
-vtkIsopointSplatShapes::vtkIsopointSplatShapes(
-  vtkDataSet* data, const char* radiusArrayName, double radius, double scale)
+vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
+  const vtkIsopointVertexCells& cells, const char* radiusArrayName, double radius, double scale)
   : Data(data)
+  , Cells(cells)
+  , Shapes(data->GetCellData())
   , Radius(radius)
   , Scale(scale)
 {
   vtkPointData* const arrays = data->GetPointData();
-  this->Normals = this->Usable(arrays->GetNormals(), 3);
+  const vtkIdType count = data->GetNumberOfPoints();
+  this->Normals = this->Usable(arrays->GetNormals(), 3, count);
   this->Radii = this->Usable(
-    radiusArrayName && radiusArrayName[0] ? arrays->GetArray(radiusArrayName) : nullptr, 1);
-  this->Axes = this->Usable(arrays->GetArray("SplatAxis"), 3);
-  this->Polygons = this->Usable(arrays->GetArray("SplatPolygon"), numbersOfPolygon);
+    radiusArrayName && radiusArrayName[0] ? arrays->GetArray(radiusArrayName) : nullptr, 1, count);
+  vtkIdType tuples = data->GetNumberOfCells();
+  if (!this->Shapes->HasArray("SplatPolygon")) // files may have them at the points
+  {
+    this->Shapes = arrays;
+    tuples = count;
+  }
+  this->Axes = this->Usable(this->Shapes->GetArray("SplatAxis"), 3, tuples);
+  this->Polygons = this->Usable(this->Shapes->GetArray("SplatPolygon"), numbersOfPolygon, tuples);
   this->Ghosts = data->GetPointGhostArray();
   const auto points = vtkPointSet::SafeDownCast(data);
   const bool isFloat =
     points && points->GetPoints() && points->GetPoints()->GetDataType() == VTK_FLOAT;
   this->PositionError = 2.0 * (isFloat ? std::numeric_limits<float>::epsilon()
                                        : std::numeric_limits<double>::epsilon());
-  const bool hasPolygons = this->Normals && this->Axes && this->Polygons;
-  if (!hasPolygons && !this->Radii && !(radius > 0.0))
+  if (!this->Radii && !(radius > 0.0))
   {
     this->Radius = automaticRadius(data);
   }
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components) const
+vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components, vtkIdType tuples)
 {
   return array && array->GetNumberOfComponents() == components &&
-             array->GetNumberOfTuples() >= this->Data->GetNumberOfPoints()
+             array->GetNumberOfTuples() >= tuples
            ? array
            : nullptr;
 }
@@ -120,15 +131,14 @@ vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components
 //------------------------------------------------------------------------------
 std::string vtkIsopointSplatShapes::Problem() const
 {
-  vtkPointData* const arrays = this->Data->GetPointData();
-  if (arrays->HasArray("SplatPolygon") && !this->Polygons)
+  if (this->Shapes->HasArray("SplatPolygon") && !this->Polygons)
   {
-    return "The point array \"SplatPolygon\" has not 40 components for each point: splats are "
+    return "The array \"SplatPolygon\" has not 40 components for each vertex cell: splats are "
            "octagons of the points' radii. Use the array as vtkScatteredIsopointFilter writes it.";
   }
   if (this->Polygons && !this->Axes)
   {
-    return "The point array \"SplatPolygon\" has no array \"SplatAxis\" of three components beside "
+    return "The array \"SplatPolygon\" has no array \"SplatAxis\" of three components beside "
            "it: splats are octagons of the points' radii. Pass both arrays.";
   }
   if (this->Polygons && !this->Normals)
@@ -163,9 +173,10 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
     normal.Normalize();
   }
   const bool hasNormal = normal.SquaredNorm() > 0.5;
-  if (hasNormal && this->Axes && this->Polygons)
+  const vtkIdType polygon = hasNormal ? this->PolygonOf(point, normal) : -1;
+  if (polygon >= 0)
   {
-    if (!this->SetPolygon(point, normal, fan))
+    if (!this->SetPolygon(polygon, normal, fan))
     {
       return {};
     }
@@ -199,12 +210,31 @@ vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
 }
 
 //------------------------------------------------------------------------------
+vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const vtkVector3d& normal) const
+{
+  if (!this->Axes || !this->Polygons)
+  {
+    return -1;
+  }
+  const bool areOfCells = this->Shapes == this->Data->GetCellData();
+  const vtkIdType tuple = areOfCells ? this->Cells.Single(point) : point;
+  if (tuple < 0)
+  {
+    return -1;
+  }
+  // A filter may have turned the normals alone.
+  constexpr double steepest = 1e-4;
+  const vtkVector3d axis = tupleOf(this->Axes, tuple);
+  return std::abs(axis.Dot(normal)) > steepest * axis.Norm() ? -1 : tuple;
+}
+
+//------------------------------------------------------------------------------
 bool vtkIsopointSplatShapes::SetPolygon(
-  vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const
+  vtkIdType tuple, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const
 {
   std::array<double, numbersOfPolygon> numbers;
-  this->Polygons->GetTuple(point, numbers.data());
-  const vtkVector3d along = tupleOf(this->Axes, point);
+  this->Polygons->GetTuple(tuple, numbers.data());
+  const vtkVector3d along = tupleOf(this->Axes, tuple);
   const vtkVector3d across = normal.Cross(along);
   const double radius = along.Norm();
   if (!(radius > 0.0) || !std::isfinite(radius))

@@ -13,6 +13,8 @@
 
 class vtkDataArray;
 class vtkDataSet;
+class vtkDataSetAttributes;
+class vtkIsopointVertexCells;
 class vtkUnsignedCharArray;
 
 /// Where the fan of a splat has its vertices: its corners, and before these, unless the fan is
@@ -31,14 +33,16 @@ struct vtkIsopointSplatFan
 /// The vertex that is the corner 0, 1 or 2 of one of a fan's triangles.
 int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner);
 
-/// The shapes of the splats of a data set, from its arrays. Reading is thread-safe.
+/// The shapes of the splats of a data set, from its arrays and those of its vertex cells. Reading
+/// is thread-safe.
 class vtkIsopointSplatShapes
 {
 public:
+  /// @param cells of the data; kept by reference
   /// @param radius of points without an array of radii; 0: suits the number of points
   /// @param scale factor on all sizes
-  vtkIsopointSplatShapes(
-    vtkDataSet* data, const char* radiusArrayName, double radius, double scale);
+  vtkIsopointSplatShapes(vtkDataSet* data, const vtkIsopointVertexCells& cells,
+    const char* radiusArrayName, double radius, double scale);
 
   /// What is wrong with the arrays of shapes, for a warning; empty if nothing is.
   std::string Problem() const;
@@ -46,13 +50,17 @@ public:
   vtkIsopointSplatFan Fan(vtkIdType point) const;
 
 private:
-  vtkDataArray* Usable(vtkDataArray* array, int components) const;
+  static vtkDataArray* Usable(vtkDataArray* array, int components, vtkIdType tuples);
   bool IsGhost(vtkIdType point) const;
-  bool SetPolygon(vtkIdType point, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
+  /// The tuple of the point's polygon; -1: none, or one for another normal.
+  vtkIdType PolygonOf(vtkIdType point, const vtkVector3d& normal) const;
+  bool SetPolygon(vtkIdType tuple, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
   void SetOctagon(const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const;
   void SetOctahedron(double radius, vtkIsopointSplatFan& fan) const;
 
   vtkDataSet* Data;
+  const vtkIsopointVertexCells& Cells;
+  vtkDataSetAttributes* Shapes; // have the arrays of splats, if any do
   vtkDataArray* Normals;
   vtkDataArray* Radii;
   vtkDataArray* Axes;

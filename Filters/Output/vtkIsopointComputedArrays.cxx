@@ -5,9 +5,14 @@
 #include "Isopoint/Base/Execution.h"
 #include "Isopoint/Base/Vector.h"
 
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -124,12 +129,12 @@ void vtkIsopointComputedArrays::SetFit(vtkIdType tuple, const isopoint::LocalFit
   set(this->ProjectionOrder, tuple, &order);
 }
 
-std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointData) const
+std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPolyData* output) const
 {
+  vtkPointData* const pointData = output->GetPointData();
   std::vector<std::string> replaced;
-  for (vtkDataArray* const array : { this->Normals.Get(), this->Radius.Get(), this->SplatAxis.Get(),
-         static_cast<vtkDataArray*>(this->SplatPolygon.Get()), this->Gradients.Get(),
-         this->ProjectionOrder.Get() })
+  for (vtkDataArray* const array :
+    { this->Normals.Get(), this->Radius.Get(), this->Gradients.Get(), this->ProjectionOrder.Get() })
   {
     if (!array)
     {
@@ -146,6 +151,17 @@ std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPointData* pointDat
     else
     {
       pointData->AddArray(array);
+    }
+  }
+  if (this->Chosen.Splats)
+  {
+    vtkCellData* const cellData = output->GetCellData();
+    cellData->SetVectors(this->SplatAxis); // transforms of points turn active vectors
+    cellData->AddArray(this->SplatPolygon);
+    for (vtkDataArray* const array :
+      { this->SplatAxis.Get(), static_cast<vtkDataArray*>(this->SplatPolygon.Get()) })
+    {
+      array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
     }
   }
   return replaced;

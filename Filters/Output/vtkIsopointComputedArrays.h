@@ -16,7 +16,7 @@ struct Execution;
 }
 class vtkDataArray;
 class vtkFloatArray;
-class vtkPointData;
+class vtkPolyData;
 
 /**
  * The arrays that are computed for isopoints: normals, splats, gradients and orders of fits. They
@@ -56,10 +56,11 @@ public:
   vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
 
   /**
-   * Adds the arrays to the point data, the normals as the active ones.
+   * Adds the arrays to the point data, the normals as the active ones. Those of the shapes of
+   * splats become cell data of the vertices, hidden from menus, the axes as the active vectors.
    * @returns the names of the arrays that replaced another one
    */
-  std::vector<std::string> AddTo(vtkPointData* pointData) const;
+  std::vector<std::string> AddTo(vtkPolyData* output) const;
 
 private:
   void SetSplat(vtkIdType tuple, const isopoint::Splat& splat);

@@ -274,7 +274,7 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   {
     vtkAddIsopointGhosts(surfaces, output);
   }
-  for (const std::string& name : computed.AddTo(pointData))
+  for (const std::string& name : computed.AddTo(output))
   {
     this->Findings.ReplacedArrays.insert(name);
   }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointVertexCells_h
+#define vtkIsopointVertexCells_h
+
+#include "vtkType.h"
+
+#include <cstddef>
+#include <vector>
+
+class vtkDataSet;
+
+/// The vertex cell of each point of a data set. Needs no memory where the first cells are the
+/// vertices of the points, in their order. Reading is thread-safe.
+class vtkIsopointVertexCells
+{
+public:
+  /// @throws std::bad_alloc
+  explicit vtkIsopointVertexCells(vtkDataSet* data);
+
+  /// The first vertex of the point alone (VTK_VERTEX); none: -1.
+  vtkIdType Single(vtkIdType point) const
+  {
+    const vtkIdType cell = this->Stored(point);
+    return cell < 0 ? -1 : cell;
+  }
+
+  /// The same, otherwise the first cell of several vertices (VTK_POLY_VERTEX) with the point; none:
+  /// -1.
+  vtkIdType Any(vtkIdType point) const
+  {
+    const vtkIdType cell = this->Stored(point);
+    return cell < -1 ? -2 - cell : cell;
+  }
+
+private:
+  vtkIdType Stored(vtkIdType point) const
+  {
+    if (this->AreInOrder)
+    {
+      return point;
+    }
+    return this->Cells.empty() ? -1 : this->Cells[static_cast<std::size_t>(point)];
+  }
+
+  bool AreInOrder = false;
+  std::vector<vtkIdType> Cells; // a cell of several vertices as -2 less its id; none: -1
+};
+
+#endif
