@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SplatCoverage.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -69,8 +70,8 @@ double Splat::radius() const
 
 std::vector<Splat> splatsOf(vtkPolyData* points)
 {
-  vtkPointData* const data = points->GetPointData();
-  vtkDataArray* const normals = data->GetNormals();
+  vtkCellData* const data = points->GetCellData();
+  vtkDataArray* const normals = points->GetPointData()->GetNormals();
   vtkDataArray* const axes = data->GetArray("SplatAxis");
   vtkDataArray* const polygons = data->GetArray("SplatPolygon");
   std::vector<Splat> splats;

@@ -23,8 +23,8 @@ struct Splat
   double radius() const; // the distance of the farthest corner
 };
 
-/// The splats of a point cloud with normals and the arrays "SplatAxis" and "SplatPolygon"; none
-/// without them.
+/// The splats of a point cloud with normals and the cell arrays "SplatAxis" and "SplatPolygon" of
+/// its vertices, in the order of the points; none without them.
 std::vector<Splat> splatsOf(vtkPolyData* points);
 
 /// Determines whether splats cover places.

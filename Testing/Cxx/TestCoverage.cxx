@@ -5,6 +5,8 @@
 #include "FilterTesting.h"
 #include "SplatCoverage.h"
 
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -184,19 +186,21 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   cloud->SetPoints(points);
   EXPECT_TRUE(splatcoverage::splatsOf(cloud).empty());
 
-  const auto add = [&cloud](const char* name, std::initializer_list<float> tuple)
+  const auto add =
+    [](vtkDataSetAttributes* attributes, const char* name, std::initializer_list<float> tuple)
   {
     vtkNew<vtkFloatArray> array;
     array->SetName(name);
     array->SetNumberOfComponents(static_cast<int>(tuple.size()));
     array->InsertNextTuple(tuple.begin());
-    cloud->GetPointData()->AddArray(array);
+    attributes->AddArray(array);
   };
-  add("Normals", { 0.0f, 0.0f, 1.0f });
+  add(cloud->GetPointData(), "Normals", { 0.0f, 0.0f, 1.0f });
   cloud->GetPointData()->SetActiveNormals("Normals");
-  add("SplatAxis", { 0.0f, 2.0f, 0.0f });
-  add("SplatPolygon", { 1.0f, 0.0f, 0.25f, 0.0f, 0.0f, 0.0f, 0.5f, 0.0f, 0.0f, 0.0f, -0.5f, -0.5f,
-                        0.0f, 0.0f, 0.0f, -0.5f, -0.5f, 0.0f, 0.0f, 0.0f });
+  add(cloud->GetCellData(), "SplatAxis", { 0.0f, 2.0f, 0.0f });
+  add(cloud->GetCellData(), "SplatPolygon",
+    { 1.0f, 0.0f, 0.25f, 0.0f, 0.0f, 0.0f, 0.5f, 0.0f, 0.0f, 0.0f, -0.5f, -0.5f, 0.0f, 0.0f, 0.0f,
+      -0.5f, -0.5f, 0.0f, 0.0f, 0.0f });
   const std::vector<Splat> fan = splatcoverage::splatsOf(cloud);
   // Across the axis is the normal times that: -x.
   EXPECT_EQ(fan.at(0).corners,

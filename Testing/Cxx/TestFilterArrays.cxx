@@ -2,6 +2,7 @@
 // Which arrays the output has, and their values.
 #include "FilterTesting.h"
 
+#include "vtkCellData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
@@ -200,4 +201,12 @@ TEST(FilterArrays, AComputedArrayThatReplacesAnInputArrayIsWarnedOf)
   filter->Update();
   EXPECT_EQ(warnings->Count, 1);
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Radius")->GetComponent(0, 0), 0.7);
+  // Shapes of splats are arrays of the vertices, and replace none of points.
+  filter->ComputeSplatsOn();
+  cloud->GetPointData()->GetScalars()->SetName("SplatAxis");
+  cloud->Modified();
+  filter->Update();
+  EXPECT_EQ(warnings->Count, 1);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("SplatAxis")->GetComponent(0, 0), 0.7);
+  EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("SplatAxis")->GetNumberOfComponents(), 3);
 }

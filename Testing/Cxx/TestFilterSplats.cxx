@@ -2,6 +2,11 @@
 // The filter's splat arrays: axes and clip planes.
 #include "FilterTesting.h"
 
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,9 +39,9 @@ vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
 }
 
 /// The number of an isopoint's array at a corner of its splat.
-double cornerNumber(vtkPointData* data, vtkIdType point, int corner, int number)
+double cornerNumber(vtkPolyData* data, vtkIdType point, int corner, int number)
 {
-  return data->GetArray("SplatPolygon")->GetComponent(point, 5 * corner + number);
+  return data->GetCellData()->GetArray("SplatPolygon")->GetComponent(point, 5 * corner + number);
 }
 
 } // namespace
@@ -46,7 +51,7 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->SetInputData(newCloud(5000));
   filter->SetValue(0, 0.7);
-  const char* const names[] = { "Radius", "SplatAxis", "SplatPolygon" };
+  const char* const shapes[] = { "SplatAxis", "SplatPolygon" };
   for (const int method : { vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
          vtkScatteredIsopointFilter::NORMALS_FROM_PLANES })
   {
@@ -55,12 +60,21 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
     vtkPointData* const data = filter->GetOutput()->GetPointData();
     ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
     EXPECT_FALSE(data->HasArray("Gradients"));
-    EXPECT_EQ(data->GetArray("SplatPolygon")->GetNumberOfComponents(), 40);
+    vtkCellData* const cells = filter->GetOutput()->GetCellData();
+    EXPECT_EQ(cells->GetArray("SplatPolygon")->GetNumberOfComponents(), 40);
+    EXPECT_EQ(cells->GetVectors(), cells->GetArray("SplatAxis"));
+    for (const char* const name : shapes)
+    {
+      EXPECT_FALSE(data->HasArray(name)) << name;
+      vtkDataArray* const array = cells->GetArray(name);
+      EXPECT_EQ(array->GetNumberOfTuples(), filter->GetOutput()->GetNumberOfPoints());
+      EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
+    }
     for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
     {
       double axis[3];
       double normal[3];
-      data->GetArray("SplatAxis")->GetTuple(i, axis);
+      cells->GetArray("SplatAxis")->GetTuple(i, axis);
       data->GetNormals()->GetTuple(i, normal);
       const double radius = data->GetArray("Radius")->GetComponent(i, 0);
       ASSERT_NEAR(std::hypot(axis[0], axis[1], axis[2]), radius, 1e-6);
@@ -69,7 +83,8 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
       double doubleArea = 0.0; // of the fan, in its plane
       for (int k = 0; k < 8; ++k)
       {
-        const auto number = [&](int corner, int j) { return cornerNumber(data, i, corner % 8, j); };
+        const auto number = [&](int corner, int j)
+        { return cornerNumber(filter->GetOutput(), i, corner % 8, j); };
         farthest = std::max(farthest, std::hypot(number(k, 0), number(k, 1), number(k, 2)));
         doubleArea += number(k, 0) * number(k + 1, 1) - number(k, 1) * number(k + 1, 0);
       }
@@ -79,10 +94,42 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
   }
   filter->ComputeSplatsOff();
   filter->Update();
-  for (const char* const name : names)
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Radius"));
+  EXPECT_EQ(filter->GetOutput()->GetCellData()->GetNumberOfArrays(), 0);
+}
+
+// The arrays of shapes are those of their points in each piece, too.
+TEST(FilterSplats, ArePartOfPieces)
+{
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(newCloud(5000));
+  filter->SetValue(0, 0.7);
+  filter->Update();
+  vtkNew<vtkPolyData> whole;
+  whole->ShallowCopy(filter->GetOutput());
+  constexpr int pieces = 3;
+  vtkIdType done = 0;
+  for (int piece = 0; piece < pieces; ++piece)
   {
-    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray(name)) << name;
+    filter->UpdatePiece(piece, pieces, 0);
+    vtkPolyData* const part = filter->GetOutput();
+    const vtkIdType count = part->GetNumberOfPoints();
+    ASSERT_GT(count, 10);
+    for (const char* const name : { "SplatAxis", "SplatPolygon" })
+    {
+      vtkDataArray* const array = part->GetCellData()->GetArray(name);
+      vtkDataArray* const all = whole->GetCellData()->GetArray(name);
+      ASSERT_EQ(array->GetNumberOfTuples(), count);
+      EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
+      for (vtkIdType i = 0; i < count * array->GetNumberOfComponents(); ++i)
+      {
+        ASSERT_EQ(array->GetVariantValue(i).ToFloat(),
+          all->GetVariantValue(done * array->GetNumberOfComponents() + i).ToFloat());
+      }
+    }
+    done += count;
   }
+  EXPECT_EQ(done, whole->GetNumberOfPoints());
 }
 
 TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
@@ -141,7 +188,7 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
       double axis[3];
       double normal[3];
       double point[3];
-      data->GetArray("SplatAxis")->GetTuple(i, axis);
+      filter->GetOutput()->GetCellData()->GetArray("SplatAxis")->GetTuple(i, axis);
       data->GetNormals()->GetTuple(i, normal);
       filter->GetOutput()->GetPoint(i, point);
       const double across[3]{ normal[1] * axis[2] - normal[2] * axis[1],
@@ -152,9 +199,9 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
         double largest = 0.0;
         for (int j = 0; j < 3; ++j)
         {
-          const double offset = cornerNumber(data, i, k, 0) * axis[j] +
-                                cornerNumber(data, i, k, 1) * across[j] +
-                                cornerNumber(data, i, k, 2) * radius * normal[j];
+          const double offset = cornerNumber(filter->GetOutput(), i, k, 0) * axis[j] +
+                                cornerNumber(filter->GetOutput(), i, k, 1) * across[j] +
+                                cornerNumber(filter->GetOutput(), i, k, 2) * radius * normal[j];
           largest = std::max(largest, std::abs(point[j] - center[j] + offset));
         }
         astray += std::abs(largest - 12.0) > 0.05 ? 1 : 0;

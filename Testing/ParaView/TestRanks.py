@@ -83,18 +83,20 @@ def poly_data(points, numbers, values=None):
 
 
 def described_points(output):
-    """What the arrays are, and one byte string for each point: position and all arrays."""
+    """What the arrays are, and one byte string for each point: position and all arrays, those of its
+    vertex among them."""
     count = output.GetNumberOfPoints()
     kinds = []
     columns = []
-    data = output.GetPointData()
-    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+    arrays = [(data.GetAbstractArray(i), data.IsArrayAnAttribute(i))
+              for data in (output.GetPointData(), output.GetCellData())
+              for i in range(data.GetNumberOfArrays())
+              if data.IsA("vtkPointData") or data.GetArrayName(i) != GHOSTS]
     if output.GetPoints():
-        arrays.append(output.GetPoints().GetData())
-    for i, array in enumerate(arrays):
+        arrays.append((output.GetPoints().GetData(), -1))
+    for array, attribute in arrays:
         kinds.append((array.GetName() or "", array.GetDataType(), array.GetNumberOfComponents(),
-                      array.GetComponentName(0) or "",
-                      data.IsArrayAnAttribute(i) if i + 1 < len(arrays) else -1))
+                      array.GetComponentName(0) or "", attribute))
         if isinstance(array, vtkStringArray):
             columns.append([array.GetValue(j).encode() for j in range(count)])
         else:

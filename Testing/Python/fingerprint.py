@@ -214,15 +214,15 @@ def update(isopoints, digest):
             digest.update(vtk_to_numpy(leaf.GetPolys().GetConnectivityArray()).tobytes())
         digest.update(str(leaf.GetPoints().GetDataType()).encode())
         digest.update(vtk_to_numpy(leaf.GetPoints().GetData()).tobytes())
-        attributes = leaf.GetPointData()
-        for i in range(attributes.GetNumberOfArrays()):
-            array = attributes.GetAbstractArray(i)
-            digest.update(f"{array.GetName()} {array.GetDataType()} "
-                          f"{attributes.IsArrayAnAttribute(i)}".encode())
-            if isinstance(array, vtkStringArray):
-                digest.update(" ".join(array.GetValue(k) for k in range(count)).encode())
-            else:
-                digest.update(vtk_to_numpy(array).tobytes())
+        for attributes in (leaf.GetPointData(), leaf.GetCellData()):
+            for i in range(attributes.GetNumberOfArrays()):
+                array = attributes.GetAbstractArray(i)
+                digest.update(f"{array.GetName()} {array.GetDataType()} "
+                              f"{attributes.IsArrayAnAttribute(i)}".encode())
+                if isinstance(array, vtkStringArray):
+                    digest.update(" ".join(array.GetValue(k) for k in range(count)).encode())
+                else:
+                    digest.update(vtk_to_numpy(array).tobytes())
     return points
 
 

@@ -143,7 +143,7 @@ def blocks():
         x, y, z = points.GetPoint(i)
         points.SetPoint(i, 0.4 * x, 0.4 * y, 0.4 * z)
     moved.GetPointData().RemoveArray("Radius")
-    moved.GetPointData().RemoveArray("SplatPolygon")
+    moved.GetCellData().RemoveArray("SplatPolygon")
     add_array(moved, "Radius", np.full(points.GetNumberOfPoints(), 0.03))
     composite = vtkMultiBlockDataSet()
     composite.SetBlock(0, torus)

@@ -7,15 +7,19 @@ from scenes import RING, TUBE, add_array, check, isopoints, polydata, subset, to
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkSMPTools, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray,
     vtkDataSetAttributes,
     vtkImageData,
     vtkMultiBlockDataSet,
     vtkPartitionedDataSetCollection,
     vtkPolyData,
 )
+from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 
 UP = [0.0, 0.0, 1.0]
+SHAPES = ("SplatAxis", "SplatPolygon")
 
 
 def polygons_of(data, **properties):
@@ -101,8 +105,9 @@ def arrays_are_interpolated():
     check((np.isin(array(output, "of integers"), np.arange(count))).all(), "integers stay")
     strings = output.GetPointData().GetAbstractArray("words")
     check(strings.GetNumberOfValues() == len(ids), "strings are kept")
-    for name in ("SplatAxis", "SplatPolygon"):
+    for name in SHAPES:
         check(not output.GetPointData().HasArray(name), f"{name} is not")
+        check(not output.GetCellData().HasArray(name), f"{name} of cells is not")
 
 
 def octagons_and_octahedra():
@@ -154,7 +159,7 @@ def what_cannot_be_drawn_is_left_out():
     data.GetPointData().AddArray(ghosts)
     check(polygons_of(data)[0].GetNumberOfPolys() == 0, "ghosts")
     torus = torus_splats(20_000)
-    numbers = vtk_to_numpy(torus.GetPointData().GetArray("SplatPolygon"))
+    numbers = vtk_to_numpy(torus.GetCellData().GetArray("SplatPolygon"))
     numbers[5, 7] = nan
     numbers[6] = 0
     _, _, output = triangles_of(torus)
@@ -167,14 +172,102 @@ def what_cannot_be_drawn_is_left_out():
 
 def arrays_of_the_wrong_shape():
     torus = torus_splats(20_000)
-    for name in ("SplatAxis", "SplatPolygon"):
+    for removed in (SHAPES[:1], SHAPES[1:], SHAPES):
         damaged = subset(torus, slice(None))
-        damaged.GetPointData().RemoveArray(name)
-        if name == "SplatPolygon":
-            add_array(damaged, name, np.zeros((torus.GetNumberOfPoints(), 7)))
+        for name in removed:
+            damaged.GetCellData().RemoveArray(name)
+        if removed == SHAPES[1:]:
+            add_array(damaged, "SplatPolygon", np.zeros((torus.GetNumberOfPoints(), 7)), cells=True)
         output, events = polygons_of(damaged)
-        check(events == ["WarningEvent"], f"one warning without {name}: {events}")
+        expected = [] if removed == SHAPES else ["WarningEvent"]
+        check(events == expected, f"warnings without {removed}: {events}")
         check(output.GetNumberOfPolys() == 8 * torus.GetNumberOfPoints(), "octagons instead")
+
+
+def shapes_are_those_of_vertices():
+    """The first vertex of each point alone gives its splat, wherever it is among the cells."""
+    torus = torus_splats(20_000)
+    count = torus.GetNumberOfPoints()
+    shapes = [array(torus, name, cells=True) for name in SHAPES]
+    expected, _, output = triangles_of(torus)
+    ids = array(output, "vtkOriginalCellIds", cells=True)
+
+    def with_vertices(cells, tuples):
+        """The torus with vertex cells of some points each and the shapes of some points."""
+        data = subset(torus, slice(None))
+        data.GetCellData().Initialize()
+        vertices = vtkCellArray()
+        for cell in cells:
+            vertices.InsertNextCell(len(cell), cell)
+        data.SetVerts(vertices)
+        for name, values in zip(SHAPES, shapes):
+            add_array(data, name, values[tuples], cells=True)
+        return data
+
+    def grid_of(data):
+        append = vtkAppendFilter()
+        append.AddInputData(data)
+        append.Update()
+        return append.GetOutput()
+
+    order = np.random.default_rng(1).permutation(count)
+    alone = [[i] for i in range(count)]
+    wrong = np.roll(np.arange(count), 1)
+    for name, data in {
+        "in another order": with_vertices([[i] for i in order], order),
+        "two vertices of a point": with_vertices(2 * alone, np.concatenate([np.arange(count), wrong])),
+        "cells of several before": with_vertices(
+            [[0, 1], list(range(count)), *alone], np.concatenate([[9, 9], np.arange(count)])),
+    }.items():
+        for kind in (data, grid_of(data)):
+            triangles, _, output = triangles_of(kind)
+            check(np.array_equal(triangles, expected), name)
+            cells = array(output, "vtkOriginalCellIds", cells=True)
+            check(len(cells) == len(expected), "ids of the vertices")
+    # Points without a vertex of their own.
+    octagons, _, _ = triangles_of(with_vertices([], []))
+    check(len(octagons) == 8 * count, "octagons without cells")
+    check(np.array_equal(triangles_of(with_vertices([list(range(count))], [0]))[0], octagons),
+          "octagons for a cell of several")
+    some = order[: count // 2]
+    for kind in (with_vertices([[i] for i in some], some), grid_of(with_vertices([[i] for i in some], some))):
+        triangles, _, output = triangles_of(kind)
+        own = array(output, "vtkOriginalPointIds")
+        points = own[vtk_to_numpy(output.GetPolys().GetConnectivityArray())[::3]]
+        drawn = np.isin(points, some)
+        check(np.array_equal(triangles[drawn], expected[np.isin(ids, some)]), "where there is one")
+        missing = np.setdiff1d(np.arange(count), some)
+        check(np.array_equal(triangles[~drawn], octagons.reshape(count, 8, 3, 3)[missing].reshape(-1, 3, 3)),
+              "octagons elsewhere")
+    # Files may have them at the points.
+    old = with_vertices(alone, [])
+    old.GetCellData().Initialize()
+    for name, values in zip(SHAPES, shapes):
+        add_array(old, name, values)
+    check(np.array_equal(triangles_of(old)[0], expected), "arrays of points")
+    # A filter turned the normals, and left the axes.
+    turned = with_vertices(alone, np.arange(count))
+    normals = vtk_to_numpy(turned.GetPointData().GetNormals())
+    normals[:] = np.roll(normals, 1, axis=1)
+    slope = np.abs((normals * shapes[0]).sum(1)) / np.linalg.norm(shapes[0], axis=1)
+    triangles, _, output = triangles_of(turned)
+    found = np.bincount(array(output, "vtkOriginalCellIds", cells=True), minlength=count)
+    check((found[slope > 2e-4] == 8).all(), "octagons around other normals")
+
+
+def transforms_turn_splats():
+    """vtkTransformFilter turns normals of points and vectors of cells, the axes."""
+    torus = torus_splats(20_000)
+    expected, _, _ = triangles_of(torus)
+    transform = vtkTransform()
+    transform.RotateWXYZ(40.0, 1.0, 2.0, 3.0)
+    turn = vtkTransformFilter()
+    turn.SetTransform(transform)
+    turn.SetInputData(torus)
+    turn.Update()
+    triangles, _, _ = triangles_of(turn.GetOutput())
+    matrix = np.array([[transform.GetMatrix().GetElement(i, k) for k in range(3)] for i in range(3)])
+    check(np.abs(triangles - expected @ matrix.T).max() < 1e-5, "turned splats")
 
 
 def cells():
@@ -312,6 +405,8 @@ if __name__ == "__main__":
         the_automatic_radius_suits_the_finite_points,
         what_cannot_be_drawn_is_left_out,
         arrays_of_the_wrong_shape,
+        shapes_are_those_of_vertices,
+        transforms_turn_splats,
         cells,
         blocks,
         progress,

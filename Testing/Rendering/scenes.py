@@ -27,13 +27,13 @@ def check(condition, message):
         sys.exit("failed: " + message)
 
 
-def add_array(data, name, values, normals=False):
+def add_array(data, name, values, normals=False, cells=False):
     array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
     array.SetName(name)
     if normals:
         data.GetPointData().SetNormals(array)
     else:
-        data.GetPointData().AddArray(array)
+        (data.GetCellData() if cells else data.GetPointData()).AddArray(array)
 
 
 def polydata(points, normals=None, **arrays):
@@ -96,7 +96,11 @@ def subset(data, chosen):
         if array.GetName() != "Normals":
             arrays[array.GetName()] = vtk_to_numpy(array)[chosen]
     normals = vtk_to_numpy(data.GetPointData().GetNormals())
-    return polydata(points[chosen], normals[chosen], **arrays)
+    result = polydata(points[chosen], normals[chosen], **arrays)
+    for i in range(data.GetCellData().GetNumberOfArrays()):
+        array = data.GetCellData().GetArray(i)
+        add_array(result, array.GetName(), vtk_to_numpy(array)[chosen], cells=True)
+    return result
 
 
 def grid_mesh(points, normals):
