@@ -2,7 +2,7 @@
 """A pick finds the splat that is seen: the surface is divided among the points nearest to it."""
 
 import numpy as np
-from scenes import RING, TUBE, Scene, actor_of, check, parts, subset, torus_splats
+from scenes import RING, TUBE, Scene, actor_of, add_array, check, parts, subset, torus_splats
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
@@ -103,6 +103,10 @@ def reversed_vertices(data):
     """The same points, their vertex cells in the opposite order."""
     result = data.NewInstance()
     result.ShallowCopy(data)
+    result.GetCellData().Initialize()
+    for name in ("SplatAxis", "SplatPolygon"):
+        shapes = vtk_to_numpy(data.GetCellData().GetArray(name))
+        add_array(result, name, shapes[::-1], cells=True)
     cells = vtkCellArray()
     for i in reversed(range(data.GetNumberOfPoints())):
         cells.InsertNextCell(1, [i])
