@@ -249,6 +249,41 @@ def stop_tracing(paraview):
         time.sleep(0.2)
 
 
+# Selects points in three steps, and tells at each picture what of them a filter has.
+SELECTS = """
+simple.Render(view)
+width, height = view.ViewSize
+for low, high, modifier in ((0.4, 0.5, None), (0.5, 0.6, "ADD"), (0.45, 0.55, "SUBTRACT")):
+    simple.SelectSurfacePoints(
+        View=view, Rectangle=[int(low * width), 0, int(high * width), height], Modifier=modifier)
+of_script = simple.ExtractSelection(Input=isopoints)
+of_script.UpdatePipeline()
+expected = of_script.GetDataInformation().GetNumberOfPoints()
+simple.Delete(of_script)
+simple.Show(isopoints, view)
+
+def tell(*_):
+    extract = simple.FindSource("ExtractSelection1")
+    if extract:
+        active = isopoints.SMProxy.GetSelectionInput(0).GetProperty("Input")
+        kinds = [active.GetProxy(i).GetProperty("ContainingCells").GetElement(0)
+                 for i in range(active.GetNumberOfProxies())]
+        info = extract.GetDataInformation()
+        print("extracted:", expected == info.GetNumberOfPoints() == info.GetNumberOfCells() > 20,
+              sorted(extract.CellData.keys()), kinds, flush=True)
+
+view.GetRenderWindow().AddObserver("EndEvent", tell)
+"""
+
+
+def selected_points_keep_their_shapes(plugin, paraview):
+    """Extract Selection has the vertices of points; the active selection can be added to as before."""
+    shown, said = play(paraview, plugin, [choose("ExtractSelection"), APPLY], SELECTS)
+    check(shown["ExtractSelection1"] == [1, "Isopoint Splats"], "the selection as splats")
+    last = [line for line in said.splitlines() if line.startswith("extracted:")][-1]
+    check(last == "extracted: True ['SplatAxis', 'SplatPolygon'] [0, 0, 0]", last)
+
+
 def main(plugin, paraview):
     inputs_are_hidden(plugin, paraview)
     rows_follow_others(plugin, paraview)
@@ -257,6 +292,7 @@ def main(plugin, paraview):
     search_finds_the_filters_by_contour(plugin, paraview)
     an_empty_slice_is_explained(plugin, paraview)
     isovalues_follow_the_array(plugin, paraview)
+    selected_points_keep_their_shapes(plugin, paraview)
     pictures_are_traced(plugin, paraview)
 
 
