@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatMesh.h"
 
-#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -22,7 +21,21 @@ std::size_t indexOf(vtkIdType id)
   return static_cast<std::size_t>(id);
 }
 
-/// Calls of(i) for i from 0 to count - 1, on several threads, in batches.
+/// Calls of(i) for i from 0 to count - 1, on several threads.
+template <class Function>
+void forIndices(std::size_t count, const Function& of)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count),
+    [&of](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        of(indexOf(i));
+      }
+    });
+}
+
+/// The same in batches.
 /// @param step called after each batch with the share of them that is done; false: no more batches
 /// @returns whether all batches were done
 template <class Function>
@@ -32,14 +45,8 @@ bool forBatches(vtkIdType count, const vtkIsopointStep& step, const Function& of
   for (vtkIdType done = 0; done < count;)
   {
     const vtkIdType next = std::min(done + batch, count);
-    vtkSMPTools::For(done, next,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType i = begin; i < end; ++i)
-        {
-          of(i);
-        }
-      });
+    forIndices(
+      indexOf(next - done), [&of, done](std::size_t i) { of(done + static_cast<vtkIdType>(i)); });
     done = next;
     if (!step(static_cast<double>(done) / static_cast<double>(count)))
     {
@@ -148,32 +155,30 @@ std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
       grids.insert(gridFor(corner.Tolerance));
     }
   }
-  vtkSMPThreadLocal<std::vector<Entry>> found;
-  vtkSMPTools::For(0, static_cast<vtkIdType>(corners.size()),
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      std::vector<Entry>& entries = found.Local();
-      for (std::size_t i = indexOf(begin); i < indexOf(end); ++i)
-      {
-        const bool isAlone = !(corners[i].Tolerance > 0.0f);
-        for (auto grid = isAlone ? grids.end() : grids.find(gridFor(corners[i].Tolerance));
-             grid != grids.end(); ++grid)
-        {
-          forCells(corners[i], *grid,
-            [&](const Cell& cell) {
-              entries.push_back({ hashOf(*grid, cell), i });
-            });
-        }
-      }
-    });
-  std::vector<Entry> all;
-  for (std::vector<Entry>& entries : found)
+  // Calls visit(hash) for the cells of a corner.
+  const auto forCellsOf = [&](const vtkIsopointCorner& corner, const auto& visit)
   {
-    all.insert(all.end(), entries.begin(), entries.end());
-    std::vector<Entry>().swap(entries);
-  }
-  vtkSMPTools::Sort(all.begin(), all.end());
-  return all;
+    const bool isAlone = !(corner.Tolerance > 0.0f);
+    for (auto grid = isAlone ? grids.end() : grids.find(gridFor(corner.Tolerance));
+         grid != grids.end(); ++grid)
+    {
+      forCells(corner, *grid, [&](const Cell& cell) { visit(hashOf(*grid, cell)); });
+    }
+  };
+  // Threads of VTK must not throw: they count, then fill what is allocated between.
+  std::vector<std::size_t> begins(corners.size() + 1, 0);
+  forIndices(corners.size(),
+    [&](std::size_t i) { forCellsOf(corners[i], [&](std::uint64_t) { ++begins[i + 1]; }); });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<Entry> entries(begins.back());
+  forIndices(corners.size(),
+    [&](std::size_t i)
+    {
+      auto next = entries.begin() + static_cast<std::ptrdiff_t>(begins[i]);
+      forCellsOf(corners[i], [&](std::uint64_t hash) { *next++ = { hash, i }; });
+    });
+  vtkSMPTools::Sort(entries.begin(), entries.end());
+  return entries;
 }
 
 /// Which corners are one, directly or through others. O(n log n).

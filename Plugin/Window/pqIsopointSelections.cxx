@@ -35,7 +35,7 @@ void pqIsopointSelections::shutdown()
 void pqIsopointSelections::keepVertices(pqServerManagerModelItem* item)
 {
   auto* const filter = qobject_cast<pqPipelineFilter*>(item);
-  if (!filter || filter->modifiedState() != pqProxy::UNMODIFIED ||
+  if (!filter || !filter->getAnyInput() || filter->modifiedState() != pqProxy::UNMODIFIED ||
       std::strcmp(filter->getProxy()->GetXMLName(), "ExtractSelection") != 0 ||
       !vtkSMIsopointRepresentationDomain::AreIsopoints(filter->getAnyInput()->getDataInformation()))
   {
