@@ -23,6 +23,10 @@ void vtkIsopointSplatMapper::SetInputConnection(int port, vtkAlgorithmOutput* in
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 {
+  if (mapper == this)
+  {
+    return;
+  }
   this->Superclass::ShallowCopy(mapper);
   if (const auto other = vtkIsopointSplatMapper::SafeDownCast(mapper))
   {

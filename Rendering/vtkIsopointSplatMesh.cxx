@@ -102,26 +102,45 @@ std::uint64_t hashOf(int grid, const Cell& cell)
   return hash;
 }
 
-/// The grid for a tolerance, by the binary logarithm of its spacing: at least twice the tolerance,
-/// and still small against a splat. There are few grids, since their spacings differ by a factor of
-/// 256 or more.
-int gridFor(float tolerance)
+/// Whether a corner may be one with others.
+bool mayMeet(const vtkIsopointCorner& corner)
 {
-  constexpr int powers = 8;
-  return powers * static_cast<int>(std::floor(std::ilogb(tolerance) / double(powers)) + 1.0) + 1;
+  return corner.Tolerance > 0.0f && std::isfinite(corner.Tolerance);
 }
 
-/// A corner in a cell.
+/// The grid of a corner, by the binary logarithm of its spacing: at least four times the corner's
+/// tolerance, and still small against a splat. There are few grids, since their spacings differ by
+/// a factor of 16 or more.
+int gridOf(const vtkIsopointCorner& corner)
+{
+  constexpr int powers = 4;
+  const double power = std::floor(std::ilogb(corner.Tolerance) / static_cast<double>(powers));
+  return powers * (static_cast<int>(power) + 1) + 2;
+}
+
+/// A corner in a cell of its own grid or of a coarser one.
 struct Entry
 {
-  std::uint64_t Hash; // of the cell
+  std::uint64_t Cell; // a hash
   std::size_t Corner;
 
+  /// The corners of the cell's own grid come first.
   bool operator<(const Entry& other) const
   {
-    return this->Hash != other.Hash ? this->Hash < other.Hash : this->Corner < other.Corner;
+    return this->Cell != other.Cell ? this->Cell < other.Cell : this->Corner < other.Corner;
   }
 };
+
+/// Entries of finer grids have odd hashes, one more than others in the same cell.
+bool isOfFinerGrid(const Entry& entry)
+{
+  return (entry.Cell & 1) != 0;
+}
+
+bool areInOneCell(const Entry& a, const Entry& b)
+{
+  return a.Cell >> 1 == b.Cell >> 1;
+}
 
 /// Calls visit(cell) for the cells of a grid that a corner is in, up to its tolerance.
 template <class Visit>
@@ -143,26 +162,26 @@ void forCells(const vtkIsopointCorner& corner, int grid, const Visit& visit)
   }
 }
 
-/// All corners in all cells that they are in, those of the same cell one after the other. Corners
-/// that are one have a cell in common: in the grid for the larger one of their tolerances.
+/// All corners in all cells that they are in, of their own grids and of coarser ones, sorted by
+/// cell. Corners that are one have a cell in common, in the own grid of at least one of them.
 std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
 {
   std::set<int> grids;
   for (const vtkIsopointCorner& corner : corners)
   {
-    if (corner.Tolerance > 0.0f)
+    if (mayMeet(corner))
     {
-      grids.insert(gridFor(corner.Tolerance));
+      grids.insert(gridOf(corner));
     }
   }
-  // Calls visit(hash) for the cells of a corner.
+  // Calls visit(cell) for the cells of a corner, as entries have them.
   const auto forCellsOf = [&](const vtkIsopointCorner& corner, const auto& visit)
   {
-    const bool isAlone = !(corner.Tolerance > 0.0f);
-    for (auto grid = isAlone ? grids.end() : grids.find(gridFor(corner.Tolerance));
-         grid != grids.end(); ++grid)
+    const auto own = mayMeet(corner) ? grids.find(gridOf(corner)) : grids.end();
+    for (auto grid = own; grid != grids.end(); ++grid)
     {
-      forCells(corner, *grid, [&](const Cell& cell) { visit(hashOf(*grid, cell)); });
+      const std::uint64_t isFiner = grid == own ? 0 : 1;
+      forCells(corner, *grid, [&](const Cell& cell) { visit(hashOf(*grid, cell) << 1 | isFiner); });
     }
   };
   // Threads of VTK must not throw: they count, then fill what is allocated between.
@@ -175,15 +194,18 @@ std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
     [&](std::size_t i)
     {
       auto next = entries.begin() + static_cast<std::ptrdiff_t>(begins[i]);
-      forCellsOf(corners[i], [&](std::uint64_t hash) { *next++ = { hash, i }; });
+      forCellsOf(corners[i], [&](std::uint64_t cell) { *next++ = { cell, i }; });
     });
   vtkSMPTools::Sort(entries.begin(), entries.end());
   return entries;
 }
 
-/// Which corners are one, directly or through others. O(n log n).
-/// @returns for each corner the first of those that it is one with, perhaps itself
-std::vector<vtkIdType> meetingCorners(const std::vector<vtkIsopointCorner>& corners)
+/// Which corners are one, directly or through others. O(n log n), unless tolerances are large
+/// against the distances between corners that are not one.
+/// @returns for each corner the first of those that it is one with, perhaps itself; nothing if
+/// `step` ended the search
+std::vector<vtkIdType> meetingCorners(
+  const std::vector<vtkIsopointCorner>& corners, const vtkIsopointStep& step)
 {
   std::vector<vtkIdType> meetsAt(corners.size());
   std::iota(meetsAt.begin(), meetsAt.end(), 0);
@@ -197,17 +219,29 @@ std::vector<vtkIdType> meetingCorners(const std::vector<vtkIsopointCorner>& corn
     return corner;
   };
   const std::vector<Entry> entries = cornersByCell(corners);
-  for (auto begin = entries.begin(), entry = begin; entry != entries.end(); ++entry)
+  auto begin = entries.begin(); // of the corners in a cell of their own grid
+  auto end = begin;
+  for (auto entry = begin; entry != entries.end(); ++entry)
   {
-    begin = entry->Hash != begin->Hash ? entry : begin;
-    const auto other = std::find_if(begin, entry,
+    constexpr std::ptrdiff_t batch = 1 << 17;
+    const std::ptrdiff_t done = entry - entries.begin();
+    if (done % batch == 0 && !step(static_cast<double>(done) / static_cast<double>(entries.size())))
+    {
+      return {};
+    }
+    if (!areInOneCell(*begin, *entry))
+    {
+      begin = end = entry;
+    }
+    const auto other = std::find_if(begin, end,
       [&](const Entry& earlier)
       { return areOne(corners[earlier.Corner], corners[entry->Corner]); });
-    if (other != entry)
+    if (other != end)
     {
       const auto [first, second] = std::minmax({ firstOf(other->Corner), firstOf(entry->Corner) });
       meetsAt[indexOf(second)] = first;
     }
+    end = isOfFinerGrid(*entry) ? end : entry + 1;
   }
   for (vtkIdType& corner : meetsAt)
   {
@@ -289,7 +323,11 @@ bool vtkIsopointSplatMesh::Build(
   }
 
   // A counting sort of points by the place of their vertices.
-  this->MeetsAt = meetingCorners(this->Vertices);
+  this->MeetsAt = meetingCorners(this->Vertices, stepOf(2.0));
+  if (this->MeetsAt.size() < this->Vertices.size())
+  {
+    return false;
+  }
   this->FirstMeeting.assign(this->MeetsAt.size() + 1, 0);
   for (const vtkIdType vertex : this->MeetsAt)
   {

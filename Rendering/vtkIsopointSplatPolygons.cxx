@@ -117,7 +117,11 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
     {
       for (vtkIdType vertex = begin; vertex < end; ++vertex)
       {
-        const auto i = static_cast<std::size_t>(mesh.MeetsAt[static_cast<std::size_t>(vertex)]);
+        const auto i = static_cast<std::size_t>(vertex);
+        if (mesh.MeetsAt[i] != vertex)
+        {
+          continue;
+        }
         const vtkIdType meeting = mesh.FirstMeeting[i + 1] - mesh.FirstMeeting[i];
         const vtkIdType* const points =
           mesh.MeetingPoints.data() + static_cast<std::size_t>(mesh.FirstMeeting[i]);
@@ -131,6 +135,18 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
             sum += from->GetComponent(points[k], component);
           }
           to->SetComponent(vertex, component, sum / static_cast<double>(meeting));
+        }
+      }
+    });
+  forTuples(array, count,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType vertex = begin; vertex < end; ++vertex)
+      {
+        const vtkIdType first = mesh.MeetsAt[static_cast<std::size_t>(vertex)];
+        if (first != vertex)
+        {
+          copy->SetTuple(vertex, first, copy);
         }
       }
     });

@@ -174,11 +174,13 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
     [&](vtkDataObject* leaf, std::size_t number)
     {
       leaves = number + 1;
-      if (elementCount(leaf) > 0)
+      if (elementCount(leaf) == 0)
       {
-        remedy = remedy.empty() ? remedyFor(leaf) : remedy;
-        this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
+        this->Kept.erase(number);
+        return;
       }
+      remedy = remedy.empty() ? remedyFor(leaf) : remedy;
+      this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
     });
   this->Kept.erase(this->Kept.lower_bound(leaves), this->Kept.end());
   if (remedy.empty())

@@ -42,11 +42,15 @@ void pqIsopointSelections::keepVertices(pqServerManagerModelItem* item)
     return;
   }
   vtkSMProxy* const selection = vtkSMPropertyHelper(filter->getProxy(), "Selection").GetAsProxy();
-  vtkSMPropertyHelper sources(selection, "Input", true);
-  for (unsigned int i = 0; selection && i < sources.GetNumberOfElements(); ++i)
+  if (!selection || !selection->GetProperty("Input"))
+  {
+    return; // nothing is selected
+  }
+  vtkSMPropertyHelper sources(selection, "Input");
+  for (unsigned int i = 0; i < sources.GetNumberOfElements(); ++i)
   {
     vtkSMProxy* const source = sources.GetAsProxy(i);
-    if (!source->GetProperty("ContainingCells") || !source->GetProperty("FieldType") ||
+    if (!source || !source->GetProperty("ContainingCells") || !source->GetProperty("FieldType") ||
         vtkSMPropertyHelper(source, "FieldType").GetAsInt() != vtkSelectionNode::POINT ||
         vtkSMPropertyHelper(source, "ContainingCells").GetAsInt() != 0)
     {

@@ -92,6 +92,8 @@ def shallow_copies():
     copied.SetRadiusScale(1.0)
     check(area(drawn(copied)[0]) < area(original), "smaller splats of the copy")
     check(np.array_equal(drawn(mapper)[0], original), "the original stays as it was")
+    mapper.ShallowCopy(mapper)
+    check(np.array_equal(drawn(mapper)[0], original), "a copy of itself")
     copied.ShallowCopy(vtkIsopointSplatMapper())
     check(copied.GetInputDataObject(0, 0) is None, "a copy without input")
     plain = vtkPolyDataMapper()
