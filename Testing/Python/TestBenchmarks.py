@@ -31,6 +31,9 @@ class Benchmarks(unittest.TestCase):
     def test_smoothing(self):
         self.check("smoothing.py", "--samples", "2000")
 
+    def test_ghosts(self):
+        self.check("ghosts.py", "--side", "12")
+
     def test_speed(self):
         self.check("speed.py", "--largest", "0.01")
 
