@@ -11,8 +11,8 @@
  * same. GetErrorCode() tells programs what failed, on all ranks: EINVAL for invalid input or
  * options, ENOMEM for a lack of memory, vtkErrorCode::UnknownError for a bug. It is 0 after an
  * update that succeeded, and after an abort, which leaves the output empty as well. It stays as it
- * is where the filter does not run, as without an input. The pipeline
- * takes the empty output for the result: call Modified() to try again.
+ * is where the filter does not run, as without an input. The pipeline takes the empty output for
+ * the result: call Modified() to try again.
  *
  * If a piece of the output is requested (UpdatePiece(), or a writer of pieces), the filter asks for
  * its whole input and extracts the whole surface. The piece is its share of the points, or of the

@@ -28,8 +28,9 @@
  * have no vertex in the middle.
  *
  * No splat is made of points that are hidden or duplicate ghosts, of points whose position or shape
- * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the
- * number of points. After an abort (SetAbortExecute()) the output is empty. A lack of memory is an
+ * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of
+ * points, unless coordinates are so large that their rounding is coarse against the distances
+ * between points. After an abort (SetAbortExecute()) the output is empty. A lack of memory is an
  * error with an empty output, and GetErrorCode() is ENOMEM.
  *
  * @warning Filters that rotate points have to rotate the active normals and the active vectors of
