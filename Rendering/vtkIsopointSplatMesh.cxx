@@ -184,7 +184,7 @@ std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
       forCells(corner, *grid, [&](const Cell& cell) { visit(hashOf(*grid, cell) << 1 | isFiner); });
     }
   };
-  // Threads of VTK must not throw: they count, then fill what is allocated between.
+  // Threads of VTK must not throw. They count first, and then fill the allocated memory.
   std::vector<std::size_t> begins(corners.size() + 1, 0);
   forIndices(corners.size(),
     [&](std::size_t i) { forCellsOf(corners[i], [&](std::uint64_t) { ++begins[i + 1]; }); });
@@ -202,8 +202,8 @@ std::vector<Entry> cornersByCell(const std::vector<vtkIsopointCorner>& corners)
 
 /// Which corners are one, directly or through others. O(n log n), unless tolerances are large
 /// against the distances between corners that are not one.
-/// @returns for each corner the first of those that it is one with, perhaps itself; nothing if
-/// `step` ended the search
+/// @returns for each corner the first one of its group, perhaps itself; nothing if `step` ended the
+/// search
 std::vector<vtkIdType> meetingCorners(
   const std::vector<vtkIsopointCorner>& corners, const vtkIsopointStep& step)
 {

@@ -27,7 +27,7 @@
 namespace
 {
 
-/// The names of the arrays, those that mark ghosts left out, for an error message.
+/// The names of the arrays except ghost marks, for an error message.
 std::string arrayNames(vtkDataSetAttributes* attributes)
 {
   std::string names;

@@ -85,7 +85,7 @@ private:
   void AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf, std::size_t number,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);
 
-  /// What is computed of a leaf besides its samples' values.
+  /// What is computed for a leaf.
   struct Computed
   {
     vtkIsopointInputState Of;                     // what it was computed from

@@ -51,7 +51,7 @@ bool showsSomething(pqView* view)
 }
 
 /// Lets the user press buttons of the dialog in front while ParaView draws, and keeps everything
-/// else waiting: timers and messages of a server may change what is being drawn.
+/// else waiting: timers and messages of a server may change the scene.
 void processInput()
 {
   pqProgressManager* const progress = pqApplicationCore::instance()->getProgressManager();
