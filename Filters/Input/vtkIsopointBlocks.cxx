@@ -234,15 +234,7 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
     Compute(execution, leaf, block, wholeExtent, computed);
     computed.Of = state;
   }
-  if (ofPoints)
-  {
-    block.Positions = vtkDataSet::SafeDownCast(leaf);
-  }
-  else
-  {
-    block.Positions = computed.Centers ? asPolyData(computed.Centers)
-                                       : vtkMakeDualGrid(vtkDataSet::SafeDownCast(leaf));
-  }
+  block.Positions = ofPoints ? vtkDataSet::SafeDownCast(leaf) : computed.Centers.Get();
   block.Ghosts = computed.HasOwnGhosts ? ownGhosts(leaf) : computed.Ghosts.Get();
   block.NumberOfExcluded = computed.NumberOfExcluded;
   block.NumberOfUnusedIds = computed.NumberOfUnusedIds;
@@ -271,7 +263,7 @@ void vtkIsopointBlocks::Compute(const isopoint::Execution& execution, vtkDataObj
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {
     const vtkIsopointLeafCenters leaves = vtkFindLeafCenters(execution, trees, samples);
-    computed.Centers = leaves.Points;
+    computed.Centers = asPolyData(leaves.Points);
     computed.Ghosts = leaves.Ghosts;
     computed.NumberOfUnusedIds = leaves.NumberOfUnusedIds;
   }
@@ -284,8 +276,11 @@ void vtkIsopointBlocks::Compute(const isopoint::Execution& execution, vtkDataObj
   {
     samples = dataSet->GetNumberOfCells();
     computed.Ghosts = vtkFindGhostCells(execution, dataSet);
-    computed.Centers =
-      vtkMakeDualGrid(dataSet) ? nullptr : vtkComputeCellCenters(execution, dataSet);
+    computed.Centers = vtkMakeDualGrid(dataSet);
+    if (!computed.Centers)
+    {
+      computed.Centers = asPolyData(vtkComputeCellCenters(execution, dataSet));
+    }
   }
   computed.HasOwnGhosts = computed.Ghosts && computed.Ghosts == ownGhosts(leaf);
   computed.NumberOfExcluded = countExcluded(execution, computed.Ghosts, samples);

@@ -20,9 +20,9 @@ struct Execution;
 }
 class vtkAbstractArray;
 class vtkDataObject;
+class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkInformation;
-class vtkPoints;
 class vtkUnsignedCharArray;
 
 /**
@@ -89,7 +89,7 @@ private:
   struct Computed
   {
     vtkIsopointInputState Of;                     // what it was computed from
-    vtkSmartPointer<vtkPoints> Centers;           // of cells or leaves of hyper trees, or null
+    vtkSmartPointer<vtkDataSet> Centers;          // of cells or leaves of hyper trees, as points
     vtkSmartPointer<vtkUnsignedCharArray> Ghosts; // as vtkIsopointBlock::Ghosts, or null
     bool HasOwnGhosts = false;                    // whether these are the array of the points
     vtkIdType NumberOfExcluded = 0;
