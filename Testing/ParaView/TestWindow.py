@@ -180,12 +180,17 @@ def help_is_at_labels(plugin, paraview):
                   "ids.</p></body></html>")])
 
 
-def search_events(paraview, words):
-    """That type words into the dialog of the search. @returns also its button for what was found"""
+def is_5_13_or_later(paraview):
+    """Whether it is ParaView 5.13 or later, where the search and labels are other widgets."""
     version = subprocess.run([paraview, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              universal_newlines=True, check=True).stdout
+    return tuple(map(int, re.search(r"(\d+)\.(\d+)", version).groups())) >= (5, 13)
+
+
+def search_events(paraview, words):
+    """That type words into the dialog of the search. @returns also its button for what was found"""
     opened = event("pqClientMainWindow/menubar/menuFilters", "activate", "Search...\tCtrl+Space")
-    if tuple(map(int, re.search(r"(\d+)\.(\d+)", version).groups())) >= (5, 13):
+    if is_5_13_or_later(paraview):
         dialog = "pqClientMainWindow/QuickLaunchDialogExtended/"
         return [opened, event(dialog + "Request", "set_string", words)], dialog + "CreateProxy"
     dialog = "pqClientMainWindow/QuickLaunchDialog"
@@ -227,13 +232,14 @@ def pictures_are_traced(plugin, paraview):
     options = "pqClientMainWindow/RayTracingOptions/"
     panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
     samples = panel + "SamplesPerPixel/IntRangeWidget/"
+    label = panel + ("LightAngleLabel" if is_5_13_or_later(paraview) else "1QLabel2")
     choose_file = [
         event("pqClientMainWindow/menubar/menu_File", "activate", "actionExportRayTracedPicture"),
         event("pqClientMainWindow/FileExportDialog", "filesSelected", path)]
     for count, meanwhile in (("2000", stop_tracing), ("1", None)):
         play(paraview, plugin, [
             *choose_file, expect_of(samples + "Slider", "maximum", "256"),
-            expect_of(panel + "1QLabel2", "toolTip", '<html><head/><body><p align="justify">The apparent size '
+            expect_of(label, "toolTip", '<html><head/><body><p align="justify">The apparent size '
                       "of lights, in degrees. Larger lights cast softer shadows.</p></body></html>"),
             event(samples + "LineEdit", "set_string", count),
             event(options + "widget/OKButton", "activate")], meanwhile=meanwhile)
@@ -282,10 +288,12 @@ def selected_points_keep_their_shapes(plugin, paraview):
     check(shown["ExtractSelection1"] == [1, "Isopoint Splats"], "the selection as splats")
     last = [line for line in said.splitlines() if line.startswith("extracted:")][-1]
     check(last == "extracted: True ['SplatAxis', 'SplatPolygon'] [0, 0, 0]", last)
-    # Nothing is selected in the extract.
+    # Where nothing is selected, nothing is extracted.
     twice = [choose("ExtractSelection"), APPLY, choose("ExtractSelection"), APPLY]
     shown, _ = play(paraview, plugin, twice, SELECTS)
     check("ExtractSelection2" in shown, "an extract of an extract")
+    shown, _ = play(paraview, plugin, [choose("ExtractSelection"), APPLY])
+    check("ExtractSelection1" in shown, "an extract of nothing")
 
 
 def main(plugin, paraview):
