@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointRayTracer.h"
 
-#include "Isopoint/Base/Threads.h"
+#include "Core/Base/Threads.h"
 #include "vtkIsopointTracedDisplay.h"
 #include "vtkIsopointTracedScene.h"
 #include "vtkIsopointTracedState.h"

@@ -248,7 +248,7 @@ class Checker:
             if word.endswith(SOURCES) and not fnmatch.filter(self.file_names, word):
                 self.report(name, number, "no file %s" % word)
         elif parts[0] in self.entries or word.endswith(SOURCES):
-            folders = ("", os.path.dirname(name), "Filters", "Filters/Isopoint")
+            folders = ("", os.path.dirname(name), "Filters", "Core")
             if not any(glob.glob(os.path.join(self.root, folder, word)) for folder in folders):
                 self.report(name, number, "no file %s" % word)
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointBlocks.h"
 
+#include "Core/Base/Execution.h"
 #include "Input/vtkIsopointCellCenters.h"
 #include "Input/vtkIsopointGhosts.h"
 #include "Input/vtkIsopointUsageError.h"
-#include "Isopoint/Base/Execution.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointCellCenters.h"
 
+#include "Core/Base/Execution.h"
 #include "Input/vtkIsopointAllocation.h"
 #include "Input/vtkIsopointGhosts.h"
-#include "Isopoint/Base/Execution.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInput.h"
 
+#include "Core/Base/Execution.h"
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
 #include "Input/vtkIsopointBlock.h"
-#include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Team.h"
-#include "Isopoint/IsosurfaceExtractor.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"

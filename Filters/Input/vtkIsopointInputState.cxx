@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInputState.h"
 
+#include "Core/Base/Execution.h"
 #include "Input/vtkIsopointCompatibility.h"
-#include "Isopoint/Base/Execution.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"

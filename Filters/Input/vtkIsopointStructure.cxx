@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointStructure.h"
 
+#include "Core/Base/Team.h"
 #include "Input/vtkIsopointCompatibility.h"
 #include "Input/vtkIsopointTextBytes.h"
 #include "Input/vtkIsopointUsageError.h"
-#include "Isopoint/Base/Team.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointStructure_h
 #define vtkIsopointStructure_h
 
-#include "Isopoint/Ranks/ByteBuffer.h"
+#include "Core/Ranks/ByteBuffer.h"
 
 #include "vtkSmartPointer.h"
 

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointTextBytes_h
 #define vtkIsopointTextBytes_h
 
-#include "Isopoint/Ranks/ByteBuffer.h"
+#include "Core/Ranks/ByteBuffer.h"
 
 #include <cstddef>
 #include <string>

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointArrayBytes_h
 #define vtkIsopointArrayBytes_h
 
-#include "Isopoint/Ranks/ByteBuffer.h"
+#include "Core/Ranks/ByteBuffer.h"
 
 #include "vtkSmartPointer.h"
 

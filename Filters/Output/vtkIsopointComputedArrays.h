@@ -2,7 +2,7 @@
 #ifndef vtkIsopointComputedArrays_h
 #define vtkIsopointComputedArrays_h
 
-#include "Isopoint/ExtractionRequest.h"
+#include "Core/ExtractionRequest.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

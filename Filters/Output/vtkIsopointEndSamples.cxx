@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointEndSamples.h"
 
+#include "Core/Base/Team.h"
 #include "Input/vtkIsopointAllocation.h"
-#include "Isopoint/Base/Team.h"
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"

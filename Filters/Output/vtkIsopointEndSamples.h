@@ -2,9 +2,9 @@
 #ifndef vtkIsopointEndSamples_h
 #define vtkIsopointEndSamples_h
 
+#include "Core/ExtractionRequest.h"
+#include "Core/Ranks/ByteBuffer.h"
 #include "Input/vtkIsopointBlock.h"
-#include "Isopoint/ExtractionRequest.h"
-#include "Isopoint/Ranks/ByteBuffer.h"
 
 #include "vtkSmartPointer.h"
 

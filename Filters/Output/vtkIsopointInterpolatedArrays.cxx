@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointInterpolatedArrays.h"
 
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
 #include "Input/vtkIsopointAllocation.h"
-#include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Vector.h"
 #include "Output/vtkIsopointOutput.h"
 
 #include "vtkAbstractArray.h"

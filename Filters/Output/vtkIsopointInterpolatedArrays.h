@@ -2,7 +2,7 @@
 #ifndef vtkIsopointInterpolatedArrays_h
 #define vtkIsopointInterpolatedArrays_h
 
-#include "Isopoint/ExtractionRequest.h"
+#include "Core/ExtractionRequest.h"
 
 #include <vector>
 

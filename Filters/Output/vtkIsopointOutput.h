@@ -2,7 +2,7 @@
 #ifndef vtkIsopointOutput_h
 #define vtkIsopointOutput_h
 
-#include "Isopoint/ExtractionRequest.h"
+#include "Core/ExtractionRequest.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointExecution.h"
 
+#include "Core/Base/Threads.h"
 #include "Input/vtkIsopointCompatibility.h"
-#include "Isopoint/Base/Threads.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"

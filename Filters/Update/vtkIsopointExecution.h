@@ -2,7 +2,7 @@
 #ifndef vtkIsopointExecution_h
 #define vtkIsopointExecution_h
 
-#include "Isopoint/Base/Execution.h"
+#include "Core/Base/Execution.h"
 
 #include <cstddef>
 

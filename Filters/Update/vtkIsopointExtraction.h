@@ -2,11 +2,11 @@
 #ifndef vtkIsopointExtraction_h
 #define vtkIsopointExtraction_h
 
+#include "Core/Base/Execution.h"
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Input/vtkIsopointInputState.h"
-#include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Team.h"
-#include "Isopoint/IsosurfaceExtractor.h"
 
 #include <cstddef>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointFindings.h"
 
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
 #include "Input/vtkIsopointBlock.h"
-#include "Isopoint/Base/Team.h"
-#include "Isopoint/IsosurfaceExtractor.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include <algorithm>

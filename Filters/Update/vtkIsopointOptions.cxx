@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointOptions.h"
 
+#include "Core/Base/Team.h"
 #include "Input/vtkIsopointUsageError.h"
-#include "Isopoint/Base/Team.h"
 
 #include <algorithm>
 #include <cmath>

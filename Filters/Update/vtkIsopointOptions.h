@@ -2,8 +2,8 @@
 #ifndef vtkIsopointOptions_h
 #define vtkIsopointOptions_h
 
+#include "Core/ExtractionRequest.h"
 #include "Input/vtkIsopointBlocks.h"
-#include "Isopoint/ExtractionRequest.h"
 #include "Output/vtkIsopointComputedArrays.h"
 
 #include <optional>

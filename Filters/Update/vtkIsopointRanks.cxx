@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointRanks.h"
 
-#include "Isopoint/Base/Threads.h"
+#include "Core/Base/Threads.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"

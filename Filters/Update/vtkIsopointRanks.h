@@ -2,7 +2,7 @@
 #ifndef vtkIsopointRanks_h
 #define vtkIsopointRanks_h
 
-#include "Isopoint/Base/Team.h"
+#include "Core/Base/Team.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointUpdate.h"
 
+#include "Core/Base/Execution.h"
 #include "Input/vtkIsopointUsageError.h"
-#include "Isopoint/Base/Execution.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include "vtkAlgorithm.h"

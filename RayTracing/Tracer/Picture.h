@@ -2,8 +2,8 @@
 #ifndef raytracing_Picture_h
 #define raytracing_Picture_h
 
-#include "Isopoint/Base/Execution.h"
-#include "Isopoint/Base/Vector.h"
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
 #include "Tracer/PathTracer.h"
 
 #include <cstddef>

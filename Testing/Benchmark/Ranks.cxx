@@ -8,8 +8,8 @@
  */
 #include "ThreadRanks.h"
 
-#include "Isopoint/Base/Team.h"
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
 
 #include <algorithm>
 #include <cmath>

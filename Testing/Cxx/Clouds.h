@@ -4,7 +4,7 @@
 
 #include "Random.h"
 
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Core/IsosurfaceExtractor.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #ifndef FitDefinition_h
 #define FitDefinition_h
 
-#include "Isopoint/Fit/LocalFit.h"
+#include "Core/Fit/LocalFit.h"
 
 #include <Eigen/QR>
 

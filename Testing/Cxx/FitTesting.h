@@ -4,8 +4,8 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/Fit/LocalFit.h"
-#include "Isopoint/Fit/LocalFitter.h"
+#include "Core/Fit/LocalFit.h"
+#include "Core/Fit/LocalFitter.h"
 
 #include <cmath>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include "BruteForce.h"
 
-#include "Isopoint/Extraction/Isosurface.h"
+#include "Core/Extraction/Isosurface.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "RandomClouds.h"
 
-#include "Isopoint/ExtractionRequest.h"
+#include "Core/ExtractionRequest.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,8 +5,8 @@
 #include "Clouds.h"
 #include "ThreadRanks.h"
 
-#include "Isopoint/Base/Team.h"
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "BruteForce.h"
 
-#include "Isopoint/Base/Vector.h"
-#include "Isopoint/Fit/LocalFit.h"
+#include "Core/Base/Vector.h"
+#include "Core/Fit/LocalFit.h"
 
 #include <algorithm>
 #include <cmath>

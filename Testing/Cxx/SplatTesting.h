@@ -4,7 +4,7 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/Splat/SplatGeometry.h"
+#include "Core/Splat/SplatGeometry.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "Clouds.h"
 #include "IsopointTesting.h"
 
-#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Core/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Fits near the edges and corners of bodies whose sides are known.
 #include "FitTesting.h"
 
-#include "Isopoint/Fit/CreaseFit.h"
+#include "Core/Fit/CreaseFit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flips and collapses of edges on small meshes.
-#include "Isopoint/Triangles/FacetMesh.h"
+#include "Core/Triangles/FacetMesh.h"
 
 #include <gtest/gtest.h>
 

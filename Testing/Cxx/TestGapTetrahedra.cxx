@@ -5,7 +5,7 @@
 #include "RandomClouds.h"
 #include "TriangleTesting.h"
 
-#include "Isopoint/Triangles/GapTetrahedra.h"
+#include "Core/Triangles/GapTetrahedra.h"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include "Clouds.h"
 #include "IsopointTesting.h"
 
-#include "Isopoint/Neighbors/AngleCriterion.h"
-#include "Isopoint/Neighbors/GapCriterion.h"
-#include "Isopoint/Tree/Loading.h"
-#include "Isopoint/Tree/SampleBounds.h"
-#include "Isopoint/Tree/TreeRefinement.h"
+#include "Core/Neighbors/AngleCriterion.h"
+#include "Core/Neighbors/GapCriterion.h"
+#include "Core/Tree/Loading.h"
+#include "Core/Tree/SampleBounds.h"
+#include "Core/Tree/TreeRefinement.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 // The isopoints around each: those whose edges end in leaves around its own edge.
 #include "Clouds.h"
 
-#include "Isopoint/Extraction/ExtractIsosurface.h"
-#include "Isopoint/Extraction/IsopointNeighbors.h"
-#include "Isopoint/Extraction/SingleRank.h"
-#include "Isopoint/Tree/Loading.h"
+#include "Core/Extraction/ExtractIsosurface.h"
+#include "Core/Extraction/IsopointNeighbors.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/Tree/Loading.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // Lists that threads make together, against their definitions.
 #include "Clouds.h"
 
-#include "Isopoint/Base/Collected.h"
-#include "Isopoint/Base/ItemLists.h"
-#include "Isopoint/Neighbors/NeighborhoodCache.h"
+#include "Core/Base/Collected.h"
+#include "Core/Base/ItemLists.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
 
 #include <gtest/gtest.h>
 

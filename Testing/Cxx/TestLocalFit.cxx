@@ -2,7 +2,7 @@
 // Fits around isopoints, against dense least squares and fields whose surfaces are known.
 #include "FitTesting.h"
 
-#include "Isopoint/Fit/FitFrame.h"
+#include "Core/Fit/FitFrame.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>

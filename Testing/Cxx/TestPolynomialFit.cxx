@@ -3,9 +3,9 @@
 // fits.
 #include "Random.h"
 
-#include "Isopoint/Fit/FrameSamples.h"
-#include "Isopoint/Fit/NormalEquations.h"
-#include "Isopoint/Fit/PolynomialFit.h"
+#include "Core/Fit/FrameSamples.h"
+#include "Core/Fit/NormalEquations.h"
+#include "Core/Fit/PolynomialFit.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Predicates in doubles agree with CGAL's exact ones, where coordinates have a common unit.
 #include "Clouds.h"
 
-#include "Isopoint/Tetrahedra/BandKernel.h"
-#include "Isopoint/Tetrahedra/CoordinateUnit.h"
+#include "Core/Tetrahedra/BandKernel.h"
+#include "Core/Tetrahedra/CoordinateUnit.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Whatever ranks a cloud is dealt out to, they yield together what one process does.
 #include "RankTesting.h"
 
-#include "Isopoint/Base/Offset.h"
-#include "Isopoint/Base/Vector.h"
+#include "Core/Base/Offset.h"
+#include "Core/Base/Vector.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "RandomClouds.h"
 #include "RankTesting.h"
 
-#include "Isopoint/Triangles/SurfacePart.h"
+#include "Core/Triangles/SurfacePart.h"
 
 #include <gtest/gtest.h>
 

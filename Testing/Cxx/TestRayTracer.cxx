@@ -2,7 +2,7 @@
 // The ray tracer without VTK: random numbers, materials, where rays meet surfaces, and pictures.
 #include "TracedSphere.h"
 
-#include "Isopoint/Base/Threads.h"
+#include "Core/Base/Threads.h"
 #include "Tracer/Picture.h"
 
 #include <gtest/gtest.h>

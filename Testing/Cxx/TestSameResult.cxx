@@ -2,9 +2,9 @@
 // What must not change the result: threads, the order of extractions, a kept tree, an abort.
 #include "RankTesting.h"
 
-#include "Isopoint/Extraction/NarrowBand.h"
-#include "Isopoint/Extraction/SingleRank.h"
-#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Core/Extraction/NarrowBand.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 // section 12.4).
 #include "Clouds.h"
 
-#include "Isopoint/Base/Vector.h"
-#include "Isopoint/Extraction/NarrowBand.h"
-#include "Isopoint/Extraction/SingleRank.h"
-#include "Isopoint/Neighbors/SampleExtent.h"
-#include "Isopoint/Tree/Loading.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/NarrowBand.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/Neighbors/SampleExtent.h"
+#include "Core/Tree/Loading.h"
 
 #include <gtest/gtest.h>
 

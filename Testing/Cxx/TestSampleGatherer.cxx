@@ -2,10 +2,10 @@
 // The samples around edges, and their order, against the definition (docs/algorithm.md, 10.1).
 #include "RingDefinition.h"
 
-#include "Isopoint/Extraction/ExtractIsosurface.h"
-#include "Isopoint/Extraction/LeafSet.h"
-#include "Isopoint/Extraction/SampleGatherer.h"
-#include "Isopoint/Extraction/SingleRank.h"
+#include "Core/Extraction/ExtractIsosurface.h"
+#include "Core/Extraction/LeafSet.h"
+#include "Core/Extraction/SampleGatherer.h"
+#include "Core/Extraction/SingleRank.h"
 
 #include <gtest/gtest.h>
 

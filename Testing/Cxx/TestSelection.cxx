@@ -2,7 +2,7 @@
 // numberOfRank() against sorting.
 #include "Random.h"
 
-#include "Isopoint/Base/Selection.h"
+#include "Core/Base/Selection.h"
 
 #include <gtest/gtest.h>
 

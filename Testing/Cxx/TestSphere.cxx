@@ -2,7 +2,7 @@
 // The sphere of [RL06], section 9, with fewer samples, against the analytic surface.
 #include "Clouds.h"
 
-#include "Isopoint/Base/Vector.h"
+#include "Core/Base/Vector.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // The fast halving against the definition, in orders that are hard on selection algorithms.
 #include "Clouds.h"
 
-#include "Isopoint/Tree/BinaryIndex.h"
-#include "Isopoint/Tree/Splitting.h"
+#include "Core/Tree/BinaryIndex.h"
+#include "Core/Tree/Splitting.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // Coordinates are multiples of 2^-20, so that translations and rotations are exact.
 #include "Clouds.h"
 
-#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Core/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 

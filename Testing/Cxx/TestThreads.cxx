@@ -3,7 +3,7 @@
 // what is computed together stays within the quota of a container.
 #include "FailingAllocator.h"
 
-#include "Isopoint/Base/Threads.h"
+#include "Core/Base/Threads.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "RandomClouds.h"
 #include "TriangleTesting.h"
 
-#include "Isopoint/IsosurfaceExtractor.h"
+#include "Core/IsosurfaceExtractor.h"
 
 #include <map>
 #include <set>

@@ -4,8 +4,8 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/Extraction/Thinning.h"
-#include "Isopoint/Neighbors/AngleCriterion.h"
+#include "Core/Extraction/Thinning.h"
+#include "Core/Neighbors/AngleCriterion.h"
 
 #include <gtest/gtest.h>
 

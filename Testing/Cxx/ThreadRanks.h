@@ -2,7 +2,7 @@
 #ifndef ThreadRanks_h
 #define ThreadRanks_h
 
-#include "Isopoint/Base/Team.h"
+#include "Core/Base/Team.h"
 
 #include <algorithm>
 #include <condition_variable>

@@ -4,9 +4,9 @@
 
 #include "Clouds.h"
 
-#include "Isopoint/Extraction/SingleRank.h"
-#include "Isopoint/Tree/Loading.h"
-#include "Isopoint/Triangles/ExtractTriangles.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/Tree/Loading.h"
+#include "Core/Triangles/ExtractTriangles.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

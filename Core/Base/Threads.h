@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Threads_h
+#define isopoint_Threads_h
+
+#include "Core/Base/Execution.h"
+
+// CGAL's way to say that oneTBB is available. The thread sanitizer does not see what its threads
+// wait for.
+#if defined(CGAL_LINKED_WITH_TBB) && !defined(__SANITIZE_THREAD__)
+#define ISOPOINT_USES_TBB
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+
+#ifdef __linux__
+#include <sched.h>
+#include <unistd.h>
+#endif
+
+namespace isopoint
+{
+
+/// The cores that a control group of Linux grants by a time of computing for each period, which
+/// version 2 states in one file and version 1 in two; without a quota any number.
+inline std::size_t coresOfQuota(const std::string& group)
+{
+  double time = 0.0;
+  double period = 0.0;
+  const bool hasQuota = (std::ifstream(group + "/cpu.max") >> time >> period) ||
+                        (std::ifstream(group + "/cpu.cfs_quota_us") >> time &&
+                          std::ifstream(group + "/cpu.cfs_period_us") >> period);
+  return hasQuota && time > 0.0 && period > 0.0 ? static_cast<std::size_t>(std::ceil(time / period))
+                                                : std::numeric_limits<std::size_t>::max();
+}
+
+/// The same for the group of this process, as a container has one, and all around it.
+inline std::size_t coresOfQuota()
+{
+  std::size_t cores = std::numeric_limits<std::size_t>::max();
+  std::ifstream groups("/proc/self/cgroup"); // each line: number:controllers:path
+  for (std::string line; std::getline(groups, line);)
+  {
+    const std::size_t begin = line.find(':') + 1;
+    const std::size_t end = line.find(':', begin);
+    const std::string controllers = line.substr(begin, end - begin);
+    const bool isVersion2 = controllers.empty();
+    if (!isVersion2 && (',' + controllers + ',').find(",cpu,") == std::string::npos)
+    {
+      continue;
+    }
+    const std::string root = isVersion2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu";
+    std::string path = line.substr(end + 1);
+    while (!path.empty() && path.front() == '/')
+    {
+      cores = std::min(cores, coresOfQuota(root + path));
+      path.erase(path.rfind('/'));
+    }
+    cores = std::min(cores, coresOfQuota(root));
+  }
+  return cores;
+}
+
+/// How many threads of this process can compute at the same time: the cores that it is bound to,
+/// within the quota of its container, shared by this many processes that do the same.
+inline std::size_t availableThreads(std::size_t processes = 1)
+{
+  std::size_t cores = std::thread::hardware_concurrency();
+#ifdef __linux__
+  cpu_set_t bound;
+  if (sched_getaffinity(0, sizeof(bound), &bound) == 0)
+  {
+    cores = static_cast<std::size_t>(CPU_COUNT(&bound));
+  }
+#endif
+  static const std::size_t quota = coresOfQuota();
+  return std::max<std::size_t>(1, std::min(cores, quota) / processes);
+}
+
+/// The cores that this process is bound to: a text that is the same for all that share them.
+inline std::string boundCores()
+{
+#ifdef __linux__
+  cpu_set_t bound;
+  if (sched_getaffinity(0, sizeof(bound), &bound) == 0)
+  {
+    return std::string(reinterpret_cast<const char*>(&bound), sizeof(bound));
+  }
+#endif
+  return {};
+}
+
+/// The threads of this process, without asking others: if a launcher of MPI started several on this
+/// host and bound them to no cores, its share of all cores.
+inline std::size_t availableThreadsOfRank()
+{
+  std::size_t threads = availableThreads();
+#ifdef __linux__
+  for (const char* const count : { "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS" })
+  {
+    const char* const ranks = std::getenv(count);
+    const long parsed = ranks ? std::strtol(ranks, nullptr, 10) : 0;
+    if (parsed > 0)
+    {
+      threads = std::min(threads, static_cast<std::size_t>(sysconf(_SC_NPROCESSORS_ONLN) / parsed));
+    }
+  }
+#endif
+  return std::max<std::size_t>(1, threads);
+}
+
+#ifdef ISOPOINT_USES_TBB
+
+constexpr bool hasThreads = true;
+
+/// Lets an execution run on the threads of oneTBB, this many at most, the calling one included. If
+/// the system or memory grants fewer, these do all the work. Tasks must not throw, which
+/// forRanges() ensures.
+inline void useThreads(Execution& execution, std::size_t threads)
+{
+  execution.threads = std::min(
+    threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const auto arena = std::make_shared<tbb::task_arena>(static_cast<int>(execution.threads));
+  execution.parallelFor = [arena, most = execution.threads](
+                            std::size_t count, std::size_t grain, const RangeTask& task)
+  {
+    std::atomic<std::size_t> next{ 0 };
+    const auto work = [&]()
+    {
+      for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
+      {
+        task(begin, std::min(begin + grain, count));
+      }
+    };
+    try
+    {
+      const std::size_t workers = std::min(most, (count + grain - 1) / grain);
+      arena->execute(
+        [&]()
+        {
+          tbb::parallel_for(
+            std::size_t{ 0 }, workers, [&work](std::size_t) { work(); }, tbb::simple_partitioner());
+        });
+    }
+    catch (const std::exception&)
+    {
+      // A thread could not be started: what is left is done here.
+    }
+    work();
+  };
+}
+
+#else
+
+constexpr bool hasThreads = false;
+
+inline void useThreads(Execution&, std::size_t) {}
+
+#endif
+
+} // namespace isopoint
+
+#endif

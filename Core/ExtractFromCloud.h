@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ExtractFromCloud_h
+#define isopoint_ExtractFromCloud_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Extraction/ExpectedWork.h"
+#include "Core/Extraction/ExtractIsosurface.h"
+#include "Core/Extraction/IsopointNeighbors.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/IsosurfaceExtractor.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Neighbors/SampleExtent.h"
+#include "Core/Ranks/SharedRanks.h"
+#include "Core/Ranks/SurfaceHalo.h"
+#include "Core/Splat/SplatFans.h"
+#include "Core/Splat/SplatGeometry.h"
+#include "Core/Tree/SampleTree.h"
+#include "Core/Triangles/ExtractTriangles.h"
+#include "Core/Triangles/SurfacePart.h"
+#include "Core/Triangles/TriangleGeometry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The isopoints of the one rank, which has all: what SurfaceHalo is for several ranks, whose
+/// functions are described there.
+template <class TSample>
+class WholeSurface : public AllPoints
+{
+public:
+  WholeSurface(const Execution& execution, SingleRank<TSample>& /*ranks*/,
+    const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
+    Isosurface whole, bool /*hasFits*/)
+    : AllPoints(whole.size())
+    , Run(execution)
+    , Tree(tree)
+    , Whole(std::move(whole))
+  {
+  }
+
+  /// Close points come after each other, so that what lies around them is in the caches.
+  void gather(int rings, bool /*isShared*/)
+  {
+    if (rings == 0)
+    {
+      return;
+    }
+    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
+    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
+  }
+
+  const Isosurface& surface() const { return this->Ordered; }
+  const std::vector<std::size_t>& numbers() const { return this->Order; }
+  const std::vector<bool>* inner() const { return nullptr; }
+
+  std::vector<std::size_t> home() const
+  {
+    std::vector<std::size_t> places(this->Order.size());
+    forEachIndex(this->Run, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
+    return places;
+  }
+  std::vector<std::size_t> elsewhere() const { return {}; }
+
+  Isosurface takeHome() { return std::move(this->Whole); }
+
+  void share(std::vector<Splat>& /*splats*/) const {}
+
+private:
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  Isosurface Whole;
+  std::vector<std::size_t> Order;
+  Isosurface Ordered;
+};
+
+/// Of neighbors around a rank's isopoints that are its ghosts: where splats of the second ring are
+/// seen, so are those that they overlap (docs/ranks.md).
+inline constexpr int ghostRings = 5;
+
+/// Some isopoints of a surface, with their splats. @throws std::bad_alloc, Aborted
+/// @param splats of all of `indices`' surface, or empty
+template <class TSample>
+ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSample>& tree,
+  Isosurface surface, const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
+{
+  ExtractedIsosurface result;
+  result.surface = std::move(surface);
+  result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
+  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
+  result.splats = chosenOf(execution, splats, indices);
+  return result;
+}
+
+/// The part of a surface of triangles that is on this rank. @throws std::bad_alloc, Aborted
+/// @param all what is found on each of them
+template <class TSample>
+ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
+  const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
+{
+  std::vector<std::size_t> vertexRanks;
+  for (const EdgeLeaves& leaves : all.surface.leaves)
+  {
+    vertexRanks.push_back(ranks.ownerOf(firstPlaceOf(tree, leaves)));
+  }
+  const auto rank = static_cast<std::size_t>(ranks.team().rank());
+  SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
+  ExtractedIsosurface result = withSplats(execution, tree,
+    chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
+  result.normals = chosenOf(execution, all.normals, part.vertices);
+  result.areElsewhere = std::move(part.areElsewhere);
+  result.triangles = std::move(part.triangles);
+  result.ghostTriangles = part.ghostCount;
+  result.droppedInGaps = rank == 0 ? all.droppedInGaps : 0;
+  return result;
+}
+
+template <class TSample, class TRanks>
+ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSample>& cloud,
+  TRanks& ranks, const ExtractionRequest& request)
+{
+  WorkProgress progress(execution);
+  TriangleExtraction<TSample, TRanks> extraction(
+    execution, cloud.tree, ranks, cloud.neighborhoods, cloud.band, request.isosurface);
+  TriangleSurface found = extraction.extract(progress, work::writing);
+  throwIfAborted(execution);
+  ExtractedIsosurface result;
+  result.surface = std::move(found.vertices);
+  result.triangles = std::move(found.triangles);
+  result.droppedInGaps = found.droppedTetrahedra;
+  if (request.splats)
+  {
+    const Isosurface& surface = result.surface;
+    result.normals =
+      vertexNormals(execution, { surface.positions, surface.decreasingEdges, surface.fits },
+        result.triangles, request.splats->fieldNormals);
+  }
+  return result;
+}
+
+template <class TSample>
+ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSample>& cloud,
+  Team* team, const ExtractionRequest& request)
+{
+  if (team)
+  {
+    SharedRanks<TSample> ranks(*team, cloud.tree, cloud.begins);
+    return partOnRank(execution, ranks, cloud.tree, findTriangles(execution, cloud, ranks, request),
+      request.ghostRings);
+  }
+  SingleRank<TSample> rank(cloud.tree);
+  ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
+  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
+  return result;
+}
+
+/// @tparam TSurroundings WholeSurface where there is one rank, SurfaceHalo where there are several
+template <class TSurroundings, class TSample, class TRanks>
+ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>& cloud,
+  TRanks& ranks, std::size_t itemCount, const ExtractionRequest& request,
+  ExtractedIsosurface* ghosts)
+{
+  WorkProgress progress(execution);
+  const double splatting = request.splats ? work::splatting : 0.0;
+  Isosurface found = extractIsosurface(execution, cloud.tree, ranks, cloud.neighborhoods, itemCount,
+    request.isosurface, progress, splatting + work::writing);
+  const bool hasFits = request.isosurface.fit.has_value();
+  const std::size_t dropped = found.droppedEdges;
+  if (request.minimumSpacing > 0.0 && hasFits)
+  {
+    ranks.thinOut(execution, request.minimumSpacing, found);
+  }
+  throwIfAborted(execution);
+  const auto count = static_cast<double>(found.size());
+  const Execution part = progress.part(count * splatting, count * work::writing);
+  TSurroundings surroundings(
+    part, ranks, cloud.tree, cloud.neighborhoods, std::move(found), hasFits);
+  const bool hasShapes = request.splats && request.splats->shapes;
+  const bool looksAround = (request.splats || ghosts) && !cloud.tree.isEmpty();
+  surroundings.gather(looksAround ? std::max(ghosts ? ghostRings : 3, hasShapes ? fanRings : 3) : 0,
+    ghosts != nullptr);
+  std::vector<Splat> splats;
+  if (request.splats && looksAround)
+  {
+    const Isosurface& all = surroundings.surface();
+    const IsopointNeighbors<TSample> neighbors(
+      part, cloud.tree, cloud.neighborhoods, all.leaves, surroundings.inner());
+    const SampleExtents<TSample> extents(cloud.tree);
+    splats = computeSplats(part,
+      { all.positions, all.decreasingEdges, all.fits, surroundings.numbers(), all.isovalue },
+      neighbors, &extents, *request.splats, surroundings);
+    if (ghosts)
+    {
+      surroundings.share(splats);
+    }
+  }
+  if (ghosts)
+  {
+    const std::vector<std::size_t> elsewhere = surroundings.elsewhere();
+    *ghosts = withSplats(part, cloud.tree, chosenIsopoints(part, surroundings.surface(), elsewhere),
+      splats, elsewhere);
+    ghosts->areElsewhere.resize(elsewhere.size(), true);
+  }
+  const std::vector<std::size_t> home = surroundings.home();
+  ExtractedIsosurface result = withSplats(part, cloud.tree, surroundings.takeHome(), splats, home);
+  result.droppedInGaps = dropped;
+  return result;
+}
+
+template <class TSample>
+ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSample>& cloud,
+  std::size_t itemCount, Team* team, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
+{
+  if (request.triangles)
+  {
+    if (ghosts)
+    {
+      *ghosts = ExtractedIsosurface();
+      ghosts->surface.isovalue = request.isosurface.isovalue;
+    }
+    return extractTriangles(execution, cloud, team, request);
+  }
+  if (team)
+  {
+    SharedRanks<TSample> ranks(*team, cloud.tree, cloud.begins);
+    return findPoints<SurfaceHalo<TSample>>(execution, cloud, ranks, itemCount, request, ghosts);
+  }
+  SingleRank<TSample> rank(cloud.tree);
+  return findPoints<WholeSurface<TSample>>(execution, cloud, rank, itemCount, request, ghosts);
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ExtractIsosurface_h
+#define isopoint_ExtractIsosurface_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/EdgeFinder.h"
+#include "Core/Extraction/ExpectedWork.h"
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/GapEdges.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/NarrowBand.h"
+#include "Core/Extraction/NeighborhoodFits.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Tree/Path.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// What the leaves near an isosurface yield.
+template <class TSample>
+struct FoundEdges
+{
+  std::vector<CrossingEdge<TSample>> edges;    // each once or twice, in any order
+  std::vector<CrossingEdge<TSample>> gapEdges; // those over the strong gap criterion, if wanted
+  std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
+};
+
+/// What could not be done for lack of samples that other ranks hold.
+struct MissingWork
+{
+  std::vector<BinaryIndex> leaves;  // whose edges were not found
+  std::vector<MissingNode> missing; // what to fetch first
+};
+
+/// Finds the crossing edges of all leaves of this rank below the given nodes.
+/// @returns what was left out
+/// @throws Aborted, std::bad_alloc
+template <class TSample>
+MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& context,
+  const IsosurfaceRequest& request, const std::vector<BinaryIndex>& nodes,
+  FoundEdges<TSample>& result)
+{
+  const AngleCriterion criterion(request.angle);
+  MissingWork left;
+  std::mutex mutex;
+  constexpr std::size_t grain = 256;
+  forBatches(
+    execution, nodes.size(), 8 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      EdgeFinder<TSample> finder(context, criterion, request.dropsGaps);
+      const auto findAt = [&](const Path& leaf)
+      {
+        if (!context.tree.hasOwn(context.tree.nodes[leaf.nodeIndex()]))
+        {
+          return;
+        }
+        try
+        {
+          finder.find(leaf);
+        }
+        catch (const MissingNode& missing)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          left.leaves.push_back(leaf.index);
+          left.missing.push_back(missing);
+        }
+      };
+      Path path = pathToRoot(context.tree);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        moveTo(context.tree, path, nodes[i]);
+        forEachBelow(context.tree, path, maximumDepth, findAt);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      result.edges.insert(result.edges.end(), finder.edges().begin(), finder.edges().end());
+      result.gapEdges.insert(
+        result.gapEdges.end(), finder.gapEdges().begin(), finder.gapEdges().end());
+      result.neighborhoods.push_back(std::move(finder.records()));
+    },
+    execution.progress);
+  return left;
+}
+
+/// The crossing edges that end in at least one of this rank's leaves below the given nodes.
+/// @param ranks SingleRank, or SharedRanks, all of which call this
+/// @throws Aborted, std::bad_alloc
+template <class TSample, class TRanks>
+FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSample>& context,
+  TRanks& ranks, const IsosurfaceRequest& request, std::vector<BinaryIndex> nodes)
+{
+  FoundEdges<TSample> found;
+  MissingWork left;
+  do
+  {
+    left = addEdges(execution, context, request, nodes, found);
+    nodes = std::move(left.leaves);
+  } while (ranks.fetchNodes(left.missing, maximumDepth + 1));
+  ranks.shareEdges(found.edges);
+  return found;
+}
+
+/// Drops the edges that lie in gaps. @returns how many of them are counted on this rank
+/// @param gapEdges see FoundEdges
+template <class TSample, class TRanks>
+std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
+  const std::vector<CrossingEdge<TSample>>& gapEdges, std::vector<CrossingEdge<TSample>>& edges)
+{
+  const std::vector<char> isInGap = edgesInGaps(execution, tree, ranks, edges, gapEdges);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
+    count += isInGap[i] && tree.isOwn(firstPlaceOf(tree, leaves)) ? 1 : 0;
+  }
+  dropMarked(isInGap, edges);
+  return count;
+}
+
+/// The isosurface of edges: positions where the fits put them, or else where linear interpolation
+/// does.
+/// @param edges ordered, each once
+/// @param fits one for each edge, or empty
+template <class TSample>
+Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>& context,
+  const std::vector<CrossingEdge<TSample>>& edges, std::vector<LocalFit> fits, bool isMoved)
+{
+  Isosurface surface;
+  surface.isovalue = context.isovalue;
+  surface.edges.resize(edges.size());
+  surface.positions.resize(edges.size());
+  surface.decreasingEdges.resize(edges.size());
+  surface.leaves.resize(edges.size());
+  surface.fits = std::move(fits);
+  constexpr std::size_t grain = 4096;
+  forBatches(execution, edges.size(), 8 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      LeafValueCache<TSample> values(context.tree, context.leafMeans);
+      const auto positionAt = [&context](typename TSample::Id leaf)
+      { return positionOf(context.tree.sampleOf(leaf)); };
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const CrossingEdge<TSample>& edge = edges[i];
+        const Vector first = positionAt(edge.firstLeaf);
+        const Vector second = positionAt(edge.secondLeaf);
+        const bool followsFit = isMoved && surface.fits[i].order;
+        surface.positions[i] =
+          followsFit ? surface.fits[i].position : interpolate(first, second, edge.crossing);
+        const double parameter =
+          followsFit ? nearestParameter(first, second, surface.positions[i]) : edge.crossing;
+        surface.edges[i] = { { edge.first, edge.second }, parameter };
+        surface.leaves[i] = { edge.firstLeaf, edge.secondLeaf };
+        const bool isDecreasing = !(values.at(edge.firstLeaf) < context.isovalue);
+        surface.decreasingEdges[i] =
+          isDecreasing ? difference(second, first) : scaled(-1.0, difference(second, first));
+      }
+    });
+  return surface;
+}
+
+/// Adds neighborhoods to those that are known, as far as memory permits: the others will be
+/// searched for again.
+/// @throws Aborted
+template <class TId>
+void keepNeighborhoods(const Execution& execution, const std::vector<std::vector<TId>>& found,
+  std::size_t nodeCount, NeighborhoodCache<TId>& neighborhoods)
+{
+  try
+  {
+    throwIfAborted(execution);
+    neighborhoods.add(execution, found, nodeCount);
+  }
+  catch (const std::bad_alloc&)
+  {
+  }
+}
+
+/// The canonical isosurface (docs/algorithm.md), without coincident samples, refining the tree as
+/// far as needed. On one of several ranks, the isopoints on edges with an end in one of its leaves,
+/// those of edges between two ranks on both.
+/// @param ranks SingleRank, or SharedRanks, all of which call this
+/// @param neighborhoods of the tree's leaves that are known; those found are added
+/// @param idCount above every id
+/// @param progress divided among the band, the edges, the fits and what follows
+/// @param laterWork that follows for each isopoint
+/// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighborhoods
+/// can be used again afterwards
+template <class TSample, class TRanks>
+Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
+  NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,
+  const IsosurfaceRequest& request, WorkProgress& progress, double laterWork)
+{
+  Isosurface surface;
+  surface.isovalue = request.isovalue;
+  if (tree.isEmpty()) // that of all ranks
+  {
+    return surface;
+  }
+  const double fitting = request.fit ? work::fitting : 0.0;
+  const double afterEdges = work::placing + fitting + laterWork;
+  NarrowBand<TSample> band(tree, request.isovalue, execution, progress, work::finding + afterEdges);
+  const std::vector<BinaryIndex> crossing = band.refine(ranks);
+  const auto partFor = [&progress](double isopointCount, double work, double left)
+  { return progress.part(isopointCount * work, isopointCount * left); };
+  const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
+  ExtractionContext<TSample> context(tree, neighborhoods, request.isovalue);
+  FoundEdges<TSample> found =
+    findEdges(partFor(expected, work::finding, afterEdges), context, ranks, request, crossing);
+  keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
+  std::vector<CrossingEdge<TSample>> edges = sortedUnique(
+    execution, found.edges, idCount, [](const CrossingEdge<TSample>& edge) { return edge.first; });
+  const std::size_t dropped =
+    request.dropsGaps ? dropGapEdges(execution, tree, ranks, found.gapEdges, edges) : 0;
+  const auto count = static_cast<double>(edges.size());
+  std::vector<LocalFit> fits;
+  if (request.fit)
+  {
+    fits = fitNeighborhoods(
+      partFor(count, fitting, work::placing + laterWork), context, ranks, *request.fit, edges);
+  }
+  surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
+    std::move(fits), request.fit && request.fit->move);
+  surface.droppedEdges = dropped;
+  return surface;
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ExtractionContext_h
+#define isopoint_ExtractionContext_h
+
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Tree/CoincidentSamples.h"
+#include "Core/Tree/SampleBounds.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <atomic>
+#include <cstdint>
+
+namespace isopoint
+{
+
+/// What the threads of one extraction share. No result depends on any of it but the tree and the
+/// isovalue.
+template <class TSample>
+struct ExtractionContext
+{
+  using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
+
+  /// @param extractedTree refined around the isovalue
+  /// @param knownNeighborhoods of that tree; must not change while the context is in use
+  ExtractionContext(const SampleTree<TSample>& extractedTree,
+    const Neighborhoods& knownNeighborhoods, double extractedIsovalue)
+    : tree(extractedTree)
+    , neighborhoods(knownNeighborhoods)
+    , isovalue(extractedIsovalue)
+    , bounds(tree)
+    , leafMeans(tree)
+    , listBudget(tree.isPartial ? unlimited : tree.samples.size())
+    , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(2 * tree.ownCount())))
+  {
+  }
+
+  /// Boxes of all samples, which searches without lists need, are not available on one of several
+  /// ranks.
+  static constexpr std::size_t unlimited = std::size_t{ 1 } << 62;
+
+  const SampleTree<TSample>& tree;
+  const Neighborhoods& neighborhoods;
+  const double isovalue;
+  SampleBounds<TSample> bounds;
+  SharedLeafMeans<TSample> leafMeans;
+  NeighborListBudget listBudget;
+  std::atomic<std::int64_t> cacheBudget; // numbers that may still be added to the neighborhoods
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_LeafRings_h
+#define isopoint_LeafRings_h
+
+#include "Core/Base/NodeList.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/LeafSet.h"
+#include "Core/Extraction/SampleSpacing.h"
+#include "Core/Neighbors/ImplicitNeighborhood.h"
+#include "Core/Neighbors/NeighborSearch.h"
+#include "Core/Tree/CoincidentSamples.h"
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The rings of cells around leaves, by the definitions of docs/algorithm.md, section 10.1. Those
+/// of up to some thousands of leaves are kept: an edge shares its ends with several others close by
+/// in the tree. For one thread.
+template <class TSample>
+class LeafRings
+{
+public:
+  using Id = typename TSample::Id;
+
+  /// What is known of the rings around a leaf.
+  struct Rings
+  {
+    Id leaf;
+    bool hasTooMany;    // neighbors to take them whole
+    NodeList<Id> first; // its neighbors; if they are too many, none or their representatives
+    std::vector<Id> representatives;
+    std::optional<std::vector<Id>> second;
+    std::optional<double> spacing;
+  };
+
+  explicit LeafRings(ExtractionContext<TSample>& context)
+    : Context(context)
+    , Tree(context.tree)
+    , Implicit(context.tree, context.bounds)
+    , Values(context.tree, context.leafMeans)
+  {
+  }
+
+  LeafRings(const LeafRings&) = delete; // lists refer to others
+  LeafRings& operator=(const LeafRings&) = delete;
+
+  /// Forgets all rings once there are many: memory must not grow with the surface.
+  void makeRoom()
+  {
+    constexpr std::size_t mostLists = 4096;
+    constexpr std::size_t mostListed = std::size_t{ 1 } << 20;
+    if (this->Known.size() > mostLists || this->Found.size() > mostLists ||
+        this->CountListed > mostListed)
+    {
+      this->Known.clear();
+      this->Found.clear();
+      this->CountListed = 0;
+    }
+  }
+
+  /// The rings around a leaf. Valid until the next call of makeRoom().
+  Rings& at(Id leaf)
+  {
+    const auto known = this->Known.find(leaf);
+    if (known != this->Known.end())
+    {
+      return known->second;
+    }
+    const NodeList<Id> first = this->neighborsOf(leaf);
+    return this->Known.try_emplace(leaf, Rings{ leaf, first.isEmpty(), first, {}, {}, {} })
+      .first->second;
+  }
+
+  /// Lists representatives of too many neighbors as the first ring, if that is not listed yet: one
+  /// for each subtree whose size over its distance is small.
+  void represent(Rings& rings)
+  {
+    if (!rings.first.isEmpty())
+    {
+      return;
+    }
+    constexpr double smallSize = 0.2;
+    std::vector<Id>& some = rings.representatives;
+    some.clear();
+    this->Implicit.moveTo(pathToLeaf(this->Tree, rings.leaf));
+    this->Implicit.forEachSpread(
+      smallSize, [&some](std::size_t neighbor) { some.push_back(static_cast<Id>(neighbor)); });
+    rings.first = { some.data(), some.size() };
+    this->CountListed += some.size();
+  }
+
+  /// The neighbors of the first ring's leaves across the isovalue, other than the leaf and its
+  /// first ring: each once, in the order of the search. The first ring must be listed.
+  const std::vector<Id>& secondOf(Rings& rings)
+  {
+    if (!rings.second)
+    {
+      std::vector<Id> second;
+      this->Listed.clear();
+      this->Listed.add(rings.leaf);
+      for (const Id leaf : rings.first)
+      {
+        this->Listed.add(leaf);
+      }
+      const bool isBelow = this->isBelow(rings.leaf);
+      for (const Id leaf : rings.first)
+      {
+        if (this->isBelow(leaf) != isBelow)
+        {
+          for (const Id next : this->neighborsOf(leaf))
+          {
+            if (this->Listed.add(next))
+            {
+              second.push_back(next);
+            }
+          }
+        }
+      }
+      this->CountListed += second.size();
+      rings.second = std::move(second);
+    }
+    return *rings.second;
+  }
+
+  /// The spacing of the samples of a leaf and its first ring, which must be listed.
+  double spacingOf(Rings& rings)
+  {
+    if (!rings.spacing)
+    {
+      const Vector center = this->positionOfLeaf(rings.leaf);
+      this->Spacing.clear();
+      for (const Id neighbor : rings.first)
+      {
+        this->Spacing.add(difference(this->positionOfLeaf(neighbor), center));
+      }
+      rings.spacing = this->Spacing.spacing();
+    }
+    return *rings.spacing;
+  }
+
+  double valueOf(Id leaf) { return this->Values.at(static_cast<std::size_t>(leaf)); }
+
+private:
+  /// The neighbors of a leaf; none if they are too many. Valid until the next call of makeRoom().
+  NodeList<Id> neighborsOf(Id leaf)
+  {
+    constexpr std::size_t mostNeighbors = 256;
+    const auto found = this->Found.find(leaf);
+    if (found != this->Found.end())
+    {
+      return { found->second.data(), found->second.size() };
+    }
+    std::vector<Id> memory;
+    const NodeList<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
+      static_cast<std::size_t>(leaf), mostNeighbors, memory);
+    if (!memory.empty())
+    {
+      memory.resize(neighbors.count);
+      this->Found.emplace(leaf, std::move(memory)); // the elements stay where they are
+    }
+    return neighbors;
+  }
+
+  bool isBelow(Id leaf) { return this->valueOf(leaf) < this->Context.isovalue; }
+
+  Vector positionOfLeaf(Id leaf) const
+  {
+    return positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf)));
+  }
+
+  ExtractionContext<TSample>& Context;
+  const SampleTree<TSample>& Tree;
+  ImplicitNeighborhood<TSample> Implicit;
+  LeafValueCache<TSample> Values;
+  std::unordered_map<Id, Rings> Known;           // by leaf
+  std::unordered_map<Id, std::vector<Id>> Found; // neighbors that were searched for, by leaf
+  std::size_t CountListed = 0;                   // leaves in all second rings
+  LeafSet<Id> Listed;
+  SampleSpacing Spacing;
+};
+
+} // namespace isopoint
+
+#endif

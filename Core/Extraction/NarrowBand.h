@@ -1,0 +1,501 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NarrowBand_h
+#define isopoint_NarrowBand_h
+
+#include "Core/Base/Collected.h"
+#include "Core/Base/Execution.h"
+#include "Core/Extraction/ExpectedWork.h"
+#include "Core/Neighbors/NeighborSearch.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Tree/NodeMarks.h"
+#include "Core/Tree/TreeRefinement.h"
+#include "Core/Tree/TreeletSplitting.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <numeric>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A node that the band needs, and whether the surface may pass between its samples and those of
+/// the nodes that touch it.
+struct BandNode
+{
+  BinaryIndex index;
+  std::size_t nodeIndex;
+  bool isCrossing;
+};
+
+/// Whether the node, or the node together with one that touches it, has samples below the isovalue
+/// and others that are not: then the surface may pass here.
+template <class TSample>
+bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
+  const Surroundings& surroundings, int nodeDepth, double isovalue)
+{
+  const Node<TSample>& node = tree.nodes[nodeIndex];
+  const bool hasBelow = node.minimum < isovalue;
+  const bool hasAbove = node.maximum >= isovalue;
+  return (hasBelow && hasAbove) ||
+         touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
+}
+
+/// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
+/// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, section 9).
+template <class TSample>
+class NarrowBand
+{
+public:
+  /// @param progress of the extraction, of which the band is the first part
+  /// @param workForIsopoint that follows for each isopoint
+  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution,
+    WorkProgress& progress, double workForIsopoint)
+    : Tree(tree)
+    , Isovalue(isovalue)
+    , Run(execution)
+    , Progress(progress)
+    , WorkForIsopoint(workForIsopoint)
+    , Forecast(tree.samples.size())
+    , ListBudget(tree.ownCount())
+  {
+  }
+
+  /// On one of several ranks, nodes of which no sample is this rank's are not split; they count as
+  /// the others' ranges of values, which are fetched where they matter.
+  /// @param ranks SingleRank, or SharedRanks, all of which call this
+  /// @returns nodes below which every node is split down to leaves, and so is everything that
+  /// touches such a leaf: every leaf with a crossing edge is among those below them. On several
+  /// ranks, as far as leaves are this rank's
+  /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
+  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
+  /// than 2^31 samples in nested groups of coincident ones, or has more nodes than its ids can
+  /// number
+  template <class TRanks>
+  std::vector<BinaryIndex> refine(TRanks& ranks)
+  {
+    std::vector<BandNode> front;
+    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
+    if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
+    {
+      front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
+    }
+    bool isDone = front.empty();
+    for (int depth = 0; ranks.isAny(!isDone);)
+    {
+      const int bottom = treeletBottom(depth, root.count());
+      if (!isDone)
+      {
+        this->splitFront(front, depth, bottom);
+        isDone = this->finishIfFew(front, depth, bottom);
+      }
+      this->mark(ranks, isDone ? std::vector<BandNode>() : front, bottom);
+      if (!isDone)
+      {
+        front = this->neededBelow(front, bottom);
+        isDone = front.empty();
+      }
+      depth = bottom;
+      throwIfAborted(this->Run);
+    }
+    std::vector<BinaryIndex> crossing;
+    for (const BandNode& node : front)
+    {
+      if (node.isCrossing)
+      {
+        crossing.push_back(node.index);
+      }
+    }
+    return crossing;
+  }
+
+private:
+  using NodeType = Node<TSample>;
+
+  /// To split few samples all the way takes less time than to determine which are needed.
+  /// @returns whether that was done
+  bool finishIfFew(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    const std::size_t few = front.size() / 4;
+    const std::size_t unfinished = this->unfinishedSamples(front, bottom - depth, few);
+    if (unfinished > few)
+    {
+      return false;
+    }
+    if (unfinished > 0)
+    {
+      std::vector<std::size_t> tops;
+      for (const BandNode& node : front)
+      {
+        tops.push_back(node.nodeIndex);
+      }
+      splitCompletely(this->Run, this->Tree, tops);
+    }
+    return true;
+  }
+
+  /// The number of nodes of the front whose subtrees are searched at a time.
+  static constexpr std::size_t searchGrain = 64;
+
+  /// The number of them, for each thread, between two looks at an abort.
+  static constexpr std::size_t searchBatch = 64 * searchGrain;
+
+  /// A treelet to be built below a node.
+  struct TreeletTask
+  {
+    BandNode node;
+    std::size_t firstPair;
+    int levels;
+  };
+
+  /// Splits the nodes of one depth down to another.
+  void splitFront(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    if (this->Tree.isPartial)
+    {
+      this->splitNodes(this->unsplitBelow(front, bottom), depth, bottom);
+    }
+    else
+    {
+      this->splitNodes(front, depth, bottom);
+    }
+  }
+
+  /// The nodes of a front that are not split, and those below it down to a depth: what other ranks
+  /// asked for may have been split less far. Those of other ranks alone are left out.
+  std::vector<BandNode> unsplitBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth - 1,
+      [this](const Path& below, std::vector<BandNode>& unsplit)
+      {
+        const NodeType& node = this->Tree.nodes[below.nodeIndex()];
+        if (!node.isSplit() && !node.isLeaf)
+        {
+          unsplit.push_back({ below.index, below.nodeIndex(), true });
+        }
+      });
+  }
+
+  /// @param depth the least of the nodes'
+  void splitNodes(const std::vector<BandNode>& front, int depth, int bottom)
+  {
+    if (front.empty())
+    {
+      return;
+    }
+    if (bottom > maximumDepth)
+    {
+      throwTooDeep();
+    }
+    // All threads split each node together while there are too few nodes to keep every thread busy.
+    constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
+    const std::size_t fewNodes = 4 * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 18) * this->Run.threads;
+
+    std::size_t unsplit = this->observeFront(front, depth);
+    std::size_t begin = 0;
+    while (begin < front.size())
+    {
+      std::vector<TreeletTask> batch;
+      std::size_t pairs = 0;
+      std::size_t samples = 0;
+      const auto isFull = [&]()
+      { return samples >= (batch.size() < fewNodes ? 8 : 1) * batchSamples; };
+      for (; begin < front.size() && !isFull(); ++begin)
+      {
+        const NodeType& node = this->Tree.nodes[front[begin].nodeIndex];
+        if (node.isSplit() || node.isLeaf)
+        {
+          continue;
+        }
+        const int levels = bottom - depthOf(front[begin].index);
+        batch.push_back({ front[begin], pairs, levels });
+        pairs += maximumTreeletPairs(node.count(), levels);
+        samples += node.count();
+      }
+      const std::size_t firstPair = appendPairs(this->Tree, pairs);
+      for (TreeletTask& task : batch)
+      {
+        task.firstPair += firstPair;
+      }
+      unsplit -= samples;
+      const auto workOf = [&](std::size_t count)
+      { return this->Forecast.splittingWork(static_cast<double>(count), depth, bottom); };
+      const Execution part = this->Progress.part(
+        workOf(samples), workOf(unsplit) + work::searching * static_cast<double>(front.size()) +
+                           this->workBelow(bottom));
+      this->splitBatch(part, batch, batch.size() < fewNodes ? togetherCount : samples + 1);
+      part.progress(1.0);
+      throwIfAborted(this->Run);
+    }
+  }
+
+  /// Notes how far the front of a depth extends. @returns its samples in nodes that are not split
+  std::size_t observeFront(const std::vector<BandNode>& front, int depth)
+  {
+    std::size_t all = 0;
+    std::size_t unsplit = 0;
+    for (const BandNode& bandNode : front)
+    {
+      const NodeType& node = this->Tree.nodes[bandNode.nodeIndex];
+      all += node.count();
+      unsplit += node.isSplit() || node.isLeaf ? 0 : node.count();
+    }
+    this->Forecast.observe(depth, front.size(), static_cast<double>(unsplit) / all);
+    return unsplit;
+  }
+
+  /// The work that is expected below a depth and after the band.
+  double workBelow(int depth) const
+  {
+    return this->Forecast.bandWork(depth) + this->WorkForIsopoint * this->Forecast.isopointCount();
+  }
+
+  double countOf(const TreeletTask& task) const
+  {
+    return static_cast<double>(this->Tree.nodes[task.node.nodeIndex].count());
+  }
+
+  void splitBatch(
+    const Execution& part, const std::vector<TreeletTask>& batch, std::size_t togetherCount)
+  {
+    const double all = std::accumulate(batch.begin(), batch.end(), 0.0,
+      [this](double sum, const TreeletTask& task) { return sum + this->countOf(task); });
+    double done = 0.0;
+    std::vector<TreeletTask> alone;
+    for (const TreeletTask& task : batch)
+    {
+      NodeType& node = this->Tree.nodes[task.node.nodeIndex];
+      if (node.count() < togetherCount)
+      {
+        alone.push_back(task);
+        continue;
+      }
+      const double begin = done / all;
+      done += this->countOf(task);
+      TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
+      splitter.splitTogether(partOf(part, begin, done / all), node,
+        pathTo(this->Tree, task.node.index).region, task.levels);
+    }
+    const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
+    forRanges(this->Run, alone.size(), grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        TreeletSplitter<TSample> splitter(this->Tree, 0);
+        Path path = pathToRoot(this->Tree);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          moveTo(this->Tree, path, alone[i].node.index);
+          splitter.moveTo(alone[i].firstPair);
+          splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, alone[i].levels);
+        }
+      });
+  }
+
+  /// The number of samples in nodes this many levels below the front that are no leaves; counting
+  /// ends above a limit.
+  std::size_t unfinishedSamples(
+    const std::vector<BandNode>& front, int levels, std::size_t limit) const
+  {
+    std::atomic<std::size_t> samples{ 0 };
+    forBatches(this->Run, front.size(), searchBatch, searchGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::size_t found = 0;
+        for (std::size_t i = begin; i < end && samples + found <= limit; ++i)
+        {
+          found += this->unfinishedSamples(this->Tree.nodes[front[i].nodeIndex], levels);
+        }
+        samples += found;
+      });
+    return samples;
+  }
+
+  std::size_t unfinishedSamples(const NodeType& node, int levels) const
+  {
+    if (!node.isSplit() || levels == 0)
+    {
+      return node.isLeaf || !this->Tree.hasOwn(node) ? 0 : node.count();
+    }
+    return this->unfinishedSamples(this->Tree.nodes[node.lowerNode()], levels - 1) +
+           this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
+  }
+
+  /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
+  /// crossing. What touches nodes that are not known is put aside, until they have been fetched.
+  template <class TRanks>
+  void mark(TRanks& ranks, std::vector<BandNode> front, int depth)
+  {
+    this->Marks = NodeMarks();
+    std::vector<MissingNode> missing;
+    do
+    {
+      this->Marks.grow(this->Tree.nodes.size());
+      this->Aside.clear();
+      this->markBelowFront(front, depth);
+      front = this->Aside;
+      missing.swap(this->Missing);
+      this->Missing.clear();
+    } while (ranks.fetchNodes(missing, depth));
+  }
+
+  void markBelowFront(const std::vector<BandNode>& front, int depth)
+  {
+    const Execution part = this->Progress.part(
+      work::searching * static_cast<double>(front.size()), this->workBelow(depth));
+    forBatches(
+      this->Run, front.size(), searchBatch, searchGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        Path path = pathToRoot(this->Tree);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (!front[i].isCrossing)
+          {
+            continue;
+          }
+          moveTo(this->Tree, path, front[i].index);
+          forEachBelow(
+            this->Tree, path, depth, [&](const Path& below) { this->markAt(below, depth); });
+        }
+      },
+      part.progress);
+  }
+
+  /// Marks a node, if it is crossing and of this rank, and what touches it.
+  void markAt(const Path& path, int depth)
+  {
+    if (!this->Tree.hasOwn(this->Tree.nodes[path.nodeIndex()]))
+    {
+      return;
+    }
+    const Surroundings surroundings(path);
+    try
+    {
+      if (isCrossing(this->Tree, path.nodeIndex(), surroundings, depth, this->Isovalue))
+      {
+        this->markAround(path.nodeIndex(), surroundings, depth);
+      }
+    }
+    catch (const MissingNode& missing)
+    {
+      const std::lock_guard<std::mutex> lock(this->AsideMutex);
+      this->Missing.push_back(missing);
+      this->Aside.push_back({ path.index, path.nodeIndex(), true });
+    }
+  }
+
+  void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
+  {
+    this->Marks.set(crossing, needed | crossed);
+    if (this->ListBudget.isSpent())
+    {
+      for (const FoundNode& root : surroundings)
+      {
+        this->markBelow(root, depth, surroundings.region);
+      }
+      return;
+    }
+    std::size_t count = 0;
+    visitTouching(this->Tree, surroundings, depth,
+      [this, &count](std::size_t nodeIndex)
+      {
+        this->Marks.set(nodeIndex, needed);
+        ++count;
+        return false;
+      });
+    this->ListBudget.spend(count);
+  }
+
+  /// Marks the nodes of a depth in a subtree that touch the region, and a parent once all below it
+  /// are marked, so that later searches stop there: many crossing nodes may touch the same others.
+  /// @returns whether all are marked
+  bool markBelow(FoundNode top, int depth, const Region& region)
+  {
+    if (this->Marks.has(top.nodeIndex, needed))
+    {
+      return true;
+    }
+    const NodeType& node = this->Tree.nodes[top.nodeIndex];
+    bool areAll = true;
+    if (top.depth < depth && node.isSplit())
+    {
+      const FoundNode lower{ node.lowerNode(), top.depth + 1 };
+      const FoundNode upper{ node.upperNode(), top.depth + 1 };
+      const auto areAllIn = [&](const FoundNode& child, bool touches)
+      {
+        return touches ? this->markBelow(child, depth, region)
+                       : this->Marks.has(child.nodeIndex, needed);
+      };
+      areAll = areAllIn(lower, node.plane >= region.lower[node.axis]);
+      areAll = areAllIn(upper, node.plane <= region.upper[node.axis]) && areAll;
+    }
+    if (areAll)
+    {
+      this->Marks.set(top.nodeIndex, needed);
+    }
+    return areAll;
+  }
+
+  /// The marked nodes of a depth below the front.
+  std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
+  {
+    return this->collectBelow(front, depth,
+      [this](const Path& below, std::vector<BandNode>& found)
+      {
+        const std::size_t node = below.nodeIndex();
+        if (this->Marks.has(node, needed))
+        {
+          found.push_back({ below.index, node, this->Marks.has(node, crossed) });
+        }
+      });
+  }
+
+  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, of which samples
+  /// are this rank's own, to a list or not
+  template <class Collect>
+  std::vector<BandNode> collectBelow(
+    const std::vector<BandNode>& front, int depth, const Collect& collect)
+  {
+    return collected<BandNode>(this->Run, { front.size(), searchBatch, searchGrain },
+      [&](std::size_t begin, std::size_t end, std::vector<BandNode>& found)
+      {
+        Path path = pathToRoot(this->Tree);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          moveTo(this->Tree, path, front[i].index);
+          forEachBelow(this->Tree, path, depth,
+            [&](const Path& below)
+            {
+              if (this->Tree.hasOwn(this->Tree.nodes[below.nodeIndex()]))
+              {
+                collect(below, found);
+              }
+            });
+        }
+      });
+  }
+
+  // Marks of nodes.
+  static constexpr std::uint8_t needed = 1;
+  static constexpr std::uint8_t crossed = 2;
+
+  SampleTree<TSample>& Tree;
+  const double Isovalue;
+  const Execution& Run;
+  WorkProgress& Progress;
+  const double WorkForIsopoint;
+  BandForecast Forecast;
+  NeighborListBudget ListBudget;
+  NodeMarks Marks; // of nodes of the present depth and above
+  std::mutex AsideMutex;
+  std::vector<BandNode> Aside;      // nodes of the present depth that wait for others
+  std::vector<MissingNode> Missing; // which these are
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NeighborhoodFits_h
+#define isopoint_NeighborhoodFits_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/SampleGatherer.h"
+#include "Core/Fit/LocalFit.h"
+#include "Core/Fit/LocalFitter.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Fits to the samples around edges, one edge at a time. Memory is kept. For one thread.
+template <class TSample>
+class NeighborhoodFitter
+{
+public:
+  NeighborhoodFitter(ExtractionContext<TSample>& context, FitRequest request)
+    : Isovalue(context.isovalue)
+    , ValueError(context.tree.valueError)
+    , Request(request)
+    , Gatherer(context)
+    , Fitter(context.isovalue, request.highest.value_or(FitOrder::Linear))
+  {
+  }
+
+  LocalFit fit(const CrossingEdge<TSample>& crossing)
+  {
+    this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
+    const FitEdge edge = this->edgeOf(crossing);
+    if (!this->Request.highest)
+    {
+      return LocalFitter::onEdge(edge);
+    }
+    std::optional<LocalFit> fit = this->Fitter.fitNear(edge, this->Gatherer.samples());
+    if (!fit)
+    {
+      const std::size_t nearCount = this->Gatherer.samples().size();
+      this->Gatherer.widen();
+      fit = this->Fitter.fit(edge, this->Gatherer.samples(), nearCount);
+    }
+    if (!this->Request.move)
+    {
+      fit->position = edge.position;
+    }
+    return *fit;
+  }
+
+private:
+  FitEdge edgeOf(const CrossingEdge<TSample>& crossing)
+  {
+    const FitSample first = this->Gatherer.sampleAt(crossing.firstLeaf);
+    const FitSample second = this->Gatherer.sampleAt(crossing.secondLeaf);
+    const bool increases = first.value < this->Isovalue;
+    FitEdge edge;
+    edge.position = interpolate(first.position, second.position, crossing.crossing);
+    edge.increasing = increases ? difference(second.position, first.position)
+                                : difference(first.position, second.position);
+    edge.increase = increases ? second.value - first.value : first.value - second.value;
+    edge.spacing = this->Gatherer.spacing();
+    edge.valueError = this->ValueError;
+    return edge;
+  }
+
+  const double Isovalue;
+  const double ValueError;
+  const FitRequest Request;
+  SampleGatherer<TSample> Gatherer;
+  LocalFitter Fitter;
+};
+
+/// The place of an edge in the order of the tree.
+struct TreePlace
+{
+  std::uint64_t lower; // of its ends among the tree's samples
+  std::uint64_t upper;
+  std::size_t edge;
+
+  bool operator<(const TreePlace& other) const
+  {
+    return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
+  }
+  bool operator==(const TreePlace& other) const
+  {
+    return this->lower == other.lower && this->upper == other.upper;
+  }
+};
+
+/// Edges in the order of the tree: consecutive ones lie close together, however samples are
+/// numbered.
+template <class TSample>
+std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSample>& tree,
+  const std::vector<CrossingEdge<TSample>>& edges)
+{
+  const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
+  { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
+  std::vector<TreePlace> places(edges.size());
+  forEachIndex(execution, edges.size(),
+    [&](std::size_t i)
+    {
+      const auto [lower, upper] =
+        std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
+      places[i] = { lower, upper, i };
+    });
+  return sortedUnique(
+    execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
+}
+
+/// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter), as
+/// they follow each other in the tree: what is found for one edge is often that of the next. Each
+/// fit depends on its samples alone.
+/// @param ranks SingleRank, or SharedRanks
+/// @param fits one for each edge, of which those at the places are set
+/// @throws Aborted, std::bad_alloc
+template <class TSample, class TRanks>
+void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRanks& ranks,
+  FitRequest request, const std::vector<CrossingEdge<TSample>>& edges,
+  const std::vector<TreePlace>& places, std::vector<LocalFit>& fits)
+{
+  // Batches are small: where cells touch hundreds of others, a fit takes long.
+  constexpr std::size_t grain = 256;
+  ranks.forEach(
+    execution, { places.size(), 4 * grain, grain },
+    [&]() { return NeighborhoodFitter<TSample>(context, request); },
+    [&](NeighborhoodFitter<TSample>& fitter, std::size_t i)
+    { fits[places[i].edge] = fitter.fit(edges[places[i].edge]); },
+    execution.progress);
+}
+
+/// Fits to the samples around each edge; see fitAt(). @returns one fit for each
+template <class TSample, class TRanks>
+std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
+  ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
+  const std::vector<CrossingEdge<TSample>>& edges)
+{
+  std::vector<LocalFit> fits(edges.size());
+  fitAt(execution, context, ranks, request, edges, placesOf(execution, context.tree, edges), fits);
+  return fits;
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SampleGatherer_h
+#define isopoint_SampleGatherer_h
+
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/LeafRings.h"
+#include "Core/Extraction/LeafSet.h"
+#include "Core/Fit/LocalFit.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Gathers the samples around edges, one edge at a time: within one ring of touching cells
+/// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept.
+/// For one thread.
+template <class TSample>
+class SampleGatherer
+{
+public:
+  using Id = typename TSample::Id;
+
+  explicit SampleGatherer(ExtractionContext<TSample>& context)
+    : Tree(context.tree)
+    , AllRings(context)
+  {
+  }
+
+  /// Gathers the samples of both ends and of their neighbors; but if one end alone has very many,
+  /// as a cell that fills a void has, only those of the other end. If both have, a subset of theirs
+  /// that covers all directions and distances.
+  void gather(Id firstLeaf, Id secondLeaf)
+  {
+    this->Known.clear();
+    this->Samples.clear();
+    this->IsWide = false;
+    this->AllRings.makeRoom();
+    if (this->beginOf(secondLeaf) < this->beginOf(firstLeaf))
+    {
+      std::swap(firstLeaf, secondLeaf);
+    }
+    this->Ends = { &this->AllRings.at(firstLeaf), &this->AllRings.at(secondLeaf) };
+    this->AreMany = this->Ends[0]->hasTooMany && this->Ends[1]->hasTooMany;
+    for (EndRings* const end : this->Ends)
+    {
+      this->add(end->leaf);
+      if (this->AreMany)
+      {
+        this->AllRings.represent(*end);
+      }
+      if (this->isTaken(*end))
+      {
+        this->addAll(end->first);
+      }
+    }
+  }
+
+  /// Adds the neighbors of the ends' neighbors across the isovalue, unless there are enough
+  /// samples, as where these are in lines.
+  void widen()
+  {
+    constexpr std::size_t enoughSamples = 128;
+    if (this->IsWide || this->Samples.size() > enoughSamples)
+    {
+      return;
+    }
+    this->IsWide = true;
+    for (EndRings* const end : this->Ends)
+    {
+      if (this->isTaken(*end))
+      {
+        this->addAll(this->AllRings.secondOf(*end));
+      }
+    }
+  }
+
+  /// The samples of the present edge, each once, coincident ones as one. Their order depends on the
+  /// tree alone.
+  const std::vector<FitSample>& samples() const { return this->Samples; }
+
+  /// The mean of the spacings at those ends whose neighbors are taken.
+  double spacing()
+  {
+    double sum = 0.0;
+    double count = 0.0;
+    for (EndRings* const end : this->Ends)
+    {
+      if (this->isTaken(*end))
+      {
+        sum += this->AllRings.spacingOf(*end);
+        count += 1.0;
+      }
+    }
+    return sum / count;
+  }
+
+  /// A leaf's sample.
+  FitSample sampleAt(Id leaf)
+  {
+    return { positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf))),
+      this->AllRings.valueOf(leaf) };
+  }
+
+private:
+  using EndRings = typename LeafRings<TSample>::Rings;
+
+  /// Whether the first ring of an end is, whole or by representatives.
+  bool isTaken(const EndRings& end) const { return this->AreMany || !end.hasTooMany; }
+
+  template <class TLeaves>
+  void addAll(const TLeaves& leaves)
+  {
+    for (const Id leaf : leaves)
+    {
+      this->add(leaf);
+    }
+  }
+
+  void add(Id leaf)
+  {
+    if (this->Known.add(leaf))
+    {
+      this->Samples.push_back(this->sampleAt(leaf));
+    }
+  }
+
+  /// The place of a leaf in the order of the tree.
+  std::size_t beginOf(Id leaf) const
+  {
+    return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
+  }
+
+  const SampleTree<TSample>& Tree;
+  LeafRings<TSample> AllRings;
+  std::array<EndRings*, 2> Ends{}; // of the present edge, in the order of the tree
+  bool AreMany = false;            // whether both have too many neighbors
+  LeafSet<Id> Known;               // leaves whose samples are taken
+  std::vector<FitSample> Samples;
+  bool IsWide = false;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_FrameSamples_h
+#define isopoint_FrameSamples_h
+
+#include "Core/Base/Vector.h"
+#include "Core/Fit/Lanes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace isopoint
+{
+
+/// One number for each sample of a fit, in groups of four.
+class SampleNumbers
+{
+public:
+  static constexpr std::size_t most = 256;
+
+  double& operator[](std::size_t sample) { return this->Numbers[sample]; }
+  double operator[](std::size_t sample) const { return this->Numbers[sample]; }
+
+  Lanes group(std::size_t i) const { return Lanes::load(this->Numbers.data() + laneCount * i); }
+  void setGroup(std::size_t i, const Lanes& lanes)
+  {
+    lanes.store(this->Numbers.data() + laneCount * i);
+  }
+
+  /// The first ones side by side.
+  template <std::size_t Count>
+  Pack<Count> first() const
+  {
+    return Pack<Count>::load(this->Numbers.data());
+  }
+
+private:
+  // Processors take a read for one of what was just written if the lower 12 bits of the addresses
+  // are the same, and wait: the same sample in other arrays must not be a multiple of 4096 bytes
+  // away.
+  static constexpr std::size_t unused = 24;
+
+  alignas(16) std::array<double, most + unused> Numbers;
+};
+
+/// Samples in the frame of a fit: offsets from an origin and values of a size near 1. The nearest
+/// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0, and
+/// so are the groups of the nearest ones if there are fewer.
+class FrameSamples
+{
+public:
+  static constexpr std::size_t most = SampleNumbers::most;
+  static constexpr std::size_t nearest = 16; // that come first
+
+  // The first groupCount() groups of these are set.
+  SampleNumbers x;
+  SampleNumbers y;
+  SampleNumbers z;
+  SampleNumbers value;
+  SampleNumbers squaredDistance; // from the origin
+
+  double valueError = 0.0; // standard error that each value has at least
+
+  std::size_t count() const { return this->Count; }
+  std::size_t groupCount() const
+  {
+    return (std::max(this->count(), nearest) + laneCount - 1) / laneCount;
+  }
+
+  /// The mean distance of the samples from the origin.
+  double meanDistance() const
+  {
+    return sumOf(Lanes::load(this->DistanceSums.data())) / static_cast<double>(this->Count);
+  }
+
+  FrameSamples() { this->clear(); }
+
+  void clear()
+  {
+    this->Count = 0;
+    this->DistanceSums = {};
+    for (std::size_t group = 0; group < nearest / laneCount; ++group)
+    {
+      this->clearGroup(group);
+    }
+  }
+
+  /// Up to `most` samples can be added.
+  void add(const Vector& offset, double sampleValue)
+  {
+    if (this->Count % laneCount == 0)
+    {
+      this->clearGroup(this->Count / laneCount);
+    }
+    this->x[this->Count] = offset[0];
+    this->y[this->Count] = offset[1];
+    this->z[this->Count] = offset[2];
+    this->value[this->Count] = sampleValue;
+    const double squared = dot(offset, offset);
+    this->squaredDistance[this->Count] = squared;
+    this->DistanceSums[this->Count % laneCount] += std::sqrt(squared);
+    ++this->Count;
+  }
+
+private:
+  void clearGroup(std::size_t group)
+  {
+    for (SampleNumbers* const numbers :
+      { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
+    {
+      numbers->setGroup(group, 0.0);
+    }
+  }
+
+  std::uint32_t Count = 0; // not wider: groupCount() is then known not to overflow, nor to be 0
+  std::array<double, laneCount> DistanceSums{}; // from the origin, of each lane
+};
+
+/// One weight for each sample.
+using FrameWeights = SampleNumbers;
+
+inline void copyWeights(const FrameSamples& samples, const FrameWeights& from, FrameWeights& to)
+{
+  const std::size_t groups = samples.groupCount();
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    to.setGroup(group, from.group(group));
+  }
+}
+
+/// Sets the weights of the places behind the last sample to 0.
+inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
+{
+  for (std::size_t i = samples.count(); i < laneCount * samples.groupCount(); ++i)
+  {
+    weights[i] = 0.0;
+  }
+}
+
+/// Weights (offset + (d / s)^2)^-power, d being a sample's distance from the origin, s the mean of
+/// these.
+template <int Power>
+void weigh(const FrameSamples& samples, double offset, FrameWeights& weights)
+{
+  const double meanDistance = samples.meanDistance();
+  const double scale = 1.0 / (meanDistance * meanDistance);
+  const std::size_t groups = samples.groupCount();
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    const Lanes base = offset + scale * samples.squaredDistance.group(group);
+    weights.setGroup(group, 1.0 / (Power == 1 ? base : base * base * base));
+  }
+  endWeights(samples, weights);
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NormalEquations_h
+#define isopoint_NormalEquations_h
+
+#include "Core/Fit/FrameSamples.h"
+#include "Core/Fit/Polynomial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace isopoint
+{
+
+/// A smaller share of a diagonal element left as the pivot means that the samples do not determine
+/// the coefficient: about half of the digits of a double remain.
+constexpr double leastPivot = 1e-7;
+
+/// The product of coordinates that a coefficient belongs to: that of an earlier one, times a
+/// coordinate. In the order of Polynomial, the first one, 1, apart.
+struct CoordinateProduct
+{
+  std::size_t former;
+  std::size_t axis;
+};
+constexpr std::array<CoordinateProduct, 20> coordinateProducts{ { {}, { 0, 0 }, { 0, 1 }, { 0, 2 },
+  { 1, 0 }, { 2, 1 }, { 3, 2 }, { 1, 1 }, { 1, 2 }, { 2, 2 }, { 4, 0 }, { 5, 1 }, { 6, 2 },
+  { 4, 1 }, { 4, 2 }, { 5, 0 }, { 5, 2 }, { 6, 0 }, { 6, 1 }, { 7, 2 } } };
+
+/// The powers of x, y, z in a coefficient's product.
+constexpr std::array<std::size_t, 3> exponentsOf(std::size_t coefficient)
+{
+  std::array<std::size_t, 3> exponents{};
+  for (; coefficient > 0; coefficient = coordinateProducts[coefficient].former)
+  {
+    ++exponents[coordinateProducts[coefficient].axis];
+  }
+  return exponents;
+}
+
+/// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order:
+/// coefficientCount (order) of them instead of one for each pair of coefficients.
+template <int Order>
+class Moments
+{
+public:
+  /// @param weights by which the products are multiplied
+  Moments(const FrameSamples& samples, const FrameWeights& weights)
+  {
+    Products products;
+    this->addPlane<0>(samples, weights, products);
+  }
+
+  double at(std::size_t a, std::size_t b, std::size_t c) const { return this->Sums[a][b][c]; }
+
+  /// The sum of the products that two coefficients belong to.
+  template <std::size_t First, std::size_t Second>
+  double product() const
+  {
+    constexpr auto first = exponentsOf(First);
+    constexpr auto second = exponentsOf(Second);
+    return this->Sums[first[0] + second[0]][first[1] + second[1]][first[2] + second[2]];
+  }
+
+private:
+  static constexpr std::size_t size = Order + 1;
+
+  struct Products
+  {
+    SampleNumbers ofPlane; // weight x^a
+    SampleNumbers ofRow;   // weight x^a y^b
+  };
+
+  // Several sums are taken in each pass over the samples: more of them would not stay in registers.
+
+  /// All sums with x^a, and then those with higher powers of x.
+  /// @param powers weight x^a
+  template <int A>
+  void addPlane(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    if constexpr (A + 1 < Order)
+    {
+      this->addRows<A, 0>(samples, powers, products);
+      this->addPlane<A + 1>(samples, products.ofPlane, products);
+    }
+    else
+    {
+      this->addLastPlanes<A>(samples, powers);
+    }
+  }
+
+  /// All sums with x^a y^b, and then those with higher powers of y. Rows with b = 0 replace
+  /// weight x^a in products.ofPlane by weight x^(a + 1), each group after it was read.
+  /// @param powers weight x^a y^b
+  template <int A, int B>
+  void addRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    if constexpr (A + B + 2 < Order)
+    {
+      this->addRow<A, B>(samples, powers, products);
+      this->addRows<A, B + 1>(samples, products.ofRow, products);
+    }
+    else
+    {
+      this->addLastRows<A, B>(samples, powers, products);
+    }
+  }
+
+  template <int A, int B>
+  void addRow(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    constexpr std::size_t count = Order - A - B + 1;
+    std::array<Lanes, count> sums;
+    sums.fill(0.0);
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      Lanes product = powers.group(i);
+      products.ofRow.setGroup(i, product * samples.y.group(i));
+      if constexpr (B == 0)
+      {
+        products.ofPlane.setGroup(i, product * samples.x.group(i));
+      }
+      sums[0] += product;
+#pragma GCC unroll 8
+      for (std::size_t c = 1; c < count; ++c)
+      {
+        product *= samples.z.group(i);
+        sums[c] += product;
+      }
+    }
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      this->Sums[A][B][c] = sumOf(sums[c]);
+    }
+  }
+
+  /// The sums of the last three rows of a plane, a + b = Order - 2.
+  template <int A, int B>
+  void addLastRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
+  {
+    Lanes one = 0.0;
+    Lanes ofZ = 0.0;
+    Lanes ofZZ = 0.0;
+    Lanes ofY = 0.0;
+    Lanes ofYZ = 0.0;
+    Lanes ofYY = 0.0;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      const Lanes power = powers.group(i);
+      if constexpr (B == 0)
+      {
+        products.ofPlane.setGroup(i, power * samples.x.group(i));
+      }
+      const Lanes withY = power * samples.y.group(i);
+      const Lanes withZ = power * samples.z.group(i);
+      one += power;
+      ofZ += withZ;
+      ofZZ += withZ * samples.z.group(i);
+      ofY += withY;
+      ofYZ += withY * samples.z.group(i);
+      ofYY += withY * samples.y.group(i);
+    }
+    this->Sums[A][B][0] = sumOf(one);
+    this->Sums[A][B][1] = sumOf(ofZ);
+    this->Sums[A][B][2] = sumOf(ofZZ);
+    this->Sums[A][B + 1][0] = sumOf(ofY);
+    this->Sums[A][B + 1][1] = sumOf(ofYZ);
+    this->Sums[A][B + 2][0] = sumOf(ofYY);
+  }
+
+  /// The sums of the last two planes, a = Order - 1.
+  template <int A>
+  void addLastPlanes(const FrameSamples& samples, const SampleNumbers& powers)
+  {
+    Lanes one = 0.0;
+    Lanes ofZ = 0.0;
+    Lanes ofY = 0.0;
+    Lanes ofX = 0.0;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      const Lanes power = powers.group(i);
+      one += power;
+      ofZ += power * samples.z.group(i);
+      ofY += power * samples.y.group(i);
+      ofX += power * samples.x.group(i);
+    }
+    this->Sums[A][0][0] = sumOf(one);
+    this->Sums[A][0][1] = sumOf(ofZ);
+    this->Sums[A][1][0] = sumOf(ofY);
+    this->Sums[A + 1][0][0] = sumOf(ofX);
+  }
+
+  double Sums[size][size][size];
+};
+
+/// The normal equations of the weighted least-squares polynomial of a degree through samples, and
+/// their Cholesky factors L, whose leading blocks are those of lower degrees.
+template <int Degree>
+class NormalEquations
+{
+public:
+  static constexpr std::size_t size = coefficientCount(Degree);
+
+  /// Complexity: O(samples)
+  NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
+  {
+    const Moments<2 * Degree> moments(samples, weights);
+    SampleNumbers weightedValues;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      weightedValues.setGroup(i, weights.group(i) * samples.value.group(i));
+    }
+    const Moments<Degree> ofValues(samples, weightedValues);
+    this->factor(moments, std::make_index_sequence<size>());
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const auto [a, b, c] = exponentsOf(i);
+      this->RightSide[i] = ofValues.at(a, b, c);
+    }
+  }
+
+  /// The highest degree whose coefficients the samples determine; 0 if none.
+  int determinedDegree() const { return this->Determined; }
+
+  /// The polynomial of a degree up to determinedDegree() of least squares.
+  Polynomial solution(int degree) const
+  {
+    const std::size_t count = coefficientCount(degree);
+    Polynomial polynomial;
+    polynomial.degree = degree;
+    auto& x = polynomial.coefficients;
+    std::copy_n(this->RightSide.begin(), count, x.begin());
+    this->reduce(degree, x);
+    for (std::size_t i = count; i-- > 0;)
+    {
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        x[i] -= this->below(i, j) * x[j];
+      }
+      x[i] *= this->Reciprocals[i];
+    }
+    return polynomial;
+  }
+
+  /// Replaces p by L^-1 p, p being the products of coordinates at a place (or at several side by
+  /// side) that coefficients belong to, or the unit vector of a coefficient. With two such vectors
+  /// u and v, u . v is the effect of a value of weight 1 at the place of v on the polynomial at
+  /// that of u, or on the coefficient.
+  template <class Vectors>
+  void reduce(int degree, Vectors& p) const
+  {
+    const std::size_t count = coefficientCount(degree);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      auto rest = p[i];
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        rest -= this->below(j, i) * p[j];
+      }
+      p[i] = rest * this->Reciprocals[i];
+    }
+  }
+
+  /// The products of coordinates that coefficients belong to.
+  template <class Number>
+  static std::array<Number, size> products(const Number& x, const Number& y, const Number& z)
+  {
+    const std::array<const Number*, 3> coordinates{ &x, &y, &z };
+    std::array<Number, size> result;
+    result[0] = 1.0;
+    for (std::size_t i = 1; i < size; ++i)
+    {
+      const auto& [former, axis] = coordinateProducts[i];
+      result[i] = result[former] * *coordinates[axis];
+    }
+    return result;
+  }
+
+private:
+  using Column = std::array<double, size>; // of even size
+
+  double below(std::size_t column, std::size_t row) const { return this->Columns[column][row]; }
+
+  /// One column of L after the other, with zeros on and above the diagonal.
+  template <std::size_t... Indices>
+  void factor(const Moments<2 * Degree>& moments, std::index_sequence<Indices...>)
+  {
+    this->Determined = 0;
+    // Stops at the first column that is not determined.
+    static_cast<void>(
+      (this->factorColumn<Indices>(moments, std::make_index_sequence<size>()) && ...));
+  }
+
+  /// @returns whether the samples determine the coefficient
+  template <std::size_t Index, std::size_t... Rows>
+  bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
+  {
+    constexpr std::size_t first = Index / 2 * 2; // in whole pairs
+    alignas(16) Column rest;
+    ((rest[Rows] = Rows < first ? 0.0 : moments.template product<Index, Rows>()), ...);
+    const double diagonal = rest[Index];
+    for (std::size_t former = 0; former < Index; ++former)
+    {
+      const double factor = this->below(former, Index);
+      for (std::size_t row = first; row < rest.size(); ++row)
+      {
+        rest[row] -= factor * this->Columns[former][row];
+      }
+    }
+    const double pivot = rest[Index];
+    if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
+    {
+      return false;
+    }
+    this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
+    for (std::size_t row = first; row < rest.size(); ++row)
+    {
+      this->Columns[Index][row] = rest[row] * this->Reciprocals[Index];
+    }
+    for (std::size_t row = first; row <= Index; ++row)
+    {
+      this->Columns[Index][row] = 0.0;
+    }
+    for (int degree = 1; degree <= Degree; ++degree)
+    {
+      this->Determined = Index + 1 == coefficientCount(degree) ? degree : this->Determined;
+    }
+    return true;
+  }
+
+  alignas(16) std::array<Column, size> Columns; // of L, below the diagonal
+  std::array<double, size> Reciprocals;         // of the diagonal of L
+  std::array<double, size> RightSide;
+  int Determined = 0;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SampleExtent_h
+#define isopoint_SampleExtent_h
+
+#include "Core/Base/ConcurrentMemo.h"
+#include "Core/Base/Region.h"
+#include "Core/Base/Vector.h"
+#include "Core/Neighbors/NearestSample.h"
+#include "Core/Tree/SampleBounds.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace isopoint
+{
+
+/// A question for the extent of the samples ahead of a place on a surface; see SampleExtents.
+struct ExtentQuery
+{
+  Vector place;
+  Vector normal;    // of the surface there
+  Vector direction; // orthogonal to it, of length 1
+  double enough;    // the largest result that is of interest, positive
+  double reach;     // of the samples that count from the place, not below `enough`, finite
+};
+
+/// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as
+/// rounding permits.
+constexpr double leastCosineAhead = 0.7071;
+
+/// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
+/// their regions, by node.
+template <class TSample>
+using UnsplitBounds = ConcurrentMemo<SampleBox<TSample>>;
+
+/// Searches for the samples ahead of a place, the farthest of them first. Subtrees whose region
+/// shows that they make no difference are skipped.
+template <class TSample>
+class SampleExtentSearch
+{
+public:
+  SampleExtentSearch(
+    const SampleTree<TSample>& tree, UnsplitBounds<TSample>& bounds, const ExtentQuery& query)
+    : Tree(tree)
+    , Bounds(bounds)
+    , Query(query)
+  {
+  }
+
+  /// Includes the samples in a box around a place ahead.
+  void search(double ahead, double half)
+  {
+    const Vector center = sum(this->Query.place, ahead, this->Query.direction);
+    Region box;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.lower[axis] = std::max(this->Tree.region.lower[axis], center[axis] - half);
+      box.upper[axis] = std::min(this->Tree.region.upper[axis], center[axis] + half);
+    }
+    this->visit(SampleTree<TSample>::rootNode, box);
+  }
+
+  double extent() const { return std::min({ this->Above, this->Below, this->Query.enough }); }
+  bool isEnough() const { return this->extent() >= this->Query.enough; }
+
+private:
+  /// @param box the intersection of the search's box and the node's region
+  /// @throws MissingNode at a node whose samples another rank holds
+  void visit(std::size_t nodeIndex, const Region& box)
+  {
+    nodeIndex = smallestAround(this->Tree, nodeIndex, box);
+    if (!this->mayContribute(box))
+    {
+      return;
+    }
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!node.isSplit())
+    {
+      if (node.isAbsent)
+      {
+        throw MissingNode{ nodeIndex, box };
+      }
+      this->addSamples(nodeIndex);
+      return;
+    }
+    const bool isUpperFirst = this->Query.direction[node.axis] > 0.0;
+    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+    {
+      Region part = box;
+      double& bound = isUpper ? part.lower[node.axis] : part.upper[node.axis];
+      bound = isUpper ? std::max(bound, node.plane) : std::min(bound, node.plane);
+      this->visit(this->Tree.child(node, isUpper), part);
+    }
+  }
+
+  /// Whether a sample in a box may stand farther ahead, on a side of the plane, than those found.
+  /// Rounding is monotonic: no value computed for a sample exceeds that for its box.
+  template <class TBox>
+  bool mayContribute(const TBox& box) const
+  {
+    double ahead = 0.0; // the largest, as all that follow
+    double height = 0.0;
+    double depth = 0.0;
+    Vector gap{}; // from the place to the box
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = box.lower[axis] - this->Query.place[axis];
+      const double upper = box.upper[axis] - this->Query.place[axis];
+      if (!(lower <= upper))
+      {
+        return false;
+      }
+      gap[axis] = std::max({ lower, -upper, 0.0 });
+      const double direction = this->Query.direction[axis];
+      const double normal = this->Query.normal[axis];
+      ahead += std::max(direction * lower, direction * upper);
+      height += std::max(normal * lower, normal * upper);
+      depth += std::max(-normal * lower, -normal * upper);
+    }
+    const double useful = std::min(ahead, this->Query.enough);
+    if (!(height >= 0.0 && useful > this->Above) && !(depth >= 0.0 && useful > this->Below))
+    {
+      return false;
+    }
+    // Lengths are rounded either way.
+    constexpr double slack = 0.999;
+    const double least = slack * lengthOf(gap);
+    return least <= this->Query.reach && ahead >= leastCosineAhead * least;
+  }
+
+  /// Includes the samples of a node that is not split; of many only as long as one of the rest may
+  /// make a difference.
+  void addSamples(std::size_t nodeIndex)
+  {
+    constexpr std::size_t many = 64;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+    const bool areMany = end - node.begin > many;
+    const SampleBox<TSample> box =
+      areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })
+              : SampleBox<TSample>{};
+    for (std::size_t i = node.begin; i < end; ++i)
+    {
+      if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
+      {
+        return;
+      }
+      const auto* const position = this->Tree.samples[i].position;
+      this->add({ position[0], position[1], position[2] });
+    }
+  }
+
+  void add(const Vector& position)
+  {
+    const Vector offset = difference(position, this->Query.place);
+    const double height = dot(offset, this->Query.normal);
+    const double ahead = dot(offset, this->Query.direction);
+    if (!this->isOfUse(height, ahead))
+    {
+      return; // before its length, which takes far longer to compute
+    }
+    const double length = lengthOf(offset);
+    if (ahead < leastCosineAhead * length || length > this->Query.reach)
+    {
+      return;
+    }
+    if (height >= 0.0)
+    {
+      this->Above = std::max(this->Above, ahead);
+    }
+    if (height <= 0.0)
+    {
+      this->Below = std::max(this->Below, ahead);
+    }
+  }
+
+  /// Whether samples ahead, at a height above the plane, are farther ahead than those found.
+  bool isOfUse(double height, double ahead) const
+  {
+    return (height >= 0.0 && ahead > this->Above) || (height <= 0.0 && ahead > this->Below);
+  }
+
+  const SampleTree<TSample>& Tree;
+  UnsplitBounds<TSample>& Bounds;
+  const ExtentQuery& Query;
+  double Above = 0.0; // how far samples stand ahead on this side of the plane
+  double Below = 0.0;
+};
+
+/// The condition of a NearestSampleSearch that a sample stands ahead by an ExtentQuery's `enough`
+/// or more.
+class IsAhead
+{
+public:
+  explicit IsAhead(const ExtentQuery& query)
+    : Query(query)
+  {
+  }
+
+  bool mayHoldIn(const Region& region) const
+  {
+    double ahead = 0.0; // the largest
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double direction = this->Query.direction[axis];
+      const double place = this->Query.place[axis];
+      ahead += std::max(
+        direction * (region.lower[axis] - place), direction * (region.upper[axis] - place));
+    }
+    constexpr double slack = 0.999; // for rounding
+    return ahead >= slack * this->Query.enough;
+  }
+
+  bool holdsAt(const Vector& offset, double length) const
+  {
+    const double ahead = dot(offset, this->Query.direction);
+    return ahead >= this->Query.enough && ahead >= leastCosineAhead * length;
+  }
+
+private:
+  const ExtentQuery& Query;
+};
+
+/// The extents of a tree's samples ahead of places on a surface. The tree must not change
+/// meanwhile.
+template <class TSample>
+class SampleExtents
+{
+public:
+  explicit SampleExtents(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// How far samples stand ahead of a place, on both sides of the plane through it that is tangent
+  /// to the surface: the largest component along the direction of the offsets to the samples within
+  /// 45 degrees of it and within reach, on the side where that is less; at most query.enough, and 0
+  /// where there is no sample. The same however much of the tree is refined. From any thread.
+  /// Complexity: O(log n) where samples are far enough off; else O(log n), the nodes within reach,
+  /// and the samples of unsplit nodes whose bounding box reaches farther than any sample found.
+  /// @throws std::bad_alloc
+  double at(const ExtentQuery& query) const
+  {
+    if (this->Tree.isEmpty())
+    {
+      return 0.0;
+    }
+    SampleExtentSearch<TSample> search(this->Tree, this->Bounds, query);
+    // Mostly the first few samples will do.
+    constexpr double share = 0.2;
+    const double beyond = query.reach - query.enough;
+    search.search(query.enough + 0.5 * beyond, share * beyond);
+    if (!search.isEnough())
+    {
+      // All that count lie in a ball that touches the place, of 1 / sqrt 2 of the reach.
+      search.search(0.707 * query.reach, 0.72 * query.reach);
+    }
+    return search.extent();
+  }
+
+  /// The nearest of the samples that stand ahead by query.enough or more; see NearestSampleSearch.
+  /// @throws MissingNode
+  const TSample* nearest(const ExtentQuery& query) const
+  {
+    return NearestSampleSearch<TSample, IsAhead>(
+      this->Tree, query.place, query.reach, IsAhead(query))
+      .search();
+  }
+
+  /// The sample nearest to a place, within reach; see NearestSampleSearch.
+  /// @throws MissingNode
+  const TSample* nearestTo(const Vector& place, double reach) const
+  {
+    return NearestSampleSearch<TSample>(this->Tree, place, reach).search();
+  }
+
+private:
+  const SampleTree<TSample>& Tree;
+  mutable UnsplitBounds<TSample> Bounds; // a memo, safe for concurrent use
+};
+
+} // namespace isopoint
+
+#endif

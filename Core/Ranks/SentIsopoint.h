@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SentIsopoint_h
+#define isopoint_SentIsopoint_h
+
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Fit/LocalFit.h"
+#include "Core/Neighbors/NeighborSearch.h"
+#include "Core/Ranks/ByteBuffer.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace isopoint
+{
+
+/// The end of an edge, as all ranks understand it: the place of its leaf in the order of the tree,
+/// and a position inside that.
+struct SentEnd
+{
+  std::uint64_t place;
+  Vector position;
+};
+
+template <class TSample>
+SentEnd sentEnd(const SampleTree<TSample>& tree, std::size_t leaf)
+{
+  const std::size_t begin = tree.nodes[leaf].begin;
+  return { begin, positionOf(tree.samples[begin]) };
+}
+
+/// The leaf of an end in this rank's tree.
+/// @throws MissingNode if this rank does not hold it as a leaf. O(depth)
+template <class TSample>
+std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
+{
+  std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+  while (tree.nodes[nodeIndex].isSplit())
+  {
+    const Node<TSample>& node = tree.nodes[nodeIndex];
+    nodeIndex = tree.child(node, end.place >= tree.nodes[node.upperNode()].begin);
+  }
+  requireLeaf(tree, nodeIndex, Region{ end.position, end.position });
+  return nodeIndex;
+}
+
+/// A crossing edge as ranks send it to each other.
+struct SentEdge
+{
+  std::uint64_t first;
+  std::uint64_t second;
+  double crossing;
+  SentEnd ends[2];
+};
+
+/// An isopoint of another rank.
+struct SentIsopoint
+{
+  IsopointEdge edge;
+  Vector position;
+  Vector decreasingEdge;
+  std::array<SentEnd, 2> ends;
+  LocalFit fit;              // if the surface has fits
+  EdgeLeaves leaves{ 0, 0 }; // in the tree of the rank that received it
+};
+
+inline void appendFit(ByteBuffer& buffer, const LocalFit& fit)
+{
+  append(buffer, fit.position);
+  append(buffer, fit.gradient);
+  append(buffer, fit.isGradientFitted);
+  append(buffer, fit.hessian);
+  append(buffer, fit.isSmooth);
+  append(buffer, fit.spacing);
+  append(buffer, static_cast<std::uint8_t>(fit.order ? static_cast<int>(*fit.order) : 0));
+  append(buffer, static_cast<std::uint64_t>(fit.creases.size()));
+  append(buffer, fit.creases.data(), fit.creases.size());
+}
+
+inline LocalFit readFit(ByteReader& in)
+{
+  LocalFit fit{};
+  fit.position = in.read<Vector>();
+  fit.gradient = in.read<Vector>();
+  fit.isGradientFitted = in.read<bool>();
+  fit.hessian = in.read<Hessian>();
+  fit.isSmooth = in.read<bool>();
+  fit.spacing = in.read<double>();
+  const auto order = in.read<std::uint8_t>();
+  if (order > 0)
+  {
+    fit.order = static_cast<FitOrder>(order);
+  }
+  fit.creases.resize(static_cast<std::size_t>(in.read<std::uint64_t>()));
+  in.read(fit.creases.data(), fit.creases.size());
+  return fit;
+}
+
+/// Writes an isopoint of a surface with leaves.
+template <class TSample>
+void appendIsopoint(ByteBuffer& buffer, const SampleTree<TSample>& tree, const Isosurface& surface,
+  std::size_t isopoint)
+{
+  append(buffer, surface.edges[isopoint]);
+  append(buffer, surface.positions[isopoint]);
+  append(buffer, surface.decreasingEdges[isopoint]);
+  for (const std::size_t leaf : { surface.leaves[isopoint].first, surface.leaves[isopoint].second })
+  {
+    append(buffer, sentEnd(tree, leaf));
+  }
+  if (!surface.fits.empty())
+  {
+    appendFit(buffer, surface.fits[isopoint]);
+  }
+}
+
+inline SentIsopoint readIsopoint(ByteReader& in, bool hasFit)
+{
+  SentIsopoint isopoint{};
+  isopoint.edge = in.read<IsopointEdge>();
+  isopoint.position = in.read<Vector>();
+  isopoint.decreasingEdge = in.read<Vector>();
+  in.read(isopoint.ends.data(), isopoint.ends.size());
+  if (hasFit)
+  {
+    isopoint.fit = readFit(in);
+  }
+  return isopoint;
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SharedRanks_h
+#define isopoint_SharedRanks_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Base/Team.h"
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/NeighborhoodFits.h"
+#include "Core/Extraction/Thinning.h"
+#include "Core/Fit/LocalFit.h"
+#include "Core/Ranks/ByteBuffer.h"
+#include "Core/Ranks/NodeExchange.h"
+#include "Core/Ranks/SentIsopoint.h"
+#include "Core/Tetrahedra/BandTriangulation.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The ranks that share a tree, as extraction sees them: what SingleRank is for one, whose
+/// functions are described there.
+template <class TSample>
+class SharedRanks
+{
+public:
+  using Edges = std::vector<CrossingEdge<TSample>>;
+
+  /// @param begins see SharedTree
+  SharedRanks(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
+    : Group(team)
+    , Tree(tree)
+    , Begins(begins)
+    , Exchange(team, tree, begins)
+  {
+  }
+
+  Team& team() { return this->Group; }
+
+  /// The rank that holds a place in the order of the tree.
+  std::size_t ownerOf(std::uint64_t place) const { return rankAt(this->Begins, place); }
+
+  bool isAny(bool mine) { return this->Group.isAny(mine); }
+  std::uint64_t sum(std::uint64_t mine) { return this->Group.sum(mine); }
+
+  bool fetchNodes(std::vector<MissingNode>& missing, int depth)
+  {
+    return this->Exchange.fetchNodes(missing, depth);
+  }
+
+  template <class MakeWorker, class Work>
+  void forEach(
+    const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone = [](double) {})
+  {
+    std::vector<std::size_t> items(batches.count);
+    std::iota(items.begin(), items.end(), std::size_t{ 0 });
+    std::vector<MissingNode> missing;
+    do
+    {
+      std::vector<std::size_t> aside;
+      std::mutex mutex;
+      forEachItem(
+        execution, { items.size(), batches.batchPerThread, batches.grain }, makeWorker,
+        [&](auto& worker, std::size_t i)
+        {
+          try
+          {
+            work(worker, items[i]);
+          }
+          catch (const MissingNode& node)
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            aside.push_back(items[i]);
+            missing.push_back(node);
+          }
+        },
+        batchDone);
+      std::sort(aside.begin(), aside.end());
+      items.swap(aside);
+    } while (this->fetchNodes(missing, maximumDepth + 1));
+  }
+
+  void shareEdges(Edges& edges)
+  {
+    std::vector<std::vector<SentEdge>> outgoing(this->rankCount());
+    for (const CrossingEdge<TSample>& edge : edges)
+    {
+      this->forOtherRanks(edge,
+        [&](std::size_t rank)
+        {
+          outgoing[rank].push_back({ edge.first, edge.second, edge.crossing,
+            { sentEnd(this->Tree, edge.firstLeaf), sentEnd(this->Tree, edge.secondLeaf) } });
+        });
+    }
+    const std::vector<SentEdge> open = united(this->Group.exchange(outgoing));
+    const std::size_t ownCount = edges.size();
+    edges.resize(ownCount + open.size());
+    this->forEach(
+      Execution(), { open.size(), 1024, 256 }, []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const SentEdge& edge = open[i];
+        edges[ownCount + i] = { { edge.first, edge.second }, edge.crossing,
+          static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[0])),
+          static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[1])) };
+      });
+  }
+
+  void uniteEdges(const Edges& edges, std::vector<std::size_t>& found)
+  {
+    std::vector<std::vector<SampleEdge>> outgoing(this->rankCount());
+    for (const std::size_t i : found)
+    {
+      this->forOtherRanks(edges[i],
+        [&](std::size_t rank) {
+          outgoing[rank].push_back({ edges[i].first, edges[i].second });
+        });
+    }
+    for (const SampleEdge& wanted : united(this->Group.exchange(outgoing)))
+    {
+      const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
+      if (edge == edges.end() || wanted < *edge)
+      {
+        throw std::logic_error("ranks have found different edges");
+      }
+      found.push_back(static_cast<std::size_t>(edge - edges.begin()));
+    }
+    keepUnique(found);
+  }
+
+  /// The order of the whole surface runs through all ranks: one rank thins for all, and takes
+  /// memory for the fits of all.
+  void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
+  {
+    std::vector<ByteBuffer> questions(this->rankCount());
+    for (std::size_t i = 0; i < surface.fits.size(); ++i)
+    {
+      append(questions.front(), surface.edges[i]);
+      appendFit(questions.front(), surface.fits[i]);
+    }
+    std::vector<std::vector<IsopointEdge>> asked(this->rankCount());
+    std::map<IsopointEdge, LocalFit> whole; // each isopoint is on one rank or on several
+    const std::vector<ByteBuffer> arrived = this->Group.exchange(questions);
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      ByteReader in(arrived[rank]);
+      while (!in.isAtEnd())
+      {
+        asked[rank].push_back(in.read<IsopointEdge>());
+        whole.emplace(asked[rank].back(), readFit(in));
+      }
+    }
+    const std::vector<IsopointEdge> keptEdges = thinned(execution, minimumSpacing, whole);
+    std::vector<std::vector<char>> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      for (const IsopointEdge& edge : asked[rank])
+      {
+        answers[rank].push_back(
+          std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
+      }
+    }
+    surface = chosenIsopoints(execution, surface, markedOf(this->Group.exchange(answers).front()));
+  }
+
+  void gatherLeaves(std::vector<std::size_t>& leaves)
+  {
+    std::vector<SentEnd> own;
+    for (const std::size_t leaf : leaves)
+    {
+      own.push_back(sentEnd(this->Tree, leaf));
+    }
+    std::vector<std::vector<SentEnd>> all = this->Group.gather(own);
+    all[static_cast<std::size_t>(this->Group.rank())].clear();
+    const std::vector<SentEnd> others = united(all);
+    const std::size_t ownCount = leaves.size();
+    leaves.resize(ownCount + others.size());
+    this->forEach(
+      Execution(), { others.size(), 1024, 256 }, []() { return 0; },
+      [&](int, std::size_t i) { leaves[ownCount + i] = leafAt(this->Tree, others[i]); });
+  }
+
+  void order(std::vector<CrossingTetrahedron<typename TSample::Id>>& tetrahedra) const
+  {
+    using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
+    const auto placesOfCorners = [this](const Tetrahedron& tetrahedron)
+    {
+      std::array<std::uint64_t, 4> places{};
+      std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(), places.begin(),
+        [this](typename TSample::Id leaf) { return this->Tree.nodes[leaf].begin; });
+      std::sort(places.begin(), places.end());
+      return places;
+    };
+    std::sort(tetrahedra.begin(), tetrahedra.end(),
+      [&](const Tetrahedron& a, const Tetrahedron& b)
+      { return placesOfCorners(a) < placesOfCorners(b); });
+  }
+
+  void unite(std::vector<std::size_t>& found)
+  {
+    found = united(this->Group.gather(found));
+    std::sort(found.begin(), found.end());
+  }
+
+  /// Each rank fits to the samples around the edges that are counted there.
+  std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
+    const FitRequest& request, const Edges& edges)
+  {
+    std::vector<LocalFit> fits(edges.size());
+    std::vector<TreePlace> places = placesOf(execution, this->Tree, edges);
+    places.erase(std::remove_if(places.begin(), places.end(),
+                   [this](const TreePlace& place) { return !this->Tree.isOwn(place.lower); }),
+      places.end());
+    fitAt(execution, context, *this, request, edges, places, fits);
+    this->gatherFits(places, fits);
+    return fits;
+  }
+
+private:
+  /// The edges of the isopoints that thin() keeps, ascending.
+  static std::vector<IsopointEdge> thinned(const Execution& execution, double minimumSpacing,
+    const std::map<IsopointEdge, LocalFit>& whole)
+  {
+    std::vector<IsopointEdge> edges;
+    std::vector<LocalFit> fits;
+    for (const auto& [edge, fit] : whole)
+    {
+      edges.push_back(edge);
+      fits.push_back(fit);
+    }
+    std::vector<IsopointEdge> kept;
+    for (const std::size_t i : keptPoints(execution, minimumSpacing, fits))
+    {
+      kept.push_back(edges[i]);
+    }
+    return kept;
+  }
+
+  std::size_t rankCount() const { return static_cast<std::size_t>(this->Group.size()); }
+
+  template <class T>
+  static std::vector<T> united(const std::vector<std::vector<T>>& lists)
+  {
+    std::vector<T> all;
+    for (const std::vector<T>& list : lists)
+    {
+      all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+  }
+
+  /// Calls action(rank) for each other rank in whose leaves an edge ends.
+  template <class Action>
+  void forOtherRanks(const CrossingEdge<TSample>& edge, const Action& action) const
+  {
+    for (const auto leaf : { edge.firstLeaf, edge.secondLeaf })
+    {
+      const Node<TSample>& node = this->Tree.nodes[leaf];
+      if (!this->Tree.hasOwn(node))
+      {
+        action(this->ownerOf(node.begin));
+      }
+    }
+  }
+
+  void gatherFits(const std::vector<TreePlace>& places, std::vector<LocalFit>& fits)
+  {
+    ByteBuffer own;
+    for (const TreePlace& place : places)
+    {
+      append(own, static_cast<std::uint64_t>(place.edge));
+      appendFit(own, fits[place.edge]);
+    }
+    for (const ByteBuffer& buffer : this->Group.gather(own))
+    {
+      ByteReader in(buffer);
+      while (!in.isAtEnd())
+      {
+        const auto edge = static_cast<std::size_t>(in.read<std::uint64_t>());
+        fits[edge] = readFit(in);
+      }
+    }
+  }
+
+  Team& Group;
+  SampleTree<TSample>& Tree;
+  const std::vector<std::uint64_t>& Begins;
+  NodeExchange<TSample> Exchange;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SurfaceHalo_h
+#define isopoint_SurfaceHalo_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Extraction/IsopointNeighbors.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Neighbors/NeighborSearch.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Ranks/ByteBuffer.h"
+#include "Core/Ranks/SentIsopoint.h"
+#include "Core/Ranks/SharedRanks.h"
+#include "Core/Splat/Splat.h"
+#include "Core/Splat/SplatFans.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <mutex>
+#include <numeric>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// This rank's isopoints and those of others within some rings around them, in the order of the
+/// whole surface. Each ring adds those whose edges end in or next to an end of one of the ring
+/// before: one ring more than IsopointNeighbors are asked for has all that these find. gather(),
+/// forEach() and what begins with share are collective.
+template <class TSample>
+class SurfaceHalo
+{
+public:
+  using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
+
+  /// @param own the isopoints on edges with an end in this rank's leaves, those of edges between
+  /// two ranks on both
+  /// @param hasFits whether surfaces have them, which an empty one does not show
+  SurfaceHalo(const Execution& execution, SharedRanks<TSample>& ranks,
+    const SampleTree<TSample>& tree, const Neighborhoods& known, Isosurface own, bool hasFits)
+    : Run(execution)
+    , Tree(tree)
+    , Ranks(ranks)
+    , Cache(known)
+    , Own(std::move(own))
+    , HasFits(hasFits)
+  {
+  }
+
+  /// Gathers this many rings: none, or three or more.
+  /// @param isShared whether what is computed for this rank's isopoints will be sent to the ranks
+  /// in whose halo they are; otherwise those have normals alone there
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  void gather(int rings, bool isShared)
+  {
+    this->indexOwn();
+    this->Received.resize(static_cast<std::size_t>(this->Ranks.team().size()));
+    this->Given.resize(this->Received.size());
+    std::vector<std::size_t> ends = endsOf(this->Own.leaves);
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      this->requestIn(this->withTouching(ends));
+      for (const std::vector<SentIsopoint>& list : this->Received)
+      {
+        for (const SentIsopoint& isopoint : list)
+        {
+          ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
+          if (ring == std::min(2, rings - 2)) // those of the rings before among them
+          {
+            this->Surrounded.push_back(isopoint.edge);
+          }
+        }
+      }
+      keepUnique(ends);
+    }
+    this->unite();
+    this->chooseOwn(isShared);
+  }
+
+  /// All of them, each once, without coincident samples.
+  const Isosurface& surface() const { return this->All; }
+
+  /// Their numbers among points at one position: as they are listed.
+  std::vector<std::size_t> numbers() const { return {}; }
+
+  /// Whether each is one of this rank's or in the first ring, so that its own first ring is
+  /// complete.
+  const std::vector<bool>* inner() const { return &this->IsInner; }
+
+  /// Those that are counted on this rank, and all others.
+  std::vector<std::size_t> home() const { return markedOf(this->IsHome); }
+  std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
+
+  /// The surface of home().
+  Isosurface takeHome() const { return chosenIsopoints(this->Run, this->All, this->home()); }
+
+  // What computeSplats() needs; see AllPoints.
+
+  const std::vector<std::size_t>& own() const { return this->OwnInTreeOrder; }
+  const std::vector<std::size_t>& shaped() const { return this->Shaped; }
+
+  void keepOwn(std::vector<std::size_t>& points) const
+  {
+    std::vector<std::size_t> kept;
+    std::set_intersection(points.begin(), points.end(), this->OwnIndices.begin(),
+      this->OwnIndices.end(), std::back_inserter(kept));
+    points.swap(kept);
+  }
+
+  template <class MakeWorker, class Work>
+  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone)
+  {
+    this->Ranks.forEach(execution, batches, makeWorker, work, batchDone);
+  }
+
+  void shareNormals(std::vector<Splat>& splats)
+  {
+    std::vector<Vector> normals;
+    for (const Splat& splat : splats)
+    {
+      normals.push_back(splat.normal);
+    }
+    this->share(normals);
+    // The ends of an edge between two ranks yield the same normal on both.
+    for (std::size_t i = 0; i < splats.size(); ++i)
+    {
+      splats[i].normal = normals[i];
+    }
+  }
+
+  void shareCells(RawArray<SplatCell>& cells)
+  {
+    std::vector<SentCell> sent(cells.size());
+    for (const std::size_t i : this->OwnIndices)
+    {
+      sent[i].cell = cells[i];
+      for (std::size_t k = 0; k < cells[i].count; ++k)
+      {
+        const std::size_t beyond = cells[i].corners[k].beyond;
+        sent[i].beyond[k] = beyond == SplatCell::none ? IsopointEdge{} : this->All.edges[beyond];
+      }
+    }
+    this->share(sent);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      cells[i] = sent[i].cell;
+      for (std::size_t k = 0; k < cells[i].count; ++k)
+      {
+        std::size_t& beyond = cells[i].corners[k].beyond;
+        const std::size_t found =
+          beyond == SplatCell::none ? this->All.size() : this->find(sent[i].beyond[k]);
+        beyond = found < this->All.size() ? found : SplatCell::none;
+      }
+    }
+  }
+
+  /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
+  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
+  template <class T>
+  void share(std::vector<T>& ofAll)
+  {
+    std::vector<std::vector<T>> outgoing(this->Given.size());
+    for (std::size_t rank = 0; rank < this->Given.size(); ++rank)
+    {
+      for (const std::size_t isopoint : this->Given[rank])
+      {
+        outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
+      }
+    }
+    const std::vector<std::vector<T>> arrived = this->Ranks.team().exchange(outgoing);
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < arrived[rank].size(); ++i)
+      {
+        ofAll[this->indexOf(this->Received[rank][i].edge)] = arrived[rank][i];
+      }
+    }
+  }
+
+private:
+  /// A cell as ranks send it to each other.
+  struct SentCell
+  {
+    SplatCell cell;
+    std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
+  };
+
+  /// The place of a leaf, and an isopoint whose edge ends there.
+  using OwnEnd = std::pair<std::uint64_t, std::size_t>;
+
+  static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
+  {
+    std::vector<std::size_t> ends;
+    for (const EdgeLeaves& edge : leaves)
+    {
+      ends.insert(ends.end(), { edge.first, edge.second });
+    }
+    keepUnique(ends);
+    return ends;
+  }
+
+  void indexOwn()
+  {
+    for (std::size_t i = 0; i < this->Own.size(); ++i)
+    {
+      for (const std::size_t leaf : { this->Own.leaves[i].first, this->Own.leaves[i].second })
+      {
+        this->OwnEnds.emplace_back(this->Tree.nodes[leaf].begin, i);
+      }
+    }
+    std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
+  }
+
+  /// The given leaves and all that touch them, except for leaves that touch too many others: around
+  /// those no isopoints are looked for.
+  std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
+  {
+    using Id = typename TSample::Id;
+    constexpr std::size_t most = 256; // see IsopointNeighbors
+    std::vector<std::size_t> all = leaves;
+    std::mutex mutex;
+    this->Ranks.forEach(
+      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
+      [&](std::vector<Id>& memory, std::size_t i)
+      {
+        const NodeList<Id> touching =
+          fewNeighborsOf(this->Tree, this->Cache, leaves[i], most, memory);
+        const std::lock_guard<std::mutex> lock(mutex);
+        std::copy_if(touching.begin(), touching.end(), std::back_inserter(all),
+          [this](Id node) { return !this->Tree.hasOwn(this->Tree.nodes[node]); });
+      });
+    keepUnique(all);
+    return all;
+  }
+
+  /// Fetches the isopoints whose edges end in those of the leaves that are other ranks', unless
+  /// that was done before.
+  void requestIn(const std::vector<std::size_t>& leaves)
+  {
+    std::vector<std::vector<std::uint64_t>> questions(this->Received.size());
+    for (const std::size_t leaf : leaves)
+    {
+      const Node<TSample>& node = this->Tree.nodes[leaf];
+      if (!this->Tree.hasOwn(node) && this->Requested.insert(leaf).second)
+      {
+        questions[this->Ranks.ownerOf(node.begin)].push_back(node.begin);
+      }
+    }
+    const std::vector<std::vector<std::uint64_t>> asked = this->Ranks.team().exchange(questions);
+    std::vector<ByteBuffer> answers(asked.size());
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      this->answer(asked[rank], rank, answers[rank]);
+    }
+    const std::vector<SentIsopoint*> added = this->receive(this->Ranks.team().exchange(answers));
+    this->Ranks.forEach(
+      Execution(), { added.size(), 1024, 256 }, []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const auto& ends = added[i]->ends;
+        added[i]->leaves = { leafAt(this->Tree, ends[0]), leafAt(this->Tree, ends[1]) };
+      });
+  }
+
+  /// Writes the isopoints that end in some of this rank's leaves, each once.
+  void answer(const std::vector<std::uint64_t>& places, std::size_t rank, ByteBuffer& answer)
+  {
+    std::vector<std::size_t> isopoints;
+    for (const std::uint64_t place : places)
+    {
+      for (auto end =
+             std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
+           end != this->OwnEnds.end() && end->first == place; ++end)
+      {
+        isopoints.push_back(end->second);
+      }
+    }
+    keepUnique(isopoints);
+    for (const std::size_t isopoint : isopoints)
+    {
+      appendIsopoint(answer, this->Tree, this->Own, isopoint);
+      this->Given[rank].push_back(isopoint);
+    }
+  }
+
+  /// @returns those that arrived, which stay where they are until the next call
+  std::vector<SentIsopoint*> receive(const std::vector<ByteBuffer>& arrived)
+  {
+    std::vector<SentIsopoint*> added;
+    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+    {
+      const std::size_t before = this->Received[rank].size();
+      ByteReader in(arrived[rank]);
+      while (!in.isAtEnd())
+      {
+        this->Received[rank].push_back(readIsopoint(in, this->HasFits));
+      }
+      for (std::size_t i = before; i < this->Received[rank].size(); ++i)
+      {
+        added.push_back(&this->Received[rank][i]);
+      }
+    }
+    return added;
+  }
+
+  /// Brings own and received isopoints into one order.
+  void unite()
+  {
+    Isosurface both = this->Own;
+    for (const std::vector<SentIsopoint>& list : this->Received)
+    {
+      for (const SentIsopoint& isopoint : list)
+      {
+        both.edges.push_back(isopoint.edge);
+        both.positions.push_back(isopoint.position);
+        both.decreasingEdges.push_back(isopoint.decreasingEdge);
+        both.leaves.push_back(isopoint.leaves);
+        if (this->HasFits)
+        {
+          both.fits.push_back(isopoint.fit);
+        }
+      }
+    }
+    std::vector<std::size_t> order(both.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::stable_sort(order.begin(), order.end(),
+      [&both](std::size_t a, std::size_t b) { return both.edges[a] < both.edges[b]; });
+    order.erase(std::unique(order.begin(), order.end(),
+                  [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
+      order.end());
+    this->All = chosenIsopoints(this->Run, both, order);
+    std::sort(this->Surrounded.begin(), this->Surrounded.end());
+    this->IsInner.clear();
+    this->OwnIndices.resize(this->Own.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      const bool isOwn = order[i] < this->Own.size();
+      if (isOwn)
+      {
+        this->OwnIndices[order[i]] = i;
+      }
+      this->IsInner.push_back(isOwn || std::binary_search(this->Surrounded.begin(),
+                                         this->Surrounded.end(), this->All.edges[i]));
+    }
+  }
+
+  /// Notes where this rank's own isopoints are: which of them are counted here, and in which order
+  /// their cells are cut.
+  void chooseOwn(bool isShared)
+  {
+    this->IsHome.assign(this->All.size(), false);
+    this->IsElsewhere.assign(this->All.size(), true);
+    std::vector<bool> isOwn(this->All.size(), false);
+    for (const std::size_t i : this->OwnIndices)
+    {
+      isOwn[i] = true;
+      this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      this->IsElsewhere[i] = !this->IsHome[i];
+      // Either rank of an edge between two sends such a ghost.
+      if (this->IsHome[i] || isShared)
+      {
+        this->Shaped.push_back(i);
+      }
+    }
+    for (const std::size_t i : inOrderOfLeaves(this->All.leaves, this->Tree.nodes.size()))
+    {
+      if (isOwn[i])
+      {
+        this->OwnInTreeOrder.push_back(i);
+      }
+    }
+  }
+
+  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
+  std::size_t find(const IsopointEdge& edge) const
+  {
+    const std::size_t index = this->indexOf(edge);
+    return index < this->All.size() && this->All.edges[index] == edge ? index : this->All.size();
+  }
+
+  std::size_t indexOf(const IsopointEdge& edge) const
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(this->All.edges.begin(), this->All.edges.end(), edge) -
+      this->All.edges.begin());
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  SharedRanks<TSample>& Ranks;
+  const Neighborhoods& Cache;
+  const Isosurface Own;
+  const bool HasFits;
+  std::vector<OwnEnd> OwnEnds;
+  std::unordered_set<std::size_t> Requested;       // leaves
+  std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
+  std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
+  std::vector<IsopointEdge> Surrounded; // received with the first three rings, or two of three
+  Isosurface All;
+  std::vector<std::size_t> OwnIndices; // of this rank's own isopoints among all
+  std::vector<std::size_t> OwnInTreeOrder;
+  std::vector<std::size_t> Shaped;
+  std::vector<bool> IsInner;
+  std::vector<bool> IsHome; // whether each is counted on this rank
+  std::vector<bool> IsElsewhere;
+};
+
+} // namespace isopoint
+
+#endif

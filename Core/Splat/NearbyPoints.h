@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_NearbyPoints_h
+#define isopoint_NearbyPoints_h
+
+#include "Core/Base/Vector.h"
+#include "Core/Splat/Splat.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A point near another one.
+struct NearbyPoint
+{
+  double squaredDistance; // in a unit of length
+  std::size_t point;
+};
+
+/// The points around each point, nearest first. Those at one position count as one, the first. For
+/// one thread.
+/// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
+template <class TNeighbors>
+class NearbyPoints
+{
+public:
+  NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points)
+    : Points(points)
+    , Finder(neighbors)
+  {
+  }
+
+  /// Goes to a point, and finds those around it. None is listed yet.
+  /// @param rings see IsopointNeighbors
+  /// @param unit of length; if one over it is not finite, no point will be listed
+  void find(std::size_t point, int rings, double unit)
+  {
+    const Vector& position = this->Points.positions[point];
+    const double scale = 1.0 / unit;
+    this->All.clear();
+    this->Nearby.clear();
+    this->IsFirstHere = true;
+    for (const std::size_t other : this->Finder.find(point, rings))
+    {
+      const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
+      const double squaredDistance = dot(offset, offset);
+      this->All.push_back({ squaredDistance, other });
+      if (squaredDistance == 0.0 && this->Points.numberOf(other) < this->Points.numberOf(point))
+      {
+        this->IsFirstHere = false;
+      }
+    }
+  }
+
+  /// Lists those at other positions within a limit, the square of a distance in the unit.
+  void listWithin(double squaredLimit)
+  {
+    // Which ones are within the limit is unpredictable: all are written, and those are kept.
+    this->Nearby.resize(this->All.size());
+    std::size_t count = 0;
+    for (const NearbyPoint& other : this->All)
+    {
+      this->Nearby[count] = other;
+      count += ((other.squaredDistance > 0.0) & (other.squaredDistance <= squaredLimit)) ? 1 : 0;
+    }
+    this->Nearby.resize(count);
+    std::sort(this->Nearby.begin(), this->Nearby.end(),
+      [this](const NearbyPoint& a, const NearbyPoint& b)
+      {
+        return a.squaredDistance != b.squaredDistance
+                 ? a.squaredDistance < b.squaredDistance
+                 : this->Points.numberOf(a.point) < this->Points.numberOf(b.point);
+      });
+    this->dropCoincident();
+  }
+
+  /// Whether no earlier point found is at the same position.
+  bool isFirstHere() const { return this->IsFirstHere; }
+
+  auto begin() const { return this->Nearby.begin(); }
+  auto end() const { return this->Nearby.end(); }
+  std::size_t size() const { return this->Nearby.size(); }
+
+private:
+  void dropCoincident()
+  {
+    std::size_t count = 0;
+    for (const NearbyPoint& nearby : this->Nearby)
+    {
+      std::size_t i = count;
+      while (
+        i > 0 && this->Nearby[i - 1].squaredDistance == nearby.squaredDistance &&
+        this->Points.positions[this->Nearby[i - 1].point] != this->Points.positions[nearby.point])
+      {
+        --i;
+      }
+      if (i == 0 || this->Nearby[i - 1].squaredDistance != nearby.squaredDistance)
+      {
+        this->Nearby[count++] = nearby;
+      }
+    }
+    this->Nearby.resize(count);
+  }
+
+  const SurfacePoints& Points;
+  typename TNeighbors::Finder Finder;
+  std::vector<NearbyPoint> All; // that were found, in any order
+  std::vector<NearbyPoint> Nearby;
+  bool IsFirstHere = true;
+};
+
+} // namespace isopoint
+
+#endif

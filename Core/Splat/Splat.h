@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Splat_h
+#define isopoint_Splat_h
+
+#include "Core/Base/Vector.h"
+#include "Core/Fit/LocalFit.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A corner of a splat: its offset from the point, in units of the splat's radius, and the normal
+/// of the surface there, along normal + slopeAlong * t1 + slopeAcross * t2.
+struct SplatCorner
+{
+  float along;  // t1
+  float across; // t2
+  float height; // along the normal
+  float slopeAlong;
+  float slopeAcross;
+};
+
+/// Cells with more corners lose their shortest sides.
+constexpr std::size_t mostCorners = 8;
+
+/// The part of the surface that is drawn for a point: the triangles between the point and each two
+/// consecutive corners.
+struct Splat
+{
+  Vector normal; // of length 1
+  double radius; // the distance of the farthest corner
+  Vector axis;   // t1, tangential and as long as the radius; t2 = normal x t1
+  /// Counterclockwise seen from the tip of the normal, but for rare ones that have passed each
+  /// other where cells meet. Further corners repeat the last one; all are 0 at a point where
+  /// another one comes first.
+  std::array<SplatCorner, mostCorners> corners;
+};
+
+/// The points of one surface, one entry each.
+struct SurfacePoints
+{
+  const std::vector<Vector>& positions;
+  const std::vector<Vector>& decreasingEdges; // see Isosurface
+  const std::vector<LocalFit>& fits;          // or empty
+
+  /// Of points at one position the one of the lowest number counts, and of points at the same
+  /// distance it comes first. Empty: they are numbered as listed.
+  std::vector<std::size_t> numbers = {};
+
+  double isovalue = 0.0;
+
+  std::size_t numberOf(std::size_t point) const
+  {
+    return this->numbers.empty() ? point : this->numbers[point];
+  }
+};
+
+constexpr int defaultNeighborCount = 12;
+
+/// How normals are found, and whether shapes are wanted.
+struct SplatOptions
+{
+  int neighborCount =
+    defaultNeighborCount;   // nearest positions that a plane is fitted through, 3 or more
+  bool fieldNormals = true; // the fits' gradients, where fits held
+  bool shapes = true;       // or normals alone: everything else of the splats is 0
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SplatFans_h
+#define isopoint_SplatFans_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/RawArray.h"
+#include "Core/Splat/Curvature.h"
+#include "Core/Splat/Splat.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The part of a point's tangent plane that a splat covers: a convex polygon around the point, in
+/// the axes of its TangentFrame and a unit of length.
+struct SplatCell
+{
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t overlapping = static_cast<std::size_t>(-2);
+
+  /// Whether what is beyond a side is a point.
+  static bool isPoint(std::size_t beyond) { return beyond < overlapping; }
+
+  struct Corner
+  {
+    double x;
+    double y;
+    /// The point beyond the side that begins here, if this is a cut halfway to one; otherwise none,
+    /// or overlapping if the cell of that point reaches over the side.
+    std::size_t beyond;
+  };
+
+  std::array<Corner, mostCorners> corners; // counterclockwise
+  std::size_t count;
+  double unit;
+  PlaneForm curvature; // of the surface, in this unit; 0 where it is not known
+  bool isFirstHere;    // whether no earlier point is at the same position
+};
+
+/// How many corners of cells are brought together, at most.
+constexpr std::size_t mostMeeting = 6;
+
+/// How far away points matter for a splat, in rings of a SurfaceHalo: of cells that meet each is in
+/// the third ring of the next (see IsopointNeighbors), and so are those that share their sides.
+constexpr int fanRings = 4 * static_cast<int>(mostMeeting);
+
+/// Makes splats of cells: lowers the cells' corners onto the surface, and brings those together
+/// that meet; see docs/algorithm.md, section 12.6. O(points)
+/// @param cells of all points within fanRings of those that are shaped
+/// @param shaped the points whose splats are made
+/// @param splats of which normals are set; all else is set here
+/// @throws std::bad_alloc, Aborted
+void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArray<SplatCell> cells,
+  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats);
+
+} // namespace isopoint
+
+#endif

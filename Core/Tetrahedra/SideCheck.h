@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SideCheck_h
+#define isopoint_SideCheck_h
+
+#include "Core/Base/Collected.h"
+#include "Core/Base/Execution.h"
+#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/SphereSearch.h"
+#include "Core/Tree/CoincidentSamples.h"
+#include "Core/Tree/NodeMarks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Finds samples whose value is on the other side of the isovalue than the surface of a band, all
+/// of whose crossing cells are certified, has it at their position. There are such if a piece of
+/// the surface lies where the band has no samples.
+///
+/// Regions of the tree that no sphere of a crossing tetrahedron reached do not meet the surface:
+/// one sample stands for all in them. Where ranks share the tree, each checks its own samples.
+template <class TSample>
+class SideCheck
+{
+public:
+  SideCheck(const Execution& execution, const SampleTree<TSample>& tree,
+    const BandTriangulation& band, const NodeMarks& marks, SharedLeafMeans<TSample>& means)
+    : Run(execution)
+    , Tree(tree)
+    , Band(band)
+    , Marks(marks)
+    , Values(tree, means)
+  {
+  }
+
+  /// @returns leaves that are to be inserted, and other nodes that are to be split, with
+  /// repetitions
+  /// @throws std::bad_alloc, Aborted
+  /// Complexity: O(nodes), and a location for each leaf that spheres reached and for each of the
+  /// largest nodes that none did
+  std::vector<std::size_t> find(double isovalue)
+  {
+    this->Isovalue = isovalue;
+    const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
+    this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
+    constexpr std::size_t grain = 2048;
+    std::vector<std::size_t> wrong =
+      collected<std::size_t>(this->Run, { this->Places.size(), 8 * grain, grain },
+        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+        {
+          std::vector<Vector> positions;
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
+          }
+          const std::vector<bool> below = this->Band.areBelow(positions);
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            if (below[i - begin] != this->Places[i].isBelow)
+            {
+              found.push_back(this->Places[i].node);
+            }
+          }
+        });
+    wrong.insert(wrong.end(), this->Unsplit.begin(), this->Unsplit.end());
+    return wrong;
+  }
+
+private:
+  /// What is known of a node.
+  struct Summary
+  {
+    bool isClear; // no sphere reached it, and all its samples are on one side
+    bool isKnown; // one of them is in the band
+    bool isBelow; // that side
+  };
+
+  /// A sample to be located.
+  struct Place
+  {
+    std::size_t sample;
+    std::size_t node; // without children, that holds it or a part of those it stands for
+    bool isBelow;
+  };
+
+  /// @param isReached whether a sphere reached the node before it was split
+  Summary collect(std::size_t nodeIndex, bool isReached)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!this->Tree.hasOwn(node))
+    {
+      return { false, false, false };
+    }
+    isReached = isReached || this->Marks.has(nodeIndex, bandmarks::reached);
+    if (!node.isSplit())
+    {
+      return this->collectEnd(nodeIndex, isReached);
+    }
+    const Summary lower = this->collect(node.lowerNode(), isReached);
+    const Summary upper = this->collect(node.upperNode(), isReached);
+    if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow)
+    {
+      return { true, lower.isKnown || upper.isKnown, lower.isBelow };
+    }
+    this->addUnlessKnown(lower, node.lowerNode());
+    this->addUnlessKnown(upper, node.upperNode());
+    return { false, false, false };
+  }
+
+  /// A node without children.
+  Summary collectEnd(std::size_t nodeIndex, bool isReached)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    // Nodes with samples on both sides are split down to leaves.
+    const bool isBelow = node.isLeaf ? this->Values.at(nodeIndex) < this->Isovalue
+                                     : static_cast<double>(node.minimum) < this->Isovalue;
+    const bool isKnown = node.isLeaf && this->Marks.has(nodeIndex, bandmarks::inBand);
+    if (!isReached)
+    {
+      return { true, isKnown, isBelow };
+    }
+    if (!node.isLeaf && node.count() > fewSamples)
+    {
+      this->Unsplit.push_back(nodeIndex);
+    }
+    else if (!isKnown)
+    {
+      const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+      for (std::size_t i = node.begin; i < end; ++i)
+      {
+        this->Places.push_back({ i, nodeIndex, isBelow });
+      }
+    }
+    return { false, false, false };
+  }
+
+  /// Adds a sample for all of a clear node.
+  void addUnlessKnown(const Summary& summary, std::size_t nodeIndex)
+  {
+    if (summary.isClear && !summary.isKnown)
+    {
+      std::size_t end = nodeIndex;
+      while (this->Tree.nodes[end].isSplit())
+      {
+        end = this->Tree.nodes[end].lowerNode();
+      }
+      this->Places.push_back({ this->Tree.nodes[end].begin, end, summary.isBelow });
+    }
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  const BandTriangulation& Band;
+  const NodeMarks& Marks;
+  LeafValueCache<TSample> Values;
+  double Isovalue = 0.0;
+  std::vector<Place> Places;
+  std::vector<std::size_t> Unsplit;
+};
+
+} // namespace isopoint
+
+#endif

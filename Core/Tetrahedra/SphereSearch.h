@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SphereSearch_h
+#define isopoint_SphereSearch_h
+
+#include "Core/Base/Region.h"
+#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/SphereFunction.h"
+#include "Core/Tree/NodeMarks.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// What NodeMarks say of nodes while the crossing tetrahedra are found.
+namespace bandmarks
+{
+
+/// The leaf's samples are a vertex of the band's triangulation.
+inline constexpr std::uint8_t inBand = 1;
+
+/// The sphere of a crossing tetrahedron may reach the region of the node, which has no children.
+inline constexpr std::uint8_t reached = 2;
+
+} // namespace bandmarks
+
+/// The inside of a tetrahedron's sphere, as a search sees it: what a box holds at least of its
+/// function.
+class BallShape
+{
+public:
+  explicit BallShape(const TetrahedronCorners& corners)
+    : Ball(ballAround(corners))
+  {
+  }
+
+  /// What a box holds at least, by axis.
+  using Bounds = Vector;
+
+  /// Takes note of a box' extent along an axis.
+  void narrow(Bounds& bounds, int axis, double lower, double upper) const
+  {
+    bounds[axis] = this->Ball.least(axis, lower, upper);
+  }
+
+  /// Whether a box may have places inside.
+  bool mayHold(const Bounds& bounds) const { return !SphereFunction::isPositive(bounds); }
+
+  bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
+  Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
+
+private:
+  SphereFunction Ball;
+};
+
+/// The same of a facet of the hull: what lies beyond its plane or, in the plane, in its circle. The
+/// many samples in the plane of a flat hull are off the circle.
+class HullFacetShape
+{
+public:
+  explicit HullFacetShape(const HullFacetCorners& corners)
+    : Beyond(halfSpaceBeyond(corners))
+    , Ball(ballThrough(corners))
+  {
+  }
+
+  struct Bounds
+  {
+    Vector beyond;
+    Vector ball;
+  };
+
+  void narrow(Bounds& bounds, int axis, double lower, double upper) const
+  {
+    bounds.beyond[axis] = this->Beyond.least(axis, lower, upper);
+    bounds.ball[axis] = this->Ball.least(axis, lower, upper);
+  }
+
+  bool mayHold(const Bounds& bounds) const
+  {
+    return !SphereFunction::isPositive(bounds.beyond) &&
+           !(SphereFunction::isNotNegative(bounds.beyond) &&
+             SphereFunction::isPositive(bounds.ball));
+  }
+
+  bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
+  Side sideOf(const Vector& position) const { return this->Beyond.sideOf(position); }
+
+private:
+  SphereFunction Beyond;
+  SphereFunction Ball;
+};
+
+/// Nodes of so few samples are seen through without being split.
+constexpr std::size_t fewSamples = 16;
+
+/// Searches the tree for a sample inside the sphere of a cell, the nearest to the center first as
+/// far as the tree indicates it; where ranks share the tree, for one of this rank's. Memory is
+/// kept. For one thread.
+template <class TSample>
+class SphereSearch
+{
+public:
+  SphereSearch(const SampleTree<TSample>& tree, const BandTriangulation& band, NodeMarks& marks)
+    : Tree(tree)
+    , Band(band)
+    , Marks(marks)
+  {
+  }
+
+  /// Looks for a sample inside the sphere of a listed cell that is not in the band. Marks each node
+  /// without children whose region the sphere may reach, up to where the search ends.
+  /// @returns the leaf that was found. With none, and if isComplete(), there is none
+  std::optional<std::size_t> find(std::size_t openCell)
+  {
+    this->Cell = openCell;
+    this->UnsplitReached = 0;
+    return this->Band.isBeyondHull(openCell)
+             ? this->findIn(HullFacetShape(this->Band.hullFacetAt(openCell)))
+             : this->findIn(BallShape(this->Band.tetrahedronAt(openCell)));
+  }
+
+  /// Whether the last search, if it found nothing, saw all samples.
+  bool isComplete() const { return this->UnsplitReached == 0; }
+
+  /// Nodes that have to be split for searches to see all samples, with repetitions.
+  const std::vector<std::size_t>& unsplit() const { return this->Unsplit; }
+
+  /// The number of nodes visited so far, and what took as long.
+  std::size_t visits() const { return this->Visits; }
+
+private:
+  template <class TShape>
+  std::optional<std::size_t> findIn(const TShape& shape)
+  {
+    this->Found.reset();
+    Region box = this->Tree.region;
+    typename TShape::Bounds bounds{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
+    }
+    if (shape.mayHold(bounds))
+    {
+      this->visit(SampleTree<TSample>::rootNode, shape, bounds, box);
+    }
+    return this->Found;
+  }
+
+  /// @param bounds of the node's region
+  /// @param box the node's region; restored in the end
+  /// @returns whether the search ends
+  template <class TShape>
+  bool visit(
+    std::size_t nodeIndex, const TShape& shape, const typename TShape::Bounds& bounds, Region& box)
+  {
+    ++this->Visits;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (!this->Tree.hasOwn(node))
+    {
+      return false;
+    }
+    if (!node.isSplit())
+    {
+      return this->visitEnd(nodeIndex, shape);
+    }
+    const bool isUpperFirst = shape.isAbove(node.axis, node.plane);
+    // The nearer child holds at least what the node does.
+    return this->visitChild(node, isUpperFirst, shape, bounds, box) ||
+           this->visitFarther(node, !isUpperFirst, shape, bounds, box);
+  }
+
+  template <class TShape>
+  bool visitFarther(const Node<TSample>& node, bool isUpper, const TShape& shape,
+    typename TShape::Bounds bounds, Region& box)
+  {
+    const int axis = node.axis;
+    shape.narrow(
+      bounds, axis, isUpper ? node.plane : box.lower[axis], isUpper ? box.upper[axis] : node.plane);
+    return shape.mayHold(bounds) && this->visitChild(node, isUpper, shape, bounds, box);
+  }
+
+  template <class TShape>
+  bool visitChild(const Node<TSample>& node, bool isUpper, const TShape& shape,
+    const typename TShape::Bounds& bounds, Region& box)
+  {
+    double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
+    const double former = bound;
+    bound = node.plane;
+    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, bounds, box);
+    bound = former;
+    return isDone;
+  }
+
+  /// A node without children.
+  template <class TShape>
+  bool visitEnd(std::size_t nodeIndex, const TShape& shape)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    this->Marks.set(nodeIndex, bandmarks::reached);
+    if (node.isLeaf)
+    {
+      if (!this->Marks.has(nodeIndex, bandmarks::inBand) && this->isInside(shape, node.begin))
+      {
+        this->Found = nodeIndex;
+      }
+      return this->Found.has_value();
+    }
+    constexpr std::size_t manyUnsplit = 64;
+    bool hasToBeSplit = node.count() > fewSamples;
+    for (std::size_t i = node.begin; i < node.end && !hasToBeSplit; ++i)
+    {
+      ++this->Visits;
+      hasToBeSplit = shape.sideOf(positionOf(this->Tree.samples[i])) != Side::Outside;
+    }
+    if (hasToBeSplit)
+    {
+      this->Unsplit.push_back(nodeIndex);
+      ++this->UnsplitReached;
+    }
+    return this->UnsplitReached >= manyUnsplit;
+  }
+
+  template <class TShape>
+  bool isInside(const TShape& shape, std::size_t sample)
+  {
+    const Vector position = positionOf(this->Tree.samples[sample]);
+    const Side side = shape.sideOf(position);
+    if (side == Side::Unknown)
+    {
+      constexpr std::size_t visitsForExact = 50;
+      this->Visits += visitsForExact;
+      return this->Band.isInside(this->Cell, position);
+    }
+    return side == Side::Inside;
+  }
+
+  const SampleTree<TSample>& Tree;
+  const BandTriangulation& Band;
+  NodeMarks& Marks;
+  std::size_t Cell = 0;
+  std::optional<std::size_t> Found;
+  std::size_t Visits = 0;
+  std::size_t UnsplitReached = 0; // by the last search
+  std::vector<std::size_t> Unsplit;
+};
+
+} // namespace isopoint
+
+#endif

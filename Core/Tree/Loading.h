@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Loading_h
+#define isopoint_Loading_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Tree/Path.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace isopoint
+{
+
+template <class TSample>
+bool isFinite(const TSample& sample)
+{
+  return std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
+         std::isfinite(sample.position[2]) && std::isfinite(sample.value);
+}
+
+/// The samples that a slice of the input contributes.
+template <class TSample>
+struct SliceSummary
+{
+  std::size_t kept = 0; // bounds and range are defined where this is positive
+  typename TSample::Coordinate lower[3] = {};
+  typename TSample::Coordinate upper[3] = {};
+  typename TSample::Value minimum = {};
+  typename TSample::Value maximum = {};
+
+  void add(const TSample& sample)
+  {
+    if (this->kept++ == 0)
+    {
+      std::copy_n(sample.position, 3, this->lower);
+      std::copy_n(sample.position, 3, this->upper);
+      this->minimum = this->maximum = sample.value;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->lower[axis] = std::min(this->lower[axis], sample.position[axis]);
+      this->upper[axis] = std::max(this->upper[axis], sample.position[axis]);
+    }
+    this->minimum = std::min(this->minimum, sample.value);
+    this->maximum = std::max(this->maximum, sample.value);
+  }
+};
+
+/// Reads the items [begin, end) into samples[begin] and following, packed.
+template <class TSample, class Reader>
+SliceSummary<TSample> loadSlice(
+  TSample* samples, std::size_t begin, std::size_t end, const Reader& read, std::uint64_t firstId)
+{
+  SliceSummary<TSample> summary;
+  TSample* next = samples + begin;
+  for (std::size_t id = begin; id < end; ++id)
+  {
+    next->id = static_cast<typename TSample::Id>(firstId + id);
+    if (read(id, next->position, next->value) && isFinite(*next))
+    {
+      summary.add(*next++);
+    }
+  }
+  return summary;
+}
+
+/// Creates the root of a tree whose samples are loaded.
+template <class TSample>
+void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>>& slices)
+{
+  Node<TSample>& root = tree.nodes[SampleTree<TSample>::rootNode];
+  root = makeNode<TSample>(0, tree.samples.size());
+  bool first = true;
+  for (const SliceSummary<TSample>& slice : slices)
+  {
+    if (slice.kept == 0)
+    {
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = slice.lower[axis];
+      const double upper = slice.upper[axis];
+      tree.region.lower[axis] = first ? lower : std::min(tree.region.lower[axis], lower);
+      tree.region.upper[axis] = first ? upper : std::max(tree.region.upper[axis], upper);
+    }
+    root.minimum = first ? slice.minimum : std::min(root.minimum, slice.minimum);
+    root.maximum = first ? slice.maximum : std::max(root.maximum, slice.maximum);
+    first = false;
+  }
+}
+
+/// Creates a tree with nothing but a root from an input of `count` items, each read once.
+/// @param read(id, position, value) writes an item's coordinates and value and returns whether it
+/// takes part. Items with a non-finite coordinate or value are left out as well.
+/// @param firstId of the samples, whose ids count from there on
+/// @throws std::bad_alloc, Aborted
+template <class TSample, class Reader>
+SampleTree<TSample> loadSamples(
+  const Execution& execution, std::size_t count, const Reader& read, std::uint64_t firstId = 0)
+{
+  SampleTree<TSample> tree;
+  tree.samples.resize(count);
+  tree.nodes.resize(2);
+  tree.usedPairs = 1;
+
+  // Each slice is packed where it begins; gaps are closed afterwards, if there are any.
+  constexpr std::size_t sliceLength = std::size_t{ 1 } << 16;
+  const std::size_t sliceCount = (count + sliceLength - 1) / sliceLength;
+  std::vector<SliceSummary<TSample>> slices(sliceCount);
+  forBatches(
+    execution, sliceCount, 4, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t slice = begin; slice < end; ++slice)
+      {
+        slices[slice] = loadSlice(tree.samples.data(), slice * sliceLength,
+          std::min((slice + 1) * sliceLength, count), read, firstId);
+      }
+    },
+    execution.progress);
+
+  std::size_t size = 0;
+  for (std::size_t slice = 0; slice < sliceCount; ++slice)
+  {
+    if (size != slice * sliceLength)
+    {
+      throwIfAborted(execution);
+      std::memmove(tree.samples.data() + size, tree.samples.data() + slice * sliceLength,
+        slices[slice].kept * sizeof(TSample));
+    }
+    size += slices[slice].kept;
+  }
+  tree.samples.resize(size);
+  tree.samples.shrinkToFit();
+  tree.skipped = count - size;
+  if (size > 0)
+  {
+    makeRoot(tree, slices);
+  }
+  return tree;
+}
+
+/// Recomputes the value ranges of a node and of its descendants up to this many levels below: from
+/// their children, or from their samples where they are not split.
+template <class TSample>
+void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
+{
+  if (levels == 0)
+  {
+    return;
+  }
+  if (!node.isSplit())
+  {
+    computeRange(node, tree.samples.data());
+    return;
+  }
+  Node<TSample>& lower = tree.nodes[node.lowerNode()];
+  Node<TSample>& upper = tree.nodes[node.upperNode()];
+  recomputeRanges(tree, lower, levels - 1);
+  recomputeRanges(tree, upper, levels - 1);
+  uniteRanges(node, lower, upper);
+}
+
+/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
+inline std::uint64_t mixBits(std::uint64_t number)
+{
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  return number ^ (number >> 31);
+}
+
+/// What an item that takes part adds to a digest.
+template <class TCoordinate>
+std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
+{
+  std::uint64_t hash = id;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto coordinate = static_cast<double>(position[axis]);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &coordinate, sizeof(bits));
+    hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
+  }
+  return hash;
+}
+
+/// Which items take part, and where, as a sum over 0 .. count - 1: equal for the same items, and
+/// for others by chance alone, once in 2^64 cases.
+/// @param digestAt(i) what an item adds, 0 for one that takes no part
+/// @throws Aborted
+template <class DigestAt>
+std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
+{
+  constexpr std::size_t grain = 1 << 14;
+  std::atomic<std::uint64_t> sum{ 0 };
+  forBatches(execution, count, 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::uint64_t part = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        part += digestAt(i);
+      }
+      sum += part;
+    });
+  return sum;
+}
+
+/// That of samples that were loaded.
+/// @param firstId of the rank's items
+template <class TSample>
+std::uint64_t digestOfSamples(
+  const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
+{
+  return digestOf(execution, samples.size(),
+    [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
+}
+
+/// That of items as they are read; see loadSamples().
+template <class TSample, class Reader>
+std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
+{
+  return digestOf(execution, count,
+    [&](std::size_t id) -> std::uint64_t
+    {
+      TSample sample;
+      const bool takesPart = read(id, sample.position, sample.value) && isFinite(sample);
+      return takesPart ? digestOfItem(id, sample.position) : 0;
+    });
+}
+
+/// Gives the samples of a tree new values and recomputes the value ranges of its nodes. The tree
+/// keeps its shape, which does not depend on values.
+/// @param read as for loadSamples(); the digests of both must be the same
+/// @throws Aborted, and then some values are new
+template <class TSample, class Reader>
+void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
+{
+  constexpr std::size_t grain = 1 << 14;
+  forBatches(execution, tree.samples.size(), 16 * grain, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        typename TSample::Coordinate position[3];
+        read(tree.samples[i].id, position, tree.samples[i].value);
+      }
+    });
+  if (tree.isEmpty())
+  {
+    return;
+  }
+  constexpr int topLevels = 8;
+  std::vector<std::size_t> tops;
+  Path path = pathToRoot(tree);
+  forEachBelow(
+    tree, path, topLevels, [&tops](const Path& top) { tops.push_back(top.nodeIndex()); });
+  forRanges(execution, tops.size(), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        recomputeRanges(tree, tree.nodes[tops[i]], maximumDepth + 1);
+      }
+    });
+  recomputeRanges(tree, tree.nodes[SampleTree<TSample>::rootNode], topLevels);
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SampleBounds_h
+#define isopoint_SampleBounds_h
+
+#include "Core/Base/ConcurrentMemo.h"
+#include "Core/Base/Offset.h"
+#include "Core/Base/RawArray.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+
+namespace isopoint
+{
+
+/// The bounding box of some samples.
+template <class TSample>
+struct SampleBox
+{
+  typename TSample::Coordinate lower[3];
+  typename TSample::Coordinate upper[3];
+};
+
+/// The bounding box of two.
+template <class TSample>
+SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>& b)
+{
+  SampleBox<TSample> box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+  }
+  return box;
+}
+
+/// The bounding box of a node's samples. O(samples of the node), O(1) for a leaf
+template <class TSample>
+SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
+{
+  const auto boxOf = [](const TSample& sample)
+  {
+    SampleBox<TSample> box;
+    std::copy_n(sample.position, 3, box.lower);
+    std::copy_n(sample.position, 3, box.upper);
+    return box;
+  };
+  SampleBox<TSample> box = boxOf(tree.samples[node.begin]);
+  const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+  for (std::size_t i = node.begin; i < end; ++i)
+  {
+    box = united(box, boxOf(tree.samples[i]));
+  }
+  return box;
+}
+
+/// The bounding boxes of the samples of each split node, which can be far smaller than its region.
+/// They exist once compute() was called and take six coordinates for each split node. The tree must
+/// not change while they are in use, except for being split further where ranks share it.
+template <class TSample>
+class SampleBounds
+{
+public:
+  explicit SampleBounds(const SampleTree<TSample>& tree)
+    : Tree(tree)
+  {
+  }
+
+  /// Computes the boxes at its first call: O(samples + nodes). From any thread.
+  /// @throws std::bad_alloc; then the next call tries again
+  void compute()
+  {
+    if (this->Tree.isPartial)
+    {
+      return; // each on demand: the tree grows where samples of other ranks are fetched
+    }
+    std::call_once(this->Computed,
+      [this]()
+      {
+        this->Boxes.resize(this->Tree.usedPairs);
+        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode],
+          [this](std::size_t pair, const Box& box) { this->Boxes[pair] = box; });
+      });
+  }
+
+  /// Bounds on the offsets from a position to the samples of a node, which is a leaf or split.
+  /// @throws MissingNode if some of them are held by another rank
+  OffsetBounds offsets(const Vector& from, const Node<TSample>& node) const
+  {
+    if (!node.isSplit())
+    {
+      this->requireSamples(node);
+      const auto* const position = this->Tree.samples[node.begin].position;
+      return offsetsToBox(from, position, position);
+    }
+    const auto pair = static_cast<std::size_t>(node.childPair);
+    const Box box = this->Tree.isPartial
+                      ? this->BoxesOnDemand.at(
+                          pair, [&]() { return this->boxOf(node, [](std::size_t, const Box&) {}); })
+                      : this->Boxes[pair];
+    return offsetsToBox(from, box.lower, box.upper);
+  }
+
+private:
+  using Box = SampleBox<TSample>;
+
+  /// @param note(pair, box) called for each split node, by its pair of children
+  template <class Note>
+  Box boxOf(const Node<TSample>& node, const Note& note) const
+  {
+    if (!node.isSplit())
+    {
+      this->requireSamples(node);
+      return boxOfSamples(this->Tree, node);
+    }
+    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
+      this->boxOf(this->Tree.nodes[node.upperNode()], note));
+    note(static_cast<std::size_t>(node.childPair), box);
+    return box;
+  }
+
+  void requireSamples(const Node<TSample>& node) const
+  {
+    if (node.isAbsent)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      const Region everywhere{ { -infinity, -infinity, -infinity },
+        { infinity, infinity, infinity } };
+      throw MissingNode{ static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere };
+    }
+  }
+
+  const SampleTree<TSample>& Tree;
+  RawArray<Box> Boxes;                       // by the number of the node's pair of children
+  mutable ConcurrentMemo<Box> BoxesOnDemand; // likewise, of a partial tree
+  std::once_flag Computed;
+};
+
+} // namespace isopoint
+
+#endif

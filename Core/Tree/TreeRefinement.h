@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_TreeRefinement_h
+#define isopoint_TreeRefinement_h
+
+#include "Core/Base/Collected.h"
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Tree/Path.h"
+#include "Core/Tree/TreeletSplitting.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Splits nodes of a tree further: small ones down to leaves, others by one treelet. The result is
+/// a larger part of the complete tree, whatever part was there.
+/// @param nodes node indices in any order, with repetitions; those that are split or leaves stay
+/// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
+template <class TSample>
+void splitFurther(
+  const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
+{
+  struct Task
+  {
+    std::size_t node;
+    std::size_t firstPair;
+    int levels;
+    Path path;
+  };
+  constexpr std::size_t small = 512;
+  keepUnique(nodes);
+  constexpr std::size_t batch = 4096; // paths are large
+  for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
+  {
+    std::vector<Task> tasks;
+    std::size_t pairs = 0;
+    for (std::size_t i = begin; i < std::min(begin + batch, nodes.size()); ++i)
+    {
+      const Node<TSample>& node = tree.nodes[nodes[i]];
+      if (node.isSplit() || node.isLeaf)
+      {
+        continue;
+      }
+      const Path path = pathToLeaf(tree, nodes[i]);
+      const int levels = std::min(maximumDepth - path.depth,
+        node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
+      if (levels == 0)
+      {
+        throwTooDeep();
+      }
+      tasks.push_back({ nodes[i], pairs, levels, path });
+      pairs += maximumTreeletPairs(node.count(), levels);
+    }
+    const std::size_t firstPair = appendPairs(tree, pairs);
+    forRanges(execution, tasks.size(), 4,
+      [&](std::size_t first, std::size_t last)
+      {
+        TreeletSplitter<TSample> splitter(tree, 0);
+        for (std::size_t i = first; i < last; ++i)
+        {
+          splitter.moveTo(firstPair + tasks[i].firstPair);
+          splitter.split(tree.nodes[tasks[i].node], tasks[i].path.region, tasks[i].levels);
+        }
+      });
+    throwIfAborted(execution);
+  }
+}
+
+/// Splits what is found unsplit, until nothing is.
+/// @param addUnsplit(item, nodes) adds nodes at one of 0 .. count - 1 to a list; from any thread
+/// @throws what splitFurther() does
+template <class TSample, class AddUnsplit>
+void splitWhileUnsplit(const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
+  const AddUnsplit& addUnsplit)
+{
+  std::vector<std::size_t> unsplit;
+  do
+  {
+    splitFurther(execution, tree, unsplit);
+    constexpr std::size_t grain = 64;
+    unsplit = collected<std::size_t>(execution, { count, 16 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          addUnsplit(i, found);
+        }
+      });
+  } while (!unsplit.empty());
+}
+
+/// Splits everything below some nodes down to leaves, as far as samples are this rank's.
+/// @throws what splitFurther() does
+template <class TSample>
+void splitCompletely(
+  const Execution& execution, SampleTree<TSample>& tree, const std::vector<std::size_t>& tops)
+{
+  splitWhileUnsplit(execution, tree, tops.size(),
+    [&](std::size_t i, std::vector<std::size_t>& unsplit)
+    {
+      Path path = pathToLeaf(tree, tops[i]);
+      forEachBelow(tree, path, maximumDepth,
+        [&](const Path& below)
+        {
+          const Node<TSample>& node = tree.nodes[below.nodeIndex()];
+          if (!node.isLeaf && tree.hasOwn(node))
+          {
+            unsplit.push_back(below.nodeIndex());
+          }
+        });
+    });
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/CreaseMesh.h"
+
+#include "Core/Triangles/FacetMesh.h"
+#include "Core/Triangles/TriangleGeometry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace isopoint
+{
+
+CreaseSurface::CreaseSurface(Isosurface& vertices)
+  : surface(vertices)
+{
+  this->normals.reserve(vertices.size());
+  for (const LocalFit& fit : vertices.fits)
+  {
+    this->normals.push_back(scaled(-1.0, directionOf(fit.gradient)));
+  }
+}
+
+Vector CreaseSurface::normalOf(std::initializer_list<std::size_t> vertices) const
+{
+  Vector all{};
+  for (const std::size_t vertex : vertices)
+  {
+    all = sum(all, 1.0, this->normals[vertex]);
+  }
+  return directionOf(all);
+}
+
+std::size_t CreaseSurface::addVertex(
+  std::size_t like, const Vector& place, std::initializer_list<std::size_t> around)
+{
+  double slope = 0.0;
+  for (const std::size_t each : around)
+  {
+    slope += lengthOf(this->fitOf(each).gradient) / static_cast<double>(around.size());
+  }
+  return this->addVertex(like, place, this->normalOf(around), slope);
+}
+
+std::size_t CreaseSurface::addVertex(
+  std::size_t like, const Vector& place, const Vector& normal, double slope)
+{
+  const std::size_t vertex = this->surface.size();
+  LocalFit fit = this->surface.fits[like];
+  fit.position = place;
+  fit.gradient = scaled(-slope, normal);
+  fit.hessian = {};
+  fit.isSmooth = false;
+  fit.order = FitOrder::Crease;
+  fit.creases.clear();
+  this->surface.edges.emplace_back(this->surface.edges[like]);
+  this->surface.positions.push_back(place);
+  this->surface.decreasingEdges.emplace_back(this->surface.decreasingEdges[like]);
+  this->surface.leaves.emplace_back(this->surface.leaves[like]);
+  this->surface.fits.push_back(std::move(fit));
+  this->normals.push_back(normal);
+  this->isInner.push_back(true);
+  return vertex;
+}
+
+namespace
+{
+
+/// Facets of a vertex whose normals form a smaller cosine, of 20 degrees or more with it, get a
+/// copy of it.
+constexpr double mostPartedCosine = 0.94;
+
+/// Merges two vertices of a facet that looks the wrong way, if all others around then look the
+/// right way, or are much smaller. Vertices on creases stay on them. @returns whether it did
+bool mergeAt(FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
+{
+  const Facet facet = mesh.facet(inverted);
+  constexpr double share = 0.1;
+  const double least = share * mesh.signedArea(facet);
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    const std::size_t vertex = facet.corners[i % 3];
+    const std::size_t neighbor = facet.corners[(i % 3 + 1 + i / 3) % 3];
+    const bool staysOnCrease = vertex < firstOnCrease || neighbor >= firstOnCrease;
+    if (staysOnCrease && mesh.collapse(vertex, neighbor,
+                           [&](const Facet& moved) { return mesh.signedArea(moved) >= least; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Moves a vertex of a facet that looks the wrong way halfway between its neighbors along the
+/// crease, if that makes less around it look the wrong way. @returns whether it did
+bool slideAt(
+  CreaseSurface& whole, const FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
+{
+  for (const std::size_t vertex : mesh.facet(inverted).corners)
+  {
+    std::vector<std::size_t> along = mesh.neighborsOf(vertex);
+    along.erase(std::remove_if(along.begin(), along.end(),
+                  [firstOnCrease](std::size_t neighbor) { return neighbor < firstOnCrease; }),
+      along.end());
+    if (vertex < firstOnCrease || along.size() != 2)
+    {
+      continue;
+    }
+    Vector& position = whole.surface.positions[vertex];
+    const Vector former = position;
+    const double formerArea = mesh.invertedAreaAround(vertex);
+    position =
+      scaled(0.5, sum(whole.surface.positions[along[0]], 1.0, whole.surface.positions[along[1]]));
+    if (mesh.invertedAreaAround(vertex) < formerArea)
+    {
+      whole.surface.fits[vertex].position = position;
+      return true;
+    }
+    position = former;
+  }
+  return false;
+}
+
+/// Makes facets look to the side of their normals: flips edges, and merges or moves vertices where
+/// that does not suffice. A few may be left.
+/// @param whole whose vertices on creases may be moved along them
+/// @param firstOnCrease the first vertex on a crease, all others being behind it
+/// @throws std::bad_alloc, Aborted
+std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
+  std::vector<Facet> facets, std::size_t firstOnCrease)
+{
+  FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
+  constexpr int mostRounds = 5;
+  bool isAnyMerged = true;
+  mesh.untangle();
+  for (int round = 0; round < mostRounds && isAnyMerged; ++round)
+  {
+    isAnyMerged = false;
+    for (const std::size_t facet : mesh.invertedFacets())
+    {
+      throwIfAborted(execution);
+      if (mesh.isInverted(facet)) // still
+      {
+        isAnyMerged = mergeAt(mesh, facet, firstOnCrease) ||
+                      slideAt(whole, mesh, facet, firstOnCrease) || isAnyMerged;
+      }
+    }
+    mesh.untangle();
+  }
+  return mesh.facets();
+}
+
+class CreaseMesher
+{
+public:
+  CreaseMesher(
+    const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
+    : Run(execution)
+    , Whole(surface)
+    , Triangles(triangles)
+  {
+  }
+
+  void mesh(bool parts)
+  {
+    std::vector<Facet> facets = this->takeFacets();
+    if (facets.empty())
+    {
+      return;
+    }
+    const std::size_t firstOnCrease = this->Whole.surface.size();
+    facets = splitAtCreases(this->Run, this->Whole, std::move(facets));
+    facets = untangleFacets(this->Run, this->Whole, std::move(facets), firstOnCrease);
+    if (parts)
+    {
+      this->partCreases(facets);
+    }
+    for (const Facet& facet : facets)
+    {
+      this->Triangles.push_back(facet.corners);
+    }
+    this->order();
+  }
+
+private:
+  /// Takes the triangles beside creases out of the surface, and those around.
+  std::vector<Facet> takeFacets()
+  {
+    std::vector<bool> isNear(this->Whole.surface.size(), false);
+    for (std::size_t i = 0; i < isNear.size(); ++i)
+    {
+      isNear[i] = this->Whole.isCrease(i);
+    }
+    const auto isAnyNear = [&isNear](const SurfaceTriangle& triangle)
+    {
+      return std::any_of(
+        triangle.begin(), triangle.end(), [&](std::size_t corner) { return isNear[corner]; });
+    };
+    this->Whole.isInner.assign(isNear.size(), false);
+    for (const SurfaceTriangle& triangle : this->Triangles)
+    {
+      if (isAnyNear(triangle))
+      {
+        for (const std::size_t corner : triangle)
+        {
+          this->Whole.isInner[corner] = true;
+        }
+      }
+    }
+    isNear = this->Whole.isInner;
+    const auto end = std::stable_partition(this->Triangles.begin(), this->Triangles.end(),
+      [&](const SurfaceTriangle& triangle) { return !isAnyNear(triangle); });
+    std::vector<Facet> facets;
+    std::transform(end, this->Triangles.end(), std::back_inserter(facets),
+      [this](const SurfaceTriangle& triangle) { return this->Whole.facetOf(triangle); });
+    this->Triangles.erase(end, this->Triangles.end());
+    return facets;
+  }
+
+  /// Repeats the vertices of facets that look to different sides: the copy for a piece has the
+  /// normal of the first facet there.
+  void partCreases(std::vector<Facet>& facets)
+  {
+    std::map<std::size_t, std::vector<std::size_t>> copies; // of each vertex
+    for (Facet& facet : facets)
+    {
+      for (std::size_t& corner : facet.corners)
+      {
+        if (dot(this->Whole.normals[corner], facet.normal) < mostPartedCosine)
+        {
+          corner = this->copyOf(corner, facet.normal, copies[corner]);
+        }
+      }
+    }
+  }
+
+  std::size_t copyOf(std::size_t vertex, const Vector& normal, std::vector<std::size_t>& copies)
+  {
+    for (const std::size_t copy : copies)
+    {
+      if (dot(this->Whole.normals[copy], normal) >= mostPartedCosine)
+      {
+        return copy;
+      }
+    }
+    const Vector place = this->Whole.surface.positions[vertex]; // which adding moves
+    copies.push_back(
+      this->Whole.addVertex(vertex, place, normal, lengthOf(this->Whole.fitOf(vertex).gradient)));
+    return copies.back();
+  }
+
+  /// Drops vertices without triangles, and orders the triangles.
+  void order()
+  {
+    Isosurface& surface = this->Whole.surface;
+    const std::vector<std::size_t> kept = verticesOf(this->Triangles, surface.size());
+    this->Triangles = renumbered(this->Run, this->Triangles, kept, surface.size());
+    if (kept.size() < surface.size())
+    {
+      const std::size_t dropped = surface.droppedEdges;
+      surface = chosenIsopoints(this->Run, surface, kept);
+      surface.droppedEdges = dropped;
+    }
+  }
+
+  const Execution& Run;
+  CreaseSurface Whole;
+  std::vector<SurfaceTriangle>& Triangles;
+};
+
+} // namespace
+
+void meshCreases(const Execution& execution, Isosurface& surface,
+  std::vector<SurfaceTriangle>& triangles, bool parts)
+{
+  CreaseMesher(execution, surface, triangles).mesh(parts);
+}
+
+} // namespace isopoint

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/CreaseMesh.h"
+
+#include "Core/Base/SortUnique.h"
+#include "Core/Fit/SurfacePiece.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+namespace
+{
+
+/// A crease's vertex is at most this many lengths of the edge away from the middle of it.
+constexpr double mostOffset = 1.0;
+
+/// The vertex of a corner is at most this many lengths of the longest edge away from the middle of
+/// the triangle.
+constexpr double mostCornerOffset = 2.0;
+
+bool isFinite(const Vector& vector)
+{
+  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
+class CreaseSplitter
+{
+public:
+  CreaseSplitter(const Execution& execution, CreaseSurface& whole)
+    : Run(execution)
+    , Whole(whole)
+  {
+  }
+
+  /// Merges vertices that are lost with the nearest neighbor that leaves no triangle looking the
+  /// wrong way, and finds the fits that describe pieces.
+  std::vector<Facet> withoutLost(std::vector<Facet> facets)
+  {
+    FacetMesh mesh(this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
+    for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
+    {
+      this->lookAfter(vertex);
+      if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
+      {
+        this->mergeWithNearest(mesh, vertex);
+      }
+    }
+    this->Pieces.resize(this->Whole.isInner.size());
+    for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
+    {
+      this->lookAfter(vertex);
+      this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
+    }
+    return mesh.facets();
+  }
+
+  std::vector<Facet> split(const std::vector<Facet>& facets)
+  {
+    std::vector<Edge> edges;
+    for (const Facet& facet : facets)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const Edge edge = std::minmax({ facet.corners[i], facet.corners[(i + 1) % 3] });
+        if (this->isAcrossCrease(edge.first, edge.second))
+        {
+          edges.push_back(edge);
+        }
+      }
+    }
+    keepUnique(edges);
+    for (const auto& [a, b] : edges)
+    {
+      this->lookAfter(a);
+      if (const std::optional<Vector> place = this->placeOnCrease(a, b))
+      {
+        this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
+      }
+    }
+    std::vector<Facet> parts;
+    for (const Facet& facet : facets)
+    {
+      this->addParts(facet, parts);
+    }
+    return parts;
+  }
+
+private:
+  void addParts(const Facet& facet, std::vector<Facet>& parts)
+  {
+    std::array<std::optional<std::size_t>, 3> onEdges;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      onEdges[i] = this->vertexOnCrease(facet.corners[i], facet.corners[(i + 1) % 3]);
+      count += onEdges[i] ? 1 : 0;
+    }
+    // Turned so that the corner that differs is the first one.
+    const auto turnedTo = [&](std::size_t first)
+    {
+      return std::array{ facet.corners[first], facet.corners[(first + 1) % 3],
+        facet.corners[(first + 2) % 3] };
+    };
+    if (count == 0)
+    {
+      parts.push_back(this->Whole.facetOf(facet.corners));
+    }
+    else if (count == 1)
+    {
+      const auto edge = static_cast<std::size_t>(
+        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return each; }) -
+        onEdges.begin());
+      const auto [a, b, c] = turnedTo(edge);
+      parts.push_back({ { a, *onEdges[edge], c }, this->Whole.normalOf({ a, c }) });
+      parts.push_back({ { *onEdges[edge], b, c }, this->Whole.normalOf({ b, c }) });
+    }
+    else if (count == 2)
+    {
+      const auto whole = static_cast<std::size_t>(
+        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return !each; }) -
+        onEdges.begin());
+      const auto [a, b, c] = turnedTo((whole + 2) % 3);
+      this->addTwoPieces(a, b, c, *onEdges[(whole + 2) % 3], *onEdges[(whole + 1) % 3], parts);
+    }
+    else
+    {
+      this->addThreePieces(facet.corners, { *onEdges[0], *onEdges[1], *onEdges[2] }, parts);
+    }
+  }
+
+  /// @param a alone on its piece; ab, ca where the crease crosses
+  void addTwoPieces(std::size_t a, std::size_t b, std::size_t c, std::size_t ab, std::size_t ca,
+    std::vector<Facet>& parts) const
+  {
+    const auto lengthBetween = [this](std::size_t p, std::size_t q)
+    {
+      return lengthOf(
+        difference(this->Whole.surface.positions[p], this->Whole.surface.positions[q]));
+    };
+    const Vector normal = this->Whole.normalOf({ b, c });
+    parts.push_back({ { a, ab, ca }, this->Whole.normals[a] });
+    if (lengthBetween(ab, c) < lengthBetween(ca, b))
+    {
+      parts.push_back({ { ab, b, c }, normal });
+      parts.push_back({ { ab, c, ca }, normal });
+    }
+    else
+    {
+      parts.push_back({ { ab, b, ca }, normal });
+      parts.push_back({ { b, c, ca }, normal });
+    }
+  }
+
+  void addThreePieces(const SurfaceTriangle& corners, const std::array<std::size_t, 3>& onEdges,
+    std::vector<Facet>& parts)
+  {
+    const auto& [a, b, c] = corners;
+    const auto& [ab, bc, ca] = onEdges;
+    if (const std::optional<Vector> place = this->placeOfCorner(corners))
+    {
+      const std::size_t corner = this->Whole.addVertex(a, *place, { a, b, c });
+      for (const auto& [piece, from, to] :
+        { std::array{ a, ca, ab }, std::array{ b, ab, bc }, std::array{ c, bc, ca } })
+      {
+        parts.push_back({ { piece, to, corner }, this->Whole.normals[piece] });
+        parts.push_back({ { piece, corner, from }, this->Whole.normals[piece] });
+      }
+      return;
+    }
+    parts.push_back({ { a, ab, ca }, this->Whole.normals[a] });
+    parts.push_back({ { b, bc, ab }, this->Whole.normals[b] });
+    parts.push_back({ { c, ca, bc }, this->Whole.normals[c] });
+    parts.push_back({ { ab, bc, ca }, this->Whole.normalOf({ a, b, c }) });
+  }
+
+  std::optional<Vector> placeOfCorner(const SurfaceTriangle& corners) const
+  {
+    const auto& [a, b, c] = corners;
+    const std::vector<Vector>& positions = this->Whole.surface.positions;
+    const Vector center =
+      scaled(1.0 / 3.0, sum(sum(positions[a], 1.0, positions[b]), 1.0, positions[c]));
+    const Vector place = meetingOf(this->piecesAt({ a, b, c }), center);
+    const double longest = std::max({ lengthOf(difference(positions[a], positions[b])),
+      lengthOf(difference(positions[b], positions[c])),
+      lengthOf(difference(positions[c], positions[a])) });
+    return isFinite(place) && lengthOf(difference(place, center)) <= mostCornerOffset * longest
+             ? std::optional(place)
+             : std::nullopt;
+  }
+
+  /// Looks from time to time whether to stop.
+  void lookAfter(std::size_t count) const
+  {
+    constexpr std::size_t batch = 1024;
+    if (count % batch == 0)
+    {
+      throwIfAborted(this->Run);
+    }
+  }
+
+  /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one that
+  /// differs from all around that know the crease.
+  bool isLost(std::size_t vertex, const std::vector<std::size_t>& neighbors) const
+  {
+    const auto knowsCrease = [this](std::size_t neighbor)
+    { return this->Whole.isCrease(neighbor); };
+    const auto agrees = [&](std::size_t neighbor)
+    { return this->Whole.isCrease(neighbor) && this->Whole.isAlike(vertex, neighbor); };
+    return !this->Whole.isFitted(vertex) ||
+           (!this->Whole.isCrease(vertex) &&
+             std::any_of(neighbors.begin(), neighbors.end(), knowsCrease) &&
+             std::none_of(neighbors.begin(), neighbors.end(), agrees));
+  }
+
+  /// Neighbors that are wanted and their distances, the nearest first.
+  template <class IsWanted>
+  std::vector<std::pair<double, std::size_t>> nearestNeighbors(
+    const FacetMesh& mesh, std::size_t vertex, const IsWanted& isWanted) const
+  {
+    std::vector<std::pair<double, std::size_t>> byDistance;
+    for (const std::size_t neighbor : mesh.neighborsOf(vertex))
+    {
+      if (isWanted(neighbor))
+      {
+        byDistance.emplace_back(lengthOf(difference(this->Whole.surface.positions[neighbor],
+                                  this->Whole.surface.positions[vertex])),
+          neighbor);
+      }
+    }
+    std::sort(byDistance.begin(), byDistance.end());
+    return byDistance;
+  }
+
+  void mergeWithNearest(FacetMesh& mesh, std::size_t vertex) const
+  {
+    const auto isUpright = [&](const Facet& moved)
+    { return mesh.signedArea(this->Whole.facetOf(moved.corners)) > 0.0; };
+    const auto isAny = [](const Facet&) { return true; }; // edges are flipped later
+    const auto neighbors = this->nearestNeighbors(
+      mesh, vertex, [this](std::size_t each) { return this->Whole.isFitted(each); });
+    const auto mergesWith = [&](const auto& isAllowed)
+    {
+      return std::any_of(neighbors.begin(), neighbors.end(),
+        [&](const auto& neighbor) { return mesh.collapse(vertex, neighbor.second, isAllowed); });
+    };
+    if (!mergesWith(isUpright))
+    {
+      mergesWith(isAny);
+    }
+  }
+
+  /// The vertex whose fit describes the piece that a vertex is on: beside a crease smooth fits are
+  /// rounded, so that of the nearest neighbor on the piece that knows the crease.
+  std::size_t pieceOf(const FacetMesh& mesh, std::size_t vertex) const
+  {
+    if (this->Whole.isCrease(vertex))
+    {
+      return vertex;
+    }
+    const auto alike = this->nearestNeighbors(mesh, vertex,
+      [&](std::size_t each)
+      { return this->Whole.isCrease(each) && this->Whole.isAlike(vertex, each); });
+    return alike.empty() ? vertex : alike.front().second;
+  }
+
+  std::size_t pieceCount(std::size_t vertex) const
+  {
+    return this->Whole.fitOf(this->Pieces[vertex]).creases.size() + 1;
+  }
+
+  /// The pieces that vertices are on: all as the vertex whose fit has the most pieces sees them, if
+  /// it sees all, or else each as its own vertex does.
+  std::vector<SurfacePiece> piecesAt(const std::vector<std::size_t>& vertices) const
+  {
+    const std::size_t viewer = *std::max_element(vertices.begin(), vertices.end(),
+      [this](std::size_t a, std::size_t b) { return this->pieceCount(a) < this->pieceCount(b); });
+    std::vector<SurfacePiece> own;
+    std::vector<SurfacePiece> seen;
+    for (const std::size_t vertex : vertices)
+    {
+      own.emplace_back(this->Whole.fitOf(this->Pieces[vertex]));
+      if (const std::optional<SurfacePiece> piece = this->pieceSeenFrom(viewer, vertex))
+      {
+        seen.push_back(*piece);
+      }
+    }
+    return seen.size() == own.size() ? seen : own;
+  }
+
+  /// The piece of a vertex: its own fit's, or as another one's fit with more pieces sees it, if one
+  /// of these has a similar normal.
+  std::optional<SurfacePiece> pieceSeenFrom(std::size_t viewer, std::size_t vertex) const
+  {
+    const LocalFit& fit = this->Whole.fitOf(this->Pieces[viewer]);
+    if (this->pieceCount(viewer) == this->pieceCount(vertex))
+    {
+      return SurfacePiece(this->Whole.fitOf(this->Pieces[vertex]));
+    }
+    const CreasePlane* closest = nullptr;
+    double cosine = mostCreaseCosine;
+    for (const CreasePlane& plane : fit.creases)
+    {
+      const double own = std::abs(dot(plane.inward, this->Whole.normals[vertex]));
+      if (own >= cosine)
+      {
+        closest = &plane;
+        cosine = own;
+      }
+    }
+    return closest ? std::optional(SurfacePiece(fit.position, *closest)) : std::nullopt;
+  }
+
+  using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
+
+  /// Whether two vertices are on different pieces.
+  bool isAcrossCrease(std::size_t a, std::size_t b) const
+  {
+    return this->Whole.isInner[a] && this->Whole.isInner[b] && this->Whole.isFitted(a) &&
+           this->Whole.isFitted(b) && (this->Whole.isCrease(a) || this->Whole.isCrease(b)) &&
+           !this->Whole.isAlike(a, b);
+  }
+
+  /// Where an edge that is laid along both pieces crosses the crease between them.
+  std::optional<Vector> placeOnCrease(std::size_t a, std::size_t b) const
+  {
+    const Vector& p = this->Whole.surface.positions[a];
+    const Vector& q = this->Whole.surface.positions[b];
+    const std::vector<SurfacePiece> pieces = this->piecesAt({ a, b });
+    const Vector center = scaled(0.5, sum(p, 1.0, q));
+    const Vector meeting = meetingOf(pieces, center);
+    const Vector along = directionOf(cross(this->Whole.normals[a], this->Whole.normals[b]));
+    const auto offsetOf = [&](const Vector& place)
+    {
+      const Vector offset = difference(place, meeting);
+      const double shift = dot(offset, along);
+      return std::pair(shift, lengthOf(sum(offset, -shift, along)));
+    };
+    const auto [pShift, pOff] = offsetOf(p);
+    const auto [qShift, qOff] = offsetOf(q);
+    const double off = pOff + qOff;
+    const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
+    const Vector place = meetingOf(pieces, sum(meeting, shift, along));
+    const double length = lengthOf(difference(q, p));
+    return isFinite(place) && lengthOf(difference(place, center)) <= mostOffset * length
+             ? std::optional(place)
+             : std::nullopt;
+  }
+
+  std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
+  {
+    const auto found = this->OnCreases.find(std::minmax(a, b));
+    return found != this->OnCreases.end() ? std::optional(found->second) : std::nullopt;
+  }
+
+  const Execution& Run;
+  CreaseSurface& Whole;
+  std::vector<std::size_t> Pieces;       // the vertex whose fit describes that of a vertex
+  std::map<Edge, std::size_t> OnCreases; // vertices, by the edges that they are on
+};
+
+} // namespace
+
+std::vector<Facet> splitAtCreases(
+  const Execution& execution, CreaseSurface& whole, std::vector<Facet> facets)
+{
+  CreaseSplitter splitter(execution, whole);
+  return splitter.split(splitter.withoutLost(std::move(facets)));
+}
+
+} // namespace isopoint

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_ExtractTriangles_h
+#define isopoint_ExtractTriangles_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/ExpectedWork.h"
+#include "Core/Extraction/ExtractIsosurface.h"
+#include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/NarrowBand.h"
+#include "Core/Tetrahedra/Band.h"
+#include "Core/Tetrahedra/CrossingTetrahedra.h"
+#include "Core/Triangles/CreaseMesh.h"
+#include "Core/Triangles/GapTetrahedra.h"
+#include "Core/Triangles/MarchingTetrahedra.h"
+#include "Core/Triangles/TriangleGeometry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The isosurface of one isovalue as triangles.
+struct TriangleSurface
+{
+  Isosurface vertices; // of crossing Delaunay edges
+  std::vector<SurfaceTriangle> triangles;
+  std::size_t droppedTetrahedra = 0; // those that lie in gaps
+};
+
+/// Extracts triangles; see docs/triangles.md. For one isovalue. Where several ranks share the tree,
+/// all functions are collective, and each rank finds the whole surface.
+template <class TSample, class TRanks>
+class TriangleExtraction
+{
+public:
+  using Id = typename TSample::Id;
+
+  /// @param tree will be refined
+  /// @param ranks SingleRank, or SharedRanks
+  /// @param neighborhoods of the tree's leaves that are known
+  /// @param band see CrossingTetrahedraFinder
+  TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
+    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<Band>& band,
+    const IsosurfaceRequest& request)
+    : Run(execution)
+    , Tree(tree)
+    , Ranks(ranks)
+    , Neighborhoods(neighborhoods)
+    , KeptBand(band)
+    , Request(request)
+    , Means(tree)
+  {
+  }
+
+  /// @param progress divided among the parts
+  /// @param laterWork that follows for each vertex
+  /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
+  /// again afterwards
+  TriangleSurface extract(WorkProgress& progress, double laterWork)
+  {
+    if (this->Tree.isEmpty())
+    {
+      return {};
+    }
+    const double fitting = this->Request.fit ? work::fitting : 0.0;
+    EdgeTriangles<TSample> mesh = this->march(progress, fitting + laterWork);
+    const auto count = static_cast<double>(mesh.edges.size());
+    ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
+    std::vector<LocalFit> fits;
+    if (this->Request.fit)
+    {
+      fits = this->Ranks.fitShared(
+        progress.part(count * fitting, count * laterWork), context, *this->Request.fit, mesh.edges);
+    }
+    return this->place(
+      progress.part(count * work::placing, count * laterWork), context, mesh, std::move(fits));
+  }
+
+  /// The crossing tetrahedra of the Delaunay tetrahedrization of all samples.
+  std::vector<CrossingTetrahedron<Id>> tetrahedra(WorkProgress& progress, double laterWork)
+  {
+    if (this->Tree.isEmpty())
+    {
+      return {};
+    }
+    NarrowBand<TSample> band(
+      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrizing + laterWork);
+    const std::vector<BinaryIndex> nodes = band.refine(this->Ranks);
+    const double count = work::isopointsForNode * static_cast<double>(nodes.size());
+    const Execution part = progress.part(count * work::tetrahedrizing, count * laterWork);
+    CrossingTetrahedraFinder<TSample, TRanks> finder(
+      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->KeptBand);
+    std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
+    if (!this->Request.keepsBand)
+    {
+      this->KeptBand.reset();
+    }
+    this->Counts = finder.counts();
+    return found;
+  }
+
+  const TetrahedraCounts& counts() const { return this->Counts; }
+
+private:
+  /// The triangles of all tetrahedra but those across gaps.
+  EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
+  {
+    std::vector<CrossingTetrahedron<Id>> found = this->tetrahedra(progress, laterWork);
+    if (this->Request.dropsGaps)
+    {
+      this->dropGaps(found);
+    }
+    return MarchingTetrahedra<TSample>(
+      this->Run, this->Tree, this->Means, this->Request.isovalue, found)
+      .march();
+  }
+
+  /// Drops tetrahedra in gaps of the cloud.
+  void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
+  {
+    this->Ranks.order(found);
+    const std::size_t count = found.size();
+    dropMarked(
+      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(),
+      found);
+    this->Dropped = count - found.size();
+  }
+
+  /// The surface of triangles whose vertices the fits move where no triangle turns over.
+  TriangleSurface place(const Execution& part, ExtractionContext<TSample>& context,
+    EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
+  {
+    const bool isMoved = this->Request.fit && this->Request.fit->move;
+    if (isMoved)
+    {
+      keepTrianglesUpright(this->Run, mesh.positions, mesh.triangles, fits);
+    }
+    TriangleSurface surface;
+    surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
+    surface.triangles = std::move(mesh.triangles);
+    if (isMoved && this->Request.fit->highest == FitOrder::Crease)
+    {
+      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request.partsCreases);
+    }
+    surface.droppedTetrahedra = this->Dropped;
+    surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
+    return surface;
+  }
+
+  const Execution& Run;
+  SampleTree<TSample>& Tree;
+  TRanks& Ranks;
+  const NeighborhoodCache<Id>& Neighborhoods;
+  std::unique_ptr<Band>& KeptBand;
+  const IsosurfaceRequest& Request;
+  SharedLeafMeans<TSample> Means;
+  TetrahedraCounts Counts;
+  std::size_t Dropped = 0;
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_FacetMesh_h
+#define isopoint_FacetMesh_h
+
+#include "Core/Base/Vector.h"
+#include "Core/Triangles/TriangleGeometry.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A triangle and the direction that it is to look to.
+struct Facet
+{
+  SurfaceTriangle corners;
+  Vector normal;
+};
+
+/// Triangles whose edges can be flipped and collapsed. A closed surface stays closed. What is done
+/// depends on the facets and their order alone.
+class FacetMesh
+{
+public:
+  /// @param positions of all vertices, kept by the caller
+  /// @param isInner of each vertex: whether all triangles around it are facets
+  /// @throws std::bad_alloc
+  FacetMesh(const std::vector<Vector>& positions, const std::vector<bool>& isInner,
+    std::vector<Facet> facets);
+
+  /// Flips edges between facets of similar normals as long as that makes less of the surface look
+  /// the wrong way.
+  /// Complexity: O(facets), mostly
+  void untangle();
+
+  /// Moves a vertex onto a neighbor, and drops the two facets in between, if the edge is an inner
+  /// one of a manifold.
+  /// @param isAllowed(facet) of each facet that is changed, with its new corners
+  /// @returns whether it did
+  template <class IsAllowed>
+  bool collapse(std::size_t vertex, std::size_t neighbor, const IsAllowed& isAllowed)
+  {
+    const std::optional<std::vector<std::size_t>> kept = this->facetsToMove(vertex, neighbor);
+    if (!kept)
+    {
+      return false;
+    }
+    for (const std::size_t facet : *kept)
+    {
+      Facet moved = this->Facets[facet];
+      replace(moved.corners, vertex, neighbor);
+      if (!isAllowed(moved))
+      {
+        return false;
+      }
+    }
+    this->move(vertex, neighbor, *kept);
+    return true;
+  }
+
+  /// Vertices with a facet in common with one, in ascending order.
+  std::vector<std::size_t> neighborsOf(std::size_t vertex) const;
+
+  /// Facets that look the wrong way.
+  std::vector<std::size_t> invertedFacets() const;
+
+  const Facet& facet(std::size_t index) const { return this->Facets[index]; }
+
+  /// Whether a facet is left, and looks the wrong way.
+  bool isInverted(std::size_t index) const
+  {
+    return !this->IsRemoved[index] && this->signedArea(this->Facets[index]) < 0.0;
+  }
+
+  /// Twice the area of a facet, negative if it looks the wrong way.
+  double signedArea(const Facet& facet) const;
+
+  /// Twice the area around a vertex that looks the wrong way.
+  double invertedAreaAround(std::size_t vertex) const;
+
+  /// Those that are left.
+  std::vector<Facet> facets() const;
+
+private:
+  using Edge = std::array<std::size_t, 2>; // as a facet has it, counterclockwise
+
+  struct EdgeHash
+  {
+    std::size_t operator()(const Edge& edge) const
+    {
+      constexpr std::size_t odd = 0x9e3779b97f4a7c15;
+      return edge[0] * odd ^ (edge[1] + (edge[0] >> 7));
+    }
+  };
+
+  struct EdgeFacet
+  {
+    std::size_t facet;
+    bool isOne; // of one facet alone
+  };
+
+  static void replace(SurfaceTriangle& corners, std::size_t vertex, std::size_t by);
+
+  void connect(std::size_t facet);
+  void disconnect(std::size_t facet);
+
+  /// The facet with an edge, if there is one alone.
+  std::optional<std::size_t> facetAt(std::size_t a, std::size_t b) const;
+  bool hasEdge(std::size_t a, std::size_t b) const;
+
+  /// Flips the edge of a facet that leaves the least looking the wrong way, if that is less.
+  /// @returns the other facet
+  std::optional<std::size_t> flipBest(std::size_t facet);
+
+  std::optional<std::vector<std::size_t>> facetsToMove(
+    std::size_t vertex, std::size_t neighbor) const;
+  void move(std::size_t vertex, std::size_t neighbor, const std::vector<std::size_t>& kept);
+
+  double invertedArea(const Facet& a, const Facet& b) const;
+
+  const std::vector<Vector>& Positions;
+  const std::vector<bool>& IsInner;
+  std::vector<Facet> Facets;
+  std::vector<bool> IsRemoved;
+  std::unordered_map<Edge, EdgeFacet, EdgeHash> Edges;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> FacetsAround; // vertices
+};
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_GapTetrahedra_h
+#define isopoint_GapTetrahedra_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/ItemLists.h"
+#include "Core/Base/Offset.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Neighbors/GapCriterion.h"
+#include "Core/Neighbors/GapSpread.h"
+#include "Core/Tetrahedra/BandTriangulation.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common
+/// are connected.
+template <class TSample>
+class TetrahedronParts
+{
+public:
+  using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
+
+  TetrahedronParts(const SampleTree<TSample>& tree, const std::vector<Tetrahedron>& tetrahedra)
+    : Tree(tree)
+    , Tetrahedra(tetrahedra)
+  {
+  }
+
+  std::size_t size() const { return this->Tetrahedra.size(); }
+
+  /// On the rank of the corner that comes first in the order of the tree.
+  bool isCounted(std::size_t tetrahedron) const
+  {
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    const auto first = *std::min_element(corners.begin(), corners.end(),
+      [this](auto a, auto b) { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    return this->Tree.isOwn(this->Tree.nodes[first].begin);
+  }
+
+  template <class TRanks>
+  void unite(TRanks& ranks, std::vector<std::size_t>& found) const
+  {
+    ranks.unite(found);
+  }
+
+  template <class Test>
+  bool anyEdge(std::size_t tetrahedron, const Test& test) const
+  {
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < corners.size(); ++j)
+      {
+        if (test(static_cast<std::size_t>(corners[i]), static_cast<std::size_t>(corners[j])))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// O(tetrahedra at a corner), except for the first time: O(n). @throws std::bad_alloc
+  template <class Visit>
+  void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
+  {
+    if (!this->AtLeaves)
+    {
+      this->AtLeaves.emplace(
+        this->Tree.nodes.size(), this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
+          return this->Tetrahedra[item].corners;
+        });
+    }
+    const auto& [corners, belowCount, isAtHull] = this->Tetrahedra[tetrahedron];
+    for (std::size_t opposite = 0; opposite < 4; ++opposite)
+    {
+      const bool isBelow = opposite < belowCount;
+      if (belowCount != (isBelow ? 1 : 3)) // else all corners of the facet are on one side
+      {
+        this->visitAcross(tetrahedron, corners[opposite], visit);
+      }
+    }
+  }
+
+private:
+  /// Visits the other tetrahedron at the facet opposite to a corner, if there is one.
+  template <class Visit>
+  void visitAcross(std::size_t tetrahedron, typename TSample::Id opposite, const Visit& visit) const
+  {
+    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    // The corner with the fewest: one in a void has very many.
+    std::size_t shared = static_cast<std::size_t>(corners[0] == opposite ? corners[1] : corners[0]);
+    for (const auto corner : corners)
+    {
+      const auto leaf = static_cast<std::size_t>(corner);
+      const bool hasFewer = this->AtLeaves->at(leaf).count < this->AtLeaves->at(shared).count;
+      shared = corner != opposite && hasFewer ? leaf : shared;
+    }
+    for (const std::size_t other : this->AtLeaves->at(shared))
+    {
+      const auto& otherCorners = this->Tetrahedra[other].corners;
+      const auto isShared = [&](typename TSample::Id corner)
+      {
+        return corner == opposite ||
+               std::find(otherCorners.begin(), otherCorners.end(), corner) != otherCorners.end();
+      };
+      if (other != tetrahedron && std::all_of(corners.begin(), corners.end(), isShared))
+      {
+        visit(other);
+      }
+    }
+  }
+
+  const SampleTree<TSample>& Tree;
+  const std::vector<Tetrahedron>& Tetrahedra;
+  std::optional<ItemLists> AtLeaves; // tetrahedra, listed once there is a gap
+};
+
+/// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
+/// Where several ranks share the tree, all functions are collective.
+/// @tparam TRanks SingleRank, or SharedRanks
+template <class TSample, class TRanks>
+class GapTetrahedraFinder
+{
+public:
+  using Id = typename TSample::Id;
+  using Tetrahedron = CrossingTetrahedron<Id>;
+
+  /// @param tetrahedra all that are crossing, in the same order on all ranks
+  GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
+    const std::vector<Tetrahedron>& tetrahedra)
+    : Run(execution)
+    , Tree(tree)
+    , Ranks(ranks)
+    , Tetrahedra(tetrahedra)
+    , Parts(tree, tetrahedra)
+    , Spread(execution, tree, ranks, this->Parts)
+  {
+  }
+
+  /// @returns for each tetrahedron whether it lies in a gap
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  std::vector<char> find()
+  {
+    this->Spread.spread(this->seeds());
+    return this->withFragments(this->Spread.isInGap());
+  }
+
+private:
+  static constexpr std::size_t smallestPiece = 8; // of tetrahedra beside a gap
+
+  /// The tetrahedra that gaps spread from: those over the strong criterion, and those at the hull.
+  std::vector<std::size_t> seeds()
+  {
+    std::vector<std::size_t> candidates;
+    const std::vector<char> isCrowded = this->crowdedLeaves();
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      const auto& corners = this->Tetrahedra[i].corners;
+      if (std::count_if(corners.begin(), corners.end(),
+            [&](Id leaf) { return isCrowded[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
+      {
+        candidates.push_back(i);
+      }
+    }
+    std::vector<std::size_t> seeds = this->Spread.over(GapCriterion::strong(), candidates);
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      if (this->Tetrahedra[i].isAtHull)
+      {
+        seeds.push_back(i);
+      }
+    }
+    keepUnique(seeds);
+    return seeds;
+  }
+
+  /// Marks, by node, the leaves at which the longest edge of a tetrahedron may be over the strong
+  /// criterion. In clouds without gaps these are few, so that next to no edge is looked at.
+  std::vector<char> crowdedLeaves()
+  {
+    const std::vector<std::atomic<double>> longest = this->longestEdges(); // at each leaf, by node
+    std::vector<std::size_t> corners; // in the same order on all ranks
+    for (std::size_t leaf = 0; leaf < longest.size(); ++leaf)
+    {
+      if (longest[leaf] > 0.0)
+      {
+        corners.push_back(leaf);
+      }
+    }
+    std::sort(corners.begin(), corners.end(),
+      [this](std::size_t a, std::size_t b)
+      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    std::vector<char> marks(corners.size(), 0);
+    constexpr std::size_t grain = 256;
+    this->Ranks.forEach(
+      this->Run, { corners.size(), 8 * grain, grain }, []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const std::size_t leaf = corners[i];
+        marks[i] = this->Tree.hasOwn(this->Tree.nodes[leaf]) &&
+                       GapCriterion::strong().mayDrop(this->Tree, pathToLeaf(this->Tree, leaf),
+                         this->Tree.sampleOf(leaf), longest[leaf])
+                     ? 1
+                     : 0;
+      });
+    std::vector<std::size_t> crowded = markedOf(marks);
+    this->Ranks.unite(crowded);
+    std::vector<char> marksOfNodes(longest.size(), 0);
+    for (const std::size_t i : crowded)
+    {
+      marksOfNodes[corners[i]] = 1;
+    }
+    return marksOfNodes;
+  }
+
+  std::vector<std::atomic<double>> longestEdges() const
+  {
+    std::vector<std::atomic<double>> longest(this->Tree.nodes.size());
+    const auto raise = [&longest](std::size_t leaf, double length)
+    {
+      double former = longest[leaf].load(std::memory_order_relaxed);
+      while (former < length &&
+             !longest[leaf].compare_exchange_weak(former, length, std::memory_order_relaxed))
+      {
+      }
+    };
+    constexpr std::size_t grain = 4096;
+    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t tetrahedron = begin; tetrahedron < end; ++tetrahedron)
+        {
+          const auto& corners = this->Tetrahedra[tetrahedron].corners;
+          std::array<Vector, 4> positions;
+          std::transform(corners.begin(), corners.end(), positions.begin(),
+            [this](Id corner) { return positionOf(this->Tree.sampleOf(corner)); });
+          for (std::size_t i = 0; i < 4; ++i)
+          {
+            for (std::size_t j = i + 1; j < 4; ++j)
+            {
+              const double length = offsetBetween(positions[i], positions[j]).length;
+              raise(static_cast<std::size_t>(corners[i]), length);
+              raise(static_cast<std::size_t>(corners[j]), length);
+            }
+          }
+        }
+      });
+    return longest;
+  }
+
+  /// What is in gaps, with the small pieces that border on them.
+  std::vector<char> withFragments(std::vector<char> isInGap)
+  {
+    std::vector<std::size_t> fragments;
+    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
+    {
+      // All that borders on a gap was reached.
+      if (this->Spread.isReached()[i] && !isInGap[i] && this->isBesideGap(i))
+      {
+        const std::vector<std::size_t> piece = this->pieceAround(i, isInGap);
+        if (piece.size() < smallestPiece)
+        {
+          fragments.insert(fragments.end(), piece.begin(), piece.end());
+        }
+      }
+    }
+    for (const std::size_t i : fragments)
+    {
+      isInGap[i] = 1;
+    }
+    return isInGap;
+  }
+
+  bool isBesideGap(std::size_t tetrahedron)
+  {
+    bool isBeside = false;
+    this->Parts.forEachNeighbor(tetrahedron,
+      [&](std::size_t neighbor) { isBeside = isBeside || this->Spread.isInGap()[neighbor] != 0; });
+    return isBeside;
+  }
+
+  /// The tetrahedra that are connected with one across crossing facets, out of gaps; of many,
+  /// `smallestPiece`.
+  std::vector<std::size_t> pieceAround(std::size_t tetrahedron, const std::vector<char>& isInGap)
+  {
+    std::vector<std::size_t> piece{ tetrahedron };
+    for (std::size_t i = 0; i < piece.size() && piece.size() < smallestPiece; ++i)
+    {
+      this->Parts.forEachNeighbor(piece[i],
+        [&](std::size_t neighbor)
+        {
+          if (!isInGap[neighbor] && piece.size() < smallestPiece &&
+              std::find(piece.begin(), piece.end(), neighbor) == piece.end())
+          {
+            piece.push_back(neighbor);
+          }
+        });
+    }
+    return piece;
+  }
+
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  TRanks& Ranks;
+  const std::vector<Tetrahedron>& Tetrahedra;
+  TetrahedronParts<TSample> Parts;
+  GapSpread<TSample, TRanks, TetrahedronParts<TSample>> Spread;
+};
+
+} // namespace isopoint
+
+#endif
