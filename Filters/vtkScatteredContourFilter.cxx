@@ -2,7 +2,6 @@
 #include "vtkScatteredContourFilter.h"
 
 #include "Output/vtkIsopointOutput.h"
-#include "Update/vtkIsopointFindings.h"
 #include "Update/vtkIsopointOptions.h"
 #include "Update/vtkIsopointUpdate.h"
 
@@ -23,13 +22,33 @@
 #include <type_traits>
 
 vtkScatteredContourFilter::vtkScatteredContourFilter()
-  : LastUpdate(std::make_unique<vtkIsopointUpdate>(this))
+  : Options(std::make_unique<vtkIsopointOptions>())
+  , LastUpdate(std::make_unique<vtkIsopointUpdate>(this))
 {
+  this->Options->ContourValues = this->ContourValues;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 vtkScatteredContourFilter::~vtkScatteredContourFilter() = default;
+
+vtkIsopointOptionMacro(vtkScatteredContourFilter, Projection, int, isopoint::option::projection);
+vtkIsopointOptionMacro(
+  vtkScatteredContourFilter, NormalMethod, int, isopoint::option::normalMethod);
+vtkIsopointOptionMacro(
+  vtkScatteredContourFilter, DropGaps, vtkTypeBool, isopoint::option::dropGaps);
+vtkIsopointOptionMacro(
+  vtkScatteredContourFilter, ComputeNormals, vtkTypeBool, isopoint::option::computeNormals);
+vtkIsopointOptionMacro(
+  vtkScatteredContourFilter, ComputeGradients, vtkTypeBool, isopoint::option::computeGradients);
+vtkIsopointOptionMacro(vtkScatteredContourFilter, ComputeProjectionOrders, vtkTypeBool,
+  isopoint::option::computeProjectionOrders);
+vtkIsopointOptionMacro(
+  vtkScatteredContourFilter, OutputPointsPrecision, int, isopoint::option::outputPointsPrecision);
+vtkIsopointSwitchMacro(vtkScatteredContourFilter, ComputeScalars);
+vtkIsopointSwitchMacro(vtkScatteredContourFilter, ContourBlocks);
+vtkIsopointSwitchMacro(vtkScatteredContourFilter, KeepTree);
+vtkIsopointSwitchMacro(vtkScatteredContourFilter, UseAllCores);
 
 void vtkScatteredContourFilter::SetController(vtkMultiProcessController* controller)
 {
@@ -57,27 +76,27 @@ vtkMTimeType vtkScatteredContourFilter::GetMTime()
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfSamples() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetFindings().Samples);
+  return static_cast<vtkIdType>(this->LastUpdate->GetReport().samples);
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfExtractedPoints() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetFindings().GetNumberOfPoints());
+  return static_cast<vtkIdType>(this->LastUpdate->GetReport().pointCount());
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfSkippedSamples() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetFindings().GetNumberOfSkippedSamples());
+  return static_cast<vtkIdType>(this->LastUpdate->GetReport().skippedCount());
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfUnprojectedPoints() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetFindings().UnprojectedPoints);
+  return static_cast<vtkIdType>(this->LastUpdate->GetReport().unprojectedPoints);
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfDroppedInGaps() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetFindings().DroppedInGaps);
+  return static_cast<vtkIdType>(this->LastUpdate->GetReport().droppedInGaps);
 }
 
 int vtkScatteredContourFilter::FillInputPortInformation(int, vtkInformation* info)
@@ -105,7 +124,7 @@ vtkTypeBool vtkScatteredContourFilter::ProcessRequest(
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   const vtkSmartPointer<vtkDataObject> required =
-    this->ContourBlocks && vtkCompositeDataSet::SafeDownCast(input)
+    this->Options->ContourBlocks && vtkCompositeDataSet::SafeDownCast(input)
       ? vtkNewIsopointComposite(input)
       : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPolyData>::New());
   if (!output || std::strcmp(output->GetClassName(), required->GetClassName()) != 0)
@@ -136,52 +155,44 @@ int vtkScatteredContourFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   // To return 0 would add an error of the executive to that of this filter.
-  this->ErrorCode =
-    this->LastUpdate->Run([this](vtkIsopointOptions& options) { this->FillOptions(options); },
-      inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
+  this->ErrorCode = this->LastUpdate->Run(
+    *this->Options, inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
   return 1;
 }
 
-void vtkScatteredContourFilter::FillOptions(vtkIsopointOptions& options)
+namespace
 {
-  const double* const isovalues = this->GetValues();
-  options.Isovalues.assign(isovalues, isovalues + this->GetNumberOfContours());
-  options.Array = vtkIsopointArrayChoice(this->GetInputArrayInformation(0));
-  options.Projection = this->Projection;
-  options.NormalMethod = this->NormalMethod;
-  options.DropGaps = this->DropGaps != 0;
-  options.ComputeNormals = this->ComputeNormals != 0;
-  options.ComputeScalars = this->ComputeScalars != 0;
-  options.ComputeGradients = this->ComputeGradients != 0;
-  options.ComputeProjectionOrders = this->ComputeProjectionOrders != 0;
-  options.OutputPointsPrecision = this->OutputPointsPrecision;
-  options.ContourBlocks = this->ContourBlocks != 0;
-  options.KeepTree = this->KeepTree != 0;
-  options.UseAllCores = this->UseAllCores != 0;
+
+const char* onOrOff(bool isOn)
+{
+  return isOn ? "On\n" : "Off\n";
 }
+
+} // namespace
 
 void vtkScatteredContourFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Contour values:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
-  vtkIsopointOptions options;
-  this->FillOptions(options);
-  options.ForEach(
-    [&](const char* name, auto value, double, double)
+  const isopoint::Options& core = this->Options->Core;
+  isopoint::forEachOption(core,
+    [&](const auto& option)
     {
-      os << indent << name << ": ";
-      if constexpr (std::is_same_v<decltype(value), bool>)
+      os << indent << option.name << ": ";
+      if constexpr (std::is_same_v<std::decay_t<decltype(core.*option.value)>, bool>)
       {
-        os << (value ? "On" : "Off") << "\n";
+        os << onOrOff(core.*option.value);
       }
       else
       {
-        os << value << "\n";
+        os << core.*option.value << "\n";
       }
     });
-  os << indent << "KeepTree: " << (this->KeepTree ? "On" : "Off") << "\n";
-  os << indent << "UseAllCores: " << (this->UseAllCores ? "On" : "Off") << "\n";
+  os << indent << "ComputeScalars: " << onOrOff(this->Options->ComputeScalars);
+  os << indent << "ContourBlocks: " << onOrOff(this->Options->ContourBlocks);
+  os << indent << "KeepTree: " << onOrOff(this->Options->KeepTree);
+  os << indent << "UseAllCores: " << onOrOff(this->Options->UseAllCores);
   os << indent << "NumberOfSamples: " << this->GetNumberOfSamples() << "\n";
   os << indent << "NumberOfSkippedSamples: " << this->GetNumberOfSkippedSamples() << "\n";
   os << indent << "NumberOfExtractedPoints: " << this->GetNumberOfExtractedPoints() << "\n";

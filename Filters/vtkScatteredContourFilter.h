@@ -103,8 +103,8 @@ public:
    * and in regions that touch these: changes farther away, with the tree around as it was, change
    * nothing. Values outside the enumeration are clamped. Default: CUBIC_FIT.
    */
-  vtkSetClampMacro(Projection, int, NO_PROJECTION, CREASE_FIT);
-  vtkGetMacro(Projection, int);
+  virtual void SetProjection(int method);
+  virtual int GetProjection();
   ///@}
 
   enum NormalMethods
@@ -130,8 +130,8 @@ public:
    *
    * Values outside the enumeration are clamped. Default: AUTOMATIC_NORMALS.
    */
-  vtkSetClampMacro(NormalMethod, int, AUTOMATIC_NORMALS, NORMALS_FROM_PLANES);
-  vtkGetMacro(NormalMethod, int);
+  virtual void SetNormalMethod(int method);
+  virtual int GetNormalMethod();
   ///@}
 
   ///@{
@@ -141,8 +141,8 @@ public:
    * simpler polynomial, as for NORMALS_FROM_FIELD; where there is neither, it is the slope along
    * the isopoint's edge. Default: off.
    */
-  vtkSetMacro(ComputeGradients, vtkTypeBool);
-  vtkGetMacro(ComputeGradients, vtkTypeBool);
+  virtual void SetComputeGradients(vtkTypeBool compute);
+  virtual vtkTypeBool GetComputeGradients();
   vtkBooleanMacro(ComputeGradients, vtkTypeBool);
   ///@}
 
@@ -152,8 +152,8 @@ public:
    * the isopoint: 0 none, 1 affine, 2 quadratic, 3 cubic, 4 polynomials that meet at a crease.
    * Default: off.
    */
-  vtkSetMacro(ComputeProjectionOrders, vtkTypeBool);
-  vtkGetMacro(ComputeProjectionOrders, vtkTypeBool);
+  virtual void SetComputeProjectionOrders(vtkTypeBool compute);
+  virtual vtkTypeBool GetComputeProjectionOrders();
   vtkBooleanMacro(ComputeProjectionOrders, vtkTypeBool);
   ///@}
 
@@ -169,8 +169,8 @@ public:
    * sparse region, to an isolated sample, and between lines or slices of samples remain, and closed
    * surfaces amid samples stay closed. For triangles see vtkScatteredIsosurfaceFilter. Default: on.
    */
-  vtkSetMacro(DropGaps, vtkTypeBool);
-  vtkGetMacro(DropGaps, vtkTypeBool);
+  virtual void SetDropGaps(vtkTypeBool drop);
+  virtual vtkTypeBool GetDropGaps();
   vtkBooleanMacro(DropGaps, vtkTypeBool);
   ///@}
 
@@ -180,8 +180,8 @@ public:
    * point to decreasing values, as those of vtkContourFilter do. See SetNormalMethod(). Default:
    * on.
    */
-  vtkSetMacro(ComputeNormals, vtkTypeBool);
-  vtkGetMacro(ComputeNormals, vtkTypeBool);
+  virtual void SetComputeNormals(vtkTypeBool compute);
+  virtual vtkTypeBool GetComputeNormals();
   vtkBooleanMacro(ComputeNormals, vtkTypeBool);
   ///@}
 
@@ -190,8 +190,8 @@ public:
    * Whether the output has the contoured array, whose values are the isovalues, as its active
    * scalars. Default: on.
    */
-  vtkSetMacro(ComputeScalars, vtkTypeBool);
-  vtkGetMacro(ComputeScalars, vtkTypeBool);
+  virtual void SetComputeScalars(vtkTypeBool compute);
+  virtual vtkTypeBool GetComputeScalars();
   vtkBooleanMacro(ComputeScalars, vtkTypeBool);
   ///@}
 
@@ -202,8 +202,8 @@ public:
    * images, rectilinear grids and hyper tree grids). All computation is in double precision. Other
    * values are clamped. Default: DEFAULT_PRECISION.
    */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
+  virtual void SetOutputPointsPrecision(int precision);
+  virtual int GetOutputPointsPrecision();
   ///@}
 
   ///@{
@@ -211,8 +211,8 @@ public:
    * Whether to keep the tree from one update to the next, which makes further isovalues much
    * faster, or to free it at the end of each update. The output is the same. Default: on.
    */
-  vtkSetMacro(KeepTree, vtkTypeBool);
-  vtkGetMacro(KeepTree, vtkTypeBool);
+  virtual void SetKeepTree(vtkTypeBool keep);
+  virtual vtkTypeBool GetKeepTree();
   vtkBooleanMacro(KeepTree, vtkTypeBool);
   ///@}
 
@@ -225,8 +225,8 @@ public:
    * block is what all of them have at its place in the tree of blocks, which has to be the same on
    * all; blocks may be null on some of them, as may a whole composite be empty. Default: off.
    */
-  vtkSetMacro(ContourBlocks, vtkTypeBool);
-  vtkGetMacro(ContourBlocks, vtkTypeBool);
+  virtual void SetContourBlocks(vtkTypeBool separately);
+  virtual vtkTypeBool GetContourBlocks();
   vtkBooleanMacro(ContourBlocks, vtkTypeBool);
   ///@}
 
@@ -261,8 +261,8 @@ public:
    * backend, or if built without oneTBB, vtkSMPTools determines the threads. The output is the
    * same. Default: on.
    */
-  vtkSetMacro(UseAllCores, vtkTypeBool);
-  vtkGetMacro(UseAllCores, vtkTypeBool);
+  virtual void SetUseAllCores(vtkTypeBool use);
+  virtual vtkTypeBool GetUseAllCores();
   vtkBooleanMacro(UseAllCores, vtkTypeBool);
   ///@}
 
@@ -304,11 +304,6 @@ protected:
   vtkScatteredContourFilter();
   ~vtkScatteredContourFilter() override;
 
-  /**
-   * Gives an update the properties of this filter that have an effect.
-   */
-  virtual void FillOptions(vtkIsopointOptions& options);
-
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -319,17 +314,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   vtkNew<vtkContourValues> ContourValues;
-  int Projection = CUBIC_FIT;
-  int NormalMethod = AUTOMATIC_NORMALS;
-  vtkTypeBool DropGaps = 1;
-  vtkTypeBool ComputeNormals = 1;
-  vtkTypeBool ComputeScalars = 1;
-  vtkTypeBool ComputeGradients = 0;
-  vtkTypeBool ComputeProjectionOrders = 0;
-  int OutputPointsPrecision = DEFAULT_PRECISION;
-  vtkTypeBool ContourBlocks = 0;
-  vtkTypeBool KeepTree = 1;
-  vtkTypeBool UseAllCores = 1;
+  const std::unique_ptr<vtkIsopointOptions> Options; // the values of all properties
 
 private:
   vtkScatteredContourFilter(const vtkScatteredContourFilter&) = delete;

@@ -12,11 +12,24 @@ vtkScatteredIsopointFilter::vtkScatteredIsopointFilter()
   this->SetProgressText("Scattered Isopoints"); // as in ParaView's menu
 }
 
-void vtkScatteredIsopointFilter::FillOptions(vtkIsopointOptions& options)
+// Not clamped: an angle out of range is an error in the next update.
+void vtkScatteredIsopointFilter::SetAngle(double degrees)
 {
-  this->Superclass::FillOptions(options);
-  options.Angle = this->Angle;
-  options.MinimumSpacing = this->MinimumSpacing;
-  options.NumberOfNeighbors = this->NumberOfNeighbors;
-  options.ComputeSplats = this->ComputeSplats != 0;
+  if (this->Options->Core.angle != degrees)
+  {
+    this->Options->Core.angle = degrees;
+    this->Modified();
+  }
 }
+
+double vtkScatteredIsopointFilter::GetAngle()
+{
+  return this->Options->Core.angle;
+}
+
+vtkIsopointOptionMacro(
+  vtkScatteredIsopointFilter, MinimumSpacing, double, isopoint::option::minimumSpacing);
+vtkIsopointOptionMacro(
+  vtkScatteredIsopointFilter, NumberOfNeighbors, int, isopoint::option::numberOfNeighbors);
+vtkIsopointOptionMacro(
+  vtkScatteredIsopointFilter, ComputeSplats, vtkTypeBool, isopoint::option::computeSplats);

@@ -119,8 +119,8 @@ public:
    * Default: 54.7, just below the angle between an edge and a diagonal of a cube (54.7356), so that
    * diagonals of lattices remain.
    */
-  vtkSetMacro(Angle, double);
-  vtkGetMacro(Angle, double);
+  virtual void SetAngle(double degrees);
+  virtual double GetAngle();
   ///@}
 
   ///@{
@@ -146,8 +146,8 @@ public:
    * The surface may end earlier at its border, by up to the minimum spacing. 0 drops nothing.
    * Range: 0 to 1; other values are clamped, and NaN is an error in the next update. Default: 0.
    */
-  vtkSetClampMacro(MinimumSpacing, double, 0.0, 1.0);
-  vtkGetMacro(MinimumSpacing, double);
+  virtual void SetMinimumSpacing(double spacing);
+  virtual double GetMinimumSpacing();
   ///@}
 
   ///@{
@@ -168,8 +168,8 @@ public:
    *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
    *   repeat the last one. All are 0 at an isopoint at whose position there is an earlier one.
    */
-  vtkSetMacro(ComputeSplats, vtkTypeBool);
-  vtkGetMacro(ComputeSplats, vtkTypeBool);
+  virtual void SetComputeSplats(vtkTypeBool compute);
+  virtual vtkTypeBool GetComputeSplats();
   vtkBooleanMacro(ComputeSplats, vtkTypeBool);
   ///@}
 
@@ -180,20 +180,13 @@ public:
    * touching cells. More give smoother normals and rounder
    * edges. Range: 3 to 1000; other values are clamped. Default: 12.
    */
-  vtkSetClampMacro(NumberOfNeighbors, int, 3, 1000);
-  vtkGetMacro(NumberOfNeighbors, int);
+  virtual void SetNumberOfNeighbors(int number);
+  virtual int GetNumberOfNeighbors();
   ///@}
 
 protected:
   vtkScatteredIsopointFilter();
   ~vtkScatteredIsopointFilter() override = default;
-
-  void FillOptions(vtkIsopointOptions& options) override;
-
-  double Angle = 54.7;
-  double MinimumSpacing = 0.0;
-  int NumberOfNeighbors = 12;
-  vtkTypeBool ComputeSplats = 1;
 
 private:
   vtkScatteredIsopointFilter(const vtkScatteredIsopointFilter&) = delete;

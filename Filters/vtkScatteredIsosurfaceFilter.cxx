@@ -10,10 +10,5 @@ vtkStandardNewMacro(vtkScatteredIsosurfaceFilter);
 vtkScatteredIsosurfaceFilter::vtkScatteredIsosurfaceFilter()
 {
   this->SetProgressText("Scattered Isosurface"); // as in ParaView's menu
-}
-
-void vtkScatteredIsosurfaceFilter::FillOptions(vtkIsopointOptions& options)
-{
-  this->Superclass::FillOptions(options);
-  options.Triangles = true;
+  this->Options->Core.triangles = true;
 }

@@ -71,8 +71,6 @@ protected:
   vtkScatteredIsosurfaceFilter();
   ~vtkScatteredIsosurfaceFilter() override = default;
 
-  void FillOptions(vtkIsopointOptions& options) override;
-
 private:
   vtkScatteredIsosurfaceFilter(const vtkScatteredIsosurfaceFilter&) = delete;
   void operator=(const vtkScatteredIsosurfaceFilter&) = delete;

@@ -4,7 +4,6 @@
 #include "Core/Base/Execution.h"
 #include "Input/vtkIsopointCellCenters.h"
 #include "Input/vtkIsopointGhosts.h"
-#include "Input/vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -68,7 +67,7 @@ vtkIdType elementCount(vtkDataObject* leaf)
   return trees ? trees->GetNumberOfLeaves() : 0;
 }
 
-/// @throws vtkIsopointUsageError if the array is not numeric or has not one component
+/// @throws isopoint::UsageError if the array is not numeric or has not one component
 vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
 {
   const std::string described =
@@ -76,15 +75,15 @@ vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
   auto* const scalars = vtkDataArray::SafeDownCast(array);
   if (!scalars)
   {
-    throw vtkIsopointUsageError(described + "holds no numbers." + remedyFor(leaf));
+    throw isopoint::UsageError(described + "holds no numbers." + remedyFor(leaf));
   }
   if (scalars->GetNumberOfComponents() != 1)
   {
-    throw vtkIsopointUsageError(described + "has " +
-                                std::to_string(scalars->GetNumberOfComponents()) +
-                                " components, but a scalar array has one. Compute a component"
-                                " or the magnitude first, with vtkArrayCalculator or ParaView's"
-                                " Calculator.");
+    throw isopoint::UsageError(described + "has " +
+                               std::to_string(scalars->GetNumberOfComponents()) +
+                               " components, but a scalar array has one. Compute a component"
+                               " or the magnitude first, with vtkArrayCalculator or ParaView's"
+                               " Calculator.");
   }
   return scalars;
 }
@@ -245,7 +244,7 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
     message << "The array \"" << (block.Scalars->GetName() ? block.Scalars->GetName() : "")
             << "\" has " << block.Scalars->GetNumberOfTuples() << " values for "
             << block.GetNumberOfSamples() << (ofPoints ? " points." : " cells.") << remedyFor(leaf);
-    throw vtkIsopointUsageError(message.str());
+    throw isopoint::UsageError(message.str());
   }
   vtkAppendIsopointArrayState(state, block.Scalars);
   if (block.GetNumberOfSamples() > 0)

@@ -2,6 +2,7 @@
 #ifndef vtkIsopointBlocks_h
 #define vtkIsopointBlocks_h
 
+#include "Core/Base/UsageError.h"
 #include "Input/vtkIsopointBlock.h"
 #include "Input/vtkIsopointInputState.h"
 
@@ -53,6 +54,14 @@ private:
 };
 
 /**
+ * There is nothing to contour, which on one of several ranks is no error unless it is so on all.
+ */
+struct vtkIsopointNothingError : isopoint::UsageError
+{
+  using isopoint::UsageError::UsageError;
+};
+
+/**
  * Presents a data object as samples: each of its data sets or hyper tree grids is a block. Computed
  * cell centers, and ghosts that points and cells inherit from each other, are kept from one call to
  * the next while the cells and their ghosts do not change. Modified() must be called for arrays
@@ -65,7 +74,7 @@ public:
   /// Collects the blocks of an input, except those without the array or without points or cells.
   /// @param wholeExtent of the structured grid of which the input is a piece of one of several
   /// ranks, or null
-  /// @throws vtkIsopointUsageError if no block remains, or if the array of a block is not a scalar
+  /// @throws isopoint::UsageError if no block remains, or if the array of a block is not a scalar
   /// array with one value for each point or cell; std::bad_alloc; isopoint::Aborted
   void Collect(const isopoint::Execution& execution, vtkDataObject* input,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);

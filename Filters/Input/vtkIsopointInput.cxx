@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInput.h"
 
-#include "Core/Base/Execution.h"
-#include "Core/Base/Team.h"
-#include "Core/IsosurfaceExtractor.h"
+#include "Core/Contour.h"
 #include "Input/vtkIsopointBlock.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -15,8 +13,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace
@@ -34,12 +32,6 @@ vtkDataArray* coordinatesOf(vtkDataSet* input)
 {
   auto* const pointSet = vtkPointSet::SafeDownCast(input);
   return pointSet && pointSet->GetPoints() ? pointSet->GetPoints()->GetData() : nullptr;
-}
-
-/// Whether float holds all values of the array's type exactly.
-bool isExactInFloat(vtkDataArray* scalars)
-{
-  return scalars->GetDataType() == VTK_FLOAT || scalars->GetDataTypeSize() <= 2;
 }
 
 const unsigned char* ghostsOf(const vtkIsopointBlock& block)
@@ -154,59 +146,39 @@ private:
   std::size_t Count = 0;
 };
 
-bool haveFloatValues(const std::vector<vtkIsopointBlock>& blocks)
-{
-  return std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block) { return isExactInFloat(block.Scalars); });
-}
-
-bool haveIntegers(const std::vector<vtkIsopointBlock>& blocks)
-{
-  return std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block)
-    {
-      const int type = block.Scalars->GetDataType();
-      return type != VTK_FLOAT && type != VTK_DOUBLE;
-    });
-}
-
-/// The standard error that values have at least: that of rounding, if all were rounded to integers.
-double errorOfValues(bool areIntegers)
-{
-  return areIntegers ? 1.0 / std::sqrt(12.0) : 0.0;
-}
-
 } // namespace
 
-void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
-  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor)
+isopoint::SampleTypes vtkGetIsopointSampleTypes(const std::vector<vtkIsopointBlock>& blocks)
 {
-  const bool floatPositions = !team.isAny(!vtkHaveFloatPositions(blocks));
-  const bool floatValues = !team.isAny(!haveFloatValues(blocks));
-  const double valueError = errorOfValues(!team.isAny(!haveIntegers(blocks)));
-  // A rank alone may have dropped its samples, as for lack of memory.
-  const bool areHeld = !team.isAny(extractor.isOnRanks() != (team.size() > 1));
-  const BlockReader read(blocks);
-  const auto load = [&](auto coordinate, auto value)
+  isopoint::SampleTypes types{ true, true, true };
+  for (const vtkIsopointBlock& block : blocks)
   {
-    using Coordinate = decltype(coordinate);
-    using Value = decltype(value);
-    if (!areHeld || !extractor.replaceValues<Coordinate, Value>(execution, read.count(), read))
-    {
-      extractor.load<Coordinate, Value>(execution, team, read.count(), read);
-    }
-  };
-  floatPositions ? (floatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
-                 : (floatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
-  extractor.setValueError(valueError);
+    vtkDataArray* const points = coordinatesOf(block.Positions);
+    const int type = block.Scalars->GetDataType();
+    types.areFloatPositions &= points && points->GetDataType() == VTK_FLOAT;
+    types.areFloatValues &= type == VTK_FLOAT || block.Scalars->GetDataTypeSize() <= 2;
+    types.areIntegers &= type != VTK_FLOAT && type != VTK_DOUBLE;
+  }
+  return types;
 }
 
-bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks)
+isopoint::CloudCounts vtkCountIsopointSamples(const std::vector<vtkIsopointBlock>& blocks)
 {
-  return std::all_of(blocks.begin(), blocks.end(),
-    [](const vtkIsopointBlock& block)
-    {
-      vtkDataArray* const points = coordinatesOf(block.Positions);
-      return points && points->GetDataType() == VTK_FLOAT;
-    });
+  isopoint::CloudCounts counts;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    const auto unused = static_cast<std::uint64_t>(block.NumberOfUnusedIds);
+    counts.items += static_cast<std::uint64_t>(block.GetNumberOfSamples());
+    counts.excluded += static_cast<std::uint64_t>(block.NumberOfExcluded) - unused;
+    counts.unused += unused;
+  }
+  return counts;
+}
+
+void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
+  const isopoint::SampleTypes& types, const std::vector<vtkIsopointBlock>& blocks,
+  isopoint::IsosurfaceExtractor& extractor)
+{
+  const BlockReader read(blocks);
+  isopoint::loadOrReplace(execution, team, extractor, types, read.count(), read);
 }

@@ -8,23 +8,30 @@ namespace isopoint
 {
 class IsosurfaceExtractor;
 class Team;
+struct CloudCounts;
 struct Execution;
+struct SampleTypes;
 } // namespace isopoint
 struct vtkIsopointBlock;
 
 /**
+ * What the types of all blocks hold.
+ */
+isopoint::SampleTypes vtkGetIsopointSampleTypes(const std::vector<vtkIsopointBlock>& blocks);
+
+/**
+ * The samples of all blocks.
+ */
+isopoint::CloudCounts vtkCountIsopointSamples(const std::vector<vtkIsopointBlock>& blocks);
+
+/**
  * Loads the samples of the blocks of all ranks as one cloud, in the order of the ranks, into an
- * extractor, which reads the arrays in place. If the extractors hold the same positions already,
- * only the values are replaced, and the tree is kept. Collective. Throws what
- * IsosurfaceExtractor::load() throws.
+ * extractor, which reads the arrays in place; see isopoint::loadOrReplace(). Collective.
+ * @param types of all ranks
  * @param blocks of this rank, perhaps none
  */
 void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
-  const std::vector<vtkIsopointBlock>& blocks, isopoint::IsosurfaceExtractor& extractor);
-
-/**
- * Whether the positions of all blocks are stored as float.
- */
-bool vtkHaveFloatPositions(const std::vector<vtkIsopointBlock>& blocks);
+  const isopoint::SampleTypes& types, const std::vector<vtkIsopointBlock>& blocks,
+  isopoint::IsosurfaceExtractor& extractor);
 
 #endif

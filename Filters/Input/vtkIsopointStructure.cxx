@@ -2,9 +2,9 @@
 #include "Input/vtkIsopointStructure.h"
 
 #include "Core/Base/Team.h"
+#include "Core/Base/UsageError.h"
 #include "Input/vtkIsopointCompatibility.h"
 #include "Input/vtkIsopointTextBytes.h"
-#include "Input/vtkIsopointUsageError.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -169,7 +169,7 @@ void vtkIsopointStructure::Merge(const vtkIsopointStructure& other, const std::s
                              other.Children.empty() || isInPieces(this->Type);
   if (!isUnknown && (this->Type != other.Type || !haveSameCount))
   {
-    throw vtkIsopointUsageError(
+    throw isopoint::UsageError(
       "The inputs of the ranks have different blocks" +
       (place.empty() ? std::string() : " at " + place) +
       ". Give all ranks the same tree of blocks, null where a rank has no data, or switch"

@@ -40,7 +40,7 @@ public:
 
   /// Adds what another structure has and this one lacks. Null can be anything, and a composite
   /// without children may have any; data sets in pieces may have different numbers of them.
-  /// @throws vtkIsopointUsageError where the structures contradict each other
+  /// @throws isopoint::UsageError where the structures contradict each other
   void Merge(const vtkIsopointStructure& other);
 
   /// Gives an output of vtkNewIsopointComposite() this structure, with surfaces in place of the
@@ -72,7 +72,7 @@ private:
 
 /**
  * The structure that the inputs of all ranks have together. Collective.
- * @throws vtkIsopointUsageError on rank 0 and isopoint::FailedElsewhere on the others where they
+ * @throws isopoint::UsageError on rank 0 and isopoint::FailedElsewhere on the others where they
  * contradict each other; what isopoint::Team throws
  */
 vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObject* input);

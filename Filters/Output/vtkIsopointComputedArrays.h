@@ -13,10 +13,11 @@
 namespace isopoint
 {
 struct Execution;
-}
-class vtkDataArray;
+struct Options;
+} // namespace isopoint
 class vtkFloatArray;
 class vtkPolyData;
+class vtkUnsignedCharArray;
 
 /**
  * The arrays that are computed for isopoints: normals, splats, gradients and orders of fits. They
@@ -25,35 +26,18 @@ class vtkPolyData;
 class vtkIsopointComputedArrays
 {
 public:
-  struct Choice
-  {
-    bool Normals = false;
-    bool Splats = false;
-    bool Gradients = false;
-    bool ProjectionOrder = false;
-    bool IsProjected = false; // whether fits move the isopoints
-
-    /// Whether any array describes splats or their normals.
-    bool NeedsSplats() const { return this->Normals || this->Splats; }
-  };
-
   /**
-   * @param choice the arrays to compute
+   * The arrays that some options ask for.
    * @param count the number of isopoints of all surfaces
    * @throws std::bad_alloc
    */
-  vtkIsopointComputedArrays(const Choice& choice, vtkIdType count);
+  vtkIsopointComputedArrays(const isopoint::Options& options, vtkIdType count);
 
   /**
-   * Writes the tuples of the next surface.
+   * Writes the tuples of all isopoints.
    */
-  void Append(const isopoint::Execution& execution, const isopoint::ExtractedIsosurface& extracted);
-
-  /**
-   * The number of isopoints written so far around which no fit holds, without those that are
-   * counted on other ranks.
-   */
-  vtkIdType GetNumberWithoutFit() const { return this->WithoutFit; }
+  void Write(const isopoint::Execution& execution,
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces);
 
   /**
    * Adds the arrays to the point data, the normals as the active ones. Those of the shapes of
@@ -63,18 +47,13 @@ public:
   std::vector<std::string> AddTo(vtkPolyData* output) const;
 
 private:
-  void SetSplat(vtkIdType tuple, const isopoint::Splat& splat);
-  void SetFit(vtkIdType tuple, const isopoint::LocalFit& fit);
-
-  Choice Chosen;
-  vtkIdType Next = 0;
-  vtkIdType WithoutFit = 0;
-  vtkSmartPointer<vtkDataArray> Normals;
-  vtkSmartPointer<vtkDataArray> Radius;
-  vtkSmartPointer<vtkDataArray> SplatAxis;
+  bool IsProjected; // whether fits move the isopoints
+  vtkSmartPointer<vtkFloatArray> Normals;
+  vtkSmartPointer<vtkFloatArray> Radius;
+  vtkSmartPointer<vtkFloatArray> SplatAxis;
   vtkSmartPointer<vtkFloatArray> SplatPolygon;
-  vtkSmartPointer<vtkDataArray> Gradients;
-  vtkSmartPointer<vtkDataArray> ProjectionOrder;
+  vtkSmartPointer<vtkFloatArray> Gradients;
+  vtkSmartPointer<vtkUnsignedCharArray> ProjectionOrder;
 };
 
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointInterpolatedArrays.h"
 
-#include "Core/Base/Execution.h"
-#include "Core/Base/Vector.h"
+#include "Core/OutputArrays.h"
 #include "Input/vtkIsopointAllocation.h"
 #include "Output/vtkIsopointOutput.h"
 
@@ -14,12 +13,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <type_traits>
 
 namespace
 {
@@ -27,53 +23,6 @@ namespace
 using isopoint::ExtractedIsosurface;
 using isopoint::IsopointEdge;
 using isopoint::Isosurface;
-
-/// Converts a number to an array's type. For integer types it is rounded to the nearest and limited
-/// to their range, which rounding of 64-bit integers to double can exceed.
-template <class T>
-T toArrayType(double value)
-{
-  if constexpr (std::is_floating_point<T>::value)
-  {
-    return static_cast<T>(value);
-  }
-  else
-  {
-    const double rounded = std::round(value);
-    if (rounded >= static_cast<double>(std::numeric_limits<T>::max()))
-    {
-      return std::numeric_limits<T>::max();
-    }
-    if (rounded <= static_cast<double>(std::numeric_limits<T>::lowest()))
-    {
-      return std::numeric_limits<T>::lowest();
-    }
-    return static_cast<T>(rounded);
-  }
-}
-
-/// Interpolates at all isopoints of a surface and calls write(isopoint, component, value).
-template <class ComponentOf, class Write>
-void interpolateComponents(const isopoint::Execution& execution, const Isosurface& surface,
-  int componentCount, const ComponentOf& componentOf, const Write& write)
-{
-  constexpr std::size_t grain = 4096;
-  for (int component = 0; component < componentCount; ++component)
-  {
-    const isopoint::CoincidentAttribute attribute(
-      surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
-    isopoint::forRanges(execution, surface.size(), grain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const IsopointEdge& edge = surface.edges[i];
-          write(i, component,
-            isopoint::interpolate(attribute(edge.first), attribute(edge.second), edge.parameter));
-        }
-      });
-  }
-}
 
 /// Interpolates arrays that VTK can dispatch on, in parallel.
 struct TypedInterpolation
@@ -87,7 +36,7 @@ struct TypedInterpolation
   void operator()(TInput* input, TOutput* output) const
   {
     using T = typename TOutput::ValueType;
-    interpolateComponents(
+    isopoint::interpolateComponents(
       this->Run, this->Surface, input->GetNumberOfComponents(),
       [&](std::uint64_t sample, int component)
       {
@@ -97,7 +46,7 @@ struct TypedInterpolation
       [&](std::size_t i, int component, double value)
       {
         output->SetTypedComponent(
-          this->FirstTuple + static_cast<vtkIdType>(i), component, toArrayType<T>(value));
+          this->FirstTuple + static_cast<vtkIdType>(i), component, isopoint::toArrayType<T>(value));
       });
   }
 };
@@ -110,7 +59,7 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
   {
     return;
   }
-  interpolateComponents(
+  isopoint::interpolateComponents(
     isopoint::Execution(), surface, input->GetNumberOfComponents(),
     [&](std::uint64_t sample, int component)
     { return input->GetComponent(static_cast<vtkIdType>(sample), component); },

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointOutput.h"
 
-#include "Core/Base/Execution.h"
-#include "Core/Base/Vector.h"
+#include "Core/OutputArrays.h"
 #include "Input/vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
@@ -10,6 +9,8 @@
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
@@ -39,14 +40,21 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& ex
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(type);
   vtkAllocateTuples(points->GetData(), vtkCountIsopoints(surfaces));
-  vtkIdType first = 0;
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  const auto write = [&](auto* coordinates)
   {
-    const std::vector<isopoint::Vector>& positions = extracted.surface.positions;
-    isopoint::forEachIndex(execution, positions.size(),
-      [&](std::size_t i)
-      { points->GetData()->SetTuple(first + static_cast<vtkIdType>(i), positions[i].data()); });
-    first += static_cast<vtkIdType>(positions.size());
+    for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+    {
+      isopoint::writePositions(execution, extracted.surface, coordinates);
+      coordinates += 3 * extracted.surface.size();
+    }
+  };
+  if (type == VTK_FLOAT)
+  {
+    write(vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0));
+  }
+  else
+  {
+    write(vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0));
   }
   return points;
 }
@@ -90,18 +98,12 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   vtkNew<vtkIdTypeArray> connectivity;
   vtkAllocateTuples(connectivity, 3 * count);
   vtkIdType* corners = connectivity->GetPointer(0);
-  vtkIdType firstPoint = 0;
+  std::size_t firstPoint = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
   {
-    const std::vector<isopoint::SurfaceTriangle>& triangles = extracted.triangles;
-    isopoint::forEachIndex(execution, triangles.size(),
-      [&](std::size_t i)
-      {
-        std::transform(triangles[i].begin(), triangles[i].end(), corners + 3 * i,
-          [firstPoint](std::size_t vertex) { return firstPoint + static_cast<vtkIdType>(vertex); });
-      });
-    corners += 3 * triangles.size();
-    firstPoint += static_cast<vtkIdType>(extracted.surface.size());
+    isopoint::writeTriangles(execution, extracted, firstPoint, corners);
+    corners += 3 * extracted.triangles.size();
+    firstPoint += extracted.surface.size();
   }
   return newCells(3, connectivity);
 }

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointExtraction.h"
 
+#include "Core/Base/UsageError.h"
+#include "Core/Contour.h"
 #include "Input/vtkIsopointBlock.h"
 #include "Input/vtkIsopointInput.h"
 #include "Input/vtkIsopointStructure.h"
-#include "Input/vtkIsopointUsageError.h"
 #include "Output/vtkIsopointComputedArrays.h"
 #include "Output/vtkIsopointEndSamples.h"
 #include "Output/vtkIsopointInterpolatedArrays.h"
 #include "Output/vtkIsopointOutput.h"
 #include "Output/vtkIsopointPiece.h"
 #include "Update/vtkIsopointExecution.h"
-#include "Update/vtkIsopointFindings.h"
-#include "Update/vtkIsopointOptions.h"
 #include "Update/vtkIsopointRanks.h"
+#include "Update/vtkIsopointReport.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -29,36 +30,42 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
 
 vtkIsopointExtraction::vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
-  const vtkIsopointOptions& options, Kept& kept, vtkIsopointFindings& findings)
+  const vtkIsopointOptions& options, Kept& kept, vtkIsopointReport& report)
   : Filter(filter)
   , Team(team)
   , Options(options)
   , State(kept)
-  , Findings(findings)
+  , Report(report)
   , Execution(
       vtkMakeIsopointExecution(filter, options.UseAllCores, vtkCountIsopointRanksOnCores(team)))
 {
+  this->Options.Core = isopoint::effectiveOptions(options.Core);
+  // Small bands of many blocks would add up.
+  this->Options.Core.keepBand = options.KeepTree && !options.ContourBlocks;
 }
 
 void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   vtkDataObject* const output = vtkDataObject::GetData(outputInfo);
-  this->Options.Check();
-  this->Options.CheckOnRanks(this->Team);
+  vtkContourValues* const values = this->Options.ContourValues;
+  const std::vector<double> isovalues = isopoint::sortedIsovalues(
+    { values->GetValues(), values->GetValues() + values->GetNumberOfContours() });
+  const vtkIsopointArrayChoice array(this->Filter->GetInputArrayInformation(0));
+  isopoint::checkOptions(this->Options.Core);
+  vtkCheckIsopointOptionsOnRanks(this->Team, this->Options, isovalues, array);
   auto* const levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   const int requested = outputInfo->Has(levels) ? std::max(outputInfo->Get(levels), 0) : 0;
   this->GhostLevels = static_cast<int>(this->Team.maximum(static_cast<std::uint64_t>(requested)));
 
-  this->CollectBlocks(input,
+  this->CollectBlocks(input, array,
     this->IsOnRanks() ? inputInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()) : nullptr);
-  this->StartCounting();
+  this->StartCounting(isovalues);
   const vtkIsopointStructure structure = this->Options.ContourBlocks
                                            ? vtkMergeIsopointStructures(this->Team, input)
                                            : vtkIsopointStructure();
@@ -72,7 +79,7 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
     this->ExtractBlocks(
       0, this->State.Input.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
   }
-  this->Findings.Share(this->Team);
+  this->Report.Counts.share(this->Team);
   if (this->IsOnRanks())
   {
     return;
@@ -83,17 +90,18 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
   {
     const int piece = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER());
     vtkTakeIsopointPiece(piece, pieces, output);
-    this->Findings.IsPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
+    this->Report.IsPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
   }
 }
 
-void vtkIsopointExtraction::CollectBlocks(vtkDataObject* input, const int* wholeExtent)
+void vtkIsopointExtraction::CollectBlocks(
+  vtkDataObject* input, const vtkIsopointArrayChoice& array, const int* wholeExtent)
 {
   vtkIsopointBlocks& blocks = this->State.Input;
   std::string nothing; // why this rank has no blocks
   try
   {
-    blocks.Collect(this->Execution, input, this->Options.Array, wholeExtent);
+    blocks.Collect(this->Execution, input, array, wholeExtent);
   }
   catch (const vtkIsopointNothingError& error)
   {
@@ -108,19 +116,20 @@ void vtkIsopointExtraction::CollectBlocks(vtkDataObject* input, const int* whole
   const bool hasPoints = blocks.GetNumberOfPointsWithoutArray() > 0;
   if (this->Team.isAny(hasPoints) == hasPoints)
   {
-    throw vtkIsopointUsageError(nothing);
+    throw isopoint::UsageError(nothing);
   }
 }
 
-void vtkIsopointExtraction::StartCounting()
+void vtkIsopointExtraction::StartCounting(const std::vector<double>& isovalues)
 {
   const vtkIsopointBlocks& blocks = this->State.Input;
-  this->Findings.Start(this->Options);
-  this->Findings.WithoutArray = static_cast<std::uint64_t>(blocks.GetNumberOfPointsWithoutArray());
-  this->Findings.Samples = this->Findings.WithoutArray;
+  isopoint::Report counts(this->Options.Core, isovalues);
+  counts.withoutArray = static_cast<std::uint64_t>(blocks.GetNumberOfPointsWithoutArray());
+  counts.samples = counts.withoutArray;
   const char* const name =
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
-  this->Findings.Array = name ? name : "";
+  counts.array = name ? name : "";
+  this->Report.Counts = std::move(counts);
 }
 
 void vtkIsopointExtraction::ExtractLeaves(
@@ -169,80 +178,36 @@ void vtkIsopointExtraction::ExtractBlocks(
   // So that it is never empty, as that of a tree that was not loaded.
   state.push_back(static_cast<vtkMTimeType>(blocks.size()));
   const bool isNew = this->Team.isAny(state != kept.LoadedFrom);
-  const std::size_t count = std::accumulate(blocks.begin(), blocks.end(), std::size_t{ 0 },
-    [](std::size_t sum, const vtkIsopointBlock& block)
-    { return sum + static_cast<std::size_t>(block.GetNumberOfSamples()); });
-  const std::vector<double> progress = this->ExpectProgress(count, !isNew);
+  const isopoint::SampleTypes types = vtkGetIsopointSampleTypes(blocks).sharedBy(this->Team);
+  const double loaded = isNew ? 0.3 : 0.0; // of the progress
   if (isNew)
   {
     kept.LoadedFrom.clear();
     vtkLoadIsopointInput(
-      isopoint::partOf(this->Execution, 0.0, progress.front()), this->Team, blocks, kept.Extractor);
+      isopoint::partOf(this->Execution, 0.0, loaded), this->Team, types, blocks, kept.Extractor);
     kept.LoadedFrom = std::move(state);
   }
-  this->Findings.CountSamples(blocks, kept.Extractor);
+  this->Report.Counts.countSamples(kept.Extractor, vtkCountIsopointSamples(blocks));
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    this->ExtractIsovalues(kept.Extractor, progress);
+    isopoint::extractIsovalues(isopoint::partOf(this->Execution, loaded, 1.0), kept.Extractor,
+      this->Options.Core, this->GhostLevels, this->Report.Counts);
   const vtkIsopointEndSamples samples(this->Team, blocks, surfaces);
-  const bool haveFloatPositions = !this->Team.isAny(!vtkHaveFloatPositions(blocks));
-  this->FillOutput(samples, surfaces, haveFloatPositions, output);
+  this->FillOutput(samples, surfaces, types.areFloatPositions, output);
   this->Filter->UpdateProgress(1.0);
 }
 
-std::vector<double> vtkIsopointExtraction::ExpectProgress(std::size_t count, bool isTreeKept)
-{
-  using isopoint::IsosurfaceExtractor;
-  const isopoint::ExtractionRequest request = this->Options.GetRequest();
-  std::vector<double> ends{ isTreeKept ? 0.0 : IsosurfaceExtractor::loadingWork(count) };
-  for (std::size_t i = 0; i < this->Findings.Isovalues.size(); ++i)
-  {
-    ends.push_back(
-      ends.back() + IsosurfaceExtractor::extractionWork(count, request, isTreeKept || i > 0));
-  }
-  const double all = std::max(ends.back(), 1.0);
-  std::transform(ends.begin(), ends.end(), ends.begin(), [all](double end) { return end / all; });
-  return ends;
-}
-
-std::vector<isopoint::ExtractedIsosurface> vtkIsopointExtraction::ExtractIsovalues(
-  isopoint::IsosurfaceExtractor& extractor, const std::vector<double>& progress)
-{
-  const std::vector<double>& isovalues = this->Findings.Isovalues;
-  isopoint::ExtractionRequest request = this->Options.GetRequest();
-  request.ghostRings = this->GhostLevels;
-  const bool hasGhosts = this->IsOnRanks() && this->GhostLevels > 0 && !request.triangles;
-  std::vector<isopoint::ExtractedIsosurface> surfaces;
-  std::vector<isopoint::ExtractedIsosurface> ghosts(hasGhosts ? isovalues.size() : 0);
-  surfaces.reserve(isovalues.size() + ghosts.size());
-  for (std::size_t i = 0; i < isovalues.size(); ++i)
-  {
-    request.isosurface.isovalue = isovalues[i];
-    // Small ones of many blocks would add up.
-    request.isosurface.keepsBand =
-      i + 1 < isovalues.size() || (this->Options.KeepTree && !this->Options.ContourBlocks);
-    surfaces.push_back(
-      extractor.extract(isopoint::partOf(this->Execution, progress[i], progress[i + 1]), request,
-        hasGhosts ? &ghosts[i] : nullptr));
-    this->Findings.Points[i] += surfaces.back().countHere();
-    this->Findings.DroppedInGaps += surfaces.back().droppedInGaps;
-    isopoint::throwIfAborted(this->Execution);
-  }
-  std::move(ghosts.begin(), ghosts.end(), std::back_inserter(surfaces));
-  return surfaces;
-}
-
 void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
-  const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool areFloatPositions,
   vtkPolyData* output)
 {
-  const int precision = this->Options.OutputPointsPrecision;
-  const bool isSingle = precision == vtkAlgorithm::SINGLE_PRECISION ||
-                        (precision == vtkAlgorithm::DEFAULT_PRECISION && haveFloatPositions);
+  const auto precision = static_cast<isopoint::Precision>(this->Options.Core.outputPointsPrecision);
+  const bool isSingle = precision == isopoint::Precision::Single ||
+                        (precision == isopoint::Precision::Input && areFloatPositions);
   const vtkSmartPointer<vtkPoints> points =
     vtkNewIsopointPositions(this->Execution, surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
   output->SetPoints(points);
-  if (this->Options.Triangles)
+  if (this->Options.Core.triangles)
   {
     output->SetPolys(vtkNewIsopointTriangles(this->Execution, surfaces));
   }
@@ -259,23 +224,15 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
     vtkAddContouredArray(samples.GetScalars(), surfaces, pointData);
   }
 
-  vtkIsopointComputedArrays computed(this->Options.GetArrays(), count);
-  for (const isopoint::ExtractedIsosurface& surface : surfaces)
-  {
-    computed.Append(this->Execution, surface);
-    this->Findings.UnprojectedPoints += this->Findings.AreProjected ? 0 : surface.countHere();
-    isopoint::throwIfAborted(this->Execution);
-  }
-  if (this->Findings.AreProjected)
-  {
-    this->Findings.UnprojectedPoints += static_cast<std::uint64_t>(computed.GetNumberWithoutFit());
-  }
+  vtkIsopointComputedArrays computed(this->Options.Core, count);
+  computed.Write(this->Execution, surfaces);
+  isopoint::throwIfAborted(this->Execution);
   if (this->IsOnRanks() && this->GhostLevels > 0)
   {
     vtkAddIsopointGhosts(surfaces, output);
   }
   for (const std::string& name : computed.AddTo(output))
   {
-    this->Findings.ReplacedArrays.insert(name);
+    this->Report.ReplacedArrays.insert(name);
   }
 }

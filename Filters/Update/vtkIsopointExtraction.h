@@ -7,6 +7,7 @@
 #include "Core/IsosurfaceExtractor.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Input/vtkIsopointInputState.h"
+#include "Update/vtkIsopointOptions.h"
 
 #include <cstddef>
 #include <map>
@@ -19,8 +20,7 @@ class vtkInformation;
 class vtkIsopointEndSamples;
 class vtkIsopointStructure;
 class vtkPolyData;
-struct vtkIsopointFindings;
-struct vtkIsopointOptions;
+struct vtkIsopointReport;
 
 /**
  * The extraction of one update, from the input to the output. On several ranks all of them run it.
@@ -49,37 +49,33 @@ public:
   };
 
   /// @param team must outlive what is kept
-  /// @param findings receives what is found out
+  /// @param report receives what is found out
   vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
-    const vtkIsopointOptions& options, Kept& kept, vtkIsopointFindings& findings);
+    const vtkIsopointOptions& options, Kept& kept, vtkIsopointReport& report);
 
   /// Fills the output. Called inside isopoint::Team::together().
-  /// @throws vtkIsopointUsageError, or what isopoint::IsosurfaceExtractor throws
+  /// @throws isopoint::UsageError, or what isopoint::IsosurfaceExtractor throws
   void Run(vtkInformation* inputInfo, vtkInformation* outputInfo);
 
 private:
   bool IsOnRanks() const { return this->Team.size() > 1; }
-  void CollectBlocks(vtkDataObject* input, const int* wholeExtent);
-  void StartCounting();
+  void CollectBlocks(
+    vtkDataObject* input, const vtkIsopointArrayChoice& array, const int* wholeExtent);
+  void StartCounting(const std::vector<double>& isovalues);
   /// Each leaf of all ranks' inputs separately.
   void ExtractLeaves(
     const vtkIsopointStructure& structure, vtkDataObject* input, vtkCompositeDataSet* output);
   /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
   void ExtractBlocks(std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
-  /// The progress after loading this many samples, and after each isovalue.
-  std::vector<double> ExpectProgress(std::size_t count, bool isTreeKept);
-  /// One surface for each isovalue, then, if there are any, its ghosts for each.
-  std::vector<isopoint::ExtractedIsosurface> ExtractIsovalues(
-    isopoint::IsosurfaceExtractor& extractor, const std::vector<double>& progress);
   void FillOutput(const vtkIsopointEndSamples& samples,
-    const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool haveFloatPositions,
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool areFloatPositions,
     vtkPolyData* output);
 
   vtkAlgorithm* Filter;
   isopoint::Team& Team;
-  const vtkIsopointOptions& Options;
+  vtkIsopointOptions Options; // as they were when the update began
   Kept& State;
-  vtkIsopointFindings& Findings;
+  vtkIsopointReport& Report;
   isopoint::Execution Execution;
   int GhostLevels = 0; // that are requested of the output
 };

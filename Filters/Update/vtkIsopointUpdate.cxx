@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointUpdate.h"
 
-#include "Core/Base/Execution.h"
-#include "Input/vtkIsopointUsageError.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include "vtkAlgorithm.h"
@@ -16,7 +14,6 @@
 #include <cerrno>
 #include <exception>
 #include <new>
-#include <stdexcept>
 
 vtkIsopointUpdate::vtkIsopointUpdate(vtkAlgorithm* filter)
   : Filter(filter)
@@ -32,170 +29,124 @@ void vtkIsopointUpdate::SetController(vtkMultiProcessController* controller)
   this->Communicator.SetController(controller);
 }
 
-unsigned long vtkIsopointUpdate::Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
-  vtkInformation* inputInfo, vtkInformation* outputInfo)
+unsigned long vtkIsopointUpdate::Run(
+  const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
-  this->Findings = vtkIsopointFindings();
-  bool keepsTree = false;
-  Failure failure;
-  bool hasFailed = true;
+  this->Report = vtkIsopointReport();
+  const bool keepsTree = options.KeepTree;
+  isopoint::Failure failure;
   try
   {
     this->Team.together(
       [&]()
       {
-        vtkIsopointOptions options;
-        fillOptions(options);
-        keepsTree = options.KeepTree;
-        vtkIsopointExtraction(this->Filter, this->Team, options, this->Kept, this->Findings)
+        vtkIsopointExtraction(this->Filter, this->Team, options, this->Kept, this->Report)
           .Run(inputInfo, outputInfo);
       });
-    hasFailed = false;
   }
   catch (...)
   {
-    try
-    {
-      failure = this->DescribeFailure();
-    }
-    catch (const std::bad_alloc&)
-    {
-      this->Kept.Clear();
-      failure = { "Out of memory.", ENOMEM }; // short enough to take none
-    }
+    failure = isopoint::describeException();
   }
   this->Filter->SetProgressShiftScale(0.0, 1.0);
   this->Kept.Input.ReleaseInput();
-  if (hasFailed)
-  {
-    this->Report(failure); // first: the other ranks wait for it
-    vtkDataObject::GetData(outputInfo)->Initialize();
-    this->Findings = vtkIsopointFindings();
-  }
-  else
-  {
-    this->ReportFindings();
-  }
-  if (!keepsTree)
+  if (!keepsTree || failure.spoilsTree())
   {
     this->Kept.Clear();
   }
-  return failure.Code;
+  if (failure.kind == isopoint::Failure::None)
+  {
+    this->ReportMessages();
+    return 0;
+  }
+  vtkDataObject::GetData(outputInfo)->Initialize();
+  this->Report = vtkIsopointReport();
+  return this->ReportFailure(failure);
 }
 
-/// Describes the exception that is being handled; what was kept is dropped where it may not be
-/// sound.
-vtkIsopointUpdate::Failure vtkIsopointUpdate::DescribeFailure()
+namespace
 {
-  try
+
+unsigned long errorCodeOf(isopoint::Failure::Kinds kind)
+{
+  switch (kind)
   {
-    throw;
-  }
-  catch (const isopoint::Aborted&)
-  {
-    return {};
-  }
-  catch (const isopoint::FailedElsewhere&)
-  {
-    return {};
-  }
-  catch (const vtkIsopointUsageError& error)
-  {
-    return { error.what(), EINVAL };
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->Kept.Clear();
-    return { "Out of memory. Free memory, switch KeepTree off, or reduce the number of samples.",
-      ENOMEM };
-  }
-  catch (const std::length_error& error)
-  {
-    this->Kept.Clear();
-    return { std::string("Cannot build the tree of the samples (") + error.what() +
-               "). Merge coincident samples or reduce the number of samples.",
-      EINVAL };
-  }
-  catch (const std::exception& error)
-  {
-    this->Kept.Clear();
-    return { std::string("The extraction failed unexpectedly (") + error.what() +
-               "). Report this as a bug, with the input.",
-      vtkErrorCode::UnknownError };
-  }
-  catch (...)
-  {
-    this->Kept.Clear();
-    return { "The extraction failed unexpectedly. Report this as a bug, with the input.",
-      vtkErrorCode::UnknownError };
+    case isopoint::Failure::InvalidUsage:
+      return EINVAL;
+    case isopoint::Failure::OutOfMemory:
+      return ENOMEM;
+    case isopoint::Failure::Bug:
+      return vtkErrorCode::UnknownError;
+    default:
+      return 0;
   }
 }
 
-/// Reports a failure on the first rank, and gives all ranks the same code.
-void vtkIsopointUpdate::Report(Failure& failure)
+} // namespace
+
+/// Reports a failure on the first rank. @returns the code of all ranks' failures
+unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
 {
+  unsigned long code = errorCodeOf(failure.kind);
   std::string message;
   try
   {
     this->Team.together(
       [&]()
       {
-        message = vtkGatherIsopointProblem(this->Team, failure.Problem);
-        failure.Code = static_cast<unsigned long>(this->Team.maximum(failure.Code));
+        message = vtkGatherIsopointProblem(this->Team, failure.text);
+        code = static_cast<unsigned long>(this->Team.maximum(code));
       });
   }
   catch (const std::exception&)
   {
-    message.swap(failure.Problem); // for lack of memory each rank reports its own
-    failure.Code = ENOMEM;
+    message.swap(failure.text); // for lack of memory each rank reports its own
+    code = ENOMEM;
   }
   if (!message.empty())
   {
     vtkErrorWithObjectMacro(this->Filter, << message);
   }
+  return code;
 }
 
-void vtkIsopointUpdate::ReportFindings()
+void vtkIsopointUpdate::ReportMessages()
 {
   if (this->Team.rank() > 0)
   {
     return;
   }
+  std::vector<isopoint::Message> messages;
   try
   {
-    this->ReportMessages(vtkDescribeIsopointFindings(this->Findings));
+    messages = this->Report.Describe();
   }
   catch (const std::bad_alloc&)
   {
-    // The output is complete without warnings.
+    return; // the output is complete without warnings
   }
-}
-
-void vtkIsopointUpdate::ReportMessages(const std::vector<vtkIsopointMessage>& messages)
-{
   // A cause is reported when it comes up, and not again as long as it lasts for this input.
   vtkAlgorithm* const producer = this->Filter->GetInputAlgorithm();
   const std::set<std::string> before =
     this->ReportedOf == producer ? this->Reported : std::set<std::string>();
   this->ReportedOf = producer;
   this->Reported.clear();
-  for (const vtkIsopointMessage& message : messages)
+  for (isopoint::Message& message : messages)
   {
-    this->Reported.insert(message.Cause);
-    if (before.count(message.Cause) > 0)
+    this->Reported.insert(message.cause);
+    if (before.count(message.cause) > 0)
     {
       continue;
     }
-    if (message.Kind == vtkIsopointMessage::WARNING)
+    if (message.kind == isopoint::Message::Warning)
     {
-      vtkWarningWithObjectMacro(this->Filter, << message.Text);
+      vtkWarningWithObjectMacro(this->Filter, << message.text);
       continue;
     }
     if (!this->Filter->HasObserver(vtkCommand::MessageEvent))
     {
-      vtkLogF(INFO, "%s: %s", this->Filter->GetClassName(), message.Text.c_str());
+      vtkLogF(INFO, "%s: %s", this->Filter->GetClassName(), message.text.c_str());
     }
-    std::string text = message.Text;
-    this->Filter->InvokeEvent(vtkCommand::MessageEvent, text.data());
+    this->Filter->InvokeEvent(vtkCommand::MessageEvent, message.text.data());
   }
 }

@@ -2,13 +2,13 @@
 #ifndef vtkIsopointUpdate_h
 #define vtkIsopointUpdate_h
 
+#include "Core/Failure.h"
 #include "Update/vtkIsopointExtraction.h"
-#include "Update/vtkIsopointFindings.h"
 #include "Update/vtkIsopointRanks.h"
+#include "Update/vtkIsopointReport.h"
 
 #include "vtkWeakPointer.h"
 
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,31 +35,22 @@ public:
   bool HasOtherRanks() const { return this->Communicator.size() > 1; }
 
   /// Updates the output. Where that fails there is one error, and the output is empty. Collective.
-  /// @param fillOptions called once
   /// @returns the error code, the same on all ranks: 0 if the update succeeded or was aborted
-  unsigned long Run(const std::function<void(vtkIsopointOptions&)>& fillOptions,
-    vtkInformation* inputInfo, vtkInformation* outputInfo);
+  unsigned long Run(
+    const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
 
   /// Of the last update; nothing if that failed.
-  const vtkIsopointFindings& GetFindings() const { return this->Findings; }
+  const isopoint::Report& GetReport() const { return this->Report.Counts; }
 
 private:
-  /// What went wrong, for the user and for programs. Both are empty after an abort.
-  struct Failure
-  {
-    std::string Problem; // empty on ranks that only another one's failure has stopped
-    unsigned long Code = 0;
-  };
-  Failure DescribeFailure();
-  void Report(Failure& failure);
-  void ReportFindings();
-  void ReportMessages(const std::vector<vtkIsopointMessage>& messages);
+  unsigned long ReportFailure(isopoint::Failure& failure);
+  void ReportMessages();
 
   vtkAlgorithm* Filter;
   vtkIsopointCommunicator Communicator;
   isopoint::Team Team;
   vtkIsopointExtraction::Kept Kept;
-  vtkIsopointFindings Findings;
+  vtkIsopointReport Report;
   std::set<std::string> Reported;          // causes of messages in the last update
   vtkWeakPointer<vtkAlgorithm> ReportedOf; // the producer of its input
 };

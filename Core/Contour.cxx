@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Contour.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace isopoint
+{
+
+std::vector<ExtractedIsosurface> extractIsovalues(const Execution& execution,
+  IsosurfaceExtractor& extractor, const Options& options, int ghostRings, Report& report)
+{
+  const std::size_t count = report.isovalues.size();
+  ExtractionRequest request = requestOf(options);
+  request.ghostRings = ghostRings;
+  const bool hasGhosts = extractor.isOnRanks() && ghostRings > 0 && !request.triangles;
+  std::vector<ExtractedIsosurface> surfaces;
+  std::vector<ExtractedIsosurface> ghosts(hasGhosts ? count : 0);
+  surfaces.reserve(count + ghosts.size());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    request.isosurface.isovalue = report.isovalues[i];
+    request.isosurface.keepsBand = i + 1 < count || options.keepBand;
+    const double share = 1.0 / static_cast<double>(count);
+    const auto begin = static_cast<double>(i) * share;
+    surfaces.push_back(extractor.extract(
+      partOf(execution, begin, begin + share), request, hasGhosts ? &ghosts[i] : nullptr));
+    report.countSurface(i, surfaces.back());
+    throwIfAborted(execution);
+  }
+  std::move(ghosts.begin(), ghosts.end(), std::back_inserter(surfaces));
+  return surfaces;
+}
+
+} // namespace isopoint

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Failure.h"
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/Team.h"
+#include "Core/Base/UsageError.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+namespace isopoint
+{
+
+namespace
+{
+
+Failure describe()
+{
+  try
+  {
+    throw;
+  }
+  catch (const Aborted&)
+  {
+    return { Failure::Aborted, {} };
+  }
+  catch (const FailedElsewhere&)
+  {
+    return { Failure::Elsewhere, {} };
+  }
+  catch (const UsageError& error)
+  {
+    return { Failure::InvalidUsage, error.what() };
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { Failure::OutOfMemory, "Out of memory. Free memory or reduce the number of samples." };
+  }
+  catch (const std::length_error& error)
+  {
+    return { Failure::InvalidUsage, std::string("Cannot build the tree of the samples (") +
+                                      error.what() +
+                                      "). Merge coincident samples or reduce the number of"
+                                      " samples." };
+  }
+  catch (const std::exception& error)
+  {
+    return { Failure::Bug, std::string("The extraction failed unexpectedly (") + error.what() +
+                             "). Report this as a bug, with the input." };
+  }
+  catch (...)
+  {
+    return { Failure::Bug,
+      "The extraction failed unexpectedly. Report this as a bug, with the input." };
+  }
+}
+
+} // namespace
+
+Failure describeException() noexcept
+{
+  try
+  {
+    return describe();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { Failure::OutOfMemory, "Out of memory." }; // short enough to take none
+  }
+  catch (...)
+  {
+    return { Failure::Bug, {} };
+  }
+}
+
+} // namespace isopoint

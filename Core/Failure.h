@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Failure_h
+#define isopoint_Failure_h
+
+#include <string>
+
+namespace isopoint
+{
+
+/// Why an extraction ended without a result.
+struct Failure
+{
+  enum Kinds
+  {
+    None,
+    Aborted,      // by the caller
+    Elsewhere,    // on another rank alone
+    InvalidUsage, // input or options that cannot be used
+    OutOfMemory,
+    Bug
+  };
+  Kinds kind = None;
+  std::string text; // for the user: the cause, then the remedy; empty where there is nothing to say
+
+  /// Whether what was kept for further extractions may be unsound.
+  bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }
+};
+
+/// Describes the exception that is being handled.
+Failure describeException() noexcept;
+
+} // namespace isopoint
+
+#endif

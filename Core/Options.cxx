@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Options.h"
+
+#include "Core/Base/UsageError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace isopoint
+{
+
+namespace
+{
+
+bool needsSplats(const Options& options)
+{
+  return options.computeNormals || options.computeSplats;
+}
+
+bool hasNormalsFromField(const Options& options)
+{
+  switch (static_cast<NormalMethod>(options.normalMethod))
+  {
+    case NormalMethod::Automatic:
+      return options.projection != 0 || options.computeGradients || options.minimumSpacing > 0.0;
+    case NormalMethod::Field:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The fit that the projection or an output requires, if any: thinning and normals from the field
+/// require polynomials, other splats and fit orders at least the sample spacing.
+std::optional<FitRequest> fitRequestOf(const Options& options)
+{
+  if (options.projection != 0)
+  {
+    return FitRequest{ static_cast<FitOrder>(options.projection), true };
+  }
+  if (options.computeGradients || options.minimumSpacing > 0.0 ||
+      (needsSplats(options) && hasNormalsFromField(options)))
+  {
+    return FitRequest{ FitOrder::Cubic, false };
+  }
+  if (needsSplats(options) || options.computeProjectionOrders)
+  {
+    return FitRequest{ std::nullopt, false };
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+void checkOptions(const Options& options, OptionNaming naming)
+{
+  forEachOption(options,
+    [&](const auto& option)
+    {
+      const auto value = options.*option.value;
+      if (!(value >= option.least && value <= option.greatest))
+      {
+        std::ostringstream message;
+        message << naming(option.name) << " is " << value
+                << ", which is out of range. Set it to a value from " << option.least << " to "
+                << option.greatest << ".";
+        throw UsageError(message.str());
+      }
+    });
+}
+
+std::vector<double> sortedIsovalues(const std::vector<double>& isovalues)
+{
+  if (std::any_of(
+        isovalues.begin(), isovalues.end(), [](double value) { return std::isnan(value); }))
+  {
+    throw UsageError("An isovalue is not a number. Choose numbers as isovalues.");
+  }
+  const std::set<double> sorted(isovalues.begin(), isovalues.end());
+  return { sorted.begin(), sorted.end() };
+}
+
+Options effectiveOptions(const Options& options)
+{
+  Options effective = options;
+  if (options.triangles)
+  {
+    const Options defaults;
+    effective.angle = defaults.angle;
+    effective.minimumSpacing = defaults.minimumSpacing;
+    effective.numberOfNeighbors = defaults.numberOfNeighbors;
+    effective.computeSplats = false;
+  }
+  return effective;
+}
+
+ExtractionRequest requestOf(const Options& options)
+{
+  ExtractionRequest request;
+  request.isosurface.angle = options.angle;
+  request.isosurface.dropsGaps = options.dropGaps;
+  request.isosurface.fit = fitRequestOf(options);
+  request.isosurface.partsCreases = options.computeNormals;
+  request.minimumSpacing = options.minimumSpacing;
+  request.triangles = options.triangles;
+  if (needsSplats(options))
+  {
+    request.splats = SplatOptions{ options.numberOfNeighbors, hasNormalsFromField(options),
+      options.computeSplats };
+  }
+  return request;
+}
+
+} // namespace isopoint

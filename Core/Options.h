@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Options_h
+#define isopoint_Options_h
+
+#include "Core/ExtractionRequest.h"
+
+#include <string>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Where normals come from: the fits' gradients, or planes through the nearest isopoints.
+enum class NormalMethod
+{
+  Automatic = -1, // the field where something is fitted anyway, planes otherwise
+  Field = 0,
+  Planes = 1
+};
+
+/// The type of the output's positions.
+enum class Precision
+{
+  Single = 0,
+  Double = 1,
+  Input = 2 // single where the samples' positions are float
+};
+
+/// What a user chooses of an extraction, with the defaults. docs/properties.md describes each
+/// option, and option:: lists their names and ranges.
+struct Options
+{
+  bool triangles = false;                             // or points alone
+  int projection = static_cast<int>(FitOrder::Cubic); // a FitOrder; 0: none
+  int normalMethod = static_cast<int>(NormalMethod::Automatic);
+  bool dropGaps = true;
+  bool computeNormals = true;
+  bool computeGradients = false;
+  bool computeProjectionOrders = false;
+  int outputPointsPrecision = static_cast<int>(Precision::Input);
+
+  // Of points alone:
+  double angle = defaultAngle;
+  double minimumSpacing = 0.0;
+  int numberOfNeighbors = defaultNeighborCount;
+  bool computeSplats = true;
+
+  /// Whether triangles are kept for the next extraction; see IsosurfaceRequest::keepsBand.
+  bool keepBand = true;
+};
+
+/// An option's name in messages and its range, both ends included.
+template <class T>
+struct Option
+{
+  const char* name;
+  T Options::*value;
+  T least;
+  T greatest;
+};
+
+namespace option
+{
+
+inline constexpr Option<int> projection{ "Projection", &Options::projection, 0,
+  static_cast<int>(FitOrder::Crease) };
+inline constexpr Option<int> normalMethod{ "NormalMethod", &Options::normalMethod,
+  static_cast<int>(NormalMethod::Automatic), static_cast<int>(NormalMethod::Planes) };
+inline constexpr Option<bool> dropGaps{ "DropGaps", &Options::dropGaps, false, true };
+inline constexpr Option<bool> computeNormals{ "ComputeNormals", &Options::computeNormals, false,
+  true };
+inline constexpr Option<bool> computeGradients{ "ComputeGradients", &Options::computeGradients,
+  false, true };
+inline constexpr Option<bool> computeProjectionOrders{ "ComputeProjectionOrders",
+  &Options::computeProjectionOrders, false, true };
+inline constexpr Option<int> outputPointsPrecision{ "OutputPointsPrecision",
+  &Options::outputPointsPrecision, static_cast<int>(Precision::Single),
+  static_cast<int>(Precision::Input) };
+inline constexpr Option<double> angle{ "Angle", &Options::angle, 0.0, 180.0 }; // degrees
+/// In units of the sample spacing.
+inline constexpr Option<double> minimumSpacing{ "MinimumSpacing", &Options::minimumSpacing, 0.0,
+  1.0 };
+inline constexpr Option<int> numberOfNeighbors{ "NumberOfNeighbors", &Options::numberOfNeighbors, 3,
+  1000 };
+inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeSplats, false,
+  true };
+
+} // namespace option
+
+/// Calls visit(option) for each option that has an effect.
+template <class Visitor>
+void forEachOption(const Options& options, const Visitor& visit)
+{
+  visit(option::projection);
+  visit(option::normalMethod);
+  visit(option::dropGaps);
+  visit(option::computeNormals);
+  visit(option::computeGradients);
+  visit(option::computeProjectionOrders);
+  visit(option::outputPointsPrecision);
+  if (!options.triangles)
+  {
+    visit(option::angle);
+    visit(option::minimumSpacing);
+    visit(option::numberOfNeighbors);
+    visit(option::computeSplats);
+  }
+}
+
+/// How a host of the core calls its options: turns the names above into its own.
+using OptionNaming = std::string (*)(const char* name);
+
+/// Names as they are.
+inline std::string sameName(const char* name)
+{
+  return name;
+}
+
+/// @throws UsageError if an option is out of its range
+void checkOptions(const Options& options, OptionNaming naming = sameName);
+
+/// Each isovalue once, ascending. @throws UsageError if one is not a number
+std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
+
+/// The options with those that have no effect on triangles as if they were not there.
+Options effectiveOptions(const Options& options);
+
+/// What the core is to do, without an isovalue.
+/// @param options effective ones
+ExtractionRequest requestOf(const Options& options);
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/OutputArrays.h"
+
+#include <algorithm>
+
+namespace isopoint
+{
+
+namespace
+{
+
+/// A radius as float, clamped to its positive range.
+float asFloatRadius(double radius)
+{
+  using Limits = std::numeric_limits<float>;
+  return static_cast<float>(
+    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
+}
+
+/// Writes a vector as the tuple of a number, unless there is no array.
+void write(const Vector& vector, std::size_t tuple, float* array)
+{
+  if (array)
+  {
+    std::transform(vector.begin(), vector.end(), array + 3 * tuple,
+      [](double coordinate) { return static_cast<float>(coordinate); });
+  }
+}
+
+void writeSplat(const Splat& splat, std::size_t tuple, const OutputArrays& arrays)
+{
+  write(splat.normal, tuple, arrays.normals);
+  write(splat.axis, tuple, arrays.splatAxes);
+  if (arrays.radii)
+  {
+    arrays.radii[tuple] = asFloatRadius(splat.radius);
+  }
+  if (arrays.splatPolygons)
+  {
+    float* next = arrays.splatPolygons + polygonNumbers * tuple;
+    for (const SplatCorner& corner : splat.corners)
+    {
+      for (const float number :
+        { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
+      {
+        *next++ = number;
+      }
+    }
+  }
+}
+
+} // namespace
+
+void writeArrays(const Execution& execution, const ExtractedIsosurface& extracted, bool isProjected,
+  std::size_t first, const OutputArrays& arrays)
+{
+  const std::vector<LocalFit>& fits = extracted.surface.fits;
+  forEachIndex(execution, extracted.surface.size(),
+    [&](std::size_t i)
+    {
+      const std::size_t tuple = first + i;
+      if (!extracted.splats.empty())
+      {
+        writeSplat(extracted.splats[i], tuple, arrays);
+      }
+      if (!extracted.normals.empty())
+      {
+        write(extracted.normals[i], tuple, arrays.normals);
+      }
+      if (!fits.empty())
+      {
+        write(fits[i].gradient, tuple, arrays.gradients);
+        if (arrays.projectionOrders)
+        {
+          arrays.projectionOrders[tuple] =
+            isProjected && fits[i].order ? static_cast<std::uint8_t>(*fits[i].order) : 0;
+        }
+      }
+    });
+}
+
+} // namespace isopoint

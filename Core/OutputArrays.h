@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_OutputArrays_h
+#define isopoint_OutputArrays_h
+
+#include "Core/Base/Execution.h"
+#include "Core/ExtractionRequest.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace isopoint
+{
+
+/// The numbers of a splat's polygon in arrays: five of each corner, in the order of SplatCorner.
+constexpr std::size_t polygonNumbers = 5 * mostCorners;
+
+/// Memory for the computed arrays of isopoints; null for those that are not wanted.
+struct OutputArrays
+{
+  float* normals = nullptr; // three numbers of each isopoint
+  float* radii = nullptr;
+  float* splatAxes = nullptr;     // three
+  float* splatPolygons = nullptr; // polygonNumbers
+  float* gradients = nullptr;     // three
+  std::uint8_t* projectionOrders = nullptr;
+};
+
+/// Writes the arrays of a surface.
+/// @param isProjected whether fits moved isopoints; otherwise their orders are 0
+/// @param first the number of isopoints before, whose tuples are skipped
+void writeArrays(const Execution& execution, const ExtractedIsosurface& extracted, bool isProjected,
+  std::size_t first, const OutputArrays& arrays);
+
+/// Writes positions, three coordinates each.
+template <class T>
+void writePositions(const Execution& execution, const Isosurface& surface, T* coordinates)
+{
+  forEachIndex(execution, surface.size(),
+    [&](std::size_t i)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        coordinates[3 * i + axis] = static_cast<T>(surface.positions[i][axis]);
+      }
+    });
+}
+
+/// Writes triangles, three numbers of isopoints each.
+/// @param firstPoint the number of isopoints before this surface
+template <class T>
+void writeTriangles(const Execution& execution, const ExtractedIsosurface& extracted,
+  std::size_t firstPoint, T* corners)
+{
+  forEachIndex(execution, extracted.triangles.size(),
+    [&](std::size_t i)
+    {
+      for (std::size_t corner = 0; corner < 3; ++corner)
+      {
+        corners[3 * i + corner] = static_cast<T>(firstPoint + extracted.triangles[i][corner]);
+      }
+    });
+}
+
+/// Converts a number to an array's type. For integer types it is rounded to the nearest and limited
+/// to their range, which rounding of 64-bit integers to double can exceed.
+template <class T>
+T toArrayType(double value)
+{
+  if constexpr (std::is_floating_point<T>::value)
+  {
+    return static_cast<T>(value);
+  }
+  else
+  {
+    const double rounded = std::round(value);
+    if (rounded >= static_cast<double>(std::numeric_limits<T>::max()))
+    {
+      return std::numeric_limits<T>::max();
+    }
+    if (rounded <= static_cast<double>(std::numeric_limits<T>::lowest()))
+    {
+      return std::numeric_limits<T>::lowest();
+    }
+    return static_cast<T>(rounded);
+  }
+}
+
+/// Interpolates an attribute of the samples at all isopoints of a surface.
+/// @param componentOf(sample, component) as a double
+/// @param write(isopoint, component, value) from any thread
+template <class ComponentOf, class Write>
+void interpolateComponents(const Execution& execution, const Isosurface& surface,
+  int componentCount, const ComponentOf& componentOf, const Write& write)
+{
+  for (int component = 0; component < componentCount; ++component)
+  {
+    const CoincidentAttribute attribute(
+      surface, [&, component](std::uint64_t sample) { return componentOf(sample, component); });
+    forEachIndex(execution, surface.size(),
+      [&](std::size_t i)
+      {
+        const IsopointEdge& edge = surface.edges[i];
+        write(
+          i, component, interpolate(attribute(edge.first), attribute(edge.second), edge.parameter));
+      });
+  }
+}
+
+} // namespace isopoint
+
+#endif

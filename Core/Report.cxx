@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Report.h"
+
+#include "Core/Base/Team.h"
+#include "Core/IsosurfaceExtractor.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+namespace isopoint
+{
+
+namespace
+{
+
+std::string describeArray(const Report& report)
+{
+  return report.array.empty() ? "the array" : "\"" + report.array + "\"";
+}
+
+std::string textOf(double number, int digits)
+{
+  std::ostringstream text;
+  text << std::setprecision(digits) << number;
+  return text.str();
+}
+
+std::string join(const std::vector<std::string>& parts)
+{
+  std::string all;
+  for (const std::string& part : parts)
+  {
+    all += (all.empty() ? "" : ", ") + part;
+  }
+  return all;
+}
+
+std::string join(const std::vector<double>& numbers, int digits)
+{
+  std::vector<std::string> texts;
+  std::transform(numbers.begin(), numbers.end(), std::back_inserter(texts),
+    [digits](double number) { return textOf(number, digits); });
+  return join(texts);
+}
+
+/// A share, so coarse that it is the same as long as nothing much changes.
+std::string tenths(std::uint64_t count, std::uint64_t all)
+{
+  constexpr std::uint64_t parts = 10;
+  return std::to_string(parts * count / std::max<std::uint64_t>(all, 1)) + " of 10";
+}
+
+/// So many digits that the isovalues and the ends of the range look different if they are.
+int digitsFor(const Report& report, const std::vector<double>& isovalues)
+{
+  constexpr int few = 6;
+  for (int digits = few; digits < std::numeric_limits<double>::max_digits10; ++digits)
+  {
+    const auto lookAlike = [digits](double a, double b)
+    { return a != b && textOf(a, digits) == textOf(b, digits); };
+    if (!lookAlike(report.least, report.greatest) &&
+        std::none_of(isovalues.begin(), isovalues.end(),
+          [&](double isovalue)
+          { return lookAlike(isovalue, report.least) || lookAlike(isovalue, report.greatest); }))
+    {
+      return digits;
+    }
+  }
+  return std::numeric_limits<double>::max_digits10;
+}
+
+Message describeIsovaluesOutside(const Report& report, const std::vector<double>& outside)
+{
+  if (outside.empty())
+  {
+    return {};
+  }
+  const int digits = digitsFor(report, outside);
+  const std::string least = textOf(report.least, digits);
+  if (report.least == report.greatest)
+  {
+    return { "constant array " + report.array, "No isosurface: all values of " +
+                                                 describeArray(report) + " are " + least +
+                                                 ". Choose another array." };
+  }
+  const std::string isovalues = join(outside, digits);
+  return { "isovalues outside of " + report.array + ": " + isovalues,
+    "No isosurface at " + isovalues + ": " + describeArray(report) + " is from " + least + " to " +
+      textOf(report.greatest, digits) + ". Choose isovalues that are greater than " + least +
+      ", up to " + textOf(report.greatest, digits) + "." };
+}
+
+/// Of isovalues in the range.
+Message describeEmptyIsovalues(
+  const Report& report, const std::vector<double>& empty, OptionNaming naming)
+{
+  if (empty.empty())
+  {
+    return {};
+  }
+  const std::string isovalues = join(empty, digitsFor(report, empty));
+  const std::string dropGaps = naming(option::dropGaps.name);
+  std::string reason = "all of it is in gaps between samples. Turn " + dropGaps + " off.";
+  if (report.areTriangles)
+  {
+    reason = report.dropsGaps
+               ? "all of it is in gaps, or the samples are in one plane. Turn " + dropGaps +
+                   " off; for samples in a plane apply Delaunay 2D and Contour instead."
+               : "the samples are in one plane. Apply Delaunay 2D and Contour instead.";
+  }
+  else if (!report.dropsGaps)
+  {
+    reason = "no block has samples on both sides. Turn ContourBlocks off.";
+  }
+  return { "isovalues without points in " + report.array + ": " + isovalues,
+    "No isosurface at " + isovalues + ": " + reason };
+}
+
+std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming)
+{
+  std::vector<double> outside;
+  std::vector<double> empty;
+  for (std::size_t i = 0; i < report.isovalues.size(); ++i)
+  {
+    const double value = report.isovalues[i];
+    if (report.points[i] == 0 && report.least <= report.greatest)
+    {
+      const bool isInside = value > report.least && value <= report.greatest;
+      (isInside ? empty : outside).push_back(value);
+    }
+  }
+  return { describeIsovaluesOutside(report, outside),
+    describeEmptyIsovalues(report, empty, naming) };
+}
+
+Message describeSkipped(const Report& report)
+{
+  if (report.notFinite + report.withoutArray == 0)
+  {
+    return {};
+  }
+  const std::vector<std::pair<std::uint64_t, std::string>> reasons{
+    { report.notFinite, "not finite" },
+    { report.withoutArray, "in blocks without " + describeArray(report) },
+    { report.excluded, "ghost or hidden" },
+  };
+  const std::uint64_t skipped = report.skippedCount();
+  std::vector<std::string> parts;
+  for (const auto& [count, reason] : reasons)
+  {
+    if (count > 0)
+    {
+      parts.push_back(count < skipped ? std::to_string(count) + " " + reason : reason);
+    }
+  }
+  const std::string cause =
+    "samples skipped of " + report.array + ": " + tenths(skipped, report.samples);
+  const std::string text = "Skipped " + std::to_string(skipped) + " of " +
+                           std::to_string(report.samples) + " samples: " + join(parts) + ".";
+  if (skipped == report.samples)
+  {
+    return { cause, text + " There is no isosurface. Choose another array." };
+  }
+  return { cause, text + " The surface there is that of the samples around.", Message::Note };
+}
+
+Message describeUnprojected(const Report& report, OptionNaming naming)
+{
+  const std::uint64_t points = report.pointCount();
+  if (!report.areProjected || 2 * report.unprojectedPoints <= points)
+  {
+    return {};
+  }
+  return { "points without fit of " + report.array + ": " +
+             tenths(report.unprojectedPoints, points),
+    "No fit holds at " + std::to_string(report.unprojectedPoints) + " of " +
+      std::to_string(points) +
+      " points: the surface may be rough. Smooth the values if they are noisy. For samples on a"
+      " surface, such as a plane or a shell, set " +
+      naming(option::projection.name) +
+      " to None. Samples along lines, such as drill holes, do not determine a surface." };
+}
+
+} // namespace
+
+Report::Report(const Options& options, const std::vector<double>& sortedIsovalues)
+  : isovalues(sortedIsovalues)
+  , points(sortedIsovalues.size(), 0)
+  , areTriangles(options.triangles)
+  , dropsGaps(options.dropGaps)
+  , areProjected(options.projection != 0)
+{
+}
+
+std::uint64_t Report::pointCount() const
+{
+  return std::accumulate(this->points.begin(), this->points.end(), std::uint64_t{ 0 });
+}
+
+void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCounts& cloud)
+{
+  this->samples += cloud.items - cloud.unused;
+  this->excluded += cloud.excluded;
+  this->notFinite += extractor.skippedCount() - cloud.excluded - cloud.unused;
+  const auto [lowest, highest] = extractor.valueRange();
+  this->least = std::min(this->least, lowest);
+  this->greatest = std::max(this->greatest, highest);
+}
+
+void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surface)
+{
+  this->points[isovalue] += surface.countHere();
+  this->droppedInGaps += surface.droppedInGaps;
+  if (!this->areProjected)
+  {
+    this->unprojectedPoints += surface.countHere();
+    return;
+  }
+  const std::vector<LocalFit>& fits = surface.surface.fits;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+  {
+    const bool isHere = surface.areElsewhere.empty() || !surface.areElsewhere[i];
+    this->unprojectedPoints += isHere && !fits[i].order ? 1 : 0;
+  }
+}
+
+void Report::share(Team& team)
+{
+  team.sum(this->points); // of as many isovalues on all ranks
+  for (std::uint64_t* const count : { &this->unprojectedPoints, &this->droppedInGaps,
+         &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
+  {
+    *count = team.sum(*count);
+  }
+  const std::vector<std::vector<char>> names =
+    team.gather(std::vector<char>(this->array.begin(), this->array.end()));
+  for (auto name = names.begin(); name != names.end() && this->array.empty(); ++name)
+  {
+    this->array.assign(name->begin(), name->end()); // a rank without samples has none
+  }
+  this->least = fromOrderedKey(~team.maximum(~orderedKey(this->least)));
+  this->greatest = fromOrderedKey(team.maximum(orderedKey(this->greatest)));
+}
+
+std::vector<Message> describeReport(const Report& report, OptionNaming naming)
+{
+  std::vector<Message> messages = describeIsovalues(report, naming);
+  messages.push_back(describeSkipped(report));
+  messages.push_back(describeUnprojected(report, naming));
+  messages.erase(std::remove_if(messages.begin(), messages.end(),
+                   [](const Message& message) { return message.text.empty(); }),
+    messages.end());
+  return messages;
+}
+
+} // namespace isopoint
