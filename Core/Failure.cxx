@@ -5,9 +5,12 @@
 #include "Core/Base/Team.h"
 #include "Core/Base/UsageError.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <vector>
 
 namespace isopoint
 {
@@ -72,6 +75,31 @@ Failure describeException() noexcept
   {
     return { Failure::Bug, {} };
   }
+}
+
+std::string firstText(Team& team, const Failure& failure)
+{
+  if (team.size() == 1)
+  {
+    return failure.text;
+  }
+  const auto size = static_cast<std::uint64_t>(team.size());
+  const auto own = static_cast<std::uint64_t>(team.rank());
+  const std::uint64_t lowest = size - team.maximum(failure.text.empty() ? 0 : size - own);
+  if (lowest == size)
+  {
+    return {};
+  }
+  std::vector<std::vector<char>> outgoing(static_cast<std::size_t>(size));
+  if (lowest == own)
+  {
+    outgoing.front().assign(failure.text.begin(), failure.text.end());
+  }
+  const std::vector<std::vector<char>> arrived = team.exchange(outgoing);
+  const std::vector<char>& text = arrived[static_cast<std::size_t>(lowest)];
+  return text.empty()
+           ? std::string()
+           : "Rank " + std::to_string(lowest) + ": " + std::string(text.begin(), text.end());
 }
 
 } // namespace isopoint

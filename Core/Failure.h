@@ -7,6 +7,8 @@
 namespace isopoint
 {
 
+class Team;
+
 /// Why an extraction ended without a result.
 struct Failure
 {
@@ -28,6 +30,10 @@ struct Failure
 
 /// Describes the exception that is being handled.
 Failure describeException() noexcept;
+
+/// The text of the lowest rank that has one, preceded by the number of that rank, on rank 0; empty
+/// on all others, and if none has one. Of a single rank its own text. Collective.
+std::string firstText(Team& team, const Failure& failure);
 
 } // namespace isopoint
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -27,7 +28,13 @@ void append(ByteBuffer& buffer, const T& value)
   append(buffer, &value, 1);
 }
 
-/// Reads what append() wrote, in the same order.
+inline void appendText(ByteBuffer& buffer, const std::string& text)
+{
+  append(buffer, text.size());
+  append(buffer, text.data(), text.size());
+}
+
+/// Reads what append() and appendText() wrote, in the same order.
 class ByteReader
 {
 public:
@@ -56,6 +63,13 @@ public:
     T value;
     this->read(&value, 1);
     return value;
+  }
+
+  std::string readText()
+  {
+    std::string text(this->read<std::size_t>(), ' ');
+    this->read(text.data(), text.size());
+    return text;
   }
 
 private:

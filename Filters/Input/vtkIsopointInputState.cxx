@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInputState.h"
 
-#include "Core/Base/Execution.h"
+#include "Core/Base/Hash.h"
 #include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkBitArray.h"
@@ -43,49 +43,20 @@ void add(vtkIsopointInputState& state, vtkCellArray* cells)
   add(state, cells ? cells->GetOffsetsArray() : nullptr);
 }
 
-/// A hash, FNV-1a, that changing one number always changes.
-class Hash
-{
-public:
-  void Add(std::uint64_t number) { this->Value = (this->Value ^ number) * 1099511628211u; }
-  vtkMTimeType Get() const { return static_cast<vtkMTimeType>(this->Value); }
-
-private:
-  std::uint64_t Value = 14695981039346656037u;
-};
-
-/// Adds hashes of the flags in an array, each of so many values. Blanking a point or a cell and
-/// masking a node change flags in place without a new modification time.
+/// Adds a hash of the flags in an array, of bits or bytes. Blanking a point or a cell and masking a
+/// node change flags in place without a new modification time.
 template <class TArray>
 void addFlags(const isopoint::Execution& execution, vtkIsopointInputState& state, TArray* flags)
 {
   add(state, static_cast<vtkObject*>(flags));
   const vtkIdType count = flags ? flags->GetNumberOfValues() : 0;
   state.push_back(static_cast<vtkMTimeType>(count));
-  constexpr vtkIdType hashed = 1 << 16;
-  constexpr vtkIdType perNumber = 8;
-  const std::size_t first = state.size();
-  const auto hashes = static_cast<std::size_t>((count + hashed - 1) / hashed);
-  state.resize(first + hashes);
-  isopoint::forBatches(execution, hashes, 64, 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        Hash hash;
-        const vtkIdType last = std::min(static_cast<vtkIdType>(i + 1) * hashed, count);
-        for (vtkIdType value = static_cast<vtkIdType>(i) * hashed; value < last;)
-        {
-          std::uint64_t number = 0;
-          for (const vtkIdType next = std::min(value + perNumber, last); value < next; ++value)
-          {
-            number = number << 8 | static_cast<unsigned char>(flags->GetValue(value));
-          }
-          hash.Add(number);
-        }
-        state[first + i] = hash.Get();
-      }
-    });
+  if (count > 0)
+  {
+    const vtkIdType perByte = flags->GetDataType() == VTK_BIT ? 8 : 1;
+    state.push_back(isopoint::hashOf(
+      execution, flags->GetPointer(0), static_cast<std::size_t>((count + perByte - 1) / perByte)));
+  }
 }
 
 void addGhosts(const isopoint::Execution& execution, vtkIsopointInputState& state,
@@ -140,13 +111,15 @@ void addTrees(
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        Hash hash;
-        hash.Add(static_cast<std::uint64_t>(all[i]->GetTreeIndex()));
-        for (vtkIdType vertex = 0; vertex < all[i]->GetNumberOfVertices(); ++vertex)
+        const auto count = static_cast<std::size_t>(all[i]->GetNumberOfVertices());
+        std::vector<std::uint64_t> numbers(count + 1);
+        numbers[count] = static_cast<std::uint64_t>(all[i]->GetTreeIndex());
+        for (std::size_t vertex = 0; vertex < count; ++vertex)
         {
-          hash.Add(static_cast<std::uint64_t>(all[i]->GetGlobalIndexFromLocal(vertex)));
+          numbers[vertex] = static_cast<std::uint64_t>(
+            all[i]->GetGlobalIndexFromLocal(static_cast<vtkIdType>(vertex)));
         }
-        state[first + i] = hash.Get();
+        state[first + i] = isopoint::hashOf(numbers.data(), numbers.size());
       }
     });
 }

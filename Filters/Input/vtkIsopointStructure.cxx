@@ -4,7 +4,6 @@
 #include "Core/Base/Team.h"
 #include "Core/Base/UsageError.h"
 #include "Input/vtkIsopointCompatibility.h"
-#include "Input/vtkIsopointTextBytes.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -229,7 +228,7 @@ void vtkIsopointStructure::FillChildren(const std::vector<vtkSmartPointer<vtkPol
 void vtkIsopointStructure::Write(isopoint::ByteBuffer& bytes) const
 {
   isopoint::append(bytes, this->Type);
-  vtkAppendText(bytes, this->Name);
+  isopoint::appendText(bytes, this->Name);
   isopoint::append(bytes, this->Children.size());
   for (const vtkIsopointStructure& child : this->Children)
   {
@@ -241,7 +240,7 @@ vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
 {
   vtkIsopointStructure structure;
   structure.Type = bytes.read<int>();
-  structure.Name = vtkReadText(bytes);
+  structure.Name = bytes.readText();
   structure.Children.resize(bytes.read<std::size_t>());
   for (vtkIsopointStructure& child : structure.Children)
   {

@@ -2,7 +2,6 @@
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "Input/vtkIsopointAllocation.h"
-#include "Input/vtkIsopointTextBytes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -48,19 +47,19 @@ std::size_t sizeOf(vtkAbstractArray* array)
 void writeArray(vtkAbstractArray* array, ByteBuffer& bytes)
 {
   const int components = array->GetNumberOfComponents();
-  vtkAppendText(bytes, textOf(array->GetName()));
+  isopoint::appendText(bytes, textOf(array->GetName()));
   isopoint::append(bytes, array->GetDataType());
   isopoint::append(bytes, components);
   isopoint::append(bytes, array->GetNumberOfTuples());
   for (int i = 0; i < components; ++i)
   {
-    vtkAppendText(bytes, textOf(array->GetComponentName(i)));
+    isopoint::appendText(bytes, textOf(array->GetComponentName(i)));
   }
   if (auto* const strings = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
     {
-      vtkAppendText(bytes, std::string(strings->GetValue(i)));
+      isopoint::appendText(bytes, std::string(strings->GetValue(i)));
     }
     return;
   }
@@ -70,7 +69,7 @@ void writeArray(vtkAbstractArray* array, ByteBuffer& bytes)
 
 vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
 {
-  const std::string name = vtkReadText(reader);
+  const std::string name = reader.readText();
   const auto array =
     vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(reader.read<int>()));
   const auto components = reader.read<int>();
@@ -79,7 +78,7 @@ vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
   array->SetNumberOfComponents(components);
   for (int i = 0; i < components; ++i)
   {
-    const std::string componentName = vtkReadText(reader);
+    const std::string componentName = reader.readText();
     if (!componentName.empty())
     {
       array->SetComponentName(i, componentName.c_str());
@@ -90,7 +89,7 @@ vtkSmartPointer<vtkAbstractArray> readArray(isopoint::ByteReader& reader)
   {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
     {
-      strings->SetValue(i, vtkReadText(reader));
+      strings->SetValue(i, reader.readText());
     }
     return array;
   }

@@ -5,14 +5,13 @@
 #include "Core/OutputArrays.h"
 #include "Input/vtkIsopointAllocation.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
@@ -22,9 +21,10 @@ namespace
 {
 
 /// A new array, or null if it is not to be computed.
+/// @param values receives its memory, or null
 template <class TArray>
-vtkSmartPointer<TArray> newArray(
-  bool isComputed, const char* name, int components, vtkIdType tuples)
+vtkSmartPointer<TArray> newArray(bool isComputed, const char* name, int components,
+  vtkIdType tuples, typename TArray::ValueType*& values)
 {
   if (!isComputed)
   {
@@ -34,80 +34,60 @@ vtkSmartPointer<TArray> newArray(
   array->SetName(name);
   array->SetNumberOfComponents(components);
   vtkAllocateTuples(array, tuples);
+  values = array->GetPointer(0);
   return array;
-}
-
-/// The values of an array, or null.
-template <class TArray>
-auto valuesOf(const vtkSmartPointer<TArray>& array)
-{
-  return array ? array->GetPointer(0) : nullptr;
 }
 
 } // namespace
 
-vtkIsopointComputedArrays::vtkIsopointComputedArrays(
-  const isopoint::Options& options, vtkIdType count)
-  : IsProjected(options.projection != 0)
-  , Normals(newArray<vtkFloatArray>(options.computeNormals, "Normals", 3, count))
-  , Radius(newArray<vtkFloatArray>(options.computeSplats, "Radius", 1, count))
-  , SplatAxis(newArray<vtkFloatArray>(options.computeSplats, "SplatAxis", 3, count))
-  , SplatPolygon(newArray<vtkFloatArray>(
-      options.computeSplats, "SplatPolygon", static_cast<int>(isopoint::polygonNumbers), count))
-  , Gradients(newArray<vtkFloatArray>(options.computeGradients, "Gradients", 3, count))
-  , ProjectionOrder(
-      newArray<vtkUnsignedCharArray>(options.computeProjectionOrders, "ProjectionOrder", 1, count))
+std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution& execution,
+  const isopoint::Options& options, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
+  vtkPolyData* output)
 {
-}
-
-void vtkIsopointComputedArrays::Write(
-  const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces)
-{
-  isopoint::OutputArrays arrays;
-  arrays.normals = valuesOf(this->Normals);
-  arrays.radii = valuesOf(this->Radius);
-  arrays.splatAxes = valuesOf(this->SplatAxis);
-  arrays.splatPolygons = valuesOf(this->SplatPolygon);
-  arrays.gradients = valuesOf(this->Gradients);
-  arrays.projectionOrders = valuesOf(this->ProjectionOrder);
+  const vtkIdType count = output->GetNumberOfPoints();
+  const bool hasSplats = options.computeSplats;
+  isopoint::OutputArrays memory;
+  const auto normals =
+    newArray<vtkFloatArray>(options.computeNormals, "Normals", 3, count, memory.normals);
+  const auto radii = newArray<vtkFloatArray>(hasSplats, "Radius", 1, count, memory.radii);
+  const auto gradients =
+    newArray<vtkFloatArray>(options.computeGradients, "Gradients", 3, count, memory.gradients);
+  const auto orders = newArray<vtkUnsignedCharArray>(
+    options.computeProjectionOrders, "ProjectionOrder", 1, count, memory.projectionOrders);
+  const auto axes = newArray<vtkFloatArray>(hasSplats, "SplatAxis", 3, count, memory.splatAxes);
+  const auto polygons = newArray<vtkFloatArray>(hasSplats, "SplatPolygon",
+    static_cast<int>(isopoint::polygonNumbers), count, memory.splatPolygons);
   std::size_t first = 0;
   for (const isopoint::ExtractedIsosurface& surface : surfaces)
   {
-    isopoint::writeArrays(execution, surface, this->IsProjected, first, arrays);
+    isopoint::writeArrays(execution, surface, options.projection != 0, first, memory);
     first += surface.surface.size();
   }
-}
 
-std::vector<std::string> vtkIsopointComputedArrays::AddTo(vtkPolyData* output) const
-{
   vtkPointData* const pointData = output->GetPointData();
   std::vector<std::string> replaced;
-  for (vtkDataArray* const array : std::initializer_list<vtkDataArray*>{
-         this->Normals, this->Radius, this->Gradients, this->ProjectionOrder })
+  for (vtkDataArray* const array :
+    std::initializer_list<vtkDataArray*>{ normals, radii, gradients, orders })
   {
-    if (!array)
+    if (array)
     {
-      continue;
-    }
-    if (pointData->HasArray(array->GetName()))
-    {
-      replaced.emplace_back(array->GetName());
-    }
-    if (array == this->Normals)
-    {
-      pointData->SetNormals(array);
-    }
-    else
-    {
+      if (pointData->HasArray(array->GetName()))
+      {
+        replaced.emplace_back(array->GetName());
+      }
       pointData->AddArray(array);
     }
   }
-  if (this->SplatPolygon)
+  if (normals)
+  {
+    pointData->SetActiveNormals(normals->GetName());
+  }
+  if (hasSplats)
   {
     vtkCellData* const cellData = output->GetCellData();
-    cellData->SetVectors(this->SplatAxis); // transforms of points turn active vectors
-    cellData->AddArray(this->SplatPolygon);
-    for (vtkFloatArray* const array : { this->SplatAxis.Get(), this->SplatPolygon.Get() })
+    cellData->SetVectors(axes); // transforms of points turn active vectors
+    cellData->AddArray(polygons);
+    for (vtkFloatArray* const array : { axes.Get(), polygons.Get() })
     {
       array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
     }

@@ -2,6 +2,7 @@
 #include "Output/vtkIsopointEndSamples.h"
 
 #include "Core/Base/Team.h"
+#include "Core/EndSamples.h"
 #include "Input/vtkIsopointAllocation.h"
 #include "Output/vtkIsopointArrayBytes.h"
 
@@ -18,49 +19,6 @@
 
 namespace
 {
-
-using isopoint::CoincidentSamples;
-using isopoint::ExtractedIsosurface;
-using isopoint::IsopointEdge;
-
-/// The ids of all samples at ends of edges and of those that coincide with them, ascending.
-std::vector<std::uint64_t> idsOf(const std::vector<ExtractedIsosurface>& surfaces)
-{
-  std::vector<std::uint64_t> ids;
-  for (const ExtractedIsosurface& extracted : surfaces)
-  {
-    for (const IsopointEdge& edge : extracted.surface.edges)
-    {
-      ids.insert(ids.end(), { edge.first, edge.second });
-    }
-    for (const CoincidentSamples& group : extracted.surface.coincident)
-    {
-      ids.insert(ids.end(), group.ids.begin(), group.ids.end());
-    }
-  }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
-}
-
-/// Replaces each id by its position among the sorted ids.
-void renumber(std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
-{
-  const auto renumberOne = [&ids](std::uint64_t& id)
-  { id = static_cast<std::uint64_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()); };
-  for (ExtractedIsosurface& extracted : surfaces)
-  {
-    for (IsopointEdge& edge : extracted.surface.edges)
-    {
-      renumberOne(edge.first);
-      renumberOne(edge.second);
-    }
-    for (CoincidentSamples& group : extracted.surface.coincident)
-    {
-      std::for_each(group.ids.begin(), group.ids.end(), renumberOne);
-    }
-  }
-}
 
 vtkIdType countOf(const vtkIsopointBlock& block)
 {
@@ -207,25 +165,6 @@ vtkSmartPointer<vtkPointData> copiedInOrder(
   return ordered;
 }
 
-/// For each rank those of some sorted ids that its samples have, counted from its first one.
-/// @param counts the number of samples of each rank
-std::vector<std::vector<std::uint64_t>> idsByRank(
-  const std::vector<std::uint64_t>& ids, const std::vector<std::uint64_t>& counts)
-{
-  std::vector<std::vector<std::uint64_t>> byRank(counts.size());
-  std::uint64_t first = 0;
-  auto next = ids.begin();
-  for (std::size_t rank = 0; rank < counts.size(); ++rank)
-  {
-    for (; next != ids.end() && *next < first + counts[rank]; ++next)
-    {
-      byRank[rank].push_back(*next - first);
-    }
-    first += counts[rank];
-  }
-  return byRank;
-}
-
 } // namespace
 
 vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
@@ -237,9 +176,9 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
   }
   else if (blocks.size() > 1)
   {
-    const std::vector<std::uint64_t> ids = idsOf(surfaces);
+    const std::vector<std::uint64_t> ids = isopoint::endSamples(surfaces);
     this->Use(copiedSamples(blocks, ids));
-    renumber(surfaces, ids);
+    isopoint::renumberEndSamples(surfaces, ids);
   }
   else
   {
@@ -256,15 +195,15 @@ void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
   const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
     [](std::uint64_t sum, const vtkIsopointBlock& block)
     { return sum + static_cast<std::uint64_t>(countOf(block)); });
-  const std::vector<std::uint64_t> ids = idsOf(surfaces);
+  const std::vector<std::uint64_t> ids = isopoint::endSamples(surfaces);
   std::vector<isopoint::ByteBuffer> answers;
-  for (const auto& wanted : team.exchange(idsByRank(ids, team.gather(ownCount))))
+  for (const auto& wanted : team.exchange(isopoint::idsByRank(ids, team.gather(ownCount))))
   {
     answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
                                      : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
   }
   this->Join(team.exchange(answers), ids.size());
-  renumber(surfaces, ids);
+  isopoint::renumberEndSamples(surfaces, ids);
 }
 
 void vtkIsopointEndSamples::Join(

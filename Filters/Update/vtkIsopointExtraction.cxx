@@ -224,14 +224,12 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
     vtkAddContouredArray(samples.GetScalars(), surfaces, pointData);
   }
 
-  vtkIsopointComputedArrays computed(this->Options.Core, count);
-  computed.Write(this->Execution, surfaces);
-  isopoint::throwIfAborted(this->Execution);
   if (this->IsOnRanks() && this->GhostLevels > 0)
   {
     vtkAddIsopointGhosts(surfaces, output);
   }
-  for (const std::string& name : computed.AddTo(output))
+  for (const std::string& name :
+    vtkAddComputedIsopointArrays(this->Execution, this->Options.Core, surfaces, output))
   {
     this->Report.ReplacedArrays.insert(name);
   }

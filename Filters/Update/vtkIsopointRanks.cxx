@@ -148,28 +148,3 @@ std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team)
   const std::vector<std::uint64_t> all = team.gather(own);
   return static_cast<std::size_t>(std::count(all.begin(), all.end(), own));
 }
-
-std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem)
-{
-  if (team.size() == 1)
-  {
-    return problem;
-  }
-  const auto size = static_cast<std::uint64_t>(team.size());
-  const auto own = static_cast<std::uint64_t>(team.rank());
-  const std::uint64_t lowest = size - team.maximum(problem.empty() ? 0 : size - own);
-  if (lowest == size)
-  {
-    return {};
-  }
-  std::vector<std::vector<char>> outgoing(static_cast<std::size_t>(size));
-  if (lowest == own)
-  {
-    outgoing.front().assign(problem.begin(), problem.end());
-  }
-  const std::vector<std::vector<char>> arrived = team.exchange(outgoing);
-  const std::vector<char>& text = arrived[static_cast<std::size_t>(lowest)];
-  return text.empty()
-           ? std::string()
-           : "Rank " + std::to_string(lowest) + ": " + std::string(text.begin(), text.end());
-}

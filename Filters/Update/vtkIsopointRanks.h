@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 class vtkMultiProcessController;
@@ -51,11 +50,5 @@ bool vtkHasOtherProcesses();
  * The number of ranks that run on the same cores as this rank, itself included. Collective.
  */
 std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team);
-
-/**
- * The message of the lowest rank that has one, preceded by the number of that rank, on rank 0;
- * empty on all others, and if none has one. Collective.
- */
-std::string vtkGatherIsopointProblem(isopoint::Team& team, const std::string& problem);
 
 #endif

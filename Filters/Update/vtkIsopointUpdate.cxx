@@ -94,7 +94,7 @@ unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
     this->Team.together(
       [&]()
       {
-        message = vtkGatherIsopointProblem(this->Team, failure.text);
+        message = isopoint::firstText(this->Team, failure);
         code = static_cast<unsigned long>(this->Team.maximum(code));
       });
   }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Hash_h
+#define isopoint_Hash_h
+
+#include "Core/Base/Execution.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace isopoint
+{
+
+/// A hash of numbers (FNV-1a, eight bytes at a time) that changing one of them always changes.
+inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    hash = (hash ^ numbers[i]) * 1099511628211u;
+  }
+  return hash;
+}
+
+/// A hash of bytes, likewise, on all threads. O(bytes)
+/// @throws Aborted, std::bad_alloc
+inline std::uint64_t hashOf(
+  const Execution& execution, const unsigned char* bytes, std::size_t count)
+{
+  constexpr std::size_t hashed = std::size_t{ 1 } << 16; // bytes in one part
+  constexpr std::size_t numbers = hashed / sizeof(std::uint64_t);
+  std::vector<std::uint64_t> parts((count + hashed - 1) / hashed);
+  forBatches(execution, parts.size(), 64, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<std::uint64_t> part(numbers);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::fill(part.begin(), part.end(), 0);
+        std::memcpy(part.data(), bytes + i * hashed, std::min(hashed, count - i * hashed));
+        parts[i] = hashOf(part.data(), numbers);
+      }
+    });
+  return hashOf(parts.data(), parts.size());
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_EndSamples_h
+#define isopoint_EndSamples_h
+
+#include "Core/ExtractionRequest.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The ids of all samples at ends of edges and of those that coincide with them, ascending.
+std::vector<std::uint64_t> endSamples(const std::vector<ExtractedIsosurface>& surfaces);
+
+/// Replaces each id by its position among the sorted ids that endSamples() returns.
+void renumberEndSamples(
+  std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids);
+
+/// For each rank those of some sorted ids that its samples have, counted from its first one.
+/// @param counts the number of samples of each rank
+std::vector<std::vector<std::uint64_t>> idsByRank(
+  const std::vector<std::uint64_t>& ids, const std::vector<std::uint64_t>& counts);
+
+} // namespace isopoint
+
+#endif
