@@ -125,6 +125,13 @@ std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
 /// The options with those that have no effect on triangles as if they were not there.
 Options effectiveOptions(const Options& options);
 
+/// Whether the output's positions are float. @param areFloatPositions those of all samples
+inline bool isSinglePrecision(const Options& options, bool areFloatPositions)
+{
+  const auto precision = static_cast<Precision>(options.outputPointsPrecision);
+  return precision == Precision::Single || (precision == Precision::Input && areFloatPositions);
+}
+
 /// What the core is to do, without an isovalue.
 /// @param options effective ones
 ExtractionRequest requestOf(const Options& options);

@@ -186,6 +186,30 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
       " to None. Samples along lines, such as drill holes, do not determine a surface." };
 }
 
+std::vector<Message> describeReplacedArrays(const Report& report)
+{
+  std::vector<Message> messages;
+  for (const std::string& name : report.replacedArrays)
+  {
+    messages.push_back({ "replaced array " + name,
+      "The computed array \"" + name +
+        "\" replaces the input array of this name. To keep that, rename it or switch the computed"
+        " array off." });
+  }
+  return messages;
+}
+
+Message describePieces(const Report& report)
+{
+  if (!report.isPieceOfProcess)
+  {
+    return {};
+  }
+  return { "pieces of processes",
+    "Each process yields a piece of the surface of its own samples. If the processes have"
+    " different samples, call SetController() with the global controller." };
+}
+
 } // namespace
 
 Report::Report(const Options& options, const std::vector<double>& sortedIsovalues)
@@ -252,6 +276,9 @@ std::vector<Message> describeReport(const Report& report, OptionNaming naming)
   std::vector<Message> messages = describeIsovalues(report, naming);
   messages.push_back(describeSkipped(report));
   messages.push_back(describeUnprojected(report, naming));
+  messages.push_back(describePieces(report));
+  const std::vector<Message> replaced = describeReplacedArrays(report);
+  messages.insert(messages.end(), replaced.begin(), replaced.end());
   messages.erase(std::remove_if(messages.begin(), messages.end(),
                    [](const Message& message) { return message.text.empty(); }),
     messages.end());

@@ -13,7 +13,6 @@
 #include "Output/vtkIsopointPiece.h"
 #include "Update/vtkIsopointExecution.h"
 #include "Update/vtkIsopointRanks.h"
-#include "Update/vtkIsopointReport.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
@@ -35,7 +34,7 @@
 #include <utility>
 
 vtkIsopointExtraction::vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
-  const vtkIsopointOptions& options, Kept& kept, vtkIsopointReport& report)
+  const vtkIsopointOptions& options, Kept& kept, isopoint::Report& report)
   : Filter(filter)
   , Team(team)
   , Options(options)
@@ -79,7 +78,7 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
     this->ExtractBlocks(
       0, this->State.Input.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
   }
-  this->Report.Counts.share(this->Team);
+  this->Report.share(this->Team);
   if (this->IsOnRanks())
   {
     return;
@@ -90,7 +89,7 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
   {
     const int piece = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER());
     vtkTakeIsopointPiece(piece, pieces, output);
-    this->Report.IsPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
+    this->Report.isPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
   }
 }
 
@@ -129,7 +128,7 @@ void vtkIsopointExtraction::StartCounting(const std::vector<double>& isovalues)
   const char* const name =
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
   counts.array = name ? name : "";
-  this->Report.Counts = std::move(counts);
+  this->Report = std::move(counts);
 }
 
 void vtkIsopointExtraction::ExtractLeaves(
@@ -187,10 +186,10 @@ void vtkIsopointExtraction::ExtractBlocks(
       isopoint::partOf(this->Execution, 0.0, loaded), this->Team, types, blocks, kept.Extractor);
     kept.LoadedFrom = std::move(state);
   }
-  this->Report.Counts.countSamples(kept.Extractor, vtkCountIsopointSamples(blocks));
+  this->Report.countSamples(kept.Extractor, vtkCountIsopointSamples(blocks));
   std::vector<isopoint::ExtractedIsosurface> surfaces =
     isopoint::extractIsovalues(isopoint::partOf(this->Execution, loaded, 1.0), kept.Extractor,
-      this->Options.Core, this->GhostLevels, this->Report.Counts);
+      this->Options.Core, this->GhostLevels, this->Report);
   const vtkIsopointEndSamples samples(this->Team, blocks, surfaces);
   this->FillOutput(samples, surfaces, types.areFloatPositions, output);
   this->Filter->UpdateProgress(1.0);
@@ -200,9 +199,7 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool areFloatPositions,
   vtkPolyData* output)
 {
-  const auto precision = static_cast<isopoint::Precision>(this->Options.Core.outputPointsPrecision);
-  const bool isSingle = precision == isopoint::Precision::Single ||
-                        (precision == isopoint::Precision::Input && areFloatPositions);
+  const bool isSingle = isopoint::isSinglePrecision(this->Options.Core, areFloatPositions);
   const vtkSmartPointer<vtkPoints> points =
     vtkNewIsopointPositions(this->Execution, surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE);
   const vtkIdType count = points->GetNumberOfPoints();
@@ -231,6 +228,6 @@ void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,
   for (const std::string& name :
     vtkAddComputedIsopointArrays(this->Execution, this->Options.Core, surfaces, output))
   {
-    this->Report.ReplacedArrays.insert(name);
+    this->Report.replacedArrays.insert(name);
   }
 }

@@ -5,6 +5,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Team.h"
 #include "Core/IsosurfaceExtractor.h"
+#include "Core/Report.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Input/vtkIsopointInputState.h"
 #include "Update/vtkIsopointOptions.h"
@@ -20,7 +21,6 @@ class vtkInformation;
 class vtkIsopointEndSamples;
 class vtkIsopointStructure;
 class vtkPolyData;
-struct vtkIsopointReport;
 
 /**
  * The extraction of one update, from the input to the output. On several ranks all of them run it.
@@ -51,7 +51,7 @@ public:
   /// @param team must outlive what is kept
   /// @param report receives what is found out
   vtkIsopointExtraction(vtkAlgorithm* filter, isopoint::Team& team,
-    const vtkIsopointOptions& options, Kept& kept, vtkIsopointReport& report);
+    const vtkIsopointOptions& options, Kept& kept, isopoint::Report& report);
 
   /// Fills the output. Called inside isopoint::Team::together().
   /// @throws isopoint::UsageError, or what isopoint::IsosurfaceExtractor throws
@@ -75,7 +75,7 @@ private:
   isopoint::Team& Team;
   vtkIsopointOptions Options; // as they were when the update began
   Kept& State;
-  vtkIsopointReport& Report;
+  isopoint::Report& Report;
   isopoint::Execution Execution;
   int GhostLevels = 0; // that are requested of the output
 };

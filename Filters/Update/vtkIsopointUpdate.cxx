@@ -32,7 +32,7 @@ void vtkIsopointUpdate::SetController(vtkMultiProcessController* controller)
 unsigned long vtkIsopointUpdate::Run(
   const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
-  this->Report = vtkIsopointReport();
+  this->Report = isopoint::Report();
   const bool keepsTree = options.KeepTree;
   isopoint::Failure failure;
   try
@@ -60,7 +60,7 @@ unsigned long vtkIsopointUpdate::Run(
     return 0;
   }
   vtkDataObject::GetData(outputInfo)->Initialize();
-  this->Report = vtkIsopointReport();
+  this->Report = isopoint::Report();
   return this->ReportFailure(failure);
 }
 
@@ -119,7 +119,7 @@ void vtkIsopointUpdate::ReportMessages()
   std::vector<isopoint::Message> messages;
   try
   {
-    messages = this->Report.Describe();
+    messages = isopoint::describeReport(this->Report);
   }
   catch (const std::bad_alloc&)
   {

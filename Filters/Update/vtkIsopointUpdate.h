@@ -3,9 +3,9 @@
 #define vtkIsopointUpdate_h
 
 #include "Core/Failure.h"
+#include "Core/Report.h"
 #include "Update/vtkIsopointExtraction.h"
 #include "Update/vtkIsopointRanks.h"
-#include "Update/vtkIsopointReport.h"
 
 #include "vtkWeakPointer.h"
 
@@ -40,7 +40,7 @@ public:
     const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
 
   /// Of the last update; nothing if that failed.
-  const isopoint::Report& GetReport() const { return this->Report.Counts; }
+  const isopoint::Report& GetReport() const { return this->Report; }
 
 private:
   unsigned long ReportFailure(isopoint::Failure& failure);
@@ -50,7 +50,7 @@ private:
   vtkIsopointCommunicator Communicator;
   isopoint::Team Team;
   vtkIsopointExtraction::Kept Kept;
-  vtkIsopointReport Report;
+  isopoint::Report Report;
   std::set<std::string> Reported;          // causes of messages in the last update
   vtkWeakPointer<vtkAlgorithm> ReportedOf; // the producer of its input
 };
