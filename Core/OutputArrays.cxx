@@ -9,14 +9,6 @@ namespace isopoint
 namespace
 {
 
-/// A radius as float, clamped to its positive range.
-float asFloatRadius(double radius)
-{
-  using Limits = std::numeric_limits<float>;
-  return static_cast<float>(
-    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
-}
-
 /// Writes a vector as the tuple of a number, unless there is no array.
 void write(const Vector& vector, std::size_t tuple, float* array)
 {
@@ -33,19 +25,13 @@ void writeSplat(const Splat& splat, std::size_t tuple, const OutputArrays& array
   write(splat.axis, tuple, arrays.splatAxes);
   if (arrays.radii)
   {
-    arrays.radii[tuple] = asFloatRadius(splat.radius);
+    arrays.radii[tuple] = radiusNumber(splat.radius);
   }
   if (arrays.splatPolygons)
   {
-    float* next = arrays.splatPolygons + polygonNumbers * tuple;
-    for (const SplatCorner& corner : splat.corners)
-    {
-      for (const float number :
-        { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
-      {
-        *next++ = number;
-      }
-    }
+    const SplatNumbers numbers = numbersOf(splat.corners);
+    std::transform(numbers.begin(), numbers.end(), arrays.splatPolygons + numbersOfSplat * tuple,
+      [](double number) { return static_cast<float>(number); });
   }
 }
 

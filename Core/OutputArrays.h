@@ -14,16 +14,13 @@
 namespace isopoint
 {
 
-/// The numbers of a splat's polygon in arrays: five of each corner, in the order of SplatCorner.
-constexpr std::size_t polygonNumbers = 5 * mostCorners;
-
 /// Memory for the computed arrays of isopoints; null for those that are not wanted.
 struct OutputArrays
 {
   float* normals = nullptr; // three numbers of each isopoint
   float* radii = nullptr;
   float* splatAxes = nullptr;     // three
-  float* splatPolygons = nullptr; // polygonNumbers
+  float* splatPolygons = nullptr; // numbersOfSplat
   float* gradients = nullptr;     // three
   std::uint8_t* projectionOrders = nullptr;
 };

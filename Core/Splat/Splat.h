@@ -2,29 +2,15 @@
 #ifndef isopoint_Splat_h
 #define isopoint_Splat_h
 
+#include "Core/Base/SplatNumbers.h"
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
-
-/// A corner of a splat: its offset from the point, in units of the splat's radius, and the normal
-/// of the surface there, along normal + slopeAlong * t1 + slopeAcross * t2.
-struct SplatCorner
-{
-  float along;  // t1
-  float across; // t2
-  float height; // along the normal
-  float slopeAlong;
-  float slopeAcross;
-};
-
-/// Cells with more corners lose their shortest sides.
-constexpr std::size_t mostCorners = 8;
 
 /// The part of the surface that is drawn for a point: the triangles between the point and each two
 /// consecutive corners.
@@ -36,7 +22,7 @@ struct Splat
   /// Counterclockwise seen from the tip of the normal, but for rare ones that have passed each
   /// other where cells meet. Further corners repeat the last one; all are 0 at a point where
   /// another one comes first.
-  std::array<SplatCorner, mostCorners> corners;
+  SplatCorners corners;
 };
 
 /// The points of one surface, one entry each.

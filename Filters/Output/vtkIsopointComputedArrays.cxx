@@ -56,7 +56,7 @@ std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution&
     options.computeProjectionOrders, "ProjectionOrder", 1, count, memory.projectionOrders);
   const auto axes = newArray<vtkFloatArray>(hasSplats, "SplatAxis", 3, count, memory.splatAxes);
   const auto polygons = newArray<vtkFloatArray>(hasSplats, "SplatPolygon",
-    static_cast<int>(isopoint::polygonNumbers), count, memory.splatPolygons);
+    static_cast<int>(isopoint::numbersOfSplat), count, memory.splatPolygons);
   std::size_t first = 0;
   for (const isopoint::ExtractedIsosurface& surface : surfaces)
   {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SplatNumbers_h
+#define isopoint_SplatNumbers_h
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace isopoint
+{
+
+/// A corner of a splat: its offset from the point, in units of the splat's radius, and the normal
+/// of the surface there, along normal + slopeAlong * t1 + slopeAcross * t2.
+struct SplatCorner
+{
+  float along;  // t1
+  float across; // t2
+  float height; // along the normal
+  float slopeAlong;
+  float slopeAcross;
+};
+
+/// Cells with more corners lose their shortest sides.
+constexpr std::size_t mostCorners = 8;
+
+using SplatCorners = std::array<SplatCorner, mostCorners>;
+
+/// Corners as arrays hold them: the members of one after the other, in their order.
+constexpr std::size_t numbersOfCorner = 5;
+constexpr std::size_t numbersOfSplat = numbersOfCorner * mostCorners;
+using SplatNumbers = std::array<double, numbersOfSplat>;
+
+inline SplatNumbers numbersOf(const SplatCorners& corners)
+{
+  SplatNumbers numbers;
+  auto next = numbers.begin();
+  for (const SplatCorner& corner : corners)
+  {
+    for (const float number :
+      { corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross })
+    {
+      *next++ = number;
+    }
+  }
+  return numbers;
+}
+
+/// A radius as arrays hold it: of float, clamped to its positive range.
+inline float radiusNumber(double radius)
+{
+  using Limits = std::numeric_limits<float>;
+  return static_cast<float>(
+    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
+}
+
+} // namespace isopoint
+
+#endif
