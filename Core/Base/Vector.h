@@ -16,6 +16,11 @@ using Vector = std::array<double, 3>;
 /// The second derivatives xx, yy, zz, xy, xz, yz of a function of the position.
 using Hessian = std::array<double, 6>;
 
+inline bool isFinite(const Vector& vector)
+{
+  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
 inline double dot(const Vector& a, const Vector& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -25,11 +25,6 @@ constexpr double mostOffset = 1.0;
 /// the triangle.
 constexpr double mostCornerOffset = 2.0;
 
-bool isFinite(const Vector& vector)
-{
-  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
-}
-
 class CreaseSplitter
 {
 public:
