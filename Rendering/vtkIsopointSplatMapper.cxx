@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatMapper.h"
 
-#include "vtkIsopointSplatPolygons.h"
-
 #include "vtkAlgorithmOutput.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 
 vtkStandardNewMacro(vtkIsopointSplatMapper);
-
-vtkIsopointSplatMapper::vtkIsopointSplatMapper() = default;
-vtkIsopointSplatMapper::~vtkIsopointSplatMapper() = default;
 
 //------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::SetInputConnection(int port, vtkAlgorithmOutput* input)
@@ -44,48 +39,6 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 vtkMTimeType vtkIsopointSplatMapper::GetMTime()
 {
   return std::max(this->Superclass::GetMTime(), this->Polygons->GetMTime());
-}
-
-//------------------------------------------------------------------------------
-vtkIsopointSplatPolygons* vtkIsopointSplatMapper::GetPolygons()
-{
-  return this->Polygons;
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadiusArrayName(const char* name)
-{
-  this->Polygons->SetRadiusArrayName(name);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkIsopointSplatMapper::GetRadiusArrayName()
-{
-  return this->Polygons->GetRadiusArrayName();
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadius(double radius)
-{
-  this->Polygons->SetRadius(radius);
-}
-
-//------------------------------------------------------------------------------
-double vtkIsopointSplatMapper::GetRadius()
-{
-  return this->Polygons->GetRadius();
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatMapper::SetRadiusScale(double scale)
-{
-  this->Polygons->SetRadiusScale(scale);
-}
-
-//------------------------------------------------------------------------------
-double vtkIsopointSplatMapper::GetRadiusScale()
-{
-  return this->Polygons->GetRadiusScale();
 }
 
 //------------------------------------------------------------------------------

@@ -22,10 +22,9 @@
 #define vtkIsopointSplatMapper_h
 
 #include "vtkIsopointPolygonMapper.h"
+#include "vtkIsopointSplatPolygons.h"            // for the shape of splats
 #include "vtkNew.h"                              // for vtkNew
 #include "vtkScatteredIsopointRenderingModule.h" // for the export macro
-
-class vtkIsopointSplatPolygons;
 
 class VTKSCATTEREDISOPOINTRENDERING_EXPORT vtkIsopointSplatMapper : public vtkIsopointPolygonMapper
 {
@@ -38,18 +37,18 @@ public:
   /**
    * The shape of splats, see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
    */
-  void SetRadiusArrayName(const char* name);
-  const char* GetRadiusArrayName();
-  void SetRadius(double radius);
-  double GetRadius();
-  void SetRadiusScale(double scale);
-  double GetRadiusScale();
+  void SetRadiusArrayName(const char* name) { this->Polygons->SetRadiusArrayName(name); }
+  const char* GetRadiusArrayName() { return this->Polygons->GetRadiusArrayName(); }
+  void SetRadius(double radius) { this->Polygons->SetRadius(radius); }
+  double GetRadius() { return this->Polygons->GetRadius(); }
+  void SetRadiusScale(double scale) { this->Polygons->SetRadiusScale(scale); }
+  double GetRadiusScale() { return this->Polygons->GetRadiusScale(); }
   ///@}
 
   /**
    * The filter that makes the triangles.
    */
-  vtkIsopointSplatPolygons* GetPolygons();
+  vtkIsopointSplatPolygons* GetPolygons() { return this->Polygons; }
 
   using vtkIsopointPolygonMapper::SetInputConnection;
   void SetInputConnection(int port, vtkAlgorithmOutput* input) override;
@@ -57,8 +56,8 @@ public:
   vtkMTimeType GetMTime() override;
 
 protected:
-  vtkIsopointSplatMapper();
-  ~vtkIsopointSplatMapper() override;
+  vtkIsopointSplatMapper() = default;
+  ~vtkIsopointSplatMapper() override = default;
 
 private:
   vtkIsopointSplatMapper(const vtkIsopointSplatMapper&) = delete;
