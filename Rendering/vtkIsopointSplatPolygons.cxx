@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointSplatPolygons.h"
 
-#include "vtkIsopointSplatMesh.h"
 #include "vtkIsopointSplatShapes.h"
 #include "vtkIsopointVertexCells.h"
 
+#include "Core/Base/Execution.h"
+#include "Core/SplatMesh/SplatMesh.h"
+
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -29,164 +32,156 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <limits>
 #include <new>
 #include <string>
-#include <vector>
 
 vtkStandardNewMacro(vtkIsopointSplatPolygons);
 
 namespace
 {
 
-void setGeometry(const vtkIsopointSplatMesh& mesh, int pointType, vtkPolyData* output)
+using isopoint::Execution;
+using isopoint::SplatMesh;
+
+Execution executionOf(vtkAlgorithm* filter)
 {
+  Execution execution;
+  execution.threads =
+    static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
+  execution.parallelFor = [](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+  {
+    vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain),
+      [&task](vtkIdType begin, vtkIdType end)
+      { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+  };
+  execution.progress = [filter](double share) { filter->UpdateProgress(share); };
+  execution.aborted = [filter]() { return filter->GetAbortExecute() != 0; };
+  return execution;
+}
+
+void reportProgress(const Execution& execution, double share)
+{
+  execution.progress(share);
+  isopoint::throwIfAborted(execution);
+}
+
+void setGeometry(
+  const Execution& execution, const SplatMesh& mesh, int pointType, vtkPolyData* output)
+{
+  const auto count = static_cast<vtkIdType>(mesh.vertices.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(pointType);
-  points->SetNumberOfPoints(mesh.NumberOfVertices());
+  points->SetNumberOfPoints(count);
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(mesh.NumberOfVertices());
-  vtkSMPTools::For(0, mesh.NumberOfVertices(),
-    [&](vtkIdType begin, vtkIdType end)
+  normals->SetNumberOfTuples(count);
+  isopoint::forEachIndex(execution, mesh.vertices.size(),
+    [&](std::size_t i)
     {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        points->SetPoint(i, mesh.Vertices[static_cast<std::size_t>(i)].Place.GetData());
-        normals->SetTypedTuple(i, mesh.Vertices[static_cast<std::size_t>(i)].Normal.GetData());
-      }
+      points->SetPoint(static_cast<vtkIdType>(i), mesh.vertices[i].position.data());
+      normals->SetTypedTuple(static_cast<vtkIdType>(i), mesh.vertices[i].normal.data());
     });
   output->SetPoints(points);
   output->GetPointData()->SetNormals(normals);
 }
 
-void setTriangles(const vtkIsopointSplatMesh& mesh, vtkPolyData* output)
+void setTriangles(const SplatMesh& mesh, vtkPolyData* output)
 {
-  const vtkIdType count = mesh.NumberOfTriangles();
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
   vtkNew<vtkCellArray> triangles;
-  if (std::max(3 * count, mesh.NumberOfVertices()) < std::numeric_limits<vtkTypeInt32>::max())
+  if (std::max(3 * mesh.triangles.size(), mesh.vertices.size()) <
+      std::numeric_limits<vtkTypeInt32>::max())
   {
     triangles->Use32BitStorage(); // half of the memory
   }
   triangles->AllocateExact(count, 3 * count);
-  for (vtkIdType i = 0; i < count; ++i)
+  for (const auto& [a, b, c] : mesh.triangles)
   {
-    triangles->InsertNextCell(3, mesh.Corners.data() + 3 * i);
+    triangles->InsertNextCell(
+      { static_cast<vtkIdType>(a), static_cast<vtkIdType>(b), static_cast<vtkIdType>(c) });
   }
   output->SetPolys(triangles);
 }
 
-/// Calls of(begin, end) for ranges that make up all tuples of an array.
-template <class Function>
-void forTuples(vtkAbstractArray* array, vtkIdType tuples, const Function& of)
-{
-  // Eight values of a bit array share a byte; strings change a state of their array.
-  if (vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT)
-  {
-    vtkSMPTools::For(0, tuples, of);
-  }
-  else
-  {
-    of(0, tuples);
-  }
-}
-
-vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType tuples)
+vtkSmartPointer<vtkAbstractArray> newLike(vtkAbstractArray* array, std::size_t tuples)
 {
   const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
   copy->SetName(array->GetName());
   copy->SetNumberOfComponents(array->GetNumberOfComponents());
   copy->CopyComponentNames(array);
-  copy->SetNumberOfTuples(tuples);
+  copy->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
   return copy;
+}
+
+/// Calls of(tuple) for the tuples of an array.
+template <class Function>
+void forTuples(
+  const Execution& execution, vtkAbstractArray* array, std::size_t tuples, const Function& of)
+{
+  // Eight values of a bit array share a byte; strings change a state of their array.
+  const bool mayShare = vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT;
+  isopoint::forEachIndex(mayShare ? execution : Execution{}, tuples, of);
+}
+
+/// Sets the means of values of points at the vertices.
+/// @returns false if the values are of another type, or in another layout
+template <class T>
+bool setMeans(
+  const Execution& execution, const SplatMesh& mesh, vtkAbstractArray* array, vtkAbstractArray* to)
+{
+  const auto values = vtkAOSDataArrayTemplate<T>::FastDownCast(array);
+  const auto means = vtkAOSDataArrayTemplate<T>::FastDownCast(to);
+  if (values && means)
+  {
+    isopoint::meansAtVertices(execution, mesh, values->GetPointer(0),
+      static_cast<std::size_t>(values->GetNumberOfComponents()), means->GetPointer(0));
+  }
+  return values && means;
 }
 
 /// An array of points at the vertices: real numbers are the mean of those of the points that meet
 /// there, others those of the first point.
 vtkSmartPointer<vtkAbstractArray> atVertices(
-  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh)
+  const Execution& execution, vtkAbstractArray* array, const SplatMesh& mesh)
 {
-  const vtkIdType count = mesh.NumberOfVertices();
-  const auto copy = emptyLike(array, count);
+  const auto copy = newLike(array, mesh.vertices.size());
+  if (setMeans<float>(execution, mesh, array, copy) ||
+      setMeans<double>(execution, mesh, array, copy))
+  {
+    return copy;
+  }
   const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-  vtkDataArray* const from = isReal ? vtkDataArray::SafeDownCast(array) : nullptr;
-  vtkDataArray* const to = vtkDataArray::SafeDownCast(copy);
-  forTuples(array, count,
-    [&](vtkIdType begin, vtkIdType end)
+  vtkDataArray* const reals = isReal ? vtkDataArray::SafeDownCast(array) : nullptr;
+  vtkDataArray* const means = vtkDataArray::SafeDownCast(copy);
+  forTuples(execution, array, mesh.vertices.size(),
+    [&](std::size_t vertex)
     {
-      for (vtkIdType vertex = begin; vertex < end; ++vertex)
+      const auto tuple = static_cast<vtkIdType>(vertex);
+      copy->SetTuple(tuple, static_cast<vtkIdType>(mesh.firstPointAt(vertex)), array);
+      for (int i = 0; reals && i < reals->GetNumberOfComponents(); ++i)
       {
-        const auto i = static_cast<std::size_t>(vertex);
-        if (mesh.MeetsAt[i] != vertex)
-        {
-          continue;
-        }
-        const vtkIdType meeting = mesh.FirstMeeting[i + 1] - mesh.FirstMeeting[i];
-        const vtkIdType* const points =
-          mesh.MeetingPoints.data() + static_cast<std::size_t>(mesh.FirstMeeting[i]);
-        copy->SetTuple(vertex, points[0], array);
-        for (int component = 0; from && meeting > 1 && component < from->GetNumberOfComponents();
-             ++component)
-        {
-          double sum = 0.0;
-          for (vtkIdType k = 0; k < meeting; ++k)
-          {
-            sum += from->GetComponent(points[k], component);
-          }
-          to->SetComponent(vertex, component, sum / static_cast<double>(meeting));
-        }
-      }
-    });
-  forTuples(array, count,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType vertex = begin; vertex < end; ++vertex)
-      {
-        const vtkIdType first = mesh.MeetsAt[static_cast<std::size_t>(vertex)];
-        if (first != vertex)
-        {
-          copy->SetTuple(vertex, first, copy);
-        }
+        means->SetComponent(tuple, i,
+          mesh.meanAt(vertex, [&](std::size_t point)
+            { return reals->GetComponent(static_cast<vtkIdType>(point), i); }));
       }
     });
   return copy;
 }
 
-/// An array of cells at the triangles.
-vtkSmartPointer<vtkAbstractArray> atTriangles(
-  vtkAbstractArray* array, const vtkIsopointSplatMesh& mesh, const vtkIsopointVertexCells& cells)
-{
-  const auto copy = emptyLike(array, mesh.NumberOfTriangles());
-  forTuples(array, static_cast<vtkIdType>(mesh.FirstTriangles.size()) - 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType point = begin; point < end; ++point)
-      {
-        const auto i = static_cast<std::size_t>(point);
-        for (vtkIdType k = mesh.FirstTriangles[i]; k < mesh.FirstTriangles[i + 1]; ++k)
-        {
-          copy->SetTuple(k, cells.Any(point), array);
-        }
-      }
-    });
-  return copy;
-}
-
-/// An array of ids of points, each repeated from one offset to the next.
+/// An array of ids.
+/// @param idOf(i) the id at each place
 template <class IdOf>
-vtkSmartPointer<vtkIdTypeArray> repeatedIds(
-  const char* name, const std::vector<vtkIdType>& offsets, const IdOf& idOf)
+vtkSmartPointer<vtkIdTypeArray> newIds(const char* name, std::size_t count, const IdOf& idOf)
 {
   const auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
-  array->SetNumberOfValues(offsets.back());
-  for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  for (std::size_t i = 0; i < count; ++i)
   {
-    for (vtkIdType k = offsets[i]; k < offsets[i + 1]; ++k)
-    {
-      array->SetValue(k, idOf(static_cast<vtkIdType>(i)));
-    }
+    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(idOf(i)));
   }
   return array;
 }
@@ -220,26 +215,6 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
       to->SetActiveAttribute(added, attribute);
     }
   }
-}
-
-/// Whether each drawn point has a vertex cell.
-bool haveVertices(const vtkIsopointVertexCells& cells, const vtkIsopointSplatMesh& mesh)
-{
-  for (std::size_t i = 0; i + 1 < mesh.FirstTriangles.size(); ++i)
-  {
-    if (mesh.FirstTriangles[i] < mesh.FirstTriangles[i + 1] &&
-        cells.Any(static_cast<vtkIdType>(i)) < 0)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-int typeOfPoints(vtkDataSet* data)
-{
-  const auto points = vtkPointSet::SafeDownCast(data);
-  return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
 }
 
 } // namespace
@@ -299,12 +274,11 @@ int vtkIsopointSplatPolygons::RequestData(
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   this->ErrorCode = vtkErrorCode::NoError;
-  bool isDone = true;
   try
   {
     if (const auto data = vtkDataSet::SafeDownCast(input))
     {
-      isDone = this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
+      this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
     }
     else if (const auto blocks = vtkCompositeDataSet::SafeDownCast(input))
     {
@@ -313,8 +287,7 @@ int vtkIsopointSplatPolygons::RequestData(
       const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
       const auto all = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT));
       double done = 0.0;
-      for (iterator->InitTraversal(); isDone && !iterator->IsDoneWithTraversal();
-           iterator->GoToNextItem())
+      for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
       {
         if (const auto block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
         {
@@ -322,36 +295,36 @@ int vtkIsopointSplatPolygons::RequestData(
           this->SetProgressShiftScale(done / std::max(all, 1.0), count / std::max(all, 1.0));
           done += count;
           vtkNew<vtkPolyData> made;
-          isDone = this->MakePolygons(block, made);
+          this->MakePolygons(block, made);
           polygons->SetDataSet(iterator, made);
         }
       }
     }
   }
+  catch (const isopoint::Aborted&)
+  {
+    output->Initialize();
+  }
   catch (const std::bad_alloc&)
   {
-    isDone = false;
+    output->Initialize();
     this->ErrorCode = ENOMEM;
     vtkErrorMacro("Out of memory: the splats of "
                   << input->GetNumberOfElements(vtkDataObject::POINT)
                   << " points are not drawn. Close other data, or pass fewer points.");
-  }
-  if (!isDone)
-  {
-    output->Initialize();
   }
   this->SetProgressShiftScale(0.0, 1.0);
   return 1;
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
+void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
 {
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
   const vtkIdType count = input->GetNumberOfPoints();
   if (count == 0)
   {
-    return true;
+    return;
   }
   const vtkIsopointVertexCells cells(input);
   const vtkIsopointSplatShapes shapes(
@@ -363,42 +336,40 @@ bool vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   double first[3];
   input->GetPoint(0, first); // fills what data sets compute at the first call
-  const auto step = [this](double share)
-  {
-    this->UpdateProgress(share);
-    return !this->GetAbortExecute();
-  };
+  const Execution execution = executionOf(this);
   // The shares of the time that parts take.
   constexpr double withMesh = 0.6;
   constexpr double withTriangles = 0.65;
   constexpr double withPoints = 0.95;
-  vtkIsopointSplatMesh mesh;
-  if (!mesh.Build(shapes, count, [&step](double share) { return step(withMesh * share); }))
-  {
-    return false;
-  }
-  setGeometry(mesh, typeOfPoints(input), output);
+  const SplatMesh mesh = isopoint::buildSplatMesh(isopoint::partOf(execution, 0.0, withMesh),
+    static_cast<std::size_t>(count),
+    [&shapes](std::size_t point) { return shapes.Fan(static_cast<vtkIdType>(point)); });
+  setGeometry(execution, mesh, vtkIsopointTypeOfPoints(input), output);
   setTriangles(mesh, output);
-  if (!step(withTriangles))
-  {
-    return false;
-  }
+  reportProgress(execution, withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
-    [&mesh](vtkAbstractArray* array) { return atVertices(array, mesh); });
-  output->GetPointData()->AddArray(
-    repeatedIds("vtkOriginalPointIds", mesh.FirstVertices, [](vtkIdType point) { return point; }));
-  if (!step(withPoints))
+    [&](vtkAbstractArray* array) { return atVertices(execution, array, mesh); });
+  output->GetPointData()->AddArray(newIds("vtkOriginalPointIds", mesh.vertices.size(),
+    [&mesh](std::size_t vertex) { return mesh.pointOfVertex[vertex]; }));
+  reportProgress(execution, withPoints);
+  const auto cellIds = newIds("vtkOriginalCellIds", mesh.triangles.size(),
+    [&](std::size_t triangle)
+    { return cells.Any(static_cast<vtkIdType>(mesh.pointOfTriangle(triangle))); });
+  const vtkIdType* const ids = cellIds->GetPointer(0);
+  if (std::any_of(ids, ids + mesh.triangles.size(), [](vtkIdType cell) { return cell < 0; }))
   {
-    return false;
+    return;
   }
-  if (haveVertices(cells, mesh))
-  {
-    copyArrays(input->GetCellData(), output->GetCellData(),
-      [&](vtkAbstractArray* array) { return atTriangles(array, mesh, cells); });
-    output->GetCellData()->AddArray(repeatedIds("vtkOriginalCellIds", mesh.FirstTriangles,
-      [&cells](vtkIdType point) { return cells.Any(point); }));
-  }
-  return true;
+  copyArrays(input->GetCellData(), output->GetCellData(),
+    [&](vtkAbstractArray* array)
+    {
+      const auto copy = newLike(array, mesh.triangles.size());
+      forTuples(execution, array, mesh.triangles.size(),
+        [&](std::size_t triangle)
+        { copy->SetTuple(static_cast<vtkIdType>(triangle), ids[triangle], array); });
+      return copy;
+    });
+  output->GetCellData()->AddArray(cellIds);
 }
 
 //------------------------------------------------------------------------------

@@ -103,8 +103,8 @@ private:
   vtkIsopointSplatPolygons(const vtkIsopointSplatPolygons&) = delete;
   void operator=(const vtkIsopointSplatPolygons&) = delete;
 
-  /// @returns false if an abort was requested
-  bool MakePolygons(vtkDataSet* input, vtkPolyData* output);
+  /// @throws isopoint::Aborted, std::bad_alloc
+  void MakePolygons(vtkDataSet* input, vtkPolyData* output);
 };
 
 #endif

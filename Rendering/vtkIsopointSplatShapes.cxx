@@ -14,36 +14,74 @@
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 namespace
 {
 
-constexpr int mostCorners = 8;
-constexpr int numbersOfCorner = 5;
-constexpr int numbersOfPolygon = mostCorners * numbersOfCorner;
+using isopoint::SplatFan;
+using isopoint::Vector;
 
-bool isFinite(const vtkVector3d& vector)
+Vector tupleOf(vtkDataArray* array, vtkIdType tuple)
 {
-  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
-}
-
-vtkVector3d tupleOf(vtkDataArray* array, vtkIdType tuple)
-{
-  vtkVector3d vector;
-  array->GetTuple(tuple, vector.GetData());
+  Vector vector;
+  array->GetTuple(tuple, vector.data());
   return vector;
 }
 
-/// Makes a fan around its point one around its first corner.
-void dropPoint(vtkIsopointSplatFan& fan)
+/// Moves a fan around the origin.
+SplatFan movedTo(const Vector& position, SplatFan fan)
 {
-  std::copy(fan.Places.begin() + 1, fan.Places.end(), fan.Places.begin());
-  std::copy(fan.Normals.begin() + 1, fan.Normals.end(), fan.Normals.begin());
-  --fan.Vertices;
-  fan.Triangles -= 2;
+  for (std::size_t i = 0; i < fan.vertexCount; ++i)
+  {
+    fan.positions[i] = isopoint::sum(fan.positions[i], 1.0, position);
+  }
+  return fan;
+}
+
+SplatFan octagonOf(const Vector& position, const Vector& normal, double radius)
+{
+  Vector along;
+  Vector across;
+  vtkMath::Perpendiculars(normal.data(), along.data(), across.data(), 0.0);
+  if (isopoint::dot(isopoint::cross(normal, along), across) < 0.0)
+  {
+    across = isopoint::scaled(-1.0, across);
+  }
+  constexpr std::size_t corners = 8;
+  SplatFan fan;
+  fan.vertexCount = 1 + corners;
+  fan.normals.fill(normal);
+  fan.positions[0] = { 0.0, 0.0, 0.0 };
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / corners;
+    fan.positions[1 + i] = isopoint::sum(
+      isopoint::scaled(radius * std::cos(angle), along), radius * std::sin(angle), across);
+  }
+  isopoint::makeTriangles(fan, /*isClosed=*/true);
+  return movedTo(position, fan);
+}
+
+SplatFan octahedronOf(const Vector& position, double radius)
+{
+  SplatFan fan;
+  fan.vertexCount = 6;
+  fan.triangleCount = 8;
+  fan.normals = { { { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { -1.0, 0.0, 0.0 },
+    { 0.0, -1.0, 0.0 }, { 0.0, 0.0, -1.0 } } };
+  for (std::size_t i = 0; i < fan.vertexCount; ++i)
+  {
+    fan.positions[i] = isopoint::scaled(radius, fan.normals[i]);
+  }
+  for (std::size_t i = 0; i < 4; ++i) // around the upper and the lower tip
+  {
+    const std::size_t next = (i + 1) % 4;
+    fan.triangles[i] = { 0, 1 + i, 1 + next };
+    fan.triangles[4 + i] = { 5, 1 + next, 1 + i };
+  }
+  return movedTo(position, fan);
 }
 
 double automaticRadius(vtkDataSet* data)
@@ -51,11 +89,11 @@ double automaticRadius(vtkDataSet* data)
   vtkBoundingBox box;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
-    vtkVector3d position;
-    data->GetPoint(i, position.GetData());
-    if (isFinite(position))
+    Vector position;
+    data->GetPoint(i, position.data());
+    if (isopoint::isFinite(position))
     {
-      box.AddPoint(position.GetData());
+      box.AddPoint(position.data());
     }
   }
   const double diagonal = box.IsValid() ? box.GetDiagonalLength() : 0.0;
@@ -66,23 +104,10 @@ double automaticRadius(vtkDataSet* data)
 } // namespace
 
 //------------------------------------------------------------------------------
-int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner)
+int vtkIsopointTypeOfPoints(vtkDataSet* data)
 {
-  if (fan.Triangles == fan.Vertices - 1) // around the point
-  {
-    return corner == 0 ? 0 : 1 + (triangle + corner - 1) % fan.Triangles;
-  }
-  if (fan.Triangles == fan.Vertices - 2) // around the first corner
-  {
-    return corner == 0 ? 0 : triangle + corner;
-  }
-  // An octahedron: four triangles around the upper tip, vertex 0, and four around the lower one.
-  const bool isUpper = triangle < 4;
-  if (corner == 0)
-  {
-    return isUpper ? 0 : 5;
-  }
-  return 1 + (triangle + (isUpper ? corner - 1 : 2 - corner)) % 4;
+  const auto points = vtkPointSet::SafeDownCast(data);
+  return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
 }
 
 //------------------------------------------------------------------------------
@@ -93,6 +118,7 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   , Shapes(data->GetCellData())
   , Radius(radius)
   , Scale(scale)
+  , PositionError(isopoint::positionErrorOf(vtkIsopointTypeOfPoints(data) == VTK_FLOAT))
 {
   vtkPointData* const arrays = data->GetPointData();
   const vtkIdType count = data->GetNumberOfPoints();
@@ -106,13 +132,9 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
     tuples = count;
   }
   this->Axes = this->Usable(this->Shapes->GetArray("SplatAxis"), 3, tuples);
-  this->Polygons = this->Usable(this->Shapes->GetArray("SplatPolygon"), numbersOfPolygon, tuples);
+  this->Polygons = this->Usable(
+    this->Shapes->GetArray("SplatPolygon"), static_cast<int>(isopoint::numbersOfSplat), tuples);
   this->Ghosts = data->GetPointGhostArray();
-  const auto points = vtkPointSet::SafeDownCast(data);
-  const bool isFloat =
-    points && points->GetPoints() && points->GetPoints()->GetDataType() == VTK_FLOAT;
-  this->PositionError = 2.0 * (isFloat ? std::numeric_limits<float>::epsilon()
-                                       : std::numeric_limits<double>::epsilon());
   if (!this->Radii && !(radius > 0.0))
   {
     this->Radius = automaticRadius(data);
@@ -157,60 +179,36 @@ bool vtkIsopointSplatShapes::IsGhost(vtkIdType point) const
 }
 
 //------------------------------------------------------------------------------
-vtkIsopointSplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
+SplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
 {
-  vtkIsopointSplatFan fan;
-  vtkVector3d position;
-  this->Data->GetPoint(point, position.GetData());
-  if (this->IsGhost(point) || !isFinite(position))
+  Vector position;
+  this->Data->GetPoint(point, position.data());
+  if (this->IsGhost(point) || !isopoint::isFinite(position))
   {
-    return fan;
+    return {};
   }
-  vtkVector3d normal(0.0, 0.0, 0.0);
-  if (this->Normals)
-  {
-    normal = tupleOf(this->Normals, point);
-    normal.Normalize();
-  }
-  const bool hasNormal = normal.SquaredNorm() > 0.5;
+  const Vector normal =
+    this->Normals ? isopoint::unitNormal(tupleOf(this->Normals, point)) : Vector{ 0.0, 0.0, 0.0 };
+  const bool hasNormal = isopoint::dot(normal, normal) > 0.5;
   const vtkIdType polygon = hasNormal ? this->PolygonOf(point, normal) : -1;
   if (polygon >= 0)
   {
-    if (!this->SetPolygon(polygon, normal, fan))
-    {
-      return {};
-    }
-    const double largest =
-      std::max({ std::abs(position[0]), std::abs(position[1]), std::abs(position[2]) });
-    fan.Tolerance += static_cast<float>(this->PositionError * largest);
+    isopoint::SplatNumbers numbers;
+    this->Polygons->GetTuple(polygon, numbers.data());
+    return isopoint::fanOf(
+      position, normal, tupleOf(this->Axes, polygon), numbers, this->Scale, this->PositionError);
   }
-  else
+  const double radius =
+    this->Scale * (this->Radii ? this->Radii->GetComponent(point, 0) : this->Radius);
+  if (!(radius > 0.0) || !std::isfinite(radius))
   {
-    const double radius =
-      this->Scale * (this->Radii ? this->Radii->GetComponent(point, 0) : this->Radius);
-    if (!(radius > 0.0) || !std::isfinite(radius))
-    {
-      return fan;
-    }
-    if (hasNormal)
-    {
-      this->SetOctagon(normal, radius, fan);
-    }
-    else
-    {
-      this->SetOctahedron(radius, fan);
-    }
+    return {};
   }
-  for (int i = 0; i < fan.Vertices; ++i)
-  {
-    auto& place = fan.Places[static_cast<std::size_t>(i)];
-    place = place + position;
-  }
-  return fan;
+  return hasNormal ? octagonOf(position, normal, radius) : octahedronOf(position, radius);
 }
 
 //------------------------------------------------------------------------------
-vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const vtkVector3d& normal) const
+vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const Vector& normal) const
 {
   if (!this->Axes || !this->Polygons)
   {
@@ -224,98 +222,7 @@ vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const vtkVector3d& 
   }
   // A filter may have turned the normals alone.
   constexpr double steepest = 1e-4;
-  const vtkVector3d axis = tupleOf(this->Axes, tuple);
-  return std::abs(axis.Dot(normal)) > steepest * axis.Norm() ? -1 : tuple;
-}
-
-//------------------------------------------------------------------------------
-bool vtkIsopointSplatShapes::SetPolygon(
-  vtkIdType tuple, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const
-{
-  std::array<double, numbersOfPolygon> numbers;
-  this->Polygons->GetTuple(tuple, numbers.data());
-  const vtkVector3d along = tupleOf(this->Axes, tuple);
-  const vtkVector3d across = normal.Cross(along);
-  const double radius = along.Norm();
-  if (!(radius > 0.0) || !std::isfinite(radius))
-  {
-    return false;
-  }
-  double steepest = 0.0;
-  fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
-  fan.Normals[0] = normal;
-  fan.Vertices = 1;
-  for (int i = 0; i < mostCorners; ++i)
-  {
-    const double* const corner = numbers.data() + numbersOfCorner * i;
-    const auto next = static_cast<std::size_t>(fan.Vertices);
-    const vtkVector3d place = (corner[0] * this->Scale) * along +
-                              (corner[1] * this->Scale) * across +
-                              (corner[2] * this->Scale * this->Scale * radius) * normal;
-    if (!isFinite(place))
-    {
-      return false;
-    }
-    if (next > 1 && place == fan.Places[next - 1])
-    {
-      continue; // fewer corners repeat the last one
-    }
-    steepest = std::max({ steepest, std::hypot(corner[3], corner[4]), std::abs(corner[2]) });
-    fan.Places[next] = place;
-    fan.Normals[next] = normal + (this->Scale * corner[3] / radius) * along +
-                        (this->Scale * corner[4] / radius) * across;
-    fan.Normals[next].Normalize();
-    ++fan.Vertices;
-  }
-  fan.Triangles = fan.Vertices - 1;
-  if (fan.Triangles < 3)
-  {
-    return false;
-  }
-  // Corners are sums of a few numbers of float.
-  fan.Tolerance = static_cast<float>(16.0 * std::numeric_limits<float>::epsilon() * radius);
-  // Around the point of such a fan the surface is flat to a hundredth of the splat's size. Without
-  // a vertex there it looks the same, with a third fewer triangles.
-  constexpr double slightSlope = 0.03;
-  if (this->Scale * steepest < slightSlope)
-  {
-    dropPoint(fan);
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatShapes::SetOctagon(
-  const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const
-{
-  vtkVector3d along;
-  vtkVector3d across;
-  vtkMath::Perpendiculars(normal.GetData(), along.GetData(), across.GetData(), 0.0);
-  if (normal.Cross(along).Dot(across) < 0.0)
-  {
-    across = -1.0 * across;
-  }
-  fan.Vertices = 1 + mostCorners;
-  fan.Triangles = mostCorners;
-  fan.Normals.fill(normal);
-  fan.Places[0] = vtkVector3d(0.0, 0.0, 0.0);
-  for (std::size_t i = 0; i < mostCorners; ++i)
-  {
-    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / mostCorners;
-    fan.Places[1 + i] = (radius * std::cos(angle)) * along + (radius * std::sin(angle)) * across;
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkIsopointSplatShapes::SetOctahedron(double radius, vtkIsopointSplatFan& fan) const
-{
-  fan.Vertices = 6;
-  fan.Triangles = 8;
-  fan.Normals = { vtkVector3d(0.0, 0.0, 1.0), vtkVector3d(1.0, 0.0, 0.0),
-    vtkVector3d(0.0, 1.0, 0.0), vtkVector3d(-1.0, 0.0, 0.0), vtkVector3d(0.0, -1.0, 0.0),
-    vtkVector3d(0.0, 0.0, -1.0) };
-  for (std::size_t i = 0; i < 6; ++i)
-  {
-    fan.Places[i] = radius * fan.Normals[i];
-  }
+  const Vector axis = tupleOf(this->Axes, tuple);
+  const double length = std::sqrt(isopoint::dot(axis, axis));
+  return std::abs(isopoint::dot(axis, normal)) > steepest * length ? -1 : tuple;
 }

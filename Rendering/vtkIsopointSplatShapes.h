@@ -2,13 +2,10 @@
 #ifndef vtkIsopointSplatShapes_h
 #define vtkIsopointSplatShapes_h
 
-#include "vtkVector.h"
-// Later versions of VTK have the operators in vtkVector.h.
-#if __has_include("vtkVectorOperators.h")
-#include "vtkVectorOperators.h"
-#endif
+#include "Core/SplatMesh/SplatFan.h"
 
-#include <array>
+#include "vtkType.h"
+
 #include <string>
 
 class vtkDataArray;
@@ -17,21 +14,8 @@ class vtkDataSetAttributes;
 class vtkIsopointVertexCells;
 class vtkUnsignedCharArray;
 
-/// Where the fan of a splat has its vertices: its corners, and before these, unless the fan is
-/// nearly flat, its point.
-struct vtkIsopointSplatFan
-{
-  static constexpr int MaximumVertices = 9;
-
-  int Vertices = 0; // 0: nothing is drawn
-  int Triangles = 0;
-  float Tolerance = 0.0f; // how far corners that are shared with other splats may be apart; 0: none
-  std::array<vtkVector3d, MaximumVertices> Places;
-  std::array<vtkVector3d, MaximumVertices> Normals;
-};
-
-/// The vertex that is the corner 0, 1 or 2 of one of a fan's triangles.
-int vtkIsopointSplatCorner(const vtkIsopointSplatFan& fan, int triangle, int corner);
+/// The type of a data set's coordinates.
+int vtkIsopointTypeOfPoints(vtkDataSet* data);
 
 /// The shapes of the splats of a data set, from its arrays and those of its vertex cells. Reading
 /// is thread-safe.
@@ -47,16 +31,13 @@ public:
   /// What is wrong with the arrays of shapes, for a warning; empty if nothing is.
   std::string Problem() const;
 
-  vtkIsopointSplatFan Fan(vtkIdType point) const;
+  isopoint::SplatFan Fan(vtkIdType point) const;
 
 private:
   static vtkDataArray* Usable(vtkDataArray* array, int components, vtkIdType tuples);
   bool IsGhost(vtkIdType point) const;
   /// The tuple of the point's polygon; -1: none, or one for another normal.
-  vtkIdType PolygonOf(vtkIdType point, const vtkVector3d& normal) const;
-  bool SetPolygon(vtkIdType tuple, const vtkVector3d& normal, vtkIsopointSplatFan& fan) const;
-  void SetOctagon(const vtkVector3d& normal, double radius, vtkIsopointSplatFan& fan) const;
-  void SetOctahedron(double radius, vtkIsopointSplatFan& fan) const;
+  vtkIdType PolygonOf(vtkIdType point, const isopoint::Vector& normal) const;
 
   vtkDataSet* Data;
   const vtkIsopointVertexCells& Cells;
@@ -68,7 +49,7 @@ private:
   vtkUnsignedCharArray* Ghosts;
   double Radius;
   double Scale;
-  double PositionError; // relative
+  double PositionError;
 };
 
 #endif

@@ -18,6 +18,7 @@ CORE_FOLDERS = {
     "Fit": ["Base"],
     "Extraction": ["Base", "Tree", "Neighbors", "Fit"],
     "Splat": ["Base", "Tree", "Neighbors", "Fit"],
+    "SplatMesh": ["Base"],
     "Tetrahedra": ["Base", "Tree", "Neighbors", "Fit", "Extraction"],
     "Triangles": ["Base", "Tree", "Neighbors", "Fit", "Extraction", "Splat", "Tetrahedra"],
     "Ranks": [
@@ -34,7 +35,7 @@ FOLDERS = {
     CORE: [CORE + "/*/*.h"],
     **{f"{CORE}/{name}": [f"{CORE}/{lower}/*.h" for lower in lowers]
        for name, lowers in CORE_FOLDERS.items()},
-    "Rendering": [],
+    "Rendering": [CORE + "/SplatMesh/*.h", CORE + "/Base/*.h"],
     "RayTracing": [TRACER + "/*.h", "Rendering/*.h", CORE + "/Base/*.h"],
     TRACER: [CORE + "/Base/*.h"],
     "Plugin/Window": [

@@ -5,7 +5,13 @@ import numpy as np
 from scatteredisopoints import vtkIsopointSplatPolygons
 from scenes import RING, TUBE, add_array, check, isopoints, polydata, subset, torus_splats
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkBitArray, vtkSMPTools, vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import (
+    vtkBitArray,
+    vtkSMPTools,
+    vtkSOADataArrayTemplate,
+    vtkStringArray,
+    vtkUnsignedCharArray,
+)
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
     vtkDataSetAttributes,
@@ -82,6 +88,12 @@ def arrays_are_interpolated():
     count = data.GetNumberOfPoints()
     x = vtk_to_numpy(data.GetPoints().GetData())[:, 0]
     add_array(data, "of doubles", x.astype(float))
+    other_layout = vtkSOADataArrayTemplate["float64"]()
+    other_layout.SetName("in another layout")
+    other_layout.SetNumberOfTuples(count)
+    for i in range(count):
+        other_layout.SetValue(i, x[i])
+    data.GetPointData().AddArray(other_layout)
     add_array(data, "of integers", np.arange(count, dtype=np.int32))
     words = vtkStringArray()
     words.SetName("words")
@@ -102,6 +114,10 @@ def arrays_are_interpolated():
     check(shared.sum() > 1.8 * count, "most corners are shared by three")
     different = np.count_nonzero((high - low)[shared] > 1e-6)
     check(different < 0.001 * shared.sum(), f"one value at each but {different}")
+    copied = output.GetPointData().GetArray("in another layout")
+    check(copied.IsA(other_layout.GetClassName()), "the layout stays")
+    check([copied.GetValue(i) for i in range(len(ids))] == array(output, "of doubles").tolist(),
+          "the same means")
     check((np.isin(array(output, "of integers"), np.arange(count))).all(), "integers stay")
     strings = output.GetPointData().GetAbstractArray("words")
     check(strings.GetNumberOfValues() == len(ids), "strings are kept")

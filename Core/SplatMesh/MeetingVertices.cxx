@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/SplatMesh/MeetingVertices.h"
+
+#include "Core/Base/Collected.h"
+#include "Core/Base/SortUnique.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <set>
+
+namespace isopoint
+{
+
+namespace
+{
+
+bool areOne(const SplatVertex& a, const SplatVertex& b)
+{
+  constexpr float turn = 1e-3f;
+  const double tolerance = std::min(a.tolerance, b.tolerance);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (std::abs(a.position[axis] - b.position[axis]) > tolerance ||
+        std::abs(a.normal[axis] - b.normal[axis]) > turn)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whole numbers, which may be beyond those of integer types.
+using Cell = std::array<double, 3>;
+
+/// The cell of a grid that a position, moved by an offset along all axes, is in.
+/// @param cells how many there are per unit of length
+Cell cellOf(const Vector& position, double offset, double cells)
+{
+  Cell cell;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    cell[axis] = std::floor((position[axis] + offset) * cells) + 0.0; // -0 becomes 0
+  }
+  return cell;
+}
+
+std::uint64_t hashOf(int grid, const Cell& cell)
+{
+  constexpr std::uint64_t factor = 0x9E3779B97F4A7C15u;
+  auto hash = static_cast<std::uint64_t>(grid);
+  for (const double number : cell)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    hash = (hash ^ bits) * factor;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+/// Whether a vertex may be one with others.
+bool mayMeet(const SplatVertex& vertex)
+{
+  return vertex.tolerance > 0.0f && std::isfinite(vertex.tolerance);
+}
+
+/// The grid of a vertex, by the binary logarithm of its spacing: at least four times the vertex's
+/// tolerance, and still small against a splat. There are few grids, since their spacings differ by
+/// a factor of 16 or more.
+int gridOf(const SplatVertex& vertex)
+{
+  constexpr int powers = 4;
+  const double power = std::floor(std::ilogb(vertex.tolerance) / static_cast<double>(powers));
+  return powers * (static_cast<int>(power) + 1) + 2;
+}
+
+/// A vertex in a cell of its own grid or of a coarser one.
+struct Entry
+{
+  std::uint64_t cell; // a hash
+  std::size_t vertex;
+
+  /// The vertices of the cell's own grid come first.
+  bool operator<(const Entry& other) const
+  {
+    return this->cell != other.cell ? this->cell < other.cell : this->vertex < other.vertex;
+  }
+  bool operator==(const Entry& other) const
+  {
+    return this->cell == other.cell && this->vertex == other.vertex;
+  }
+};
+
+/// Entries of finer grids have odd hashes, one more than others in the same cell.
+bool isOfFinerGrid(const Entry& entry)
+{
+  return (entry.cell & 1) != 0;
+}
+
+/// A number of the cell that an entry is in, whatever its own grid.
+std::uint64_t cellNumber(const Entry& entry)
+{
+  return entry.cell >> 1;
+}
+
+/// Calls visit(cell) for the cells of a grid that a vertex is in, up to its tolerance.
+template <class Visit>
+void forCells(const SplatVertex& vertex, int grid, const Visit& visit)
+{
+  const double cells = std::ldexp(1.0, -grid);
+  const Cell low = cellOf(vertex.position, -vertex.tolerance, cells);
+  const Cell high = cellOf(vertex.position, vertex.tolerance, cells);
+  const auto cellsAlong = [&](std::size_t axis) { return high[axis] > low[axis] ? 2 : 1; };
+  for (int x = 0; x < cellsAlong(0); ++x)
+  {
+    for (int y = 0; y < cellsAlong(1); ++y)
+    {
+      for (int z = 0; z < cellsAlong(2); ++z)
+      {
+        visit(Cell{ (x ? high : low)[0], (y ? high : low)[1], (z ? high : low)[2] });
+      }
+    }
+  }
+}
+
+/// All vertices in all cells that they are in, of their own grids and of coarser ones, sorted by
+/// cell. Vertices that are one have a cell in common, in the own grid of at least one of them.
+std::vector<Entry> verticesByCell(
+  const Execution& execution, const std::vector<SplatVertex>& vertices)
+{
+  std::set<int> grids;
+  for (const SplatVertex& vertex : vertices)
+  {
+    if (mayMeet(vertex))
+    {
+      grids.insert(gridOf(vertex));
+    }
+  }
+  const std::vector<Entry> entries = collected<Entry>(execution, { vertices.size(), 1 << 16, 4096 },
+    [&](std::size_t begin, std::size_t end, std::vector<Entry>& found)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const auto own = mayMeet(vertices[i]) ? grids.find(gridOf(vertices[i])) : grids.end();
+        for (auto grid = own; grid != grids.end(); ++grid)
+        {
+          const std::uint64_t isFiner = grid == own ? 0 : 1;
+          forCells(vertices[i], *grid,
+            [&](const Cell& cell) {
+              found.push_back({ hashOf(*grid, cell) << 1 | isFiner, i });
+            });
+        }
+      }
+    });
+  return sortedUnique(execution, entries, std::uint64_t{ 1 } << 63, cellNumber);
+}
+
+} // namespace
+
+std::vector<std::size_t> meetingVertices(
+  const Execution& execution, const std::vector<SplatVertex>& vertices)
+{
+  std::vector<std::size_t> meetsAt(vertices.size());
+  std::iota(meetsAt.begin(), meetsAt.end(), 0);
+  const auto firstOf = [&meetsAt](std::size_t vertex)
+  {
+    while (meetsAt[vertex] != vertex)
+    {
+      vertex = meetsAt[vertex] = meetsAt[meetsAt[vertex]];
+    }
+    return vertex;
+  };
+  const std::vector<Entry> entries = verticesByCell(execution, vertices);
+  std::size_t begin = 0; // of the vertices in a cell of their own grid
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+  {
+    constexpr std::size_t batch = 1 << 17;
+    if (i % batch == 0)
+    {
+      throwIfAborted(execution);
+      execution.progress(static_cast<double>(i) / static_cast<double>(entries.size()));
+    }
+    const Entry& entry = entries[i];
+    if (cellNumber(entries[begin]) != cellNumber(entry))
+    {
+      begin = end = i;
+    }
+    const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto other = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(begin), last,
+      [&](const Entry& earlier)
+      { return areOne(vertices[earlier.vertex], vertices[entry.vertex]); });
+    if (other != last)
+    {
+      const auto [first, second] = std::minmax({ firstOf(other->vertex), firstOf(entry.vertex) });
+      meetsAt[second] = first;
+    }
+    end = isOfFinerGrid(entry) ? end : i + 1;
+  }
+  for (std::size_t& vertex : meetsAt)
+  {
+    vertex = meetsAt[vertex]; // of a lower number, which is done
+  }
+  return meetsAt;
+}
+
+} // namespace isopoint

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/SplatMesh/SplatMesh.h"
+
+#include <numeric>
+#include <utility>
+
+namespace isopoint
+{
+
+namespace
+{
+
+/// The vertices of one of a fan's triangles. Where two corners of a splat have passed each other,
+/// it would face away and be dark: it is turned over.
+std::array<std::size_t, 3> facingTriangle(const SplatFan& fan, std::size_t triangle)
+{
+  std::array<std::size_t, 3> corners = fan.triangles[triangle];
+  const Vector& a = fan.positions[corners[0]];
+  const Vector side = difference(fan.positions[corners[1]], a);
+  const Vector other = difference(fan.positions[corners[2]], a);
+  if (dot(cross(side, other), fan.normals[corners[0]]) < 0.0)
+  {
+    std::swap(corners[1], corners[2]);
+  }
+  return corners;
+}
+
+/// Work on all points in batches, which report progress and may be stopped.
+template <class Work>
+void forPoints(const Execution& execution, std::size_t points, const Work& work)
+{
+  forBatches(
+    execution, points, 1 << 15, 1024,
+    [&work](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t point = begin; point < end; ++point)
+      {
+        work(point);
+      }
+    },
+    execution.progress);
+}
+
+} // namespace
+
+SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
+  const std::function<SplatFan(std::size_t point)>& fanAt)
+{
+  constexpr double third = 1.0 / 3.0;
+  std::vector<std::size_t> firstVertices(points + 1, 0);
+  std::vector<std::size_t> firstTriangles(points + 1, 0);
+  forPoints(partOf(execution, 0.0, third), points,
+    [&](std::size_t point)
+    {
+      const SplatFan fan = fanAt(point);
+      firstVertices[point + 1] = fan.vertexCount;
+      firstTriangles[point + 1] = fan.triangleCount;
+    });
+  std::partial_sum(firstVertices.begin(), firstVertices.end(), firstVertices.begin());
+  std::partial_sum(firstTriangles.begin(), firstTriangles.end(), firstTriangles.begin());
+
+  std::vector<SplatVertex> vertices(firstVertices.back());
+  std::vector<std::size_t> pointOfVertex(vertices.size());
+  std::vector<std::array<std::size_t, 3>> triangles(firstTriangles.back());
+  forPoints(partOf(execution, third, 2.0 * third), points,
+    [&](std::size_t point)
+    {
+      const SplatFan fan = fanAt(point);
+      const std::size_t first = firstVertices[point];
+      for (std::size_t i = 0; i < fan.vertexCount; ++i)
+      {
+        const Vector& normal = fan.normals[i];
+        vertices[first + i] = { fan.positions[i],
+          { static_cast<float>(normal[0]), static_cast<float>(normal[1]),
+            static_cast<float>(normal[2]) },
+          fan.tolerance };
+        pointOfVertex[first + i] = point;
+      }
+      for (std::size_t i = 0; i < fan.triangleCount; ++i)
+      {
+        const auto [a, b, c] = facingTriangle(fan, i);
+        triangles[firstTriangles[point] + i] = { first + a, first + b, first + c };
+      }
+    });
+
+  std::vector<std::size_t> meetsAt = meetingVertices(partOf(execution, 2.0 * third, 1.0), vertices);
+  ItemLists meeting(vertices.size(), vertices.size(),
+    [&meetsAt](std::size_t vertex) { return std::array<std::size_t, 1>{ meetsAt[vertex] }; });
+  return { std::move(vertices), std::move(pointOfVertex), std::move(triangles), std::move(meetsAt),
+    std::move(meeting) };
+}
+
+} // namespace isopoint

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_SplatMesh_h
+#define isopoint_SplatMesh_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/ItemLists.h"
+#include "Core/SplatMesh/MeetingVertices.h"
+#include "Core/SplatMesh/SplatFan.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The triangles of all splats, in the order of their points. Each splat has vertices of its own.
+struct SplatMesh
+{
+  std::vector<SplatVertex> vertices;
+  std::vector<std::size_t> pointOfVertex;
+  std::vector<std::array<std::size_t, 3>> triangles; // counterclockwise around their normals
+  std::vector<std::size_t> meetsAt;                  // see meetingVertices()
+  ItemLists meeting;                                 // the vertices of which each one is the first
+
+  std::size_t pointOfTriangle(std::size_t triangle) const
+  {
+    return this->pointOfVertex[this->triangles[triangle][0]];
+  }
+
+  /// The first point whose splat has a vertex at the place of this one.
+  std::size_t firstPointAt(std::size_t vertex) const
+  {
+    return this->pointOfVertex[this->meetsAt[vertex]];
+  }
+
+  /// The mean of the numbers of all points whose splats have a vertex at the place of this one, as
+  /// exact as double.
+  /// @param numberOf(point)
+  template <class NumberOf>
+  double meanAt(std::size_t vertex, const NumberOf& numberOf) const
+  {
+    const NodeList<std::size_t> met = this->meeting.at(this->meetsAt[vertex]);
+    if (met.count == 1)
+    {
+      return numberOf(this->pointOfVertex[vertex]);
+    }
+    double sum = 0.0;
+    for (const std::size_t other : met)
+    {
+      sum += numberOf(this->pointOfVertex[other]);
+    }
+    return sum / static_cast<double>(met.count);
+  }
+};
+
+/// @param fanAt(point) from any thread, twice for each point
+/// @throws Aborted, std::bad_alloc, and what fanAt throws
+/// Complexity: that of meetingVertices()
+SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
+  const std::function<SplatFan(std::size_t point)>& fanAt);
+
+/// Values of points at the vertices, so that colors are interpolated as on a mesh; see meanAt().
+/// @param values a number of components for each point
+/// @param means of the same for each vertex; written
+template <class T>
+void meansAtVertices(const Execution& execution, const SplatMesh& mesh, const T* values,
+  std::size_t components, T* means)
+{
+  static_assert(std::is_floating_point<T>::value, "others have no mean");
+  forEachIndex(execution, mesh.vertices.size(),
+    [&](std::size_t vertex)
+    {
+      for (std::size_t i = 0; i < components; ++i)
+      {
+        means[components * vertex + i] = static_cast<T>(
+          mesh.meanAt(vertex, [&](std::size_t point) { return values[components * point + i]; }));
+      }
+    });
+}
+
+} // namespace isopoint
+
+#endif
