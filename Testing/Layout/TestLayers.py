@@ -35,6 +35,7 @@ FOLDERS = {
     CORE: [CORE + "/*/*.h"],
     **{f"{CORE}/{name}": [f"{CORE}/{lower}/*.h" for lower in lowers]
        for name, lowers in CORE_FOLDERS.items()},
+    "Library": [CORE + "/*.h", CORE + "/Base/*.h", CORE + "/SplatMesh/*.h"],
     "Rendering": [CORE + "/SplatMesh/*.h", CORE + "/Base/*.h"],
     "RayTracing": [TRACER + "/*.h", "Rendering/*.h", CORE + "/Base/*.h"],
     TRACER: [CORE + "/Base/*.h"],
@@ -52,7 +53,7 @@ OTHERS = {
     r"Eigen/": CORE + "/(Fit|Splat)",
     r"CGAL/": CORE + "/Tetrahedra",
     r"embree[34]/": TRACER,
-    r"vtk": rf"(?!{CORE}|{TRACER})",
+    r"vtk": rf"(?!{CORE}|Library|{TRACER})",
     r"vtk(PV|SM(?!P[A-Z])|SI(?!L)|ClientServer|ProcessModule|ParaView)|pq[A-Z]": "Plugin",
     r"vtk(\w*(OpenGL|Render|Mapper|Actor|Shader|Camera|Texture|Light|View|HardwareSelector)"
     r"|(Prop|Volume)|\w*Window\b)": "(?!Filters)",
@@ -66,10 +67,10 @@ class Project:
     def __init__(self, root):
         self.root = pathlib.Path(root)
         self.problems = []
-        paths = [path for top in ("Core", "Filters", "Rendering", "RayTracing", "Plugin")
+        paths = [path for top in ("Core", "Library", "Filters", "Rendering", "RayTracing", "Plugin")
                  for path in sorted((self.root / top).rglob("*"))]
         for path in paths:
-            if path.suffix in OTHER_SUFFIXES:
+            if path.suffix in OTHER_SUFFIXES and path.parent.name != "Examples":
                 self.report(self.name(path), "an unexpected suffix: sources are .h and .cxx")
         self.files = {self.name(path): path.read_text() for path in paths if path.suffix in SOURCES}
         self.tests = {path.name for path in (self.root / "Testing").rglob("*.h")}
@@ -90,7 +91,7 @@ class Project:
 
     def own(self, include):
         """The header of the project that an include names, or None."""
-        if include.startswith("Core/"):
+        if include.startswith(("Core/", "Library/")):
             return include
         if include.startswith("Tracer/"):
             return "RayTracing/" + include
@@ -115,7 +116,7 @@ class Project:
             allowed = [folder + "/*.h"] + FOLDERS[folder]
             if not any(pathlib.PurePath(own).match(pattern) for pattern in allowed):
                 self.report(name, f"includes {include}: {folder} may not know it")
-            if folder.startswith(CORE) and not include.startswith("Core/"):
+            if folder.startswith(CORE) and not include.startswith(CORE + "/"):
                 self.report(name, f"includes {include}: not written from the top folder")
         elif include.rsplit("/", 1)[-1] in self.tests:
             self.report(name, f"includes {include}: a header of the tests")

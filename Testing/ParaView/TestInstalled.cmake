@@ -13,6 +13,6 @@ run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
 file(REMOVE_RECURSE "${PREFIX}-consumer")
 run("${CMAKE_CTEST_COMMAND}" --build-and-test "${SOURCE_DIR}/Testing/Consumer" "${PREFIX}-consumer"
   --build-generator "${GENERATOR}" --build-options "-DCMAKE_PREFIX_PATH=${PREFIX}"
-  --test-command consumer)
+  --test-command "${CMAKE_CTEST_COMMAND}" --output-on-failure)
 run("${OFFSCREEN}" "${PVPYTHON}" "${SOURCE_DIR}/Testing/ParaView/TestPipeline.py"
   "${PREFIX}/${LIB_DIR}/ScatteredIsopoints/ScatteredIsopoints.so")

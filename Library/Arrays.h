@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_library_Arrays_h
+#define isopoint_library_Arrays_h
+
+#include "Library/isopoint.h"
+
+#include "Core/Base/UsageError.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace isopoint
+{
+
+/// Calls visit with a number of the type that an isopoint_type names.
+/// @throws UsageError if it names none
+template <class Visitor>
+decltype(auto) withType(std::int32_t type, const Visitor& visit)
+{
+  switch (type)
+  {
+    case ISOPOINT_FLOAT:
+      return visit(float{});
+    case ISOPOINT_DOUBLE:
+      return visit(double{});
+    case ISOPOINT_INT8:
+      return visit(std::int8_t{});
+    case ISOPOINT_UINT8:
+      return visit(std::uint8_t{});
+    case ISOPOINT_INT16:
+      return visit(std::int16_t{});
+    case ISOPOINT_UINT16:
+      return visit(std::uint16_t{});
+    case ISOPOINT_INT32:
+      return visit(std::int32_t{});
+    case ISOPOINT_UINT32:
+      return visit(std::uint32_t{});
+    case ISOPOINT_INT64:
+      return visit(std::int64_t{});
+    case ISOPOINT_UINT64:
+      return visit(std::uint64_t{});
+    default:
+      throw UsageError(
+        "The type of an array, " + std::to_string(type) + ", is unknown. Use an isopoint_type.");
+  }
+}
+
+inline bool isFloatingPoint(std::int32_t type)
+{
+  return type == ISOPOINT_FLOAT || type == ISOPOINT_DOUBLE;
+}
+
+inline std::size_t sizeOfType(std::int32_t type)
+{
+  return withType(type, [](auto number) { return sizeof(number); });
+}
+
+/// The numbers of an array. Reading is thread-safe.
+class ArrayReader
+{
+public:
+  /// @throws UsageError if the array contradicts itself
+  ArrayReader(const isopoint_array* array, const char* name)
+  {
+    const std::string described = std::string("The array of ") + name;
+    if (!array)
+    {
+      throw UsageError(described + " is null. Pass an isopoint_array.");
+    }
+    this->Array = *array;
+    if (array->components < 1 || array->count < 0 || (array->count > 0 && !array->data))
+    {
+      throw UsageError(described + " has " + std::to_string(array->count) + " tuples of " +
+                       std::to_string(array->components) + " components" +
+                       (array->data ? "" : " and no data") +
+                       ". Pass at least one component, and memory for all tuples.");
+    }
+    if (array->component_stride == 0)
+    {
+      this->Array.component_stride = static_cast<std::int64_t>(sizeOfType(array->type));
+    }
+    if (array->stride == 0)
+    {
+      this->Array.stride = this->Array.component_stride * array->components;
+    }
+  }
+
+  std::int32_t type() const { return this->Array.type; }
+  std::size_t count() const { return static_cast<std::size_t>(this->Array.count); }
+  int components() const { return this->Array.components; }
+
+  /// @throws UsageError unless there are this many tuples of this many components
+  void require(const char* name, std::size_t count, int components) const
+  {
+    if (this->count() != count || this->components() != components)
+    {
+      throw UsageError(std::string("The array of ") + name + " has " +
+                       std::to_string(this->count()) + " tuples of " +
+                       std::to_string(this->components()) + " components. Pass " +
+                       std::to_string(count) + " of " + std::to_string(components) + ".");
+    }
+  }
+
+  /// A number of an array whose type is T.
+  template <class T>
+  T at(std::size_t tuple, int component) const
+  {
+    T number;
+    std::memcpy(&number,
+      static_cast<const char*>(this->Array.data) +
+        static_cast<std::int64_t>(tuple) * this->Array.stride +
+        component * this->Array.component_stride,
+      sizeof(number));
+    return number;
+  }
+
+  /// A number of an array of any type.
+  double at(std::size_t tuple, int component) const
+  {
+    return withType(this->Array.type, [&](auto number)
+      { return static_cast<double>(this->at<decltype(number)>(tuple, component)); });
+  }
+
+private:
+  isopoint_array Array;
+};
+
+} // namespace isopoint
+
+#endif

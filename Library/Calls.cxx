@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Library/isopoint.h"
+
+#include "Core/Base/Threads.h"
+#include "Core/Base/UsageError.h"
+#include "Core/Contour.h"
+#include "Core/Failure.h"
+#include "Library/SampleReader.h"
+#include "Library/Surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+using isopoint::UsageError;
+
+namespace
+{
+
+/// Of the last call of a thread that failed; of a fixed size, for it may tell of a lack of memory.
+thread_local std::array<char, 1024> lastError{};
+
+isopoint_status fail(isopoint_status status, const char* message)
+{
+  std::strncpy(lastError.data(), message, lastError.size() - 1);
+  return status;
+}
+
+/// Turns the exception that is being handled into a status and a message.
+isopoint_status failWithException()
+{
+  const isopoint::Failure failure = isopoint::describeException();
+  switch (failure.kind)
+  {
+    case isopoint::Failure::Aborted:
+      return fail(ISOPOINT_CANCELED, "The call was canceled.");
+    case isopoint::Failure::InvalidUsage:
+      return fail(ISOPOINT_INVALID_ARGUMENT, failure.text.c_str());
+    case isopoint::Failure::OutOfMemory:
+      return fail(ISOPOINT_OUT_OF_MEMORY, failure.text.c_str());
+    default:
+      return fail(ISOPOINT_INTERNAL_ERROR, failure.text.c_str());
+  }
+}
+
+/// Runs a call: no exception leaves the library.
+template <class Call>
+isopoint_status run(const Call& call)
+{
+  try
+  {
+    call();
+    return ISOPOINT_OK;
+  }
+  catch (...)
+  {
+    return failWithException();
+  }
+}
+
+/// @throws UsageError if a pointer is null
+void require(const void* pointer, const char* name)
+{
+  if (!pointer)
+  {
+    throw UsageError(std::string("The ") + name + " is null. Pass one.");
+  }
+}
+
+/// Turns the name of an option, such as DropGaps, into that of its member, drop_gaps.
+std::string memberName(const char* name)
+{
+  std::string member;
+  for (; *name != '\0'; ++name)
+  {
+    const auto character = static_cast<unsigned char>(*name);
+    if (std::isupper(character) && !member.empty())
+    {
+      member += '_';
+    }
+    member += static_cast<char>(std::tolower(character));
+  }
+  return member;
+}
+
+/// The counterparts of options: calls visit(member of isopoint_options, member of Options).
+template <class Visitor>
+void forEachMember(const Visitor& visit)
+{
+  using C = isopoint_options;
+  using Core = isopoint::Options;
+  visit(&C::triangles, &Core::triangles);
+  visit(&C::projection, &Core::projection);
+  visit(&C::normal_method, &Core::normalMethod);
+  visit(&C::drop_gaps, &Core::dropGaps);
+  visit(&C::compute_normals, &Core::computeNormals);
+  visit(&C::compute_gradients, &Core::computeGradients);
+  visit(&C::compute_projection_orders, &Core::computeProjectionOrders);
+  visit(&C::output_points_precision, &Core::outputPointsPrecision);
+  visit(&C::number_of_neighbors, &Core::numberOfNeighbors);
+  visit(&C::compute_splats, &Core::computeSplats);
+  visit(&C::angle, &Core::angle);
+  visit(&C::minimum_spacing, &Core::minimumSpacing);
+  visit(&C::keep_band, &Core::keepBand);
+}
+
+/// @param given null, or options of this version or an earlier one
+/// @throws UsageError if they are of a later version, or out of range
+isopoint::Options optionsFrom(const isopoint_options* given)
+{
+  isopoint_options all;
+  isopoint_initialize_options(&all, sizeof(all));
+  if (given)
+  {
+    if (given->size < sizeof(given->size) || given->size > sizeof(all))
+    {
+      throw UsageError("The size of the options is " + std::to_string(given->size) +
+                       ". Set them up by isopoint_initialize_options(), with the header of this"
+                       " version of the library or an earlier one.");
+    }
+    std::memcpy(&all, given, static_cast<std::size_t>(given->size));
+  }
+  isopoint::Options options;
+  forEachMember(
+    [&](auto member, auto option)
+    {
+      using T = std::decay_t<decltype(options.*option)>;
+      options.*option = static_cast<T>(all.*member);
+    });
+  options = isopoint::effectiveOptions(options);
+  isopoint::checkOptions(options, memberName);
+  return options;
+}
+
+} // namespace
+
+struct isopoint_extractor
+{
+  isopoint::IsosurfaceExtractor Extractor;
+  isopoint::SampleTypes Types;
+  isopoint::CloudCounts Counts;
+  bool HasSamples = false;  // perhaps none of them usable
+  std::int32_t Threads = 0; // 0: all cores
+  void (*Progress)(void* user, double fraction) = nullptr;
+  int (*Cancels)(void* user) = nullptr;
+  void* User = nullptr;
+
+  isopoint::Execution makeExecution() const
+  {
+    isopoint::Execution execution;
+    const std::size_t available = isopoint::availableThreadsOfRank();
+    const std::size_t threads =
+      this->Threads > 0 ? std::min(static_cast<std::size_t>(this->Threads), available) : available;
+    if (threads > 1)
+    {
+      isopoint::useThreads(execution, threads);
+    }
+    if (this->Progress)
+    {
+      execution.progress = [call = this->Progress, user = this->User](double fraction)
+      { call(user, fraction); };
+    }
+    if (this->Cancels)
+    {
+      execution.aborted = [call = this->Cancels, user = this->User]() { return call(user) != 0; };
+    }
+    return execution;
+  }
+};
+
+void isopoint_initialize_options(isopoint_options* options, size_t size)
+{
+  isopoint_options all{};
+  all.size = size;
+  const isopoint::Options defaults;
+  forEachMember([&](auto member, auto option)
+    { all.*member = static_cast<std::decay_t<decltype(all.*member)>>(defaults.*option); });
+  if (options)
+  {
+    std::memcpy(options, &all, std::min(size, sizeof(all)));
+  }
+}
+
+const char* isopoint_version(void)
+{
+  return ISOPOINT_VERSION;
+}
+
+const char* isopoint_get_error(void)
+{
+  return lastError.data();
+}
+
+isopoint_extractor* isopoint_create(void)
+{
+  isopoint_extractor* created = nullptr;
+  run([&]() { created = new isopoint_extractor; });
+  return created;
+}
+
+void isopoint_destroy(isopoint_extractor* extractor)
+{
+  delete extractor;
+}
+
+isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads)
+{
+  return run(
+    [&]()
+    {
+      require(extractor, "extractor");
+      if (threads < 0)
+      {
+        throw UsageError("The number of threads is " + std::to_string(threads) +
+                         ". Pass 0, for all cores, or a number above.");
+      }
+      extractor->Threads = threads;
+    });
+}
+
+isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
+  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+{
+  return run(
+    [&]()
+    {
+      require(extractor, "extractor");
+      extractor->Progress = progress;
+      extractor->Cancels = cancels;
+      extractor->User = user;
+    });
+}
+
+namespace
+{
+
+/// This process alone.
+class OneProcess : public isopoint::Communicator
+{
+public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  void allReduce(std::uint64_t*, std::size_t, isopoint::Reduction) override {}
+  void exchange(const std::vector<isopoint::OutgoingBytes>&,
+    const std::vector<isopoint::IncomingBytes>&) override
+  {
+  }
+};
+
+} // namespace
+
+isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
+  const isopoint_array* values, const isopoint_array* excluded)
+{
+  const isopoint_status status = run(
+    [&]()
+    {
+      require(extractor, "extractor");
+      const isopoint::SampleReader read(positions, values, excluded);
+      const isopoint::SampleTypes types = read.types();
+      OneProcess process;
+      isopoint::Team team(process);
+      isopoint::loadOrReplace(
+        extractor->makeExecution(), team, extractor->Extractor, types, read.count(), read);
+      extractor->Types = types;
+      extractor->Counts = read.counts();
+      extractor->HasSamples = true;
+    });
+  if (status != ISOPOINT_OK && extractor)
+  {
+    extractor->Extractor.clear();
+    extractor->Counts = {};
+    extractor->HasSamples = false;
+  }
+  return status;
+}
+
+int64_t isopoint_get_sample_count(const isopoint_extractor* extractor)
+{
+  return extractor ? static_cast<int64_t>(extractor->Extractor.sampleCount()) : 0;
+}
+
+int64_t isopoint_get_skipped_count(const isopoint_extractor* extractor)
+{
+  return extractor ? static_cast<int64_t>(extractor->Extractor.skippedCount()) : 0;
+}
+
+void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2])
+{
+  const bool hasSamples = extractor && extractor->Extractor.sampleCount() > 0;
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto [least, greatest] =
+    hasSamples ? extractor->Extractor.valueRange() : std::make_pair(nothing, nothing);
+  range[0] = least;
+  range[1] = greatest;
+}
+
+isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* isovalues,
+  int64_t count, const isopoint_options* options, isopoint_surface** surface)
+{
+  return run(
+    [&]()
+    {
+      require(extractor, "extractor");
+      require(surface, "place for the surface");
+      if (count < 0 || (count > 0 && !isovalues))
+      {
+        throw UsageError("There are no isovalues. Pass as many as their count says.");
+      }
+      if (!extractor->HasSamples)
+      {
+        throw UsageError("The extractor has no samples. Call isopoint_set_samples() first.");
+      }
+      const isopoint::Options chosen = optionsFrom(options);
+      isopoint::Report report(
+        chosen, isopoint::sortedIsovalues(std::vector<double>(isovalues, isovalues + count)));
+      report.countSamples(extractor->Extractor, extractor->Counts);
+      const isopoint::Execution execution = extractor->makeExecution();
+      std::vector<isopoint::ExtractedIsosurface> parts = isopoint::extractIsovalues(
+        isopoint::partOf(execution, 0.0, 0.95), extractor->Extractor, chosen, 0, report);
+      auto made = std::make_unique<isopoint_surface>(execution, std::move(parts), chosen,
+        extractor->Types.areFloatPositions, report,
+        static_cast<std::size_t>(extractor->Counts.items));
+      made->messages = isopoint::describeReport(report, memberName);
+      execution.progress(1.0);
+      *surface = made.release();
+    });
+}
+
+void isopoint_destroy_surface(isopoint_surface* surface)
+{
+  delete surface;
+}
+
+const char* isopoint_get_message(
+  const isopoint_surface* surface, int64_t index, int32_t* is_warning)
+{
+  if (!surface || index < 0 || static_cast<std::size_t>(index) >= surface->messages.size())
+  {
+    return nullptr;
+  }
+  const isopoint::Message& message = surface->messages[static_cast<std::size_t>(index)];
+  if (is_warning)
+  {
+    *is_warning = message.kind == isopoint::Message::Warning ? 1 : 0;
+  }
+  return message.text.c_str();
+}
+
+int64_t isopoint_get_unprojected_count(const isopoint_surface* surface)
+{
+  return surface ? static_cast<int64_t>(surface->report.unprojectedPoints) : 0;
+}
+
+int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
+{
+  return surface ? static_cast<int64_t>(surface->report.droppedInGaps) : 0;
+}
+
+isopoint_status isopoint_get_array(
+  isopoint_surface* surface, int32_t array_id, isopoint_array* array)
+{
+  return run(
+    [&]()
+    {
+      require(surface, "surface");
+      require(array, "place for the array");
+      *array = surface->array(array_id);
+    });
+}
+
+isopoint_status isopoint_interpolate(
+  isopoint_surface* surface, const isopoint_array* of_samples, void* result)
+{
+  return run(
+    [&]()
+    {
+      require(surface, "surface");
+      require(result, "place for the result");
+      surface->interpolate(of_samples, result);
+    });
+}
+
+isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale)
+{
+  return run(
+    [&]()
+    {
+      require(surface, "surface");
+      surface->makeSplatMesh(scale);
+    });
+}
+
+isopoint_status isopoint_average_at_splat_vertices(
+  isopoint_surface* surface, const isopoint_array* of_points, void* result)
+{
+  return run(
+    [&]()
+    {
+      require(surface, "surface");
+      require(result, "place for the result");
+      surface->averageAtSplatVertices(of_points, result);
+    });
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_library_SampleReader_h
+#define isopoint_library_SampleReader_h
+
+#include "Core/Base/UsageError.h"
+#include "Core/Contour.h"
+#include "Library/Arrays.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace isopoint
+{
+
+/// The samples that arrays hold, as IsosurfaceExtractor::load() reads them.
+class SampleReader
+{
+public:
+  /// @param excluded null, or bytes that are not 0 for samples that take no part
+  /// @throws UsageError if the arrays cannot be used together
+  SampleReader(
+    const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded)
+    : Positions(positions, "positions")
+    , Values(values, "values")
+  {
+    this->Positions.require("positions", this->Positions.count(), 3);
+    this->Values.require("values", this->Positions.count(), 1);
+    if (!isFloatingPoint(this->Positions.type()))
+    {
+      throw UsageError("The array of positions holds integers. Pass float or double.");
+    }
+    if (excluded)
+    {
+      this->Excluded.emplace(excluded, "excluded samples");
+      this->Excluded->require("excluded samples", this->Positions.count(), 1);
+      if (this->Excluded->type() != ISOPOINT_UINT8)
+      {
+        throw UsageError("The array of excluded samples is not of bytes. Pass ISOPOINT_UINT8.");
+      }
+    }
+  }
+
+  std::size_t count() const { return this->Positions.count(); }
+
+  SampleTypes types() const
+  {
+    SampleTypes types;
+    const std::int32_t type = this->Values.type();
+    types.areFloatPositions = this->Positions.type() == ISOPOINT_FLOAT;
+    types.areFloatValues = type == ISOPOINT_FLOAT || sizeOfType(type) <= 2;
+    types.areIntegers = !isFloatingPoint(type);
+    return types;
+  }
+
+  CloudCounts counts() const
+  {
+    CloudCounts counts;
+    counts.items = this->count();
+    for (std::size_t id = 0; id < this->count(); ++id)
+    {
+      counts.excluded += this->isExcluded(id) ? 1 : 0;
+    }
+    return counts;
+  }
+
+  template <class TCoordinate, class TValue>
+  bool operator()(std::size_t id, TCoordinate* position, TValue& value) const
+  {
+    if (this->isExcluded(id))
+    {
+      return false;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = static_cast<TCoordinate>(this->Positions.at(id, axis));
+    }
+    value = static_cast<TValue>(this->Values.at(id, 0));
+    return true;
+  }
+
+private:
+  bool isExcluded(std::size_t id) const
+  {
+    return this->Excluded && this->Excluded->at<std::uint8_t>(id, 0) != 0;
+  }
+
+  ArrayReader Positions;
+  ArrayReader Values;
+  std::optional<ArrayReader> Excluded;
+};
+
+} // namespace isopoint
+
+#endif

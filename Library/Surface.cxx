@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Library/Surface.h"
+
+#include "Core/Base/UsageError.h"
+#include "Core/OutputArrays.h"
+#include "Core/SplatMesh/SplatFan.h"
+#include "Library/Arrays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace
+{
+
+template <class T>
+constexpr std::int32_t typeOf()
+{
+  return std::is_same_v<T, float>          ? ISOPOINT_FLOAT
+         : std::is_same_v<T, double>       ? ISOPOINT_DOUBLE
+         : std::is_same_v<T, std::uint8_t> ? ISOPOINT_UINT8
+                                           : ISOPOINT_INT64;
+}
+
+/// An array for the caller; numbers follow each other.
+template <class T>
+isopoint_array asArray(const std::vector<T>& numbers, int components)
+{
+  const auto tuples = static_cast<std::int64_t>(numbers.size()) / components;
+  return { numbers.empty() ? nullptr : numbers.data(), typeOf<T>(), components, tuples, 0, 0 };
+}
+
+isopoint_array asArray(const isopoint_surface::Coordinates& coordinates)
+{
+  return std::visit([](const auto& numbers) { return asArray(numbers, 3); }, coordinates);
+}
+
+/// Memory for some numbers of each of `count` points, if they are wanted.
+template <class T>
+T* prepare(std::vector<T>& numbers, bool areWanted, std::size_t count, std::size_t components)
+{
+  numbers.resize(areWanted ? components * count : 0);
+  return areWanted ? numbers.data() : nullptr;
+}
+
+/// Coordinates for `count` positions.
+isopoint_surface::Coordinates makeCoordinates(bool areFloat, std::size_t count)
+{
+  return areFloat ? isopoint_surface::Coordinates(std::vector<float>(3 * count))
+                  : isopoint_surface::Coordinates(std::vector<double>(3 * count));
+}
+
+} // namespace
+
+isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
+  std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
+  bool areFloatPositions, const isopoint::Report& counts, std::size_t samples)
+  : report(counts)
+  , Run(execution)
+  , SampleCount(samples)
+  , Parts(std::move(surfaces))
+{
+  const auto count = static_cast<std::size_t>(counts.pointCount());
+  std::size_t triangleCount = 0;
+  for (const isopoint::ExtractedIsosurface& part : this->Parts)
+  {
+    triangleCount += part.triangles.size();
+  }
+  this->Points = makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions), count);
+  this->Isovalues.resize(count);
+  this->Edges.resize(2 * count);
+  this->EdgeParameters.resize(count);
+  this->Triangles.resize(3 * triangleCount);
+  isopoint::OutputArrays arrays;
+  arrays.normals = prepare(this->Normals, options.computeNormals, count, 3);
+  arrays.gradients = prepare(this->Gradients, options.computeGradients, count, 3);
+  arrays.projectionOrders =
+    prepare(this->ProjectionOrders, options.computeProjectionOrders, count, 1);
+  arrays.radii = prepare(this->Radii, options.computeSplats, count, 1);
+  arrays.splatAxes = prepare(this->SplatAxes, options.computeSplats, count, 3);
+  arrays.splatPolygons =
+    prepare(this->SplatPolygons, options.computeSplats, count, isopoint::numbersOfSplat);
+  std::size_t first = 0;
+  std::int64_t* corners = this->Triangles.data();
+  for (isopoint::ExtractedIsosurface& part : this->Parts)
+  {
+    isopoint::writeArrays(execution, part, options.projection != 0, first, arrays);
+    isopoint::writeTriangles(execution, part, first, corners);
+    std::visit([&](auto& numbers)
+      { isopoint::writePositions(execution, part.surface, numbers.data() + 3 * first); },
+      this->Points);
+    isopoint::forEachIndex(execution, part.surface.size(),
+      [&](std::size_t i)
+      {
+        const isopoint::IsopointEdge& edge = part.surface.edges[i];
+        this->Isovalues[first + i] = part.surface.isovalue;
+        this->Edges[2 * (first + i)] = static_cast<std::int64_t>(edge.first);
+        this->Edges[2 * (first + i) + 1] = static_cast<std::int64_t>(edge.second);
+        this->EdgeParameters[first + i] = edge.parameter;
+      });
+    first += part.surface.size();
+    corners += 3 * part.triangles.size();
+    // What is kept serves interpolation.
+    isopoint::ExtractedIsosurface kept;
+    kept.surface.edges = std::move(part.surface.edges);
+    kept.surface.coincident = std::move(part.surface.coincident);
+    part = std::move(kept);
+  }
+}
+
+isopoint_array isopoint_surface::array(std::int32_t id) const
+{
+  switch (id)
+  {
+    case ISOPOINT_POINTS:
+      return asArray(this->Points);
+    case ISOPOINT_ISOVALUES:
+      return asArray(this->Isovalues, 1);
+    case ISOPOINT_NORMALS:
+      return asArray(this->Normals, 3);
+    case ISOPOINT_GRADIENTS:
+      return asArray(this->Gradients, 3);
+    case ISOPOINT_PROJECTION_ORDERS:
+      return asArray(this->ProjectionOrders, 1);
+    case ISOPOINT_EDGES:
+      return asArray(this->Edges, 2);
+    case ISOPOINT_EDGE_PARAMETERS:
+      return asArray(this->EdgeParameters, 1);
+    case ISOPOINT_TRIANGLES:
+      return asArray(this->Triangles, 3);
+    case ISOPOINT_RADII:
+      return asArray(this->Radii, 1);
+    case ISOPOINT_SPLAT_AXES:
+      return asArray(this->SplatAxes, 3);
+    case ISOPOINT_SPLAT_POLYGONS:
+      return asArray(this->SplatPolygons, static_cast<int>(isopoint::numbersOfSplat));
+    case ISOPOINT_SPLAT_VERTICES:
+      return asArray(this->SplatVertices);
+    case ISOPOINT_SPLAT_VERTEX_NORMALS:
+      return asArray(this->SplatVertexNormals, 3);
+    case ISOPOINT_SPLAT_VERTEX_POINTS:
+      return asArray(this->SplatVertexPoints, 1);
+    case ISOPOINT_SPLAT_TRIANGLES:
+      return asArray(this->SplatTriangles, 3);
+    default:
+      throw isopoint::UsageError(
+        "There is no array " + std::to_string(id) + ". Use an isopoint_array_id.");
+  }
+}
+
+void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result) const
+{
+  const isopoint::ArrayReader reader(ofSamples, "the samples");
+  reader.require("the samples", this->SampleCount, reader.components());
+  const auto components = static_cast<std::size_t>(reader.components());
+  isopoint::withType(reader.type(),
+    [&](auto type)
+    {
+      using T = decltype(type);
+      T* next = static_cast<T*>(result);
+      for (const isopoint::ExtractedIsosurface& part : this->Parts)
+      {
+        isopoint::interpolateComponents(
+          this->Run, part.surface, reader.components(),
+          [&](std::uint64_t sample, int component) {
+            return static_cast<double>(reader.at<T>(static_cast<std::size_t>(sample), component));
+          },
+          [&](std::size_t i, int component, double value) {
+            next[components * i + static_cast<std::size_t>(component)] =
+              isopoint::toArrayType<T>(value);
+          });
+        next += components * part.surface.size();
+      }
+    });
+}
+
+void isopoint_surface::makeSplatMesh(double scale)
+{
+  if (!(scale > 0.0) || !std::isfinite(scale))
+  {
+    throw isopoint::UsageError(
+      "The scale of splats is " + std::to_string(scale) + ". Pass a number greater than 0.");
+  }
+  if (this->Radii.empty() && !this->Isovalues.empty())
+  {
+    throw isopoint::UsageError("The surface has no splats. Extract points with compute_splats and"
+                               " compute_normals.");
+  }
+  this->Mesh.reset();
+  const bool areFloat = std::holds_alternative<std::vector<float>>(this->Points);
+  const double error = isopoint::positionErrorOf(areFloat);
+  this->Mesh = isopoint::buildSplatMesh(this->Run, this->Radii.size(),
+    [&](std::size_t point)
+    {
+      const auto vectorAt = [point](const auto& numbers)
+      {
+        return isopoint::Vector{ static_cast<double>(numbers[3 * point]),
+          static_cast<double>(numbers[3 * point + 1]),
+          static_cast<double>(numbers[3 * point + 2]) };
+      };
+      isopoint::SplatNumbers numbers;
+      std::copy_n(
+        this->SplatPolygons.begin() + static_cast<std::ptrdiff_t>(isopoint::numbersOfSplat * point),
+        isopoint::numbersOfSplat, numbers.begin());
+      return isopoint::fanOf(std::visit(vectorAt, this->Points),
+        isopoint::unitNormal(vectorAt(this->Normals)), vectorAt(this->SplatAxes), numbers, scale,
+        error);
+    });
+  this->writeSplatMesh(areFloat);
+}
+
+void isopoint_surface::writeSplatMesh(bool areFloat)
+{
+  const std::size_t count = this->Mesh->vertices.size();
+  this->SplatVertices = makeCoordinates(areFloat, count);
+  this->SplatVertexNormals.resize(3 * count);
+  this->SplatVertexPoints.resize(count);
+  this->SplatTriangles.resize(3 * this->Mesh->triangles.size());
+  std::visit(
+    [&](auto& coordinates)
+    {
+      isopoint::forEachIndex(this->Run, count,
+        [&](std::size_t i)
+        {
+          const isopoint::SplatVertex& vertex = this->Mesh->vertices[i];
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            using T = std::decay_t<decltype(coordinates[0])>;
+            coordinates[3 * i + axis] = static_cast<T>(vertex.position[axis]);
+            this->SplatVertexNormals[3 * i + axis] = vertex.normal[axis];
+          }
+          this->SplatVertexPoints[i] = static_cast<std::int64_t>(this->Mesh->pointOfVertex[i]);
+        });
+    },
+    this->SplatVertices);
+  isopoint::forEachIndex(this->Run, this->Mesh->triangles.size(),
+    [&](std::size_t i)
+    {
+      std::transform(this->Mesh->triangles[i].begin(), this->Mesh->triangles[i].end(),
+        this->SplatTriangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
+        [](std::size_t vertex) { return static_cast<std::int64_t>(vertex); });
+    });
+}
+
+void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const
+{
+  if (!this->Mesh)
+  {
+    throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.");
+  }
+  const isopoint::ArrayReader reader(ofPoints, "the points");
+  reader.require("the points", this->Isovalues.size(), reader.components());
+  if (!isopoint::isFloatingPoint(reader.type()))
+  {
+    throw isopoint::UsageError("The array of the points holds integers, which have no mean. Pass"
+                               " float or double.");
+  }
+  const auto components = static_cast<std::size_t>(reader.components());
+  isopoint::withType(reader.type(),
+    [&](auto type)
+    {
+      using T = decltype(type);
+      T* const means = static_cast<T*>(result);
+      isopoint::forEachIndex(this->Run, this->Mesh->vertices.size(),
+        [&](std::size_t vertex)
+        {
+          for (std::size_t i = 0; i < components; ++i)
+          {
+            means[components * vertex + i] =
+              static_cast<T>(this->Mesh->meanAt(vertex, [&](std::size_t point)
+                { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); }));
+          }
+        });
+    });
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_library_Surface_h
+#define isopoint_library_Surface_h
+
+#include "Library/isopoint.h"
+
+#include "Core/Base/Execution.h"
+#include "Core/Options.h"
+#include "Core/Report.h"
+#include "Core/SplatMesh/SplatMesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+/// The result of an extraction, as arrays.
+struct isopoint_surface
+{
+  /// Positions of either precision.
+  using Coordinates = std::variant<std::vector<float>, std::vector<double>>;
+
+  /// Takes over the surfaces of all isovalues.
+  /// @param options effective ones
+  /// @throws std::bad_alloc
+  isopoint_surface(const isopoint::Execution& execution,
+    std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
+    bool areFloatPositions, const isopoint::Report& report, std::size_t samples);
+
+  /// See isopoint_get_array(). @throws isopoint::UsageError, std::bad_alloc
+  isopoint_array array(std::int32_t id) const;
+
+  /// See isopoint_interpolate(). @throws isopoint::UsageError, isopoint::Aborted, std::bad_alloc
+  void interpolate(const isopoint_array* ofSamples, void* result) const;
+
+  /// See isopoint_make_splat_mesh(). Throws likewise.
+  void makeSplatMesh(double scale);
+
+  /// See isopoint_average_at_splat_vertices(). Throws likewise.
+  void averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const;
+
+  std::vector<isopoint::Message> messages;
+  isopoint::Report report;
+
+private:
+  isopoint::Execution Run;
+  std::size_t SampleCount;                          // those that take no part included
+  std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
+  Coordinates Points;
+  std::vector<double> Isovalues;
+  std::vector<float> Normals;
+  std::vector<float> Gradients;
+  std::vector<std::uint8_t> ProjectionOrders;
+  std::vector<std::int64_t> Edges;
+  std::vector<double> EdgeParameters;
+  std::vector<std::int64_t> Triangles;
+  std::vector<float> Radii;
+  std::vector<float> SplatAxes;
+  std::vector<float> SplatPolygons;
+
+  // Of the last splat mesh, if one was made:
+  void writeSplatMesh(bool areFloat);
+  std::optional<isopoint::SplatMesh> Mesh;
+  Coordinates SplatVertices;
+  std::vector<float> SplatVertexNormals;
+  std::vector<std::int64_t> SplatVertexPoints;
+  std::vector<std::int64_t> SplatTriangles;
+};
+
+#endif
