@@ -2,71 +2,18 @@
 #ifndef isopoint_RawArray_h
 #define isopoint_RawArray_h
 
-#include "Core/Base/HugePages.h"
+#include "Core/Base/Pages.h"
 
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <new>
-#include <sys/mman.h>
 #include <type_traits>
 #include <utility>
 
 namespace isopoint
 {
-
-/// Addresses for this many bytes, most of which will never be written: only pages that are written
-/// take memory, and none is set aside. Where the system knows no such thing, plain memory.
-/// @returns null if there are none
-inline void* reserveSpread(std::size_t bytes)
-{
-#ifdef MAP_NORESERVE
-  void* const memory = mmap(nullptr, bytes > 0 ? bytes : 1, PROT_READ | PROT_WRITE,
-    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (memory == MAP_FAILED)
-  {
-    return nullptr;
-  }
-#ifdef MADV_NOHUGEPAGE
-  static_cast<void>(madvise(memory, bytes, MADV_NOHUGEPAGE));
-#endif
-  return memory;
-#else
-  return std::malloc(bytes > 0 ? bytes : 1);
-#endif
-}
-
-/// Gives back what reserveSpread() reserved.
-inline void releaseSpread(void* memory, std::size_t bytes)
-{
-#ifdef MAP_NORESERVE
-  static_cast<void>(munmap(memory, bytes > 0 ? bytes : 1));
-#else
-  static_cast<void>(bytes);
-  std::free(memory);
-#endif
-}
-
-/// Gives back the memory of the whole pages in a range, whose content is lost; its addresses stay.
-inline void discardPages(void* begin, std::size_t bytes)
-{
-#ifdef MADV_DONTNEED
-  const std::uintptr_t page = pageSize();
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (address + page - 1) / page * page;
-  const std::uintptr_t last = (address + bytes) / page * page;
-  if (first < last)
-  {
-    static_cast<void>(
-      madvise(static_cast<char*>(begin) + (first - address), last - first, MADV_DONTNEED));
-  }
-#else
-  static_cast<void>(begin);
-  static_cast<void>(bytes);
-#endif
-}
 
 /// A growing array of trivial elements that are left uninitialized. Unlike std::vector, it does not
 /// touch memory before the first write (from any thread), and growing a large one remaps its pages
