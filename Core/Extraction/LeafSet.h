@@ -2,6 +2,8 @@
 #ifndef isopoint_LeafSet_h
 #define isopoint_LeafSet_h
 
+#include "Core/Base/AlwaysInline.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,9 +27,8 @@ public:
     }
   }
 
-  // Inlined by force: in large functions compilers give up on that.
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  [[gnu::always_inline]] bool add(TId leaf)
+  ISOPOINT_ALWAYS_INLINE bool add(TId leaf)
   {
     if (2 * this->Count >= this->Entries.size())
     {

@@ -2,6 +2,8 @@
 #ifndef isopoint_Lanes_h
 #define isopoint_Lanes_h
 
+#include "Core/Base/AlwaysInline.h"
+
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -9,18 +11,57 @@
 namespace isopoint
 {
 
+/// Two numbers, for compilers that know no type of a register of two.
+struct PlainPair
+{
+  double first;
+  double second;
+
+  double operator[](std::size_t i) const { return i == 0 ? this->first : this->second; }
+
+  PlainPair& operator+=(const PlainPair& other)
+  {
+    this->first += other.first;
+    this->second += other.second;
+    return *this;
+  }
+  PlainPair& operator-=(const PlainPair& other)
+  {
+    this->first -= other.first;
+    this->second -= other.second;
+    return *this;
+  }
+  PlainPair& operator*=(const PlainPair& other)
+  {
+    this->first *= other.first;
+    this->second *= other.second;
+    return *this;
+  }
+  PlainPair& operator/=(const PlainPair& other)
+  {
+    this->first /= other.first;
+    this->second /= other.second;
+    return *this;
+  }
+};
+
+#ifdef __GNUC__
+using RegisterPair = double __attribute__((vector_size(16)));
+#else
+using RegisterPair = PlainPair;
+#endif
+
 /// Numbers side by side, in registers of two: every processor that this runs on has these, and no
-/// result depends on wider ones. Arithmetic is that of each number alone. The functions are inlined
-/// by force: compilers give up on that in large functions, where they matter most.
+/// result depends on wider ones. Arithmetic is that of each number alone.
 /// @tparam Count even
-template <std::size_t Count>
+template <std::size_t Count, class Pair = RegisterPair>
 class Pack
 {
 public:
   Pack() = default;
 
   /// Implicit: a number stands for as many of it.
-  [[gnu::always_inline]] Pack(double number)
+  ISOPOINT_ALWAYS_INLINE Pack(double number)
   {
     for (Pair& pair : this->Pairs)
     {
@@ -29,7 +70,7 @@ public:
   }
 
   /// The next numbers in memory.
-  [[gnu::always_inline]] static Pack load(const double* numbers)
+  ISOPOINT_ALWAYS_INLINE static Pack load(const double* numbers)
   {
     Pack pack;
     for (std::size_t i = 0; i < Count / 2; ++i)
@@ -39,7 +80,7 @@ public:
     return pack;
   }
 
-  [[gnu::always_inline]] void store(double* numbers) const
+  ISOPOINT_ALWAYS_INLINE void store(double* numbers) const
   {
     for (std::size_t i = 0; i < Count / 2; ++i)
     {
@@ -47,12 +88,12 @@ public:
     }
   }
 
-  [[gnu::always_inline]] double operator[](std::size_t i) const
+  ISOPOINT_ALWAYS_INLINE double operator[](std::size_t i) const
   {
     return this->Pairs[i / 2][i % 2];
   }
 
-  [[gnu::always_inline]] Pack& operator+=(const Pack& other)
+  ISOPOINT_ALWAYS_INLINE Pack& operator+=(const Pack& other)
   {
     for (std::size_t i = 0; i < Count / 2; ++i)
     {
@@ -60,7 +101,7 @@ public:
     }
     return *this;
   }
-  [[gnu::always_inline]] Pack& operator-=(const Pack& other)
+  ISOPOINT_ALWAYS_INLINE Pack& operator-=(const Pack& other)
   {
     for (std::size_t i = 0; i < Count / 2; ++i)
     {
@@ -68,7 +109,7 @@ public:
     }
     return *this;
   }
-  [[gnu::always_inline]] Pack& operator*=(const Pack& other)
+  ISOPOINT_ALWAYS_INLINE Pack& operator*=(const Pack& other)
   {
     for (std::size_t i = 0; i < Count / 2; ++i)
     {
@@ -76,7 +117,7 @@ public:
     }
     return *this;
   }
-  [[gnu::always_inline]] Pack& operator/=(const Pack& other)
+  ISOPOINT_ALWAYS_INLINE Pack& operator/=(const Pack& other)
   {
     for (std::size_t i = 0; i < Count / 2; ++i)
     {
@@ -85,13 +126,12 @@ public:
     return *this;
   }
 
-  [[gnu::always_inline]] friend Pack operator+(Pack a, const Pack& b) { return a += b; }
-  [[gnu::always_inline]] friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
-  [[gnu::always_inline]] friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
-  [[gnu::always_inline]] friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
+  ISOPOINT_ALWAYS_INLINE friend Pack operator+(Pack a, const Pack& b) { return a += b; }
+  ISOPOINT_ALWAYS_INLINE friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
+  ISOPOINT_ALWAYS_INLINE friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
+  ISOPOINT_ALWAYS_INLINE friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
 
 private:
-  using Pair = double __attribute__((vector_size(16)));
   std::array<Pair, Count / 2> Pairs;
 };
 
@@ -99,21 +139,23 @@ private:
 constexpr std::size_t laneCount = 4;
 using Lanes = Pack<laneCount>;
 
-inline double sumOf(const Lanes& lanes)
+template <class Pair>
+double sumOf(const Pack<laneCount, Pair>& lanes)
 {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
 /// The squares are added as those of samples are.
-template <std::size_t Count>
-[[gnu::always_inline]] inline double sumOfSquares(const Pack<Count>& numbers)
+template <std::size_t Count, class Pair>
+ISOPOINT_ALWAYS_INLINE inline double sumOfSquares(const Pack<Count, Pair>& numbers)
 {
+  using Group = Pack<laneCount, Pair>;
   std::array<double, Count> all;
   numbers.store(all.data());
-  Lanes total = 0.0;
+  Group total = 0.0;
   for (std::size_t i = 0; i < Count; i += laneCount)
   {
-    const Lanes group = Lanes::load(all.data() + i);
+    const Group group = Group::load(all.data() + i);
     total += group * group;
   }
   return sumOf(total);

@@ -2,6 +2,7 @@
 #ifndef isopoint_NormalEquations_h
 #define isopoint_NormalEquations_h
 
+#include "Core/Base/AlwaysInline.h"
 #include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/Polynomial.h"
 
@@ -117,24 +118,28 @@ private:
     const std::size_t groups = samples.groupCount();
     for (std::size_t i = 0; i < groups; ++i)
     {
-      Lanes product = powers.group(i);
+      const Lanes product = powers.group(i);
       products.ofRow.setGroup(i, product * samples.y.group(i));
       if constexpr (B == 0)
       {
         products.ofPlane.setGroup(i, product * samples.x.group(i));
       }
       sums[0] += product;
-#pragma GCC unroll 8
-      for (std::size_t c = 1; c < count; ++c)
-      {
-        product *= samples.z.group(i);
-        sums[c] += product;
-      }
+      addPowers(product, samples.z.group(i), sums, std::make_index_sequence<count - 1>());
     }
     for (std::size_t c = 0; c < count; ++c)
     {
       this->Sums[A][B][c] = sumOf(sums[c]);
     }
+  }
+
+  /// Adds product z, product z^2 and so on to all sums but the first. Unrolled, as a loop over sums
+  /// in registers has to be.
+  template <std::size_t Count, std::size_t... Indices>
+  ISOPOINT_ALWAYS_INLINE static void addPowers(
+    Lanes product, const Lanes& z, std::array<Lanes, Count>& sums, std::index_sequence<Indices...>)
+  {
+    ((product *= z, sums[Indices + 1] += product), ...);
   }
 
   /// The sums of the last three rows of a plane, a + b = Order - 2.

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_AlwaysInline_h
+#define isopoint_AlwaysInline_h
+
+/// In front of functions that are inlined by force: compilers give up on that in large functions,
+/// where it matters most. Each compiler has its own word for it, and warns of those of others.
+#if defined(__GNUC__)
+#define ISOPOINT_ALWAYS_INLINE [[gnu::always_inline]]
+#elif defined(_MSC_VER)
+#define ISOPOINT_ALWAYS_INLINE __forceinline
+#else
+#define ISOPOINT_ALWAYS_INLINE
+#endif
+
+#endif
