@@ -47,9 +47,18 @@ inline Vector scaled(double factor, const Vector& a)
   return { factor * a[0], factor * a[1], factor * a[2] };
 }
 
+/// Neither overflows nor underflows where squares do. NaN if a component is infinite, or is NaN and
+/// another one not 0. Written out since the last bits of std::hypot differ among libraries.
 inline double lengthOf(const Vector& a)
 {
-  return std::hypot(a[0], a[1], a[2]);
+  const double x = std::abs(a[0]);
+  const double y = std::abs(a[1]);
+  const double z = std::abs(a[2]);
+  const double largest = x < y ? (y < z ? z : y) : (x < z ? z : x);
+  return largest != 0.0
+           ? largest * std::sqrt((x / largest) * (x / largest) + (y / largest) * (y / largest) +
+                                 (z / largest) * (z / largest))
+           : 0.0;
 }
 
 /// @returns the vector at length 1, or the x axis for one without direction

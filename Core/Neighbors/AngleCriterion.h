@@ -2,6 +2,7 @@
 #ifndef isopoint_AngleCriterion_h
 #define isopoint_AngleCriterion_h
 
+#include "Core/Base/Cosine.h"
 #include "Core/Base/Offset.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace isopoint
 /// a cube: on a regular lattice the diagonals survive rounding.
 constexpr double defaultAngle = 54.7;
 
-/// Sorts a neighborhood as AngleCriterion::survivesAmongSorted() requires.
+/// Sorts a neighborhood as AngleCriterion::survivesAmongSorted() requires, whose result does not
+/// depend on the order of equal distances.
 inline void nearestFirst(std::vector<Offset>& offsets)
 {
   std::sort(offsets.begin(), offsets.end(),
@@ -33,7 +35,7 @@ public:
   /// others what stands exactly opposite, as far as rounding permits)
   explicit AngleCriterion(double degrees)
     : DropsNothing(degrees <= 0.0)
-    , Cosine(std::cos(degrees * 3.14159265358979323846 / 180.0))
+    , Cosine(cosineOf(degrees * 3.14159265358979323846 / 180.0))
   {
   }
 

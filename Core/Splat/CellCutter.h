@@ -171,10 +171,11 @@ private:
       for (const TangentCell::Corner& corner : cell)
       {
         const bool isConfirmedHere = this->isConfirmed(point, corner.side);
-        const double reach = std::hypot(corner.x, corner.y);
-        if (reach > certainReach && !(isConfirmedBefore && isConfirmedHere) &&
+        const double squaredReach = corner.x * corner.x + corner.y * corner.y;
+        if (squaredReach > certainReach * certainReach && !(isConfirmedBefore && isConfirmedHere) &&
             this->isContradicted(point, cell.frame(), corner))
         {
+          const double reach = std::sqrt(squaredReach);
           directions.push_back({ corner.x / reach, corner.y / reach });
         }
         isConfirmedBefore = isConfirmedHere;

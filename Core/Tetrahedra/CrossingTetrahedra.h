@@ -116,6 +116,7 @@ private:
     {
       volume *= tree.region.upper[axis] - tree.region.lower[axis];
     }
+    // No result depends on its last bits, nor on the unit: predicates are exact with any.
     constexpr double leastShare = 1.0 / 128.0; // of the mean spacing
     const CoordinateUnit none(
       leastShare * std::cbrt(volume / static_cast<double>(tree.samples.size())));

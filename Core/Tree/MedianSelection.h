@@ -225,6 +225,7 @@ struct MiddleBracket
     const TSample* samples, std::size_t count, int axis, std::vector<Coordinate>& subset)
   {
     constexpr std::size_t largestSubset = 32768;
+    // No result depends on the last bits of the root: it decides how large the subset is.
     const double root = std::cbrt(static_cast<double>(count));
     const std::size_t size = std::min(static_cast<std::size_t>(root * root), largestSubset);
     subset.resize(std::max(subset.size(), size));

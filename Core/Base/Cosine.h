@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_Cosine_h
+#define isopoint_Cosine_h
+
+namespace isopoint
+{
+
+/// A number of twice the digits of a double [Dek71]: an unevaluated sum.
+struct TwoDoubles
+{
+  double high;
+  double low;
+};
+
+/// a + b, exactly, where a is not the smaller one in magnitude.
+inline TwoDoubles exactSum(double a, double b)
+{
+  const double sum = a + b;
+  return { sum, b - (sum - a) };
+}
+
+/// a * b, exactly, where no part overflows or underflows.
+inline TwoDoubles exactProduct(double a, double b)
+{
+  const auto upperHalf = [](double number)
+  {
+    const double scaled = 134217729.0 * number; // 2^27 + 1
+    return scaled - (scaled - number);
+  };
+  const double product = a * b;
+  const double aUpper = upperHalf(a);
+  const double bUpper = upperHalf(b);
+  const double aLower = a - aUpper;
+  const double bLower = b - bUpper;
+  return { product,
+    ((aUpper * bUpper - product) + aUpper * bLower + aLower * bUpper) + aLower * bLower };
+}
+
+inline TwoDoubles product(const TwoDoubles& a, const TwoDoubles& b)
+{
+  const TwoDoubles ofHigh = exactProduct(a.high, b.high);
+  return exactSum(ofHigh.high, ofHigh.low + (a.high * b.low + a.low * b.high));
+}
+
+inline TwoDoubles quotient(const TwoDoubles& a, double divisor)
+{
+  const double high = a.high / divisor;
+  const TwoDoubles back = exactProduct(high, divisor);
+  return exactSum(high, ((a.high - back.high) - back.low + a.low) / divisor);
+}
+
+/// The cosine of 0 to pi, which differs by less than 2^-99 from what is rounded to the nearest
+/// double: results depend on it, and those of C libraries differ in the last bit.
+inline double cosineOf(double angle)
+{
+  const TwoDoubles square = exactProduct(angle, angle);
+  TwoDoubles sum{ 1.0, 0.0 }; // of the Taylor series, from its end
+  constexpr int terms = 22;
+  for (int term = terms; term > 0; --term)
+  {
+    const double divisor = 2.0 * term * (2.0 * term - 1.0);
+    const TwoDoubles rest = quotient(product(square, sum), divisor);
+    // The larger one first.
+    const TwoDoubles high = rest.high > 1.0 ? exactSum(-rest.high, 1.0) : exactSum(1.0, -rest.high);
+    sum = exactSum(high.high, high.low - rest.low);
+  }
+  return sum.high;
+}
+
+} // namespace isopoint
+
+#endif

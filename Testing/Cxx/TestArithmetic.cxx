@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arithmetic that is the same to the last bit for all compilers and libraries.
+#include "Random.h"
+
+#include "Core/Base/Cosine.h"
+#include "Core/Base/Vector.h"
+#include "Core/Fit/Lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = 3.14159265358979323846;
+
+/// All that can be done with numbers side by side, on two groups of eight.
+template <class Pair>
+std::vector<double> calculate(const std::array<double, 8>& a, const std::array<double, 8>& b)
+{
+  using Eight = isopoint::Pack<8, Pair>;
+  using Four = isopoint::Pack<4, Pair>;
+  const Eight first = Eight::load(a.data());
+  const Eight second = Eight::load(b.data());
+  std::vector<double> results;
+  for (const Eight& result : { first + second, first - second, first * second, first / second,
+         2.0 - first * second / (first + second) })
+  {
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      results.push_back(result[i]);
+    }
+    results.push_back(sumOfSquares(result));
+    std::array<double, 8> stored;
+    result.store(stored.data());
+    results.push_back(sumOf(Four::load(stored.data() + 2)));
+  }
+  return results;
+}
+
+} // namespace
+
+TEST(Arithmetic, LanesAreThoseOfPlainNumbers)
+{
+  clouds::Random random(1);
+  for (int round = 0; round < 1000; ++round)
+  {
+    std::array<double, 8> a;
+    std::array<double, 8> b;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      a[i] = random() - 0.5;
+      b[i] = std::ldexp(random() - 0.5, round % 40);
+    }
+    EXPECT_EQ(calculate<isopoint::RegisterPair>(a, b), calculate<isopoint::PlainPair>(a, b));
+  }
+}
+
+TEST(Arithmetic, LengthsHaveAnyScale)
+{
+  using isopoint::lengthOf;
+  for (const int exponent : { -1072, -600, 0, 600, 1020 })
+  {
+    const double unit = std::ldexp(1.0, exponent);
+    EXPECT_EQ(lengthOf({ 2.0 * unit, -3.0 * unit, 6.0 * unit }), 7.0 * unit) << exponent;
+    EXPECT_EQ(lengthOf({ 0.0, -unit, 0.0 }), unit) << exponent;
+  }
+  EXPECT_EQ(lengthOf({ 0.0, -0.0, 0.0 }), 0.0);
+  EXPECT_TRUE(std::isnan(lengthOf({ 1.0, notANumber, 2.0 })));
+  EXPECT_TRUE(std::isnan(lengthOf({ notANumber, 0.0, 0.0 })));
+  EXPECT_TRUE(std::isnan(lengthOf({ 0.0, -infinity, 1.0 })));
+}
+
+TEST(Arithmetic, CosinesAreRoundedToNearest)
+{
+  using isopoint::cosineOf;
+  EXPECT_EQ(cosineOf(0.0), 1.0);
+  EXPECT_EQ(cosineOf(pi), -1.0);
+  // By exact rational numbers: within 0.0003 units of the last place of the middle of two doubles.
+  EXPECT_EQ(cosineOf(10.084 * pi / 180.0), 0.9845521132153076);
+  EXPECT_EQ(cosineOf(16.352 * pi / 180.0), 0.9595501716964175);
+  EXPECT_EQ(cosineOf(17.235 * pi / 180.0), 0.9550975461310681);
+  EXPECT_EQ(cosineOf(18.463 * pi / 180.0), 0.9485283638628962);
+  EXPECT_NEAR(cosineOf(pi / 2.0), 6.123233995736766e-17, 0x1p-99);
+  for (int tenths = 0; tenths <= 1800; ++tenths)
+  {
+    const double angle = tenths * pi / 1800.0;
+    EXPECT_NEAR(cosineOf(angle), std::cos(angle), 0x1p-53) << tenths;
+  }
+}
