@@ -218,7 +218,8 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
       }
     }
   }
-  std::sort(
+  // On lattices several creases are often at one distance: then the pieces' order counts.
+  std::stable_sort(
     found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<CreasePlane> creases;
   creases.reserve(found.size());

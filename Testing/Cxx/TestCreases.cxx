@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 using namespace fittesting;
@@ -227,6 +228,25 @@ TEST(CreaseFit, SidesMeetAtTwentyFiveDegreesOrMore)
   EXPECT_FALSE(isSharp(24.9));
   EXPECT_TRUE(isSharp(25.1));
   EXPECT_TRUE(isSharp(150.0));
+}
+
+TEST(CreaseFit, CreasesAtOneDistanceAreInTheOrderOfThePieces)
+{
+  isopoint::CreaseFit fit;
+  fit.pieces.resize(4);
+  fit.pieces[0].coefficients[1] = 1.0;
+  for (const auto& [piece, axis, side] :
+    { std::tuple(1u, 3u, 1.0), { 2u, 2u, -1.0 }, { 3u, 2u, 1.0 } })
+  {
+    fit.pieces[piece].coefficients[0] = -0.25;
+    fit.pieces[piece].coefficients[axis] = side;
+  }
+  const auto found = isopoint::zeroNear(fit, 2.0);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->creases.size(), 3u);
+  EXPECT_EQ(found->creases[0].inward, (Vector{ 0.0, 0.0, -1.0 }));
+  EXPECT_EQ(found->creases[1].inward, (Vector{ 0.0, 1.0, 0.0 }));
+  EXPECT_EQ(found->creases[2].inward, (Vector{ 0.0, -1.0, 0.0 }));
 }
 
 // The nearest zero of a single piece may lie beyond the crease: then that of another piece counts,
