@@ -99,10 +99,10 @@ bool isPart(const raytracing::Camera& camera, const int* size, const raytracing:
 {
   const double width = picture.getWidth();
   const double height = picture.getHeight();
-  const double column =
-    std::round(width * shareOf(whole.near.corner, camera.near.corner, whole.near.right));
-  const double row =
-    std::round(height * shareOf(whole.near.corner, camera.near.corner, whole.near.up));
+  const double column = std::round(
+    width * shareOf(whole.nearWindow.corner, camera.nearWindow.corner, whole.nearWindow.right));
+  const double row = std::round(
+    height * shareOf(whole.nearWindow.corner, camera.nearWindow.corner, whole.nearWindow.up));
   if (!(column >= 0.0 && row >= 0.0 && column + size[0] <= width && row + size[1] <= height))
   {
     return false;
@@ -111,7 +111,8 @@ bool isPart(const raytracing::Camera& camera, const int* size, const raytracing:
     static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
   const auto isPartOf = [&](const raytracing::Window& part, const raytracing::Window& window)
   { return isPart(part, window, column / width, row / height, size[0] / width, size[1] / height); };
-  return isPartOf(camera.near, whole.near) && isPartOf(camera.far, whole.far);
+  return isPartOf(camera.nearWindow, whole.nearWindow) &&
+         isPartOf(camera.farWindow, whole.farWindow);
 }
 
 std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)

@@ -190,11 +190,11 @@ double vtkIsopointTracedView::GetDepth(double x, double y, double distance) cons
   {
     return 1.0;
   }
-  const isopoint::Vector near = this->Camera.near.at(x, y);
-  const isopoint::Vector offset = isopoint::difference(this->Camera.far.at(x, y), near);
+  const isopoint::Vector origin = this->Camera.nearWindow.at(x, y);
+  const isopoint::Vector offset = isopoint::difference(this->Camera.farWindow.at(x, y), origin);
   const double scale = distance / vtkMath::Norm(offset.data());
-  const double place[4] = { near[0] + scale * offset[0], near[1] + scale * offset[1],
-    near[2] + scale * offset[2], 1.0 };
+  const double place[4] = { origin[0] + scale * offset[0], origin[1] + scale * offset[1],
+    origin[2] + scale * offset[2], 1.0 };
   double clip[4];
   this->SceneToClip->MultiplyPoint(place, clip);
   constexpr double half = 0.5;

@@ -175,7 +175,7 @@ std::vector<std::size_t> keptPoints(
   const Execution& execution, double minimumSpacing, const std::vector<LocalFit>& fits)
 {
   constexpr std::size_t batch = 8192;
-  KeptPoints near(fits, minimumSpacing);
+  KeptPoints keptSheets(fits, minimumSpacing);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < fits.size(); ++i)
   {
@@ -187,10 +187,10 @@ std::vector<std::size_t> keptPoints(
     {
       kept.push_back(i);
     }
-    else if (!near.hasCloseTo(fits[i]))
+    else if (!keptSheets.hasCloseTo(fits[i]))
     {
       kept.push_back(i);
-      near.add(i);
+      keptSheets.add(i);
     }
   }
   return kept;

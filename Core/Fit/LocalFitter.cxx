@@ -88,10 +88,10 @@ LocalFit LocalFitter::fit(
   {
     return fit;
   }
-  const FitSample* const near = samples.data();
-  const FitSample* const far = near + nearCount;
-  const FitSample* const end = near + samples.size();
-  this->Frame.add(far, end);
+  const FitSample* const begin = samples.data();
+  const FitSample* const farther = begin + nearCount;
+  const FitSample* const end = begin + samples.size();
+  this->Frame.add(farther, end);
   if (this->Highest == FitOrder::Linear)
   {
     this->fitLinear(fit);
@@ -112,12 +112,12 @@ LocalFit LocalFitter::fit(
     }
     // Close to a corner, the few samples of one more piece do not determine it among many others.
     this->Frame.enter(edge, this->Isovalue);
-    this->Frame.add(near, far);
+    this->Frame.add(begin, farther);
     if (this->fitCreases(fit))
     {
       return fit;
     }
-    this->Frame.add(far, end);
+    this->Frame.add(farther, end);
   }
   if (found)
   {

@@ -25,9 +25,9 @@ bool isFinite(const Radiance& radiance)
 //------------------------------------------------------------------------------
 Ray Camera::through(double x, double y, float& skipped) const
 {
-  const isopoint::Vector origin = this->near.at(x, y);
-  isopoint::Vector offset = isopoint::difference(this->far.at(x, y), origin);
-  const double length = std::hypot(std::hypot(offset[0], offset[1]), offset[2]);
+  const isopoint::Vector origin = this->nearWindow.at(x, y);
+  isopoint::Vector offset = isopoint::difference(this->farWindow.at(x, y), origin);
+  const double length = isopoint::lengthOf(offset);
   // The scene lies within a unit sphere around the origin: before that nothing is met.
   double along = -1.0;
   for (std::size_t axis = 0; axis < origin.size(); ++axis)

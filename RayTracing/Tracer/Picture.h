@@ -31,8 +31,8 @@ struct Window
 /// the far plane.
 struct Camera
 {
-  Window near;
-  Window far;
+  Window nearWindow; // not "near" and "far": headers of Windows define these
+  Window farWindow;
 
   /// The ray through a place of the window, 0 to 1 from left to right and from bottom to top. It
   /// begins where it comes near the scene.
