@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the project, warnings being errors, and runs its tests; see the usage below.
+# Builds the project and runs its tests; see the usage below.
 set -euo pipefail
 
 usage()
 {
   cat << END
 usage: $0 [--quick] [OPTION...]
-Builds the project in build/release, where demo.sh builds it too, and runs all its tests.
+Builds the project in build/release, where demo.sh builds it too, and runs all its tests. With CI=true in
+the environment a build folder that is made anew stops at warnings of the compiler.
   --quick   builds and runs only the quick tests: C++ programs that end within seconds
 Other options are those of ctest, for example --tests-regex '^TestSplats' or --label-regex rendering;
 ctest --help lists them.

@@ -44,7 +44,7 @@ test_stack()
   make_root "${stack%-*}" "$root"
   rm -rf "$root/root/source"
   git clone --quiet "$source_dir" "$root/root/source"
-  run_in_root "$root" "cd /root/source && Utilities/prepare.sh $preset all tests" >> "$root.log" 2>&1 || {
+  run_in_root "$root" "cd /root/source && CI=true Utilities/prepare.sh $preset all tests" >> "$root.log" 2>&1 || {
     echo "$stack: does not build; see $root.log"
     return
   }
