@@ -13,11 +13,28 @@
 #include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkVersionMacros.h"
 
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+/**
+ * Calls the first of two functions that the class of an object allows: development versions of VTK,
+ * which ParaView ships, have some of what a later version number stands for.
+ * @param newer a lambda of any pointer, whose return type is that of the call
+ */
+template <class TObject, class TNewer, class TOlder>
+decltype(auto) vtkCallNewer(TObject* object, const TNewer& newer, const TOlder& older)
+{
+  if constexpr (std::is_invocable_v<TNewer, TObject*>)
+  {
+    return newer(object);
+  }
+  else
+  {
+    return older(object);
+  }
+}
 
 /**
  * Whether an abort was requested of a filter or, if this version of VTK propagates that, of an
@@ -25,11 +42,9 @@
  */
 inline bool vtkIsAborted(vtkAlgorithm* filter)
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
-  return filter->CheckAbort();
-#else
-  return filter->GetAbortExecute() != 0;
-#endif
+  return vtkCallNewer(
+    filter, [](auto* any) -> decltype(any->CheckAbort()) { return any->CheckAbort(); },
+    [](auto* any) { return any->GetAbortExecute() != 0; });
 }
 
 /**
@@ -45,12 +60,13 @@ inline int vtkGetRequestedSMPThreads()
  */
 inline void vtkInitializeLevels(vtkUniformGridAMR* amr, const std::vector<unsigned int>& grids)
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  amr->Initialize(grids);
-#else
-  amr->Initialize(
-    static_cast<int>(grids.size()), std::vector<int>(grids.begin(), grids.end()).data());
-#endif
+  vtkCallNewer(
+    amr, [&](auto* any) -> decltype(any->Initialize(grids)) { return any->Initialize(grids); },
+    [&](auto* any)
+    {
+      any->Initialize(
+        static_cast<int>(grids.size()), std::vector<int>(grids.begin(), grids.end()).data());
+    });
 }
 
 /**
@@ -58,19 +74,19 @@ inline void vtkInitializeLevels(vtkUniformGridAMR* amr, const std::vector<unsign
  */
 inline unsigned int vtkCountGridsOfLevel(vtkUniformGridAMR* amr, unsigned int level)
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  return amr->GetNumberOfBlocks(level);
-#else
-  return amr->GetNumberOfDataSets(level);
-#endif
+  return vtkCallNewer(
+    amr,
+    [&](auto* any) -> decltype(any->GetNumberOfBlocks(level))
+    { return any->GetNumberOfBlocks(level); },
+    [&](auto* any) { return any->GetNumberOfDataSets(level); });
 }
 inline vtkDataSet* vtkGetGridOfLevel(vtkUniformGridAMR* amr, unsigned int level, unsigned int grid)
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  return amr->GetDataSetAsCartesianGrid(level, grid);
-#else
-  return amr->GetDataSet(level, grid);
-#endif
+  return vtkCallNewer(
+    amr,
+    [&](auto* any) -> decltype(any->GetDataSetAsCartesianGrid(level, grid))
+    { return any->GetDataSetAsCartesianGrid(level, grid); },
+    [&](auto* any) { return any->GetDataSet(level, grid); });
 }
 
 /**
@@ -78,40 +94,23 @@ inline vtkDataSet* vtkGetGridOfLevel(vtkUniformGridAMR* amr, unsigned int level,
  */
 inline vtkDataArray* vtkGetTypesOfCells(vtkUnstructuredGrid* grid)
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  return grid->GetCellTypes();
-#else
-  return grid->GetCellTypesArray();
-#endif
+  return vtkCallNewer(
+    grid, [](auto* any) -> decltype(any->GetCellTypes()) { return any->GetCellTypes(); },
+    [](auto* any) { return any->GetCellTypesArray(); });
 }
-
-/// Whether a grid stores the faces of its polyhedra in cell arrays, as from VTK 9.4 on. Derived
-/// from the class, since development versions of 9.3 differ.
-template <class TGrid, class = void>
-struct vtkHasFacesInCellArrays : std::false_type
-{
-};
-template <class TGrid>
-struct vtkHasFacesInCellArrays<TGrid,
-  std::void_t<decltype(std::declval<TGrid&>().GetPolyhedronFaces())>> : std::true_type
-{
-};
 
 /**
  * The faces of the polyhedra of an unstructured grid, and their locations for each cell: two
  * vtkCellArray or, before VTK 9.4, two vtkIdTypeArray; null if it has none.
  */
-template <class TGrid>
-auto vtkGetFacesOfPolyhedra(TGrid* grid)
+inline auto vtkGetFacesOfPolyhedra(vtkUnstructuredGrid* grid)
 {
-  if constexpr (vtkHasFacesInCellArrays<TGrid>::value)
-  {
-    return std::make_pair(grid->GetPolyhedronFaces(), grid->GetPolyhedronFaceLocations());
-  }
-  else
-  {
-    return std::make_pair(grid->GetFaces(), grid->GetFaceLocations());
-  }
+  return vtkCallNewer(
+    grid,
+    [](auto* any) -> decltype(std::make_pair(
+                    any->GetPolyhedronFaces(), any->GetPolyhedronFaceLocations()))
+    { return std::make_pair(any->GetPolyhedronFaces(), any->GetPolyhedronFaceLocations()); },
+    [](auto* any) { return std::make_pair(any->GetFaces(), any->GetFaceLocations()); });
 }
 
 #endif

@@ -2,7 +2,39 @@
 // Every kind of data set yields the same output as a point cloud of the same samples.
 #include "InputTesting.h"
 
+#include "Input/vtkIsopointCompatibility.h"
+
 using namespace inputtesting;
+
+namespace
+{
+
+struct Older
+{
+  int cells() const { return 1; }
+};
+
+struct Newer
+{
+  int cells() const { return 1; }
+  int newCells() const { return 2; }
+};
+
+template <class T>
+int cellsOf(const T& object)
+{
+  return vtkCallNewer(
+    &object, [](auto* any) -> decltype(any->newCells()) { return any->newCells(); },
+    [](auto* any) { return any->cells(); });
+}
+
+} // namespace
+
+TEST(Inputs, FunctionsOfNewerVersionsAreFound)
+{
+  EXPECT_EQ(cellsOf(Older()), 1);
+  EXPECT_EQ(cellsOf(Newer()), 2);
+}
 
 TEST(Inputs, PointDataOfEveryDataSet)
 {
