@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How evenly the filter reports its progress, and how soon it stops when asked to.
+// How evenly the filters report their progress, and how soon they stop when asked to.
 #include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredIsosurfaceFilter.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
+#include "vtkFloatArray.h"
 #include "vtkNew.h"
-#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
-#include "vtkXMLImageDataReader.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +20,9 @@
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <mutex>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,15 +31,18 @@ namespace
 {
 
 constexpr const char* usage =
-  "usage: IsopointProgress FILE.vti ISOVALUE OTHER [--threads N] [--aborts N]\n"
-  "Contours a volume at ISOVALUE and then, from the kept tree, at OTHER; points alone and with the\n"
-  "default options. Prints a Markdown table:\n"
+  "usage: IsopointProgress [--samples N] [--threads N] [--aborts N]\n"
+  "Contours random samples (default: 4000000) in the unit cube, of a sphere's distance and of noisy\n"
+  "waves, at one isovalue and then, from the kept tree, at another: points alone, points and\n"
+  "triangles with the default options. Prints a Markdown table:\n"
   "  seconds    elapsed time\n"
-  "  deviation  of the progress reported from the share of the time, in points of 100; where\n"
-  "  gap        the longest time between two looks at an abort, in ms; where, as share of the time\n"
+  "  events     the number of times that progress is reported\n"
+  "  silence    the longest time between two of them, in seconds; when, as share of the time\n"
+  "  deviation  of the progress reported from the share of the time, in points of 100; when\n"
+  "  look       the longest time between two looks at an abort, in ms; when\n"
   "  abort      the longest time that an update takes to return, in ms, after another thread aborts\n"
-  "             it; when that was. N times are tried (default: 20), spread evenly.\n"
-  "The second line of each pair is the other isovalue. --threads N: of vtkSMPTools (default: 2).\n";
+  "             it; when that was. N times are tried (default: 0), spread evenly.\n"
+  "--threads N: of vtkSMPTools (default: 2).\n";
 
 double now()
 {
@@ -47,32 +50,35 @@ double now()
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-/// The filter, which notes when it looks whether to stop.
-class WatchedFilter : public vtkScatteredIsopointFilter
+/// When filters look whether to stop.
+std::vector<double> looks;
+
+/// A filter that notes when it looks.
+template <class TFilter>
+class Watched : public TFilter
 {
 public:
-  static WatchedFilter* New();
-  vtkTypeMacro(WatchedFilter, vtkScatteredIsopointFilter);
+  static vtkSmartPointer<TFilter> New()
+  {
+    const auto filter = vtkSmartPointer<TFilter>::Take(new Watched);
+    filter->InitializeObjectBase();
+    return filter;
+  }
 
   vtkTypeBool GetAbortExecute() override
   {
-    this->Looks.push_back(now());
-    return this->vtkScatteredIsopointFilter::GetAbortExecute();
+    looks.push_back(now());
+    return this->TFilter::GetAbortExecute();
   }
-
-  std::vector<double> Looks;
-
-protected:
-  WatchedFilter() { this->Looks.reserve(1 << 16); }
 };
-vtkStandardNewMacro(WatchedFilter);
+
+using FilterPointer = vtkSmartPointer<vtkScatteredContourFilter>;
 
 struct Options
 {
-  std::string file;
-  double isovalues[2];
+  int samples = 4000000;
   int threads = 2;
-  int aborts = 20;
+  int aborts = 0;
 };
 
 /// The largest of some numbers, and where it was.
@@ -131,41 +137,71 @@ private:
   std::thread Thread;
 };
 
-vtkSmartPointer<vtkImageData> read(const std::string& file)
+using Field = std::function<double(const double* position, double noise)>;
+
+double sphere(const double* position, double /*noise*/)
 {
-  vtkNew<vtkXMLImageDataReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkSmartPointer<vtkImageData> volume = reader->GetOutput();
-  if (!volume->GetPointData()->GetScalars() && volume->GetPointData()->GetNumberOfArrays() > 0)
-  {
-    volume->GetPointData()->SetActiveScalars(volume->GetPointData()->GetArrayName(0));
-  }
-  return volume;
+  return std::hypot(position[0] - 0.5, position[1] - 0.5, position[2] - 0.5);
 }
 
-vtkSmartPointer<WatchedFilter> makeFilter(vtkImageData* volume, bool pointsAlone)
+double noisyWaves(const double* position, double noise)
 {
-  vtkSmartPointer<WatchedFilter> filter = vtkSmartPointer<WatchedFilter>::New();
-  filter->SetInputData(volume);
-  if (pointsAlone)
+  return std::sin(20.0 * position[0]) + std::sin(20.0 * position[1]) +
+         std::sin(20.0 * position[2]) + noise;
+}
+
+vtkSmartPointer<vtkPolyData> newSamples(int count, const Field& field)
+{
+  std::mt19937 random;
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal(0.0, 0.1);
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkFloatArray> values;
+  values->SetName("field");
+  values->SetNumberOfValues(count);
+  for (int i = 0; i < count; ++i)
   {
-    filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
-    filter->ComputeNormalsOff();
-    filter->ComputeSplatsOff();
+    const double position[3] = { uniform(random), uniform(random), uniform(random) };
+    points->SetPoint(i, position);
+    values->SetValue(i, static_cast<float>(field(position, normal(random))));
   }
+  auto samples = vtkSmartPointer<vtkPolyData>::New();
+  samples->SetPoints(points);
+  samples->GetPointData()->SetScalars(values);
+  return samples;
+}
+
+FilterPointer newPoints()
+{
+  return Watched<vtkScatteredIsopointFilter>::New();
+}
+
+FilterPointer newPointsAlone()
+{
+  const auto filter = Watched<vtkScatteredIsopointFilter>::New();
+  filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  filter->ComputeNormalsOff();
+  filter->ComputeSplatsOff();
   return filter;
+}
+
+FilterPointer newTriangles()
+{
+  return Watched<vtkScatteredIsosurfaceFilter>::New();
 }
 
 struct Timing
 {
   double seconds;
+  std::size_t events;
+  Largest silence;   // in seconds
   Largest deviation; // in points of 100
-  Largest gap;       // in seconds
+  Largest look;      // in seconds
 };
 
 /// Updates a filter and watches its progress and looks.
-Timing watch(WatchedFilter* filter)
+Timing watch(vtkScatteredContourFilter* filter)
 {
   struct Report
   {
@@ -182,41 +218,42 @@ Timing watch(WatchedFilter* filter)
         { now(), vtkAlgorithm::SafeDownCast(caller)->GetProgress() });
     });
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  filter->Looks.clear();
+  looks.clear();
   const double begin = now();
   filter->Update();
   const double end = now();
   filter->RemoveObserver(tag);
 
-  Timing timing{ end - begin, {}, {} };
-  double before = 0.0;
+  Timing timing{ end - begin, reports.size(), {}, {}, {} };
+  const auto shareAt = [&](double time) { return (time - begin) / timing.seconds; };
+  reports.push_back({ end, 1.0 });
+  Report last{ begin, 0.0 };
   for (const Report& report : reports)
   {
     // Until a report, the one before it holds.
-    const double share = (report.time - begin) / timing.seconds;
-    timing.deviation.add(100.0 * (before - share), share);
-    timing.deviation.add(100.0 * (report.progress - share), share);
-    before = report.progress;
+    timing.deviation.add(100.0 * (last.progress - shareAt(report.time)), shareAt(report.time));
+    timing.deviation.add(100.0 * (report.progress - shareAt(report.time)), shareAt(report.time));
+    timing.silence.add(report.time - last.time, shareAt(last.time));
+    last = report;
   }
-  double last = begin;
-  filter->Looks.push_back(end);
-  for (const double look : filter->Looks)
+  looks.push_back(end);
+  double before = begin;
+  for (const double look : looks)
   {
-    timing.gap.add(look - last, (last - begin) / timing.seconds);
-    last = look;
+    timing.look.add(look - before, shareAt(before));
+    before = look;
   }
   return timing;
 }
 
 /// How long an update takes to return after an abort at some time.
 /// @param prepare() a filter that is ready for the update
-Largest measureAborts(
-  const std::function<vtkSmartPointer<WatchedFilter>()>& prepare, double seconds, int count)
+Largest measureAborts(const std::function<FilterPointer()>& prepare, double seconds, int count)
 {
   Largest latency;
   for (int i = 0; i < count; ++i)
   {
-    const vtkSmartPointer<WatchedFilter> filter = prepare();
+    const FilterPointer filter = prepare();
     const double share = (i + 0.5) / count;
     DelayedAbort abort(filter, share * seconds);
     filter->Update();
@@ -227,64 +264,70 @@ Largest measureAborts(
   return latency;
 }
 
-void printRow(const Options& options, bool pointsAlone, const char* which, const Timing& timing,
-  const Largest& latency)
-{
-  std::printf("| %s | %s | %d | %.2f | %+.0f at %.2f | %.0f at %.2f | %.0f at %.2f |\n",
-    pointsAlone ? "points alone" : "default", which, options.threads, timing.seconds,
-    timing.deviation.value, timing.deviation.place, 1e3 * timing.gap.value, timing.gap.place,
-    1e3 * latency.value, latency.place);
-  std::fflush(stdout);
-}
-
-void measure(const Options& options, vtkImageData* volume, bool pointsAlone)
+void measure(const Options& options, vtkPolyData* samples, const char* name,
+  const std::function<FilterPointer()>& makeFilter, const double (&isovalues)[2])
 {
   const auto prepareFirst = [&]()
   {
-    const auto filter = makeFilter(volume, pointsAlone);
-    filter->SetValue(0, options.isovalues[0]);
+    FilterPointer filter = makeFilter();
+    filter->SetInputData(samples);
+    filter->SetValue(0, isovalues[0]);
     return filter;
   };
   const auto prepareOther = [&]()
   {
-    const auto filter = prepareFirst();
+    FilterPointer filter = prepareFirst();
     filter->Update();
-    filter->SetValue(0, options.isovalues[1]);
+    filter->SetValue(0, isovalues[1]);
     return filter;
   };
-  const Timing first = watch(prepareFirst());
-  printRow(options, pointsAlone, "first", first,
-    measureAborts(prepareFirst, first.seconds, options.aborts));
-  const Timing other = watch(prepareOther());
-  printRow(options, pointsAlone, "other", other,
-    measureAborts(prepareOther, other.seconds, options.aborts));
+  const std::function<FilterPointer()> preparations[2] = { prepareFirst, prepareOther };
+  for (int i = 0; i < 2; ++i)
+  {
+    const Timing timing = watch(preparations[i]());
+    const Largest abort = measureAborts(preparations[i], timing.seconds, options.aborts);
+    std::printf("| %s | %g | %.2f | %zu | %.2f at %.2f | %+.0f at %.2f | %.0f at %.2f | %.0f at "
+                "%.2f |\n",
+      name, isovalues[i], timing.seconds, timing.events, timing.silence.value, timing.silence.place,
+      timing.deviation.value, timing.deviation.place, 1e3 * timing.look.value, timing.look.place,
+      1e3 * abort.value, abort.place);
+    std::fflush(stdout);
+  }
+}
+
+void measureField(
+  const Options& options, const char* name, const Field& field, const double (&isovalues)[2])
+{
+  const vtkSmartPointer<vtkPolyData> samples = newSamples(options.samples, field);
+  std::printf("\n%s, %d samples, %d threads\n\n", name, options.samples, options.threads);
+  std::puts("| output | isovalue | seconds | events | silence | deviation | look | abort |\n"
+            "|---|---|---|---|---|---|---|---|");
+  measure(options, samples, "points alone", newPointsAlone, isovalues);
+  measure(options, samples, "points", newPoints, isovalues);
+  measure(options, samples, "triangles", newTriangles, isovalues);
 }
 
 bool parse(int argc, char** argv, Options& options)
 {
-  if (argc < 4)
-  {
-    return false;
-  }
-  options.file = argv[1];
-  options.isovalues[0] = std::atof(argv[2]);
-  options.isovalues[1] = std::atof(argv[3]);
-  for (int i = 4; i < argc; i += 2)
+  for (int i = 1; i < argc; i += 2)
   {
     const std::string name = argv[i];
-    if (i + 1 == argc || (name != "--threads" && name != "--aborts"))
+    int* const option = name == "--samples"   ? &options.samples
+                        : name == "--threads" ? &options.threads
+                        : name == "--aborts"  ? &options.aborts
+                                              : nullptr;
+    if (!option || i + 1 == argc)
     {
       return false;
     }
-    (name == "--threads" ? options.threads : options.aborts) = std::max(1, std::atoi(argv[i + 1]));
+    *option = std::max(0, std::atoi(argv[i + 1]));
   }
-  return true;
+  return options.threads > 0;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
-try
 {
   Options options;
   if (!parse(argc, argv, options))
@@ -292,21 +335,8 @@ try
     std::fputs(usage, stderr);
     return 2;
   }
-  const vtkSmartPointer<vtkImageData> volume = read(options.file);
-  if (volume->GetNumberOfPoints() == 0)
-  {
-    std::fprintf(stderr, "%s: no voxels could be read\n", options.file.c_str());
-    return 1;
-  }
   vtkSMPTools::Initialize(options.threads);
-  std::puts("| options | isovalue | threads | seconds | deviation | gap | abort |\n"
-            "|---|---|---|---|---|---|---|");
-  measure(options, volume, true);
-  measure(options, volume, false);
+  measureField(options, "Sphere", sphere, { 0.3, 0.4 });
+  measureField(options, "Noisy waves", noisyWaves, { 0.5, 0.7 });
   return 0;
-}
-catch (const std::exception& error)
-{
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
 }
