@@ -17,14 +17,14 @@ std::vector<ExtractedIsosurface> extractIsovalues(const Execution& execution,
   std::vector<ExtractedIsosurface> surfaces;
   std::vector<ExtractedIsosurface> ghosts(hasGhosts ? count : 0);
   surfaces.reserve(count + ghosts.size());
+  const auto shareAt = [count](std::size_t i)
+  { return static_cast<double>(i) / static_cast<double>(count); };
   for (std::size_t i = 0; i < count; ++i)
   {
     request.isosurface.isovalue = report.isovalues[i];
     request.isosurface.keepsBand = i + 1 < count || options.keepBand;
-    const double share = 1.0 / static_cast<double>(count);
-    const auto begin = static_cast<double>(i) * share;
     surfaces.push_back(extractor.extract(
-      partOf(execution, begin, begin + share), request, hasGhosts ? &ghosts[i] : nullptr));
+      partOf(execution, shareAt(i), shareAt(i + 1)), request, hasGhosts ? &ghosts[i] : nullptr));
     report.countSurface(i, surfaces.back());
     throwIfAborted(execution);
   }

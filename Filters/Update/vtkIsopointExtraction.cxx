@@ -75,8 +75,8 @@ void vtkIsopointExtraction::Run(vtkInformation* inputInfo, vtkInformation* outpu
   else
   {
     this->State.Trees.erase(this->State.Trees.upper_bound(0), this->State.Trees.end());
-    this->ExtractBlocks(
-      0, this->State.Input.GetBlocks().size(), 0, vtkPolyData::SafeDownCast(output));
+    this->ExtractBlocks(this->Execution, 0, this->State.Input.GetBlocks().size(), 0,
+      vtkPolyData::SafeDownCast(output));
   }
   this->Report.share(this->Team);
   if (this->IsOnRanks())
@@ -154,10 +154,12 @@ void vtkIsopointExtraction::ExtractLeaves(
   {
     if (isHeld[leaf] != 0)
     {
-      this->Filter->SetProgressShiftScale(share * done++, share);
+      const isopoint::Execution part =
+        isopoint::partOf(this->Execution, share * done, share * (done + 1.0));
       const std::size_t block = blockOf[leaf];
       surfaces[leaf] = vtkSmartPointer<vtkPolyData>::New();
-      this->ExtractBlocks(block, std::min(block + 1, blocks.size()), leaf, surfaces[leaf]);
+      this->ExtractBlocks(part, block, std::min(block + 1, blocks.size()), leaf, surfaces[leaf]);
+      ++done;
     }
   }
   if (output) // null where this rank has nothing in place of the others' composite
@@ -166,8 +168,8 @@ void vtkIsopointExtraction::ExtractLeaves(
   }
 }
 
-void vtkIsopointExtraction::ExtractBlocks(
-  std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output)
+void vtkIsopointExtraction::ExtractBlocks(const isopoint::Execution& execution, std::size_t begin,
+  std::size_t end, std::size_t tree, vtkPolyData* output)
 {
   const auto all = this->State.Input.GetBlocks().begin();
   const std::vector<vtkIsopointBlock> blocks(
@@ -178,21 +180,24 @@ void vtkIsopointExtraction::ExtractBlocks(
   state.push_back(static_cast<vtkMTimeType>(blocks.size()));
   const bool isNew = this->Team.isAny(state != kept.LoadedFrom);
   const isopoint::SampleTypes types = vtkGetIsopointSampleTypes(blocks).sharedBy(this->Team);
-  const double loaded = isNew ? 0.3 : 0.0; // of the progress
+  // Shares of the progress, where that of an isovalue is 1.
+  const double loading = isNew ? 0.1 : 0.0;
+  constexpr double writing = 0.1;
+  const double sum = loading + static_cast<double>(this->Report.isovalues.size()) + writing;
   if (isNew)
   {
     kept.LoadedFrom.clear();
     vtkLoadIsopointInput(
-      isopoint::partOf(this->Execution, 0.0, loaded), this->Team, types, blocks, kept.Extractor);
+      isopoint::partOf(execution, 0.0, loading / sum), this->Team, types, blocks, kept.Extractor);
     kept.LoadedFrom = std::move(state);
   }
   this->Report.countSamples(kept.Extractor, vtkCountIsopointSamples(blocks));
   std::vector<isopoint::ExtractedIsosurface> surfaces =
-    isopoint::extractIsovalues(isopoint::partOf(this->Execution, loaded, 1.0), kept.Extractor,
-      this->Options.Core, this->GhostLevels, this->Report);
+    isopoint::extractIsovalues(isopoint::partOf(execution, loading / sum, 1.0 - writing / sum),
+      kept.Extractor, this->Options.Core, this->GhostLevels, this->Report);
   const vtkIsopointEndSamples samples(this->Team, blocks, surfaces);
   this->FillOutput(samples, surfaces, types.areFloatPositions, output);
-  this->Filter->UpdateProgress(1.0);
+  execution.progress(1.0);
 }
 
 void vtkIsopointExtraction::FillOutput(const vtkIsopointEndSamples& samples,

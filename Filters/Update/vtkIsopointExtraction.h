@@ -66,7 +66,8 @@ private:
   void ExtractLeaves(
     const vtkIsopointStructure& structure, vtkDataObject* input, vtkCompositeDataSet* output);
   /// The cloud of some blocks of each rank, perhaps none, with the kept tree of this number.
-  void ExtractBlocks(std::size_t begin, std::size_t end, std::size_t tree, vtkPolyData* output);
+  void ExtractBlocks(const isopoint::Execution& execution, std::size_t begin, std::size_t end,
+    std::size_t tree, vtkPolyData* output);
   void FillOutput(const vtkIsopointEndSamples& samples,
     const std::vector<isopoint::ExtractedIsosurface>& surfaces, bool areFloatPositions,
     vtkPolyData* output);

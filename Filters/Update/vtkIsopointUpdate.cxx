@@ -48,7 +48,6 @@ unsigned long vtkIsopointUpdate::Run(
   {
     failure = isopoint::describeException();
   }
-  this->Filter->SetProgressShiftScale(0.0, 1.0);
   this->Kept.Input.ReleaseInput();
   if (!keepsTree || failure.spoilsTree())
   {
