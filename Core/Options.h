@@ -23,7 +23,7 @@ enum class Precision
 {
   Single = 0,
   Double = 1,
-  Input = 2 // single where the samples' positions are float
+  Default = 2 // single where the samples' positions are float
 };
 
 /// What a user chooses of an extraction, with the defaults. docs/properties.md describes each
@@ -37,7 +37,7 @@ struct Options
   bool computeNormals = true;
   bool computeGradients = false;
   bool computeProjectionOrders = false;
-  int outputPointsPrecision = static_cast<int>(Precision::Input);
+  int outputPointsPrecision = static_cast<int>(Precision::Default);
 
   // Of points alone:
   double angle = defaultAngle;
@@ -75,7 +75,7 @@ inline constexpr Option<bool> computeProjectionOrders{ "ComputeProjectionOrders"
   &Options::computeProjectionOrders, false, true };
 inline constexpr Option<int> outputPointsPrecision{ "OutputPointsPrecision",
   &Options::outputPointsPrecision, static_cast<int>(Precision::Single),
-  static_cast<int>(Precision::Input) };
+  static_cast<int>(Precision::Default) };
 inline constexpr Option<double> angle{ "Angle", &Options::angle, 0.0, 180.0 }; // degrees
 /// In units of the sample spacing.
 inline constexpr Option<double> minimumSpacing{ "MinimumSpacing", &Options::minimumSpacing, 0.0,
@@ -129,7 +129,7 @@ Options effectiveOptions(const Options& options);
 inline bool isSinglePrecision(const Options& options, bool areFloatPositions)
 {
   const auto precision = static_cast<Precision>(options.outputPointsPrecision);
-  return precision == Precision::Single || (precision == Precision::Input && areFloatPositions);
+  return precision == Precision::Single || (precision == Precision::Default && areFloatPositions);
 }
 
 /// What the core is to do, without an isovalue.

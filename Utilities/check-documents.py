@@ -42,9 +42,12 @@ UNFINISHED = re.compile(r"\?\?\?|\b(?:TODO|TBD|FIXME|XXX|TKTK)\b|\b[A-Z]{4,}\d*[
 CAPITALS = {
     "ARRAY", "BRDF", "DATA", "EPYC", "FILE", "FOLDER", "GLSL", "IEEE", "ISOVALUE", "PSNR", "README", "SIGGRAPH", "VGTC"}  # fmt: skip
 
-PROPERTY_MEMBER = re.compile(r"^  (?:double|int|vtkTypeBool) (\w+) = ([\w.]+);", re.MULTILINE)
+# A member of a class or of the core's options, and its default, without the type of an enumeration.
+PROPERTY_MEMBER = re.compile(
+    r"^  (?:double|int|bool|vtkTypeBool) (\w+) = (?:static_cast<int>\(\w+::)?([\w.]+)\)?;", re.MULTILINE)
+DEFAULT_CONSTANT = re.compile(r"constexpr \w+ (default\w+) = ([\w.]+);")
 PROPERTY_ELEMENT = re.compile(r"<\w+VectorProperty\b[^>]*>")
-SWITCHES = {"on": "1", "off": "0"}
+SWITCHES = {"on": "1", "off": "0", "true": "1", "false": "0"}
 
 
 def number_of(expression):
@@ -105,7 +108,8 @@ class Checker:
         self.entries = set(os.listdir(self.root)) - {"build"}
         self.file_names, self.names, self.identifiers = set(), BuildNames(), set(PLACEHOLDERS)
         self.sources = {}  # paths of C++ files by their names
-        self.defaults = {}  # of properties, as the headers of their classes initialize them
+        self.defaults = {}  # of properties, as headers of classes and of the core's options initialize them
+        self.constants = {}  # of defaults
         self.plugin_defaults = {}  # of properties, as the plugin's XML has them
         for folder, folders, names in os.walk(self.root):
             folders[:] = [name for name in folders if name != ".git" and not name.startswith("build")]
@@ -124,9 +128,10 @@ class Checker:
             self.identifiers.update(re.findall(r"\w+", text))
             if name.endswith((".h", ".cxx")):
                 self.sources.setdefault(name, path)
-            if re.match(r"vtk\w+\.h$", name):
+            if re.match(r"(vtk\w+|Options)\.h$", name):
                 for member, value in PROPERTY_MEMBER.findall(text):
-                    self.defaults.setdefault(member, set()).add(value)
+                    self.defaults.setdefault(member[0].upper() + member[1:], set()).add(value)
+            self.constants.update(DEFAULT_CONSTANT.findall(text))
             if name.endswith(".xml"):
                 for element in PROPERTY_ELEMENT.findall(text):
                     attributes = dict(re.findall(r'(\w+)="([^"]*)"', element))
@@ -224,10 +229,13 @@ class Checker:
         default = re.match(r"`?([\w.+-]*)", cell).group(1)
         wanted = number_of(SWITCHES.get(default, default))
         values = self.defaults.get(member) or self.plugin_defaults.get(member, set())
+        values = {SWITCHES.get(value, self.constants.get(value, value)) for value in values}
         if wanted is not None:
             agrees = wanted in {number_of(value) for value in values}
         else:
-            agrees = not values or any(value.lower().startswith(default.lower()) for value in values)
+            agrees = not values or any(
+                value.lower().startswith(default.lower()) or default.lower().startswith(value.lower())
+                for value in values)
         if not values and not agrees:
             self.report(name, number, "no default of %s in the sources" % member)
         elif not agrees or not default:

@@ -178,12 +178,18 @@ class CheckDocuments(unittest.TestCase):
     def test_defaults(self):
         self.write("vtkThing.h", "  double Size = 1.5;\n  vtkTypeBool Runs = 1;\n  int Kind = ROUND;\n"
                    "  int Source = AUTOMATIC_SOURCE;\n  double Angle;\n  bool Name();\n")
+        self.write("Options.h", "// IsFlat\nconstexpr double defaultTurn = 9.5;\n  bool isFlat = false;\n"
+                   "  double turn = defaultTurn;\n  int fit = static_cast<int>(FitOrder::Cubic);\n")
         self.write("thing.xml", '<IntVectorProperty default_values="7"\n command="SetSize" />\n'
                    '<DoubleVectorProperty command="SetAngle"\n default_values="54.7" />\n')
         head = "| property | default |\n|---|---|\n"
         self.expect_clean(head + "| `Size` | 1.5 (m) |\n| `Runs` | on |\n| `Kind` | `ROUND` |\n")
         self.expect_clean(head + "| `Angle` | 54.7 |\n| `Source` | automatic |\n| `Name` | none |\n| Other | 1 |\n")
         self.expect_clean("| property | range |\n|---|---|\n| `Size` | 2 |\n")
+        self.expect_clean(head + "| `IsFlat` | off |\n| `Turn` | 9.5 |\n| `Fit` | `CUBIC_FIT` |\n")
+        self.expect(head + "| `IsFlat` | on |\n", 3, "the default of IsFlat is 0")
+        self.expect(head + "| `Turn` | 9 |\n", 3, "the default of Turn is 9.5")
+        self.expect(head + "| `Fit` | `LINEAR_FIT` |\n", 3, "the default of Fit is Cubic")
         self.expect(head + "| `Size` | 1.6 |\n", 3, "the default of Size is 1.5, not 1.6")
         self.expect(head + "| `Size` | 7 |\n", 3, "the default of Size is 1.5, not 7")
         self.expect(head + "| `Size` | |\n", 3, "the default of Size is 1.5")
