@@ -2,6 +2,7 @@
 #include "Core/OutputArrays.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace isopoint
 {
@@ -36,6 +37,18 @@ void writeSplat(const Splat& splat, std::size_t tuple, const OutputArrays& array
 }
 
 } // namespace
+
+std::size_t countIsopoints(const std::vector<ExtractedIsosurface>& surfaces)
+{
+  return std::accumulate(surfaces.begin(), surfaces.end(), std::size_t{ 0 },
+    [](std::size_t sum, const ExtractedIsosurface& each) { return sum + each.surface.size(); });
+}
+
+std::size_t countTriangles(const std::vector<ExtractedIsosurface>& surfaces)
+{
+  return std::accumulate(surfaces.begin(), surfaces.end(), std::size_t{ 0 },
+    [](std::size_t sum, const ExtractedIsosurface& each) { return sum + each.triangles.size(); });
+}
 
 void writeArrays(const Execution& execution, const ExtractedIsosurface& extracted, bool isProjected,
   std::size_t first, const OutputArrays& arrays)

@@ -10,9 +10,16 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 namespace isopoint
 {
+
+/// The isopoints of all surfaces.
+std::size_t countIsopoints(const std::vector<ExtractedIsosurface>& surfaces);
+
+/// The triangles of all surfaces.
+std::size_t countTriangles(const std::vector<ExtractedIsosurface>& surfaces);
 
 /// Memory for the computed arrays of isopoints; null for those that are not wanted.
 struct OutputArrays

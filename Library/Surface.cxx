@@ -63,17 +63,12 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   , SampleCount(samples)
   , Parts(std::move(surfaces))
 {
-  const auto count = static_cast<std::size_t>(counts.pointCount());
-  std::size_t triangleCount = 0;
-  for (const isopoint::ExtractedIsosurface& part : this->Parts)
-  {
-    triangleCount += part.triangles.size();
-  }
+  const std::size_t count = isopoint::countIsopoints(this->Parts);
   this->Points = makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions), count);
   this->Isovalues.resize(count);
   this->Edges.resize(2 * count);
   this->EdgeParameters.resize(count);
-  this->Triangles.resize(3 * triangleCount);
+  this->Triangles.resize(3 * isopoint::countTriangles(this->Parts));
   isopoint::OutputArrays arrays;
   arrays.normals = prepare(this->Normals, options.computeNormals, count, 3);
   arrays.gradients = prepare(this->Gradients, options.computeGradients, count, 3);

@@ -16,7 +16,6 @@
 
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 /**
  * Calls the first of two functions that the class of an object allows: development versions of VTK,
@@ -53,20 +52,6 @@ inline bool vtkIsAborted(vtkAlgorithm* filter)
 inline int vtkGetRequestedSMPThreads()
 {
   return vtk::detail::smp::vtkSMPToolsAPI::GetInstance().GetInternalDesiredNumberOfThread();
-}
-
-/**
- * Gives an AMR this many grids in each level.
- */
-inline void vtkInitializeLevels(vtkUniformGridAMR* amr, const std::vector<unsigned int>& grids)
-{
-  vtkCallNewer(
-    amr, [&](auto* any) -> decltype(any->Initialize(grids)) { return any->Initialize(grids); },
-    [&](auto* any)
-    {
-      any->Initialize(
-        static_cast<int>(grids.size()), std::vector<int>(grids.begin(), grids.end()).data());
-    });
 }
 
 /**

@@ -3,7 +3,6 @@
 
 #include "Core/OutputArrays.h"
 #include "Input/vtkIsopointAllocation.h"
-#include "Output/vtkIsopointOutput.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
@@ -122,7 +121,7 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       continue;
     }
     const vtkSmartPointer<vtkAbstractArray> result =
-      newArrayLike(array, vtkCountIsopoints(surfaces));
+      newArrayLike(array, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
     vtkIdType firstTuple = 0;
@@ -151,7 +150,7 @@ void vtkAddContouredArray(
   const auto result = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
   result->SetName(contoured->GetName());
-  vtkAllocateTuples(result, vtkCountIsopoints(surfaces));
+  vtkAllocateTuples(result, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
   vtkIdType tuple = 0;
   for (const ExtractedIsosurface& extracted : surfaces)
   {

@@ -24,22 +24,12 @@
 #include <cstddef>
 #include <numeric>
 
-vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces)
-{
-  std::size_t count = 0;
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
-  {
-    count += extracted.surface.size();
-  }
-  return static_cast<vtkIdType>(count);
-}
-
 vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& execution,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(type);
-  vtkAllocateTuples(points->GetData(), vtkCountIsopoints(surfaces));
+  vtkAllocateTuples(points->GetData(), static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
   const auto write = [&](auto* coordinates)
   {
     for (const isopoint::ExtractedIsosurface& extracted : surfaces)
@@ -90,13 +80,8 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
-  vtkIdType count = 0;
-  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
-  {
-    count += static_cast<vtkIdType>(extracted.triangles.size());
-  }
   vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(connectivity, 3 * count);
+  vtkAllocateTuples(connectivity, static_cast<vtkIdType>(3 * isopoint::countTriangles(surfaces)));
   vtkIdType* corners = connectivity->GetPointer(0);
   std::size_t firstPoint = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)

@@ -19,11 +19,6 @@ class vtkPoints;
 class vtkPolyData;
 
 /**
- * The number of isopoints of all surfaces.
- */
-vtkIdType vtkCountIsopoints(const std::vector<isopoint::ExtractedIsosurface>& surfaces);
-
-/**
  * The positions of the isopoints of all surfaces, one surface after the other.
  * @param type VTK_FLOAT or VTK_DOUBLE
  * @throws std::bad_alloc

@@ -12,12 +12,24 @@ using namespace inputtesting;
 namespace
 {
 
+/// Gives an AMR this many grids in each level.
+void initializeLevels(vtkUniformGridAMR* amr, const std::vector<unsigned int>& grids)
+{
+  vtkCallNewer(
+    amr, [&](auto* any) -> decltype(any->Initialize(grids)) { return any->Initialize(grids); },
+    [&](auto* any)
+    {
+      any->Initialize(
+        static_cast<int>(grids.size()), std::vector<int>(grids.begin(), grids.end()).data());
+    });
+}
+
 /// Two levels: a coarse box and a fine one over its lower half along x. The values of both are
 /// those of one field.
 vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
 {
   auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
-  vtkInitializeLevels(amr, { 1, 1 });
+  initializeLevels(amr, { 1, 1 });
   const double origin[3] = { -1.0, -1.0, -1.0 };
   amr->SetOrigin(origin);
   const auto coarse = newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0);
@@ -98,7 +110,7 @@ TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
 TEST(Trees, NonOverlappingAmr)
 {
   vtkNew<vtkNonOverlappingAMR> amr;
-  vtkInitializeLevels(amr, { 1, 2 });
+  initializeLevels(amr, { 1, 2 });
   amr->SetDataSet(0, 0, newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0));
   amr->SetDataSet(1, 1, newImage<vtkUniformGrid>(8, 0.125, 1.0, -1.0, -1.0)); // one box is missing
   Samples samples;
