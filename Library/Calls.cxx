@@ -109,7 +109,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::compute_splats, &Core::computeSplats);
   visit(&C::angle, &Core::angle);
   visit(&C::minimum_spacing, &Core::minimumSpacing);
-  visit(&C::keep_band, &Core::keepBand);
+  visit(&C::keep_tetrahedra, &Core::keepBand);
 }
 
 /// @param given null, or options of this version or an earlier one
@@ -199,14 +199,14 @@ const char* isopoint_get_error(void)
   return lastError.data();
 }
 
-isopoint_extractor* isopoint_create(void)
+isopoint_extractor* isopoint_create_extractor(void)
 {
   isopoint_extractor* created = nullptr;
   run([&]() { created = new isopoint_extractor; });
   return created;
 }
 
-void isopoint_destroy(isopoint_extractor* extractor)
+void isopoint_destroy_extractor(isopoint_extractor* extractor)
 {
   delete extractor;
 }

@@ -6,7 +6,7 @@
  * extractor holds them in a tree; isopoint_extract() yields points on isosurfaces with normals and
  * splats, or triangles.
  *
- *   isopoint_extractor* extractor = isopoint_create();
+ *   isopoint_extractor* extractor = isopoint_create_extractor();
  *   isopoint_array positions = { xyz, ISOPOINT_FLOAT, 3, count, 0, 0 };
  *   isopoint_array values = { temperatures, ISOPOINT_FLOAT, 1, count, 0, 0 };
  *   isopoint_surface* surface = NULL;
@@ -20,7 +20,7 @@
  *     fprintf(stderr, "%s\n", isopoint_get_error());
  *   ...
  *   isopoint_destroy_surface(surface);
- *   isopoint_destroy(extractor);
+ *   isopoint_destroy_extractor(extractor);
  *
  * Threads: two extractors, and two surfaces, may be used on two threads at the same time; one
  * extractor, or one surface, on one thread at a time. Results do not depend on the number of
@@ -53,7 +53,7 @@ extern "C"
 {
 #endif
 
-/* ---------------------------------------------------------------------------------------------- */
+/* -------------------------------------------------------------------------------- */
 /* Types */
 
 /* Samples, and what is kept of them from one extraction to the next. */
@@ -98,7 +98,7 @@ typedef struct isopoint_array
   int64_t component_stride; /* from one number of a tuple to the next; 0: the size of the type */
 } isopoint_array;
 
-/* ---------------------------------------------------------------------------------------------- */
+/* -------------------------------------------------------------------------------- */
 /* Options */
 
 enum
@@ -113,8 +113,8 @@ enum
 enum
 {
   ISOPOINT_NORMALS_AUTOMATIC = -1, /* from the field where a fit is made anyway */
-  ISOPOINT_NORMALS_FIELD = 0,      /* gradients of the fits */
-  ISOPOINT_NORMALS_PLANES = 1      /* planes through the nearest points, or of the triangles */
+  ISOPOINT_NORMALS_FROM_FIELD = 0,      /* gradients of the fits */
+  ISOPOINT_NORMALS_FROM_PLANES = 1      /* planes through the nearest points, or of the triangles */
 };
 
 enum
@@ -143,25 +143,26 @@ typedef struct isopoint_options
   int32_t compute_splats;      /* Default: 1 */
   double angle;           /* of the angle criterion, in degrees, 0 to 180. Default: 54.7 */
   double minimum_spacing; /* of points, in sample spacings, 0 to 1; 0: keep all. Default: 0 */
-  /* Whether what was found for triangles is kept for the next isovalue, which takes memory. */
-  int32_t keep_band; /* Default: 1 */
-  int32_t reserved;  /* 0 */
+  /* Of triangles: whether the tetrahedra near the surface are kept for the next isovalue, which is
+   * faster then, unless they are many. The result is the same. */
+  int32_t keep_tetrahedra; /* Default: 1 */
+  int32_t reserved;        /* 0 */
 } isopoint_options;
 
 /* Sets all options to their defaults. @param size sizeof(isopoint_options) */
 ISOPOINT_API void isopoint_initialize_options(isopoint_options* options, size_t size);
 
-/* ---------------------------------------------------------------------------------------------- */
+/* -------------------------------------------------------------------------------- */
 /* Extractors */
 
 /* The version of the library, as "1.0.0". */
 ISOPOINT_API const char* isopoint_version(void);
 
 /* An extractor without samples, or null if memory is lacking. */
-ISOPOINT_API isopoint_extractor* isopoint_create(void);
+ISOPOINT_API isopoint_extractor* isopoint_create_extractor(void);
 
 /* Frees an extractor, or nothing if it is null. Its surfaces stay. */
-ISOPOINT_API void isopoint_destroy(isopoint_extractor* extractor);
+ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
 
 /* The message of the last call on this thread that failed: the cause, then the remedy; "" if none
  * has. It is valid until the next call fails. */
@@ -201,7 +202,7 @@ ISOPOINT_API int64_t isopoint_get_skipped_count(const isopoint_extractor* extrac
 /* Least and greatest value of the samples that take part; NaN if there are none. */
 ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2]);
 
-/* ---------------------------------------------------------------------------------------------- */
+/* -------------------------------------------------------------------------------- */
 /* Surfaces: their calls use the threads and callbacks that the extractor had when it made them. */
 
 /* Extracts isosurfaces: for each isovalue, once and ascending, the points where edges between
@@ -234,17 +235,22 @@ ISOPOINT_API int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
 /* The arrays of a surface. Points are ordered by isovalue, then by their edges. */
 typedef enum isopoint_array_id
 {
-  ISOPOINT_POINTS = 0,          /* three float or double */
-  ISOPOINT_ISOVALUES = 1,       /* double: that of each point */
-  ISOPOINT_NORMALS = 2,         /* three float, of length 1, to decreasing values */
-  ISOPOINT_GRADIENTS = 3,       /* three float */
-  ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_ that moved each point */
-  ISOPOINT_EDGES = 5,           /* two int64: the samples at the ends of each point's edge */
-  ISOPOINT_EDGE_PARAMETERS = 6, /* double: where on it the point is, 0 at the first, 1 at the second */
-  ISOPOINT_TRIANGLES = 7,       /* three int64: points, counterclockwise seen from lower values */
-  ISOPOINT_RADII = 8,           /* float: the distance of the farthest corner of each splat */
-  ISOPOINT_SPLAT_AXES = 9,      /* three float: see docs/properties.md */
-  ISOPOINT_SPLAT_POLYGONS = 10, /* 40 float: likewise */
+  ISOPOINT_POINTS = 0,            /* three float or double */
+  ISOPOINT_ISOVALUES = 1,         /* double: that of each point */
+  ISOPOINT_NORMALS = 2,           /* three float, of length 1, to decreasing values */
+  ISOPOINT_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
+  ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved each point */
+  ISOPOINT_EDGES = 5,             /* two int64: the samples at the ends of each point's edge */
+  ISOPOINT_EDGE_PARAMETERS = 6,   /* double: where on its edge a point is, from 0 to 1 */
+  ISOPOINT_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */
+  /* The splat of a point p with the normal n is a fan of triangles from p to each two consecutive
+   * of eight corners. Let r be its radius, t1 its axis, and t2 the cross product n x t1. */
+  ISOPOINT_RADII = 8,      /* float: r, the distance of the farthest corner, greater than 0 */
+  ISOPOINT_SPLAT_AXES = 9, /* three float: t1, tangential and as long as r */
+  /* 40 float: a, b, h, u, v of each corner, which is at p + a t1 + b t2 + h r n and has the normal
+   * n + (u t1 + v t2) / r, not of length 1. Counterclockwise seen from the tip of n; further corners
+   * repeat the last one; all are 0 where an earlier point has the same position. */
+  ISOPOINT_SPLAT_POLYGONS = 10,
   /* After isopoint_make_splat_mesh(): */
   ISOPOINT_SPLAT_VERTICES = 11,       /* three float or double, as points */
   ISOPOINT_SPLAT_VERTEX_NORMALS = 12, /* three float */

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh [format|lint|documents|spelling|fix]...: whether C++ files are formatted (clang-format 14), whether the
-# sources of Core, Filters, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the preset release), and
+# sources of Core, Filters, Library, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the preset release), and
 # whether links, paths, commands and figures in the documents hold, and whether all files are in American
 # spelling (codespell). Without arguments all four. fix formats in place.
 set -euo pipefail
@@ -9,7 +9,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cxx_files()
 {
-  find Core Filters Plugin RayTracing Rendering Testing -name '*.h' -print0 -o -name '*.cxx' -print0
+  # clang-format 14 indents all that is extern "C".
+  find Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
+    \( -name '*.h' -o -name '*.cxx' \) -print0
 }
 
 # The command of a tool's version 14, installed where that is possible.
@@ -50,7 +52,7 @@ entries = {}
 for entry in json.load(open("build/release/compile_commands.json")):
     path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
     core = "build/release/Core/"  # configured sources
-    if path.startswith((core, "Core/", "Filters/", "Plugin/", "RayTracing/", "Rendering/")):
+    if path.startswith((core, "Core/", "Filters/", "Library/", "Plugin/", "RayTracing/", "Rendering/")):
         entries.setdefault(path, entry)
 json.dump(list(entries.values()), open("build/release/lint/compile_commands.json", "w"))
 for path in sorted(entries, key=lambda path: ("Core/" not in path, path)):

@@ -112,7 +112,7 @@ int main(int argc, char** argv)
 
   isopoint_initialize_options(&options, sizeof options);
   options.triangles = 1;
-  extractor = isopoint_create();
+  extractor = isopoint_create_extractor();
   if (!extractor || isopoint_set_samples(extractor, &positions, &values, NULL) ||
       isopoint_extract(extractor, &isovalue, 1, &options, &surface) ||
       isopoint_get_array(surface, ISOPOINT_POINTS, &points) ||
@@ -131,7 +131,7 @@ int main(int argc, char** argv)
     printf("%lld points, %lld triangles\n", (long long)points.count, (long long)triangles.count);
   }
   isopoint_destroy_surface(surface);
-  isopoint_destroy(extractor);
+  isopoint_destroy_extractor(extractor);
   free(samples);
   return has_written ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -29,13 +29,13 @@ class Options(ctypes.Structure):
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
         ("angle", ctypes.c_double), ("minimum_spacing", ctypes.c_double),
-        ("keep_band", ctypes.c_int32), ("reserved", ctypes.c_int32)]
+        ("keep_tetrahedra", ctypes.c_int32), ("reserved", ctypes.c_int32)]
 
 
 def load(path):
     """The library, with the types of those functions that do not take and return int."""
     library = ctypes.CDLL(path)
-    library.isopoint_create.restype = ctypes.c_void_p
+    library.isopoint_create_extractor.restype = ctypes.c_void_p
     library.isopoint_get_error.restype = ctypes.c_char_p
     library.isopoint_get_message.restype = ctypes.c_char_p
     return library
@@ -46,10 +46,10 @@ class Extractor:
 
     def __init__(self, library):
         self.library = library
-        self.handle = ctypes.c_void_p(library.isopoint_create())
+        self.handle = ctypes.c_void_p(library.isopoint_create_extractor())
 
     def close(self):
-        self.library.isopoint_destroy(self.handle)
+        self.library.isopoint_destroy_extractor(self.handle)
         self.handle = None
 
     def check(self, status):

@@ -13,12 +13,12 @@ int main(void)
   const double isovalue = 0.25;
   isopoint_array points = { NULL, 0, 1, 0, 0, 0 };
   isopoint_surface* surface = NULL;
-  isopoint_extractor* extractor = isopoint_create();
+  isopoint_extractor* extractor = isopoint_create_extractor();
   const int failed = isopoint_set_samples(extractor, &positions, &values, NULL) ||
                      isopoint_extract(extractor, &isovalue, 1, NULL, &surface) ||
                      isopoint_get_array(surface, ISOPOINT_POINTS, &points);
   const int found = !failed && points.count == 1 && ((const float*)points.data)[0] == 0.25f;
   isopoint_destroy_surface(surface);
-  isopoint_destroy(extractor);
+  isopoint_destroy_extractor(extractor);
   return found && strlen(isopoint_version()) >= 5 ? 0 : 1;
 }

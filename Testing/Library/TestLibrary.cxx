@@ -19,12 +19,12 @@
 namespace
 {
 
-using Extractor = std::unique_ptr<isopoint_extractor, decltype(&isopoint_destroy)>;
+using Extractor = std::unique_ptr<isopoint_extractor, decltype(&isopoint_destroy_extractor)>;
 using Surface = std::unique_ptr<isopoint_surface, decltype(&isopoint_destroy_surface)>;
 
 Extractor makeExtractor()
 {
-  return { isopoint_create(), isopoint_destroy };
+  return { isopoint_create_extractor(), isopoint_destroy_extractor };
 }
 
 template <class T>
