@@ -3,7 +3,6 @@
 #define isopoint_ExtractFromCloud_h
 
 #include "Core/Base/Execution.h"
-#include "Core/Extraction/ExpectedWork.h"
 #include "Core/Extraction/ExtractIsosurface.h"
 #include "Core/Extraction/IsopointNeighbors.h"
 #include "Core/Extraction/Isosurface.h"
@@ -124,10 +123,9 @@ template <class TSample, class TRanks>
 ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSample>& cloud,
   TRanks& ranks, const ExtractionRequest& request)
 {
-  WorkProgress progress(execution);
   TriangleExtraction<TSample, TRanks> extraction(
     execution, cloud.tree, ranks, cloud.neighborhoods, cloud.band, request.isosurface);
-  TriangleSurface found = extraction.extract(progress, work::writing);
+  TriangleSurface found = extraction.extract();
   throwIfAborted(execution);
   ExtractedIsosurface result;
   result.surface = std::move(found.vertices);
@@ -165,10 +163,9 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
   TRanks& ranks, std::size_t itemCount, const ExtractionRequest& request,
   ExtractedIsosurface* ghosts)
 {
-  WorkProgress progress(execution);
-  const double splatting = request.splats ? work::splatting : 0.0;
-  Isosurface found = extractIsosurface(execution, cloud.tree, ranks, cloud.neighborhoods, itemCount,
-    request.isosurface, progress, splatting + work::writing);
+  const double splatsBegin = request.splats ? 0.6 : 1.0; // share of the progress
+  Isosurface found = extractIsosurface(partOf(execution, 0.0, splatsBegin), cloud.tree, ranks,
+    cloud.neighborhoods, itemCount, request.isosurface);
   const bool hasFits = request.isosurface.fit.has_value();
   const std::size_t dropped = found.droppedEdges;
   if (request.minimumSpacing > 0.0 && hasFits)
@@ -176,8 +173,7 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
     ranks.thinOut(execution, request.minimumSpacing, found);
   }
   throwIfAborted(execution);
-  const auto count = static_cast<double>(found.size());
-  const Execution part = progress.part(count * splatting, count * work::writing);
+  const Execution part = partOf(execution, splatsBegin, 1.0);
   TSurroundings surroundings(
     part, ranks, cloud.tree, cloud.neighborhoods, std::move(found), hasFits);
   const bool hasShapes = request.splats && request.splats->shapes;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/IsosurfaceExtractor.h"
 
-#include "Core/Extraction/ExpectedWork.h"
-
 #include <limits>
 
 namespace isopoint
@@ -48,32 +46,15 @@ void IsosurfaceExtractor::setValueError(double error)
   std::visit([error](auto& cloud) { cloud.tree.valueError = error; }, this->Held);
 }
 
-double IsosurfaceExtractor::loadingWork(std::size_t count)
-{
-  return work::loading * static_cast<double>(count);
-}
-
-double IsosurfaceExtractor::extractionWork(
-  std::size_t count, const ExtractionRequest& request, bool isTreeKept)
-{
-  if (count == 0)
-  {
-    return 0.0;
-  }
-  BandForecast forecast(count);
-  forecast.observe(0, 1, isTreeKept ? 0.0 : 1.0);
-  const double forIsopoint =
-    (request.triangles ? work::tetrahedrizing : work::finding) + work::placing + work::writing +
-    (request.isosurface.fit ? work::fitting : 0.0) + (request.splats ? work::splatting : 0.0);
-  return forecast.bandWork(0) + forIsopoint * forecast.isopointCount();
-}
-
 ExtractedIsosurface IsosurfaceExtractor::extract(
   const Execution& execution, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
-  return std::visit([&](auto& cloud)
-    { return extractFromCloud(execution, cloud, this->ItemCount, this->Group, request, ghosts); },
+  const Execution rising = withRisingProgress(execution);
+  ExtractedIsosurface result = std::visit([&](auto& cloud)
+    { return extractFromCloud(rising, cloud, this->ItemCount, this->Group, request, ghosts); },
     this->Held);
+  execution.progress(1.0);
+  return result;
 }
 
 } // namespace isopoint

@@ -52,7 +52,8 @@ using SampleFor = std::conditional_t<std::is_same_v<TCoordinate, float>,
 /// all types that go through it. The tree, the neighborhoods and, of triangles, the tetrahedrized
 /// samples (see IsosurfaceRequest::keepsBand) are kept from one extraction to the next: the first
 /// takes O(n) for each level of the tree whose regions are not yet smaller than the surface; a
-/// further one only what lies near its own surface.
+/// further one only what lies near its own surface. The progress of a load or an extraction rises
+/// up to 1.
 class IsosurfaceExtractor
 {
 public:
@@ -76,6 +77,7 @@ public:
         SampleCloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {}, {} };
     }
     this->ItemCount = count;
+    execution.progress(1.0);
   }
 
   /// Loads this rank's items of a cloud that is distributed over the ranks of a team, which may be
@@ -105,6 +107,7 @@ public:
     this->ItemCount = all;
     this->ItemCounts.swap(counts);
     this->Group = &team;
+    execution.progress(1.0);
   }
 
   /// States the standard error that the values of the loaded samples have at least, as by rounding:
@@ -142,13 +145,6 @@ public:
   /// negative without any.
   std::pair<double, double> valueRange() const;
 
-  /// What load() and extract() are expected to take for this many items, in nanoseconds of one
-  /// thread: their ratio is good to a factor of about two, to divide progress.
-  /// @param isTreeKept whether the cloud has been extracted from before
-  static double loadingWork(std::size_t count);
-  static double extractionWork(
-    std::size_t count, const ExtractionRequest& request, bool isTreeKept);
-
   /// The canonical isosurface and, if requested, its splats: the same for any execution and any
   /// order of calls.
   ///
@@ -169,11 +165,11 @@ private:
   {
     const auto own = counts.begin() + team.rank();
     const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
-    SampleTree<TSample> loaded =
-      loadSamples<TSample>(execution, static_cast<std::size_t>(*own), read, first);
+    SampleTree<TSample> loaded = loadSamples<TSample>(
+      partOf(execution, 0.0, 0.5), static_cast<std::size_t>(*own), read, first);
     this->Positions = digestOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared =
-      SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(execution);
+      SharedTreeBuilder<TSample>(team, std::move(loaded), all).build(partOf(execution, 0.5, 1.0));
     this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
   }
 

@@ -65,18 +65,21 @@ std::vector<T> joined(const Execution& execution, const std::vector<std::vector<
 /// @throws Aborted, std::bad_alloc, and what collecting throws
 template <class T, class Collect>
 std::vector<T> collected(
-  const Execution& execution, const ItemBatches& batches, const Collect& collect)
+  const Execution& execution, const ItemBatches& batches, const Collect& collect,
+  const BatchDone& batchDone = [](double) {})
 {
   std::vector<std::vector<T>> lists;
   std::mutex mutex;
-  forBatches(execution, batches.count, batches.batchPerThread, batches.grain,
+  forBatches(
+    execution, batches.count, batches.batchPerThread, batches.grain,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<T> found;
       collect(begin, end, found);
       const std::lock_guard<std::mutex> lock(mutex);
       lists.push_back(std::move(found));
-    });
+    },
+    batchDone);
   return joined(execution, lists, beginsOf(lists));
 }
 

@@ -62,6 +62,19 @@ inline Execution partOf(const Execution& execution, double begin, double end)
   return part;
 }
 
+/// A copy of an execution whose progress stays where work that is done again would take it back.
+inline Execution withRisingProgress(const Execution& execution)
+{
+  Execution rising = execution;
+  rising.progress = [whole = execution.progress, highest = std::make_shared<double>(0.0)](
+                      double fraction)
+  {
+    *highest = std::max(*highest, fraction);
+    whole(*highest);
+  };
+  return rising;
+}
+
 /// @throws Aborted if the execution is to stop.
 inline void throwIfAborted(const Execution& execution)
 {

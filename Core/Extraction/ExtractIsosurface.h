@@ -6,7 +6,6 @@
 #include "Core/Base/SortUnique.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/EdgeFinder.h"
-#include "Core/Extraction/ExpectedWork.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/GapEdges.h"
 #include "Core/Extraction/Isosurface.h"
@@ -143,7 +142,8 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   surface.leaves.resize(edges.size());
   surface.fits = std::move(fits);
   constexpr std::size_t grain = 4096;
-  forBatches(execution, edges.size(), 8 * grain, grain,
+  forBatches(
+    execution, edges.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       LeafValueCache<TSample> values(context.tree, context.leafMeans);
@@ -165,7 +165,8 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
         surface.decreasingEdges[i] =
           isDecreasing ? difference(second, first) : scaled(-1.0, difference(second, first));
       }
-    });
+    },
+    execution.progress);
   return surface;
 }
 
@@ -192,14 +193,12 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
 /// @param ranks SingleRank, or SharedRanks, all of which call this
 /// @param neighborhoods of the tree's leaves that are known; those found are added
 /// @param idCount above every id
-/// @param progress divided among the band, the edges, the fits and what follows
-/// @param laterWork that follows for each isopoint
 /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighborhoods
 /// can be used again afterwards
 template <class TSample, class TRanks>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
   NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,
-  const IsosurfaceRequest& request, WorkProgress& progress, double laterWork)
+  const IsosurfaceRequest& request)
 {
   Isosurface surface;
   surface.isovalue = request.isovalue;
@@ -207,30 +206,27 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   {
     return surface;
   }
-  const double fitting = request.fit ? work::fitting : 0.0;
-  const double afterEdges = work::placing + fitting + laterWork;
-  NarrowBand<TSample> band(tree, request.isovalue, execution, progress, work::finding + afterEdges);
-  const std::vector<BinaryIndex> crossing = band.refine(ranks);
-  const auto partFor = [&progress](double isopointCount, double work, double left)
-  { return progress.part(isopointCount * work, isopointCount * left); };
-  const double expected = work::isopointsForNode * static_cast<double>(crossing.size());
+  constexpr double fitsEnd = 0.95; // shares of the progress
+  const double edgesEnd = request.fit ? 0.4 : fitsEnd;
+  const double bandEnd = 0.7 * edgesEnd;
+  const std::vector<BinaryIndex> crossing =
+    NarrowBand<TSample>(tree, request.isovalue, partOf(execution, 0.0, bandEnd)).refine(ranks);
   ExtractionContext<TSample> context(tree, neighborhoods, request.isovalue);
   FoundEdges<TSample> found =
-    findEdges(partFor(expected, work::finding, afterEdges), context, ranks, request, crossing);
+    findEdges(partOf(execution, bandEnd, edgesEnd), context, ranks, request, crossing);
   keepNeighborhoods(execution, found.neighborhoods, tree.nodes.size(), neighborhoods);
   std::vector<CrossingEdge<TSample>> edges = sortedUnique(
     execution, found.edges, idCount, [](const CrossingEdge<TSample>& edge) { return edge.first; });
   const std::size_t dropped =
     request.dropsGaps ? dropGapEdges(execution, tree, ranks, found.gapEdges, edges) : 0;
-  const auto count = static_cast<double>(edges.size());
   std::vector<LocalFit> fits;
   if (request.fit)
   {
-    fits = fitNeighborhoods(
-      partFor(count, fitting, work::placing + laterWork), context, ranks, *request.fit, edges);
+    fits =
+      fitNeighborhoods(partOf(execution, edgesEnd, fitsEnd), context, ranks, *request.fit, edges);
   }
-  surface = placeIsopoints(partFor(count, work::placing, laterWork), context, edges,
-    std::move(fits), request.fit && request.fit->move);
+  surface = placeIsopoints(partOf(execution, fitsEnd, 1.0), context, edges, std::move(fits),
+    request.fit && request.fit->move);
   surface.droppedEdges = dropped;
   return surface;
 }

@@ -4,7 +4,6 @@
 
 #include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Extraction/ExpectedWork.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Tree/NodeMarks.h"
@@ -16,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <numeric>
 #include <vector>
 
 namespace isopoint
@@ -50,16 +48,11 @@ template <class TSample>
 class NarrowBand
 {
 public:
-  /// @param progress of the extraction, of which the band is the first part
-  /// @param workForIsopoint that follows for each isopoint
-  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution,
-    WorkProgress& progress, double workForIsopoint)
+  /// @param execution its progress grows with the depth
+  NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution)
     : Tree(tree)
     , Isovalue(isovalue)
     , Run(execution)
-    , Progress(progress)
-    , WorkForIsopoint(workForIsopoint)
-    , Forecast(tree.samples.size())
     , ListBudget(tree.ownCount())
   {
   }
@@ -87,12 +80,16 @@ public:
     for (int depth = 0; ranks.isAny(!isDone);)
     {
       const int bottom = treeletBottom(depth, root.count());
+      const auto shareAt = [&](double level)
+      { return std::min(1.0, level / levelsToHalve(root.count())); };
+      const double middle = 0.5 * (depth + bottom);
       if (!isDone)
       {
-        this->splitFront(front, depth, bottom);
+        this->splitFront(partOf(this->Run, shareAt(depth), shareAt(middle)), front, bottom);
         isDone = this->finishIfFew(front, depth, bottom);
       }
-      this->mark(ranks, isDone ? std::vector<BandNode>() : front, bottom);
+      this->mark(partOf(this->Run, shareAt(middle), shareAt(bottom)), ranks,
+        isDone ? std::vector<BandNode>() : front, bottom);
       if (!isDone)
       {
         front = this->neededBelow(front, bottom);
@@ -152,15 +149,15 @@ private:
   };
 
   /// Splits the nodes of one depth down to another.
-  void splitFront(const std::vector<BandNode>& front, int depth, int bottom)
+  void splitFront(const Execution& execution, const std::vector<BandNode>& front, int bottom)
   {
     if (this->Tree.isPartial)
     {
-      this->splitNodes(this->unsplitBelow(front, bottom), depth, bottom);
+      this->splitNodes(execution, this->unsplitBelow(front, bottom), bottom);
     }
     else
     {
-      this->splitNodes(front, depth, bottom);
+      this->splitNodes(execution, front, bottom);
     }
   }
 
@@ -179,8 +176,7 @@ private:
       });
   }
 
-  /// @param depth the least of the nodes'
-  void splitNodes(const std::vector<BandNode>& front, int depth, int bottom)
+  void splitNodes(const Execution& execution, const std::vector<BandNode>& front, int bottom)
   {
     if (front.empty())
     {
@@ -195,10 +191,12 @@ private:
     const std::size_t fewNodes = 4 * this->Run.threads;
     const std::size_t batchSamples = (std::size_t{ 1 } << 18) * this->Run.threads;
 
-    std::size_t unsplit = this->observeFront(front, depth);
+    const auto shareAt = [&front](std::size_t node)
+    { return static_cast<double>(node) / static_cast<double>(front.size()); };
     std::size_t begin = 0;
     while (begin < front.size())
     {
+      const double share = shareAt(begin);
       std::vector<TreeletTask> batch;
       std::size_t pairs = 0;
       std::size_t samples = 0;
@@ -221,63 +219,29 @@ private:
       {
         task.firstPair += firstPair;
       }
-      unsplit -= samples;
-      const auto workOf = [&](std::size_t count)
-      { return this->Forecast.splittingWork(static_cast<double>(count), depth, bottom); };
-      const Execution part = this->Progress.part(
-        workOf(samples), workOf(unsplit) + work::searching * static_cast<double>(front.size()) +
-                           this->workBelow(bottom));
-      this->splitBatch(part, batch, batch.size() < fewNodes ? togetherCount : samples + 1);
-      part.progress(1.0);
+      this->splitBatch(partOf(execution, share, shareAt(begin)), batch,
+        batch.size() < fewNodes ? togetherCount : samples + 1);
       throwIfAborted(this->Run);
     }
   }
 
-  /// Notes how far the front of a depth extends. @returns its samples in nodes that are not split
-  std::size_t observeFront(const std::vector<BandNode>& front, int depth)
-  {
-    std::size_t all = 0;
-    std::size_t unsplit = 0;
-    for (const BandNode& bandNode : front)
-    {
-      const NodeType& node = this->Tree.nodes[bandNode.nodeIndex];
-      all += node.count();
-      unsplit += node.isSplit() || node.isLeaf ? 0 : node.count();
-    }
-    this->Forecast.observe(depth, front.size(), static_cast<double>(unsplit) / all);
-    return unsplit;
-  }
-
-  /// The work that is expected below a depth and after the band.
-  double workBelow(int depth) const
-  {
-    return this->Forecast.bandWork(depth) + this->WorkForIsopoint * this->Forecast.isopointCount();
-  }
-
-  double countOf(const TreeletTask& task) const
-  {
-    return static_cast<double>(this->Tree.nodes[task.node.nodeIndex].count());
-  }
-
   void splitBatch(
-    const Execution& part, const std::vector<TreeletTask>& batch, std::size_t togetherCount)
+    const Execution& execution, const std::vector<TreeletTask>& batch, std::size_t togetherCount)
   {
-    const double all = std::accumulate(batch.begin(), batch.end(), 0.0,
-      [this](double sum, const TreeletTask& task) { return sum + this->countOf(task); });
-    double done = 0.0;
+    const auto shareAt = [&batch](std::size_t task)
+    { return static_cast<double>(task) / static_cast<double>(batch.size()); };
     std::vector<TreeletTask> alone;
-    for (const TreeletTask& task : batch)
+    for (std::size_t i = 0; i < batch.size(); ++i)
     {
+      const TreeletTask& task = batch[i];
       NodeType& node = this->Tree.nodes[task.node.nodeIndex];
       if (node.count() < togetherCount)
       {
         alone.push_back(task);
         continue;
       }
-      const double begin = done / all;
-      done += this->countOf(task);
       TreeletSplitter<TSample> splitter(this->Tree, task.firstPair);
-      splitter.splitTogether(partOf(part, begin, done / all), node,
+      splitter.splitTogether(partOf(execution, shareAt(i), shareAt(i + 1)), node,
         pathTo(this->Tree, task.node.index).region, task.levels);
     }
     const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
@@ -293,6 +257,7 @@ private:
           splitter.split(this->Tree.nodes[alone[i].node.nodeIndex], path.region, alone[i].levels);
         }
       });
+    execution.progress(1.0);
   }
 
   /// The number of samples in nodes this many levels below the front that are no leaves; counting
@@ -327,7 +292,7 @@ private:
   /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
   /// crossing. What touches nodes that are not known is put aside, until they have been fetched.
   template <class TRanks>
-  void mark(TRanks& ranks, std::vector<BandNode> front, int depth)
+  void mark(const Execution& execution, TRanks& ranks, std::vector<BandNode> front, int depth)
   {
     this->Marks = NodeMarks();
     std::vector<MissingNode> missing;
@@ -335,19 +300,17 @@ private:
     {
       this->Marks.grow(this->Tree.nodes.size());
       this->Aside.clear();
-      this->markBelowFront(front, depth);
+      this->markBelowFront(execution, front, depth);
       front = this->Aside;
       missing.swap(this->Missing);
       this->Missing.clear();
     } while (ranks.fetchNodes(missing, depth));
   }
 
-  void markBelowFront(const std::vector<BandNode>& front, int depth)
+  void markBelowFront(const Execution& execution, const std::vector<BandNode>& front, int depth)
   {
-    const Execution part = this->Progress.part(
-      work::searching * static_cast<double>(front.size()), this->workBelow(depth));
     forBatches(
-      this->Run, front.size(), searchBatch, searchGrain,
+      execution, front.size(), searchBatch, searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         Path path = pathToRoot(this->Tree);
@@ -362,7 +325,7 @@ private:
             this->Tree, path, depth, [&](const Path& below) { this->markAt(below, depth); });
         }
       },
-      part.progress);
+      execution.progress);
   }
 
   /// Marks a node, if it is crossing and of this rank, and what touches it.
@@ -486,9 +449,6 @@ private:
   SampleTree<TSample>& Tree;
   const double Isovalue;
   const Execution& Run;
-  WorkProgress& Progress;
-  const double WorkForIsopoint;
-  BandForecast Forecast;
   NeighborListBudget ListBudget;
   NodeMarks Marks; // of nodes of the present depth and above
   std::mutex AsideMutex;

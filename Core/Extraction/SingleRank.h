@@ -77,8 +77,9 @@ public:
   std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
     const FitRequest& request, const Edges& edges)
   {
-    this->splitAround(execution, leavesOf(edges));
-    return fitNeighborhoods(execution, context, *this, request, edges);
+    constexpr double splitEnd = 0.2; // share of the progress
+    this->splitAround(partOf(execution, 0.0, splitEnd), leavesOf(edges));
+    return fitNeighborhoods(partOf(execution, splitEnd, 1.0), context, *this, request, edges);
   }
 
 private:
@@ -86,7 +87,8 @@ private:
   /// touch the other side, and ends of Delaunay edges may not be of these.
   void splitAround(const Execution& execution, const std::vector<std::size_t>& leaves) const
   {
-    splitWhileUnsplit(execution, this->Tree, leaves.size(),
+    splitWhileUnsplit(
+      execution, this->Tree, leaves.size(),
       [&](std::size_t i, std::vector<std::size_t>& unsplit)
       {
         visitTouching(this->Tree, pathToLeaf(this->Tree, leaves[i]), maximumDepth,
@@ -98,7 +100,8 @@ private:
             }
             return false;
           });
-      });
+      },
+      execution.progress);
   }
 
   SampleTree<TSample>& Tree;

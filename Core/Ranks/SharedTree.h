@@ -57,6 +57,7 @@ public:
       for (int level = 0; level < depth; ++level)
       {
         this->splitLevel(execution);
+        execution.progress((level + 1.0) / depth);
       }
       this->computeRanges();
     }

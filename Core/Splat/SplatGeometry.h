@@ -72,7 +72,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
     [&splats](std::size_t point, const Vector& normal) { splats[point].normal = normal; });
   chosen.keepOwn(unfitted);
   throwIfAborted(execution);
-  const double normalsShare = options.shapes ? 0.4 : 1.0;
+  const double normalsShare = options.shapes ? 0.2 : 1.0;
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
   chosen.forEach(
@@ -86,7 +86,7 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
   {
     return splats;
   }
-  constexpr double cellsShare = 0.4;
+  constexpr double cellsShare = 0.6;
   RawArray<SplatCell> cells; // those of other ranks' points are set by shareCells()
   cells.resize(splats.size());
   const std::vector<std::size_t>& own = chosen.own();

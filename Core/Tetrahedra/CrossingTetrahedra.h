@@ -96,6 +96,7 @@ public:
     this->Counts.size = this->triangulation().size();
     this->Counts.isWhole = this->Current->isWhole;
     std::vector<CrossingTetrahedron<Id>> found = this->crossing();
+    this->Run.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
     {
       this->Kept = std::move(this->Current);
@@ -172,7 +173,8 @@ private:
       return LeafSearch{ { this->Tree, this->Means }, pathToRoot(this->Tree), {} };
     };
     constexpr std::size_t grain = 256;
-    this->Ranks.forEach(this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
+    this->Ranks.forEach(
+      this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
       [&](LeafSearch& search, std::size_t i)
       {
         search.found.clear();
@@ -187,7 +189,8 @@ private:
           });
         const std::lock_guard<std::mutex> lock(mutex);
         leaves.insert(leaves.end(), search.found.begin(), search.found.end());
-      });
+      },
+      partOf(this->Run, 0.0, searchEnd).progress);
     return leaves;
   }
 
@@ -248,10 +251,10 @@ private:
   {
     this->Current->marks.grow(this->Tree.nodes.size());
     this->triangulation().insert(this->Run, this->newSites(leaves),
-      [this](double share)
+      [step = this->nextStep()](double share)
       {
-        throwIfAborted(this->Run);
-        this->report(share);
+        throwIfAborted(step);
+        step.progress(share);
       });
   }
 
@@ -403,7 +406,7 @@ private:
         all.leaves.insert(all.leaves.end(), leaves.begin(), leaves.end());
         all.unsplit.insert(all.unsplit.end(), search.unsplit().begin(), search.unsplit().end());
       },
-      [this](double share) { this->report(share); });
+      this->nextStep().progress);
     return all;
   }
 
@@ -425,12 +428,13 @@ private:
     return this->Ranks.isAny(isAnyWrong);
   }
 
-  /// Reports progress: half of the work is the first tetrahedrization, most of the rest the first
-  /// round.
-  void report(double share)
+  /// The execution of an insertion or a search. How many follow is not known: each takes half of
+  /// the progress that is left.
+  Execution nextStep()
   {
-    const double begin = 1.0 - std::pow(0.4, static_cast<double>(this->Counts.rounds));
-    this->Run.progress(begin + 0.5 * share * (1.0 - begin));
+    const double begin = this->StepEnd;
+    this->StepEnd = 0.5 * (begin + 1.0);
+    return partOf(this->Run, begin, this->StepEnd);
   }
 
   /// Whether so many samples are near the surface that it is better to insert all.
@@ -466,6 +470,8 @@ private:
   std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists, or as long as these
   std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;
+  static constexpr double searchEnd = 0.1; // for leaves at the surface; share of the progress
+  double StepEnd = searchEnd;
 };
 
 } // namespace isopoint

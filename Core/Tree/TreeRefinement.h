@@ -71,24 +71,28 @@ void splitFurther(
 
 /// Splits what is found unsplit, until nothing is.
 /// @param addUnsplit(item, nodes) adds nodes at one of 0 .. count - 1 to a list; from any thread
+/// @param batchDone called while items are looked at, which is done again after nodes were split
 /// @throws what splitFurther() does
 template <class TSample, class AddUnsplit>
-void splitWhileUnsplit(const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
-  const AddUnsplit& addUnsplit)
+void splitWhileUnsplit(
+  const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
+  const AddUnsplit& addUnsplit, const BatchDone& batchDone = [](double) {})
 {
   std::vector<std::size_t> unsplit;
   do
   {
     splitFurther(execution, tree, unsplit);
     constexpr std::size_t grain = 64;
-    unsplit = collected<std::size_t>(execution, { count, 16 * grain, grain },
+    unsplit = collected<std::size_t>(
+      execution, { count, 16 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
           addUnsplit(i, found);
         }
-      });
+      },
+      batchDone);
   } while (!unsplit.empty());
 }
 

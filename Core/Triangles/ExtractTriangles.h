@@ -4,7 +4,6 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
-#include "Core/Extraction/ExpectedWork.h"
 #include "Core/Extraction/ExtractIsosurface.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
@@ -58,42 +57,39 @@ public:
   {
   }
 
-  /// @param progress divided among the parts
-  /// @param laterWork that follows for each vertex
   /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
   /// again afterwards
-  TriangleSurface extract(WorkProgress& progress, double laterWork)
+  TriangleSurface extract()
   {
     if (this->Tree.isEmpty())
     {
       return {};
     }
-    const double fitting = this->Request.fit ? work::fitting : 0.0;
-    EdgeTriangles<TSample> mesh = this->march(progress, fitting + laterWork);
-    const auto count = static_cast<double>(mesh.edges.size());
+    constexpr double fitsEnd = 0.9; // shares of the progress
+    const double fitsBegin = this->Request.fit ? 0.6 : fitsEnd;
+    EdgeTriangles<TSample> mesh = this->march(partOf(this->Run, 0.0, fitsBegin));
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
       fits = this->Ranks.fitShared(
-        progress.part(count * fitting, count * laterWork), context, *this->Request.fit, mesh.edges);
+        partOf(this->Run, fitsBegin, fitsEnd), context, *this->Request.fit, mesh.edges);
     }
-    return this->place(
-      progress.part(count * work::placing, count * laterWork), context, mesh, std::move(fits));
+    return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
 
   /// The crossing tetrahedra of the Delaunay tetrahedrization of all samples.
-  std::vector<CrossingTetrahedron<Id>> tetrahedra(WorkProgress& progress, double laterWork)
+  std::vector<CrossingTetrahedron<Id>> tetrahedra(const Execution& execution)
   {
     if (this->Tree.isEmpty())
     {
       return {};
     }
-    NarrowBand<TSample> band(
-      this->Tree, this->Request.isovalue, this->Run, progress, work::tetrahedrizing + laterWork);
-    const std::vector<BinaryIndex> nodes = band.refine(this->Ranks);
-    const double count = work::isopointsForNode * static_cast<double>(nodes.size());
-    const Execution part = progress.part(count * work::tetrahedrizing, count * laterWork);
+    constexpr double bandEnd = 0.3; // share of the progress
+    const std::vector<BinaryIndex> nodes =
+      NarrowBand<TSample>(this->Tree, this->Request.isovalue, partOf(execution, 0.0, bandEnd))
+        .refine(this->Ranks);
+    const Execution part = partOf(execution, bandEnd, 1.0);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
       part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->KeptBand);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
@@ -109,40 +105,44 @@ public:
 
 private:
   /// The triangles of all tetrahedra but those across gaps.
-  EdgeTriangles<TSample> march(WorkProgress& progress, double laterWork)
+  EdgeTriangles<TSample> march(const Execution& execution)
   {
-    std::vector<CrossingTetrahedron<Id>> found = this->tetrahedra(progress, laterWork);
+    constexpr double tetrahedraEnd = 0.8; // shares of the progress
+    constexpr double gapsEnd = 0.9;
+    std::vector<CrossingTetrahedron<Id>> found =
+      this->tetrahedra(partOf(execution, 0.0, tetrahedraEnd));
     if (this->Request.dropsGaps)
     {
-      this->dropGaps(found);
+      this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
     return MarchingTetrahedra<TSample>(
-      this->Run, this->Tree, this->Means, this->Request.isovalue, found)
+      partOf(execution, gapsEnd, 1.0), this->Tree, this->Means, this->Request.isovalue, found)
       .march();
   }
 
   /// Drops tetrahedra in gaps of the cloud.
-  void dropGaps(std::vector<CrossingTetrahedron<Id>>& found)
+  void dropGaps(const Execution& execution, std::vector<CrossingTetrahedron<Id>>& found)
   {
     this->Ranks.order(found);
     const std::size_t count = found.size();
     dropMarked(
-      GapTetrahedraFinder<TSample, TRanks>(this->Run, this->Tree, this->Ranks, found).find(),
+      GapTetrahedraFinder<TSample, TRanks>(execution, this->Tree, this->Ranks, found).find(),
       found);
     this->Dropped = count - found.size();
   }
 
   /// The surface of triangles whose vertices the fits move where no triangle turns over.
-  TriangleSurface place(const Execution& part, ExtractionContext<TSample>& context,
+  TriangleSurface place(const Execution& execution, ExtractionContext<TSample>& context,
     EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
   {
     const bool isMoved = this->Request.fit && this->Request.fit->move;
     if (isMoved)
     {
-      keepTrianglesUpright(this->Run, mesh.positions, mesh.triangles, fits);
+      keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
     TriangleSurface surface;
-    surface.vertices = placeIsopoints(part, context, mesh.edges, std::move(fits), isMoved);
+    surface.vertices =
+      placeIsopoints(partOf(execution, 0.5, 1.0), context, mesh.edges, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->Request.fit->highest == FitOrder::Crease)
     {

@@ -211,7 +211,8 @@ private:
                          this->Tree.sampleOf(leaf), longest[leaf])
                      ? 1
                      : 0;
-      });
+      },
+      this->Run.progress);
     std::vector<std::size_t> crowded = markedOf(marks);
     this->Ranks.unite(crowded);
     std::vector<char> marksOfNodes(longest.size(), 0);

@@ -59,8 +59,10 @@ public:
   {
     this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
       [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
+    this->Run.progress(0.4);
     this->indexPairs();
     this->placeVertices();
+    this->Run.progress(0.6);
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
     return this->ordered(triangles);
@@ -105,14 +107,16 @@ private:
             polygon.pairs.begin() + static_cast<std::ptrdiff_t>(polygon.count));
         }
         keepUnique(found);
-      });
+      },
+      isopoint::partOf(this->Run, 0.0, 0.2));
   }
 
   template <class T, class Collect>
-  std::vector<T> collectedOfAll(const Collect& collect) const
+  std::vector<T> collectedOfAll(const Collect& collect, const Execution& execution) const
   {
     constexpr std::size_t grain = 4096;
-    return collected<T>(this->Run, { this->Tetrahedra.size(), 8 * grain, grain }, collect);
+    return collected<T>(
+      execution, { this->Tetrahedra.size(), 8 * grain, grain }, collect, execution.progress);
   }
 
   void placeVertices()
@@ -212,7 +216,8 @@ private:
         {
           this->addTriangles(polygonOf(this->Tetrahedra[i]), found);
         }
-      });
+      },
+      isopoint::partOf(this->Run, 0.6, 0.8));
   }
 
   void addTriangles(const Polygon& polygon, std::vector<SurfaceTriangle>& triangles) const

@@ -110,14 +110,15 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 8192;
-    const std::vector<std::size_t> turned =
-      collected<std::size_t>(execution, { suspects.size(), 8 * grain, grain },
-        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-        {
-          std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
-            suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
-            [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
-        });
+    const std::vector<std::size_t> turned = collected<std::size_t>(
+      execution, { suspects.size(), 8 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+      {
+        std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
+          suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+          [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
+      },
+      execution.progress);
     if (!trianglesAt && !turned.empty())
     {
       trianglesAt.emplace(fits.size(), triangles.size(),

@@ -315,8 +315,7 @@ Found find(const Cloud& cloud, double isovalue, std::size_t threads)
   std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
     execution, tree, rank, none, band, request);
-  isopoint::WorkProgress progress(execution);
-  const std::size_t crossing = extraction.tetrahedra(progress, 0.0).size();
+  const std::size_t crossing = extraction.tetrahedra(execution).size();
   return { crossing, extraction.counts() };
 }
 

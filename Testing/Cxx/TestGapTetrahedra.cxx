@@ -38,8 +38,7 @@ std::vector<Corners> foundInGaps(const Cloud& cloud, double isovalue, std::size_
   std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
     execution, tree, rank, none, band, request);
-  isopoint::WorkProgress progress(execution);
-  auto tetrahedra = extraction.tetrahedra(progress, 0.0);
+  auto tetrahedra = extraction.tetrahedra(execution);
   const std::vector<char> isInGap =
     isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
       execution, tree, rank, tetrahedra)

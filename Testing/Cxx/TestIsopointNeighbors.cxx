@@ -48,10 +48,9 @@ struct Extracted
     request.isovalue = 0.3;
     request.angle = isopoint::defaultAngle;
     const isopoint::Execution execution = clouds::executionOn(1);
-    isopoint::WorkProgress progress(execution);
     isopoint::SingleRank<TSample> rank(this->tree);
-    this->surface = isopoint::extractIsosurface(
-      execution, this->tree, rank, this->known, cloud.size(), request, progress, 0.0);
+    this->surface =
+      isopoint::extractIsosurface(execution, this->tree, rank, this->known, cloud.size(), request);
     for (const isopoint::EdgeLeaves& leaves : this->surface.leaves)
     {
       this->Ends.push_back({ leaves.first, leaves.second });

@@ -11,6 +11,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -81,7 +82,7 @@ std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filtersOfEveryInput()
 
 } // namespace
 
-TEST(Robustness, ProgressIncreasesFromZeroToOne)
+TEST(Robustness, ProgressIncreasesFromZeroToOneInEachUpdate)
 {
   for (vtkScatteredContourFilter* const filter : filtersOfEveryInput())
   {
@@ -92,11 +93,42 @@ TEST(Robustness, ProgressIncreasesFromZeroToOne)
       watcher->Seen.clear();
       filter->SetValue(0, 0.4 + 0.02 * update);
       filter->Update();
-      ASSERT_GE(watcher->Seen.size(), 4u);
-      EXPECT_TRUE(std::is_sorted(watcher->Seen.begin(), watcher->Seen.end()));
-      EXPECT_GE(watcher->Seen.front(), 0.0);
-      EXPECT_EQ(watcher->Seen.back(), 1.0);
+      const std::vector<double>& seen = watcher->Seen;
+      ASSERT_GE(seen.size(), 40u);
+      EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+      EXPECT_EQ(seen.front(), 0.0);
+      EXPECT_EQ(seen.back(), 1.0);
+      for (std::size_t i = 1; i < seen.size(); ++i)
+      {
+        EXPECT_LE(seen[i] - seen[i - 1], 0.15) << "after " << seen[i - 1];
+      }
     }
+  }
+}
+
+TEST(Robustness, ProgressGivesEachBlockTheSameShare)
+{
+  constexpr unsigned int count = 11;
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    blocks->SetBlock(i, newCloud(500 * (i + 1)));
+  }
+  vtkNew<vtkScatteredIsopointFilter> filter;
+  filter->SetInputData(blocks);
+  filter->ContourBlocksOn();
+  filter->SetValue(0, 0.7);
+  const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
+  filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+  filter->Update();
+  const std::vector<double>& seen = watcher->Seen;
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  for (unsigned int i = 1; i <= count; ++i)
+  {
+    EXPECT_GT(std::count_if(seen.begin(), seen.end(),
+                [i](double share) { return std::abs(share - i / double{ count }) < 1e-12; }),
+      0)
+      << i;
   }
 }
 

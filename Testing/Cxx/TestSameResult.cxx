@@ -276,10 +276,9 @@ TEST(SameResult, ForVeryDeepTrees)
   auto tree =
     isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
   int deepest = 0;
-  isopoint::WorkProgress progress(execution);
   isopoint::SingleRank<isopoint::WideSample> rank(tree);
   for (const isopoint::BinaryIndex index :
-    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution, progress, 0.0).refine(rank))
+    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine(rank))
   {
     deepest = std::max(deepest, isopoint::depthOf(index));
   }

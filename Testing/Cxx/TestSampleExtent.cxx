@@ -130,10 +130,8 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
       const isopoint::Execution execution = clouds::executionOn(2);
-      isopoint::WorkProgress progress(execution);
       isopoint::SingleRank<isopoint::WideSample> rank(tree);
-      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution, progress, 0.0)
-        .refine(rank);
+      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution).refine(rank);
       const isopoint::SampleExtents extents(tree);
       for (const ExtentQuery& query : queries)
       {

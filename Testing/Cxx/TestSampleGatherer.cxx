@@ -54,10 +54,8 @@ Seen expectTheDefinition(Cloud cloud, double isovalue)
   const Rings rings(cloud);
   const isopoint::Execution execution;
   auto tree = isopoint::loadSamples<Sample>(execution, cloud.size(), clouds::readerOf(cloud));
-  isopoint::WorkProgress progress(execution);
   isopoint::SingleRank<Sample> rank(tree);
-  const auto nodes =
-    isopoint::NarrowBand<Sample>(tree, isovalue, execution, progress, 0.0).refine(rank);
+  const auto nodes = isopoint::NarrowBand<Sample>(tree, isovalue, execution).refine(rank);
   isopoint::NeighborhoodCache<Sample::Id> neighborhoods;
   isopoint::ExtractionContext<Sample> context(tree, neighborhoods, isovalue);
   auto found = isopoint::findEdges(execution, context, rank, { isovalue }, nodes);

@@ -176,9 +176,8 @@ Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads =
   std::unique_ptr<isopoint::Band> band;
   isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
     execution, tree, rank, none, band, request);
-  isopoint::WorkProgress progress(execution);
   Found found;
-  found.corners = cornersOf(tree, extraction.tetrahedra(progress, 0.0));
+  found.corners = cornersOf(tree, extraction.tetrahedra(execution));
   found.counts = extraction.counts();
   return found;
 }
@@ -203,9 +202,8 @@ public:
     isopoint::SingleRank<TSample> rank(this->Tree);
     isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
       this->Run, this->Tree, rank, this->None, this->Band, request);
-    isopoint::WorkProgress progress(this->Run);
     Found found;
-    found.corners = cornersOf(this->Tree, extraction.tetrahedra(progress, 0.0));
+    found.corners = cornersOf(this->Tree, extraction.tetrahedra(this->Run));
     found.counts = extraction.counts();
     const std::vector<Corners> expected = fullTetrahedra(this->Samples, isovalue);
     EXPECT_EQ(found.corners.size(), expected.size()) << isovalue;
@@ -231,10 +229,9 @@ inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
   using TSample = isopoint::WideSample;
   const isopoint::Execution execution;
   auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
-  isopoint::WorkProgress progress(execution);
   isopoint::SingleRank<TSample> rank(tree);
   std::vector<isopoint::BinaryIndex> nodes =
-    isopoint::NarrowBand<TSample>(tree, isovalue, execution, progress, 0.0).refine(rank);
+    isopoint::NarrowBand<TSample>(tree, isovalue, execution).refine(rank);
   nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
   isopoint::SharedLeafMeans<TSample> means(tree);
   std::unique_ptr<isopoint::Band> band;
