@@ -108,42 +108,29 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
 
 isopoint_array isopoint_surface::array(std::int32_t id) const
 {
-  switch (id)
+  const std::array<isopoint_array, ISOPOINT_SPLAT_TRIANGLES + 1> arrays{
+    asArray(this->Points),
+    asArray(this->Isovalues, 1),
+    asArray(this->Normals, 3),
+    asArray(this->Gradients, 3),
+    asArray(this->ProjectionOrders, 1),
+    asArray(this->Edges, 2),
+    asArray(this->EdgeParameters, 1),
+    asArray(this->Triangles, 3),
+    asArray(this->Radii, 1),
+    asArray(this->SplatAxes, 3),
+    asArray(this->SplatPolygons, static_cast<int>(isopoint::numbersOfSplat)),
+    asArray(this->SplatVertices),
+    asArray(this->SplatVertexNormals, 3),
+    asArray(this->SplatVertexPoints, 1),
+    asArray(this->SplatTriangles, 3),
+  }; // by isopoint_array_id
+  if (id < 0 || static_cast<std::size_t>(id) >= arrays.size())
   {
-    case ISOPOINT_POINTS:
-      return asArray(this->Points);
-    case ISOPOINT_ISOVALUES:
-      return asArray(this->Isovalues, 1);
-    case ISOPOINT_NORMALS:
-      return asArray(this->Normals, 3);
-    case ISOPOINT_GRADIENTS:
-      return asArray(this->Gradients, 3);
-    case ISOPOINT_PROJECTION_ORDERS:
-      return asArray(this->ProjectionOrders, 1);
-    case ISOPOINT_EDGES:
-      return asArray(this->Edges, 2);
-    case ISOPOINT_EDGE_PARAMETERS:
-      return asArray(this->EdgeParameters, 1);
-    case ISOPOINT_TRIANGLES:
-      return asArray(this->Triangles, 3);
-    case ISOPOINT_RADII:
-      return asArray(this->Radii, 1);
-    case ISOPOINT_SPLAT_AXES:
-      return asArray(this->SplatAxes, 3);
-    case ISOPOINT_SPLAT_POLYGONS:
-      return asArray(this->SplatPolygons, static_cast<int>(isopoint::numbersOfSplat));
-    case ISOPOINT_SPLAT_VERTICES:
-      return asArray(this->SplatVertices);
-    case ISOPOINT_SPLAT_VERTEX_NORMALS:
-      return asArray(this->SplatVertexNormals, 3);
-    case ISOPOINT_SPLAT_VERTEX_POINTS:
-      return asArray(this->SplatVertexPoints, 1);
-    case ISOPOINT_SPLAT_TRIANGLES:
-      return asArray(this->SplatTriangles, 3);
-    default:
-      throw isopoint::UsageError(
-        "There is no array " + std::to_string(id) + ". Use an isopoint_array_id.");
+    throw isopoint::UsageError(
+      "There is no array " + std::to_string(id) + ". Use an isopoint_array_id.");
   }
+  return arrays[static_cast<std::size_t>(id)];
 }
 
 void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result) const

@@ -70,7 +70,7 @@ class Project:
         paths = [path for top in ("Core", "Library", "Filters", "Rendering", "RayTracing", "Plugin")
                  for path in sorted((self.root / top).rglob("*"))]
         for path in paths:
-            if path.suffix in OTHER_SUFFIXES and path.parent.name != "Examples":
+            if path.suffix in OTHER_SUFFIXES:
                 self.report(self.name(path), "an unexpected suffix: sources are .h and .cxx")
         self.files = {self.name(path): path.read_text() for path in paths if path.suffix in SOURCES}
         self.tests = {path.name for path in (self.root / "Testing").rglob("*.h")}

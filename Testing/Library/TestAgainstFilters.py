@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The C library and the VTK filters yield the same bytes: TestAgainstFilters.py LIBRARY EXAMPLE [N]
 
-LIBRARY is the C library, EXAMPLE the program of Library/Examples/contour.c. Compares all arrays of N
+LIBRARY is the C library, EXAMPLE the program of Examples/contour.c. Compares all arrays of N
 of the random combinations of inputs and options that fingerprint.py has.
 """
 
@@ -22,8 +22,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "Library/Examples"), str(ROOT / "Testing/Python")]
-import contour  # noqa: E402
+sys.path[:0] = [str(ROOT / "Examples"), str(ROOT / "Testing/Python")]
+import contour_ctypes as contour  # noqa: E402
 import fingerprint  # noqa: E402
 
 TYPES = [np.float32, np.float64, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contours samples with Python's standard library alone: contour.py LIBRARY
+"""Contours samples with Python's standard library alone: contour_ctypes.py LIBRARY
 
 LIBRARY is the path of the C library, libisopoint.so. isopoint.h describes its functions.
 """
