@@ -36,7 +36,7 @@ fi
 package_lists=(Utilities/debian-packages.txt)
 if [[ $preset == vtk* ]]; then
   package_lists+=(Utilities/debian-packages-vtk.txt)
-else
+elif [[ $preset != library ]]; then
   release=$(. /etc/os-release && echo "${VERSION_ID-}")
   package_lists+=("Utilities/debian-packages-paraview-$release.txt")
 fi

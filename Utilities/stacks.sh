@@ -3,7 +3,7 @@
 # Builds and tests the project in bare roots of several Debian releases; see the usage below.
 set -euo pipefail
 
-stacks=(bookworm-paraview bookworm-vtk trixie-paraview sid-vtk)
+stacks=(bookworm-paraview bookworm-vtk bookworm-library trixie-paraview sid-vtk)
 
 usage()
 {
@@ -37,9 +37,9 @@ test_stack()
 {
   local stack=$1
   local root=$folder/$stack
-  local preset=release
-  if [[ $stack == *-vtk ]]; then
-    preset=vtk
+  local preset=${stack##*-}
+  if [[ $preset == paraview ]]; then
+    preset=release
   fi
   make_root "${stack%-*}" "$root"
   rm -rf "$root/root/source"
