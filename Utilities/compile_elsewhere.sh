@@ -27,12 +27,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export folder=$PWD/build/elsewhere
 
 # Headers alone, since those of this system's C library are not for others. glibc has the last one from
-# 2.32 on, but CGAL includes it wherever it finds it.
+# 2.32 on, but CGAL includes it wherever it finds it: this one is found before zig's.
 prepare_headers()
 {
-  mkdir -p "$folder/headers/sys"
+  mkdir -p "$folder/headers" "$folder/shims/sys"
   ln -sfn /usr/include/{boost,CGAL} /usr/include/eigen3/Eigen "$folder/headers"
-  echo 'static const char __libc_single_threaded = 0;' > "$folder/headers/sys/single_threaded.h"
+  echo 'static const char __libc_single_threaded = 0;' > "$folder/shims/sys/single_threaded.h"
 }
 
 prepare_sources()
@@ -56,11 +56,11 @@ zig()
 compile()
 {
   local object=$folder/$1/${2##*/}.o
-  zig c++ -target "$1" -c -O2 -std=c++17 -fPIC \
+  zig c++ -target "$1" -c -O2 -g0 -std=c++17 -fPIC \
     -ffp-contract=off -fno-math-errno -frounding-math \
     -DISOPOINT_BUILDS_LIBRARY "-DISOPOINT_VERSION=\"elsewhere\"" \
     -DCGAL_DISABLE_GMP=1 -DCGAL_DISABLE_MPFR=1 -DCGAL_HEADER_ONLY=1 -DBOOST_NO_CXX98_FUNCTION_BASE \
-    -I. -isystem "$folder/headers" "$2" -o "$object" > "$object.log" 2>&1 || echo "$1: $2 fails: $object.log" >&2
+    -I. -I"$folder/shims" -isystem "$folder/headers" "$2" -o "$object" > "$object.log" 2>&1 || echo "$1: $2 fails: $object.log" >&2
 }
 export -f zig compile
 

@@ -32,7 +32,7 @@ double smooth(double x, double y, double z)
 
 double sharp(double x, double y, double z)
 {
-  return std::max({ std::abs(x), std::abs(y), std::abs(0.8 * z + 0.1 * x) }) - 0.3;
+  return std::max({ std::abs(x), std::abs(y), std::abs(z) }) - 0.3;
 }
 
 /// Around the origin.
@@ -164,6 +164,7 @@ void print(const char* name, const Cloud& cloud)
     for (const bool triangles : { false, true })
     {
       isopoint::ExtractionRequest request;
+      request.isosurface.isovalue = 0.0;
       request.isosurface.dropsGaps = true;
       request.isosurface.fit =
         order ? std::optional(isopoint::FitRequest{ *order, true }) : std::nullopt;
