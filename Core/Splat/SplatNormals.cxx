@@ -27,8 +27,9 @@ std::optional<Vector> planeNormal(const std::vector<Eigen::Vector3d>& points)
     const Eigen::Vector3d offset = point - centroid;
     covariance += offset * offset.transpose();
   }
+  // Not by computeDirect(), whose sines and cosines differ among libraries and processors.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
+  solver.compute(covariance);
   const Eigen::Vector3d& spreads = solver.eigenvalues(); // ascending
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   const double length = lengthOf({ normal[0], normal[1], normal[2] });
