@@ -182,8 +182,9 @@ private:
         const Eigen::Vector3d offset = place - center;
         bend += this->Fit.sense * weight * this->residualAt(i) * offset * offset.transpose();
       });
+    // Not by computeDirect(), whose sines and cosines differ among libraries and processors.
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(bend);
+    solver.compute(bend);
     const Eigen::Vector3d direction = solver.eigenvectors().col(2);
     std::vector<std::pair<double, std::size_t>> along;
     forEachOwn([&](std::size_t i, double, const Eigen::Vector3d& place)
