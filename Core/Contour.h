@@ -53,6 +53,7 @@ void loadOrReplace(const Execution& execution, Team& team, IsosurfaceExtractor& 
   };
   types.areFloatPositions ? (types.areFloatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                           : (types.areFloatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
+  execution.progress(1.0);
   // The standard error of numbers that are rounded to integers.
   extractor.setValueError(types.areIntegers ? 1.0 / std::sqrt(12.0) : 0.0);
 }

@@ -24,7 +24,8 @@ struct Failure
   Kinds kind = None;
   std::string text; // for the user: the cause, then the remedy; empty where there is nothing to say
 
-  /// Whether what was kept for further extractions may be unsound.
+  /// Whether what was kept for further extractions is to be dropped: memory is needed, or it may be
+  /// unsound.
   bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }
 };
 

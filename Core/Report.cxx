@@ -115,7 +115,8 @@ Message describeEmptyIsovalues(
   }
   else if (!report.dropsGaps)
   {
-    reason = "no block has samples on both sides. Turn ContourBlocks off.";
+    reason = report.contoursBlocks ? "no block has samples on both sides. Turn ContourBlocks off."
+                                   : "samples at one position count with the mean of their values.";
   }
   return { "isovalues without points in " + report.array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + reason };
@@ -147,7 +148,7 @@ Message describeSkipped(const Report& report)
   const std::vector<std::pair<std::uint64_t, std::string>> reasons{
     { report.notFinite, "not finite" },
     { report.withoutArray, "in blocks without " + describeArray(report) },
-    { report.excluded, "ghost or hidden" },
+    { report.excluded, report.excludedAs },
   };
   const std::uint64_t skipped = report.skippedCount();
   std::vector<std::string> parts;

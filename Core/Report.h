@@ -43,19 +43,21 @@ struct CloudCounts
 /// judged by.
 struct Report
 {
-  std::vector<double> isovalues;        // ascending
-  std::vector<std::uint64_t> points;    // of each isovalue
-  bool areTriangles = false;            // whether points are connected
-  bool dropsGaps = false;               // whether what lies in gaps is left out
-  bool areProjected = false;            // whether fits were to move points
-  std::uint64_t unprojectedPoints = 0;  // that no fit moved
-  std::uint64_t droppedInGaps = 0;      // edges, or tetrahedra, that were left out
-  std::uint64_t samples = 0;            // those that took no part included
-  std::uint64_t notFinite = 0;          // samples with such a coordinate or value
-  std::uint64_t excluded = 0;           // samples that the caller left out, such as ghosts
-  std::uint64_t withoutArray = 0;       // samples of data sets without the contoured array
-  std::string array;                    // its name, perhaps empty
-  std::set<std::string> replacedArrays; // input arrays with the name of a computed one
+  std::vector<double> isovalues;              // ascending
+  std::vector<std::uint64_t> points;          // of each isovalue
+  bool areTriangles = false;                  // whether points are connected
+  bool dropsGaps = false;                     // whether what lies in gaps is left out
+  bool areProjected = false;                  // whether fits were to move points
+  bool contoursBlocks = false;                // whether each block is a cloud of its own
+  std::uint64_t unprojectedPoints = 0;        // that no fit moved
+  std::uint64_t droppedInGaps = 0;            // edges, or tetrahedra, that were left out
+  std::uint64_t samples = 0;                  // those that took no part included
+  std::uint64_t notFinite = 0;                // samples with such a coordinate or value
+  std::uint64_t excluded = 0;                 // samples that the caller left out, such as ghosts
+  std::uint64_t withoutArray = 0;             // samples of data sets without the contoured array
+  std::string array;                          // its name, perhaps empty
+  std::string excludedAs = "ghost or hidden"; // what the caller calls samples that it left out
+  std::set<std::string> replacedArrays;       // input arrays with the name of a computed one
   bool isPieceOfProcess = false; // one of several processes, without a controller, yields a piece
   /// The range of the samples that take part, empty without any.
   double least = std::numeric_limits<double>::infinity();

@@ -78,13 +78,16 @@ public:
                        (array->data ? "" : " and no data") +
                        ". Pass at least one component, and memory for all tuples.");
     }
+    const std::size_t size = sizeOfType(array->type);
+    this->ComponentStride = static_cast<std::uint64_t>(array->component_stride);
     if (array->component_stride == 0)
     {
-      this->Array.component_stride = static_cast<std::int64_t>(sizeOfType(array->type));
+      this->ComponentStride = size;
     }
+    this->Stride = static_cast<std::uint64_t>(array->stride);
     if (array->stride == 0)
     {
-      this->Array.stride = this->Array.component_stride * array->components;
+      this->Stride = this->ComponentStride * static_cast<std::uint64_t>(array->components);
     }
   }
 
@@ -108,11 +111,11 @@ public:
   template <class T>
   T at(std::size_t tuple, int component) const
   {
+    const std::uint64_t offset =
+      tuple * this->Stride + static_cast<std::uint64_t>(component) * this->ComponentStride;
     T number;
     std::memcpy(&number,
-      static_cast<const char*>(this->Array.data) +
-        static_cast<std::int64_t>(tuple) * this->Array.stride +
-        component * this->Array.component_stride,
+      static_cast<const char*>(this->Array.data) + static_cast<std::int64_t>(offset),
       sizeof(number));
     return number;
   }
@@ -126,6 +129,9 @@ public:
 
 private:
   isopoint_array Array;
+  // Modulo 2^64, since strides may be negative.
+  std::uint64_t Stride;
+  std::uint64_t ComponentStride;
 };
 
 } // namespace isopoint

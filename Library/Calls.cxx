@@ -17,6 +17,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -112,21 +113,25 @@ void forEachMember(const Visitor& visit)
   visit(&C::keep_tetrahedra, &Core::keepBand);
 }
 
-/// @param given null, or options of this version or an earlier one
-/// @throws UsageError if they are of a later version, or out of range
+/// @param given null, or options of this version
+/// @throws UsageError if they are of another version, or out of range
 isopoint::Options optionsFrom(const isopoint_options* given)
 {
   isopoint_options all;
   isopoint_initialize_options(&all, sizeof(all));
   if (given)
   {
-    if (given->size < sizeof(given->size) || given->size > sizeof(all))
+    if (given->size != sizeof(all))
     {
       throw UsageError("The size of the options is " + std::to_string(given->size) +
                        ". Set them up by isopoint_initialize_options(), with the header of this"
-                       " version of the library or an earlier one.");
+                       " version of the library.");
     }
-    std::memcpy(&all, given, static_cast<std::size_t>(given->size));
+    all = *given;
+  }
+  if (all.reserved != 0)
+  {
+    throw UsageError("The reserved option is " + std::to_string(all.reserved) + ". Leave it 0.");
   }
   isopoint::Options options;
   forEachMember(
@@ -134,6 +139,11 @@ isopoint::Options optionsFrom(const isopoint_options* given)
     {
       using T = std::decay_t<decltype(options.*option)>;
       options.*option = static_cast<T>(all.*member);
+      if (std::is_same_v<T, bool> && all.*member != 0 && all.*member != 1)
+      {
+        throw UsageError("An option that is 0 or 1 is " + std::to_string(all.*member) +
+                         ". Use 0 for off and 1 for on.");
+      }
     });
   options = isopoint::effectiveOptions(options);
   isopoint::checkOptions(options, memberName);
@@ -295,6 +305,10 @@ int64_t isopoint_get_skipped_count(const isopoint_extractor* extractor)
 
 void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2])
 {
+  if (!range)
+  {
+    return;
+  }
   const bool hasSamples = extractor && extractor->Extractor.sampleCount() > 0;
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const auto [least, greatest] =
@@ -311,9 +325,11 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
     {
       require(extractor, "extractor");
       require(surface, "place for the surface");
-      if (count < 0 || (count > 0 && !isovalues))
+      constexpr std::int64_t most = 1 << 24;
+      if (count < 0 || count > most || (count > 0 && !isovalues))
       {
-        throw UsageError("There are no isovalues. Pass as many as their count says.");
+        throw UsageError("There are not " + std::to_string(count) +
+                         " isovalues. Pass as many as their count says, up to 2^24.");
       }
       if (!extractor->HasSamples)
       {
@@ -322,6 +338,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       const isopoint::Options chosen = optionsFrom(options);
       isopoint::Report report(
         chosen, isopoint::sortedIsovalues(std::vector<double>(isovalues, isovalues + count)));
+      report.excludedAs = "excluded";
       report.countSamples(extractor->Extractor, extractor->Counts);
       const isopoint::Execution execution = extractor->makeExecution();
       std::vector<isopoint::ExtractedIsosurface> parts = isopoint::extractIsovalues(
@@ -330,6 +347,11 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
         extractor->Types.areFloatPositions, report,
         static_cast<std::size_t>(extractor->Counts.items));
       made->messages = isopoint::describeReport(report, memberName);
+      if (made->messages.empty() && extractor->Extractor.sampleCount() == 0)
+      {
+        made->messages.push_back({ "no samples",
+          "No isosurface: no sample takes part. Pass samples that are not excluded." });
+      }
       execution.progress(1.0);
       *surface = made.release();
     });
@@ -366,7 +388,7 @@ int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
 }
 
 isopoint_status isopoint_get_array(
-  isopoint_surface* surface, int32_t array_id, isopoint_array* array)
+  const isopoint_surface* surface, int32_t array_id, isopoint_array* array)
 {
   return run(
     [&]()
@@ -378,13 +400,12 @@ isopoint_status isopoint_get_array(
 }
 
 isopoint_status isopoint_interpolate(
-  isopoint_surface* surface, const isopoint_array* of_samples, void* result)
+  const isopoint_surface* surface, const isopoint_array* of_samples, void* result)
 {
   return run(
     [&]()
     {
       require(surface, "surface");
-      require(result, "place for the result");
       surface->interpolate(of_samples, result);
     });
 }
@@ -400,13 +421,12 @@ isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale
 }
 
 isopoint_status isopoint_average_at_splat_vertices(
-  isopoint_surface* surface, const isopoint_array* of_points, void* result)
+  const isopoint_surface* surface, const isopoint_array* of_points, void* result)
 {
   return run(
     [&]()
     {
       require(surface, "surface");
-      require(result, "place for the result");
       surface->averageAtSplatVertices(of_points, result);
     });
 }

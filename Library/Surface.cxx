@@ -53,6 +53,16 @@ isopoint_surface::Coordinates makeCoordinates(bool areFloat, std::size_t count)
                   : isopoint_surface::Coordinates(std::vector<double>(3 * count));
 }
 
+/// @throws UsageError if there is no memory for tuples
+void requireMemory(const void* result, std::size_t tuples)
+{
+  if (!result && tuples > 0)
+  {
+    throw isopoint::UsageError(
+      "The place for the result is null. Pass memory for " + std::to_string(tuples) + " tuples.");
+  }
+}
+
 } // namespace
 
 isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
@@ -62,9 +72,11 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   , Run(execution)
   , SampleCount(samples)
   , Parts(std::move(surfaces))
+  , Points(makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions),
+      isopoint::countIsopoints(this->Parts)))
+  , Splats(execution, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
   const std::size_t count = isopoint::countIsopoints(this->Parts);
-  this->Points = makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions), count);
   this->Isovalues.resize(count);
   this->Edges.resize(2 * count);
   this->EdgeParameters.resize(count);
@@ -120,10 +132,10 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
     asArray(this->Radii, 1),
     asArray(this->SplatAxes, 3),
     asArray(this->SplatPolygons, static_cast<int>(isopoint::numbersOfSplat)),
-    asArray(this->SplatVertices),
-    asArray(this->SplatVertexNormals, 3),
-    asArray(this->SplatVertexPoints, 1),
-    asArray(this->SplatTriangles, 3),
+    asArray(this->Splats.vertices),
+    asArray(this->Splats.normals, 3),
+    asArray(this->Splats.points, 1),
+    asArray(this->Splats.triangles, 3),
   }; // by isopoint_array_id
   if (id < 0 || static_cast<std::size_t>(id) >= arrays.size())
   {
@@ -137,6 +149,7 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
 {
   const isopoint::ArrayReader reader(ofSamples, "the samples");
   reader.require("the samples", this->SampleCount, reader.components());
+  requireMemory(result, this->Isovalues.size());
   const auto components = static_cast<std::size_t>(reader.components());
   isopoint::withType(reader.type(),
     [&](auto type)
@@ -166,75 +179,78 @@ void isopoint_surface::makeSplatMesh(double scale)
     throw isopoint::UsageError(
       "The scale of splats is " + std::to_string(scale) + ". Pass a number greater than 0.");
   }
-  if (this->Radii.empty() && !this->Isovalues.empty())
+  if ((this->Radii.empty() || this->Normals.empty()) && !this->Isovalues.empty())
   {
     throw isopoint::UsageError("The surface has no splats. Extract points with compute_splats and"
                                " compute_normals.");
   }
-  this->Mesh.reset();
-  const bool areFloat = std::holds_alternative<std::vector<float>>(this->Points);
+  const bool areFloat = this->hasFloatPoints();
   const double error = isopoint::positionErrorOf(areFloat);
-  this->Mesh = isopoint::buildSplatMesh(this->Run, this->Radii.size(),
-    [&](std::size_t point)
+  const auto fanAt = [&](std::size_t point)
+  {
+    const auto vectorAt = [point](const auto& numbers)
     {
-      const auto vectorAt = [point](const auto& numbers)
-      {
-        return isopoint::Vector{ static_cast<double>(numbers[3 * point]),
-          static_cast<double>(numbers[3 * point + 1]),
-          static_cast<double>(numbers[3 * point + 2]) };
-      };
-      isopoint::SplatNumbers numbers;
-      std::copy_n(
-        this->SplatPolygons.begin() + static_cast<std::ptrdiff_t>(isopoint::numbersOfSplat * point),
-        isopoint::numbersOfSplat, numbers.begin());
-      return isopoint::fanOf(std::visit(vectorAt, this->Points),
-        isopoint::unitNormal(vectorAt(this->Normals)), vectorAt(this->SplatAxes), numbers, scale,
-        error);
-    });
-  this->writeSplatMesh(areFloat);
+      return isopoint::Vector{ static_cast<double>(numbers[3 * point]),
+        static_cast<double>(numbers[3 * point + 1]), static_cast<double>(numbers[3 * point + 2]) };
+    };
+    isopoint::SplatNumbers numbers;
+    std::copy_n(
+      this->SplatPolygons.begin() + static_cast<std::ptrdiff_t>(isopoint::numbersOfSplat * point),
+      isopoint::numbersOfSplat, numbers.begin());
+    return isopoint::fanOf(std::visit(vectorAt, this->Points),
+      isopoint::unitNormal(vectorAt(this->Normals)), vectorAt(this->SplatAxes), numbers, scale,
+      error);
+  };
+  const isopoint::Execution making = isopoint::partOf(this->Run, 0.0, 0.9);
+  this->Splats =
+    SplatArrays(this->Run, isopoint::buildSplatMesh(making, this->Radii.size(), fanAt), areFloat);
+  this->HasSplatMesh = true;
+  this->Run.progress(1.0);
 }
 
-void isopoint_surface::writeSplatMesh(bool areFloat)
+isopoint_surface::SplatArrays::SplatArrays(
+  const isopoint::Execution& execution, isopoint::SplatMesh made, bool areFloat)
+  : mesh(std::move(made))
+  , vertices(makeCoordinates(areFloat, this->mesh.vertices.size()))
+  , normals(3 * this->mesh.vertices.size())
+  , points(this->mesh.vertices.size())
+  , triangles(3 * this->mesh.triangles.size())
 {
-  const std::size_t count = this->Mesh->vertices.size();
-  this->SplatVertices = makeCoordinates(areFloat, count);
-  this->SplatVertexNormals.resize(3 * count);
-  this->SplatVertexPoints.resize(count);
-  this->SplatTriangles.resize(3 * this->Mesh->triangles.size());
   std::visit(
     [&](auto& coordinates)
     {
-      isopoint::forEachIndex(this->Run, count,
+      isopoint::forEachIndex(execution, this->mesh.vertices.size(),
         [&](std::size_t i)
         {
-          const isopoint::SplatVertex& vertex = this->Mesh->vertices[i];
+          const isopoint::SplatVertex& vertex = this->mesh.vertices[i];
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
             using T = std::decay_t<decltype(coordinates[0])>;
             coordinates[3 * i + axis] = static_cast<T>(vertex.position[axis]);
-            this->SplatVertexNormals[3 * i + axis] = vertex.normal[axis];
+            this->normals[3 * i + axis] = vertex.normal[axis];
           }
-          this->SplatVertexPoints[i] = static_cast<std::int64_t>(this->Mesh->pointOfVertex[i]);
+          this->points[i] = static_cast<std::int64_t>(this->mesh.pointOfVertex[i]);
         });
     },
-    this->SplatVertices);
-  isopoint::forEachIndex(this->Run, this->Mesh->triangles.size(),
+    this->vertices);
+  isopoint::forEachIndex(execution, this->mesh.triangles.size(),
     [&](std::size_t i)
     {
-      std::transform(this->Mesh->triangles[i].begin(), this->Mesh->triangles[i].end(),
-        this->SplatTriangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
+      std::transform(this->mesh.triangles[i].begin(), this->mesh.triangles[i].end(),
+        this->triangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
         [](std::size_t vertex) { return static_cast<std::int64_t>(vertex); });
     });
 }
 
 void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const
 {
-  if (!this->Mesh)
+  if (!this->HasSplatMesh)
   {
     throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.");
   }
   const isopoint::ArrayReader reader(ofPoints, "the points");
   reader.require("the points", this->Isovalues.size(), reader.components());
+  requireMemory(result, this->Splats.mesh.vertices.size());
   if (!isopoint::isFloatingPoint(reader.type()))
   {
     throw isopoint::UsageError("The array of the points holds integers, which have no mean. Pass"
@@ -246,13 +262,13 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
     {
       using T = decltype(type);
       T* const means = static_cast<T*>(result);
-      isopoint::forEachIndex(this->Run, this->Mesh->vertices.size(),
+      isopoint::forEachIndex(this->Run, this->Splats.mesh.vertices.size(),
         [&](std::size_t vertex)
         {
           for (std::size_t i = 0; i < components; ++i)
           {
             means[components * vertex + i] =
-              static_cast<T>(this->Mesh->meanAt(vertex, [&](std::size_t point)
+              static_cast<T>(this->Splats.mesh.meanAt(vertex, [&](std::size_t point)
                 { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); }));
           }
         });

@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <variant>
 #include <vector>
 
@@ -44,6 +43,20 @@ struct isopoint_surface
   isopoint::Report report;
 
 private:
+  bool hasFloatPoints() const { return std::holds_alternative<std::vector<float>>(this->Points); }
+
+  /// The triangles of all splats.
+  struct SplatArrays
+  {
+    SplatArrays(const isopoint::Execution& execution, isopoint::SplatMesh made, bool areFloat);
+
+    isopoint::SplatMesh mesh;
+    Coordinates vertices;
+    std::vector<float> normals;
+    std::vector<std::int64_t> points;
+    std::vector<std::int64_t> triangles;
+  };
+
   isopoint::Execution Run;
   std::size_t SampleCount;                          // those that take no part included
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
@@ -59,13 +72,8 @@ private:
   std::vector<float> SplatAxes;
   std::vector<float> SplatPolygons;
 
-  // Of the last splat mesh, if one was made:
-  void writeSplatMesh(bool areFloat);
-  std::optional<isopoint::SplatMesh> Mesh;
-  Coordinates SplatVertices;
-  std::vector<float> SplatVertexNormals;
-  std::vector<std::int64_t> SplatVertexPoints;
-  std::vector<std::int64_t> SplatTriangles;
+  bool HasSplatMesh = false;
+  SplatArrays Splats; // without any until then
 };
 
 #endif

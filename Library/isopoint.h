@@ -23,18 +23,21 @@
  *   isopoint_destroy_extractor(extractor);
  *
  * Threads: two extractors, and two surfaces, may be used on two threads at the same time; one
- * extractor, or one surface, on one thread at a time. Results do not depend on the number of
+ * extractor, or one surface, on one thread at a time. An extractor and a surface of it may be used on
+ * two. Results do not depend on the number of
  * threads.
  *
  * Errors: functions that can fail return an isopoint_status. isopoint_get_error() then has the
  * cause and the remedy. Outputs through pointers are written only where a function succeeds. No
- * function ends the program, for lack of memory neither.
+ * function ends the program, not even for lack of memory.
  */
 #ifndef isopoint_h
 #define isopoint_h
 
 #include <stddef.h>
 #include <stdint.h>
+
+#define ISOPOINT_VERSION "1.0.0"
 
 #if defined(ISOPOINT_STATIC)
 #define ISOPOINT_API
@@ -125,7 +128,7 @@ enum
 };
 
 /* What to extract. isopoint_initialize_options() sets `size` and all defaults; options that later
- * versions add follow behind. 0 and 1 stand for off and on. docs/properties.md describes each
+ * versions add follow behind, and they accept the size of this one. 0 and 1 stand for off and on. docs/properties.md describes each
  * option at length. */
 typedef struct isopoint_options
 {
@@ -140,7 +143,7 @@ typedef struct isopoint_options
   int32_t output_points_precision;   /* Default: INPUT */
   /* Of points alone: */
   int32_t number_of_neighbors; /* of planes that give normals, 3 to 1000. Default: 12 */
-  int32_t compute_splats;      /* Default: 1 */
+  int32_t compute_splats;      /* of the same points, around their normals. Default: 1 */
   double angle;           /* of the angle criterion, in degrees, 0 to 180. Default: 54.7 */
   double minimum_spacing; /* of points, in sample spacings, 0 to 1; 0: keep all. Default: 0 */
   /* Of triangles: whether the tetrahedra near the surface are kept for the next isovalue, which is
@@ -155,7 +158,7 @@ ISOPOINT_API void isopoint_initialize_options(isopoint_options* options, size_t 
 /* -------------------------------------------------------------------------------- */
 /* Extractors */
 
-/* The version of the library, as "1.0.0". */
+/* The version of the library that is loaded, which may be later than ISOPOINT_VERSION. */
 ISOPOINT_API const char* isopoint_version(void);
 
 /* An extractor without samples, or null if memory is lacking. */
@@ -168,20 +171,25 @@ ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
  * has. It is valid until the next call fails. */
 ISOPOINT_API const char* isopoint_get_error(void);
 
-/* How many threads to use at most: 0, the default, uses all cores that the process may use. One
- * thread alone is used where the library was built without oneTBB. */
+/* How many threads to use at most: 0, the default, and numbers above stand for all cores that the
+ * process may use: those that it is bound to, within its container's quota and its share of those of
+ * processes that a launcher of MPI started beside it. One thread alone is used where the library was
+ * built without oneTBB, or if that could not start. */
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
 
 /* Callbacks, called on the thread of the call alone. Null, the default: none.
  * @param progress(user, fraction) the share of the present call that is done, 0 to 1, ascending
  * @param cancels(user) every few tens of milliseconds: nonzero ends the call, which returns
- * ISOPOINT_CANCELED. The extractor remains usable. */
+ * ISOPOINT_CANCELED. The extractor remains usable.
+ * They apply to isopoint_set_samples(), isopoint_extract() and isopoint_make_splat_mesh(), of surfaces
+ * that were extracted from then on, too: `user` has to outlive these. They must not use the extractor
+ * or surface of the call. */
 ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
 
 /* Loads samples in place of any former ones. Arrays are read during the call alone. Where the
- * positions and the samples that take part are those of the last call, the tree is kept, and only
- * values are replaced: a later time step takes a fraction of the time.
+ * positions, the types and the samples that take part are those of the last call, the tree is kept,
+ * and only values are replaced: a later time step takes a fraction of the time.
  *
  * Samples whose position or value is not finite take no part; see isopoint_get_message(). Those at
  * one position count as one, with their mean value. Values of 64-bit integers are rounded to
@@ -211,7 +219,7 @@ ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, 
  * @param isovalues `count` numbers, infinite ones included, without NaN
  * @param options null: the defaults
  * @param surface receives a surface, to be freed by isopoint_destroy_surface(). It may have no
- * points; then isopoint_get_message() says why */
+ * points; then isopoint_get_message() says why, if there are isovalues */
 ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
   const double* isovalues, int64_t count, const isopoint_options* options,
   isopoint_surface** surface);
@@ -232,7 +240,9 @@ ISOPOINT_API int64_t isopoint_get_unprojected_count(const isopoint_surface* surf
 /* The edges, or tetrahedra of triangles, that were left out since they lie in gaps. */
 ISOPOINT_API int64_t isopoint_get_dropped_count(const isopoint_surface* surface);
 
-/* The arrays of a surface. Points are ordered by isovalue, then by their edges. */
+/* The arrays of a surface. Points are ordered by isovalue, then by their edges; of triangles with
+ * ISOPOINT_PROJECTION_CREASE, points that are added at creases follow. Positions beyond the range of
+ * float have infinite numbers in arrays of float. */
 typedef enum isopoint_array_id
 {
   ISOPOINT_POINTS = 0,            /* three float or double */
@@ -240,7 +250,7 @@ typedef enum isopoint_array_id
   ISOPOINT_NORMALS = 2,           /* three float, of length 1, to decreasing values */
   ISOPOINT_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
   ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved each point */
-  ISOPOINT_EDGES = 5,             /* two int64: the samples at the ends of each point's edge */
+  ISOPOINT_EDGES = 5,             /* two int64: the samples at its ends, the lower number first */
   ISOPOINT_EDGE_PARAMETERS = 6,   /* double: where on its edge a point is, from 0 to 1 */
   ISOPOINT_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */
   /* The splat of a point p with the normal n is a fan of triangles from p to each two consecutive
@@ -261,17 +271,19 @@ typedef enum isopoint_array_id
 /* An array of a surface, whose memory is valid until the surface is destroyed; of a splat mesh,
  * until the next one is made. It has no tuples where the options did not ask for it. */
 ISOPOINT_API isopoint_status isopoint_get_array(
-  isopoint_surface* surface, int32_t array_id, isopoint_array* array);
+  const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
 
 /* Interpolates an array of the samples at the points of a surface, as many components and of the
- * same type: integers are rounded to the nearest. Samples at one position have their mean.
+ * same type: integers are rounded to the nearest, those of 64 bits to double first. Samples at one
+ * position have their mean.
  * @param of_samples as many tuples as samples were passed to isopoint_set_samples()
  * @param result memory for a tuple of each point, one after the other */
 ISOPOINT_API isopoint_status isopoint_interpolate(
-  isopoint_surface* surface, const isopoint_array* of_samples, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_samples, void* result);
 
 /* Makes the triangles of all splats, for renderers of meshes, in place of former ones: each splat
- * has vertices of its own. O(n log n)
+ * has vertices of its own. Needs compute_normals and compute_splats. After an error the former ones
+ * stay. O(n log n)
  * @param scale factor on the size of splats, greater than 0; 1 closes the surface */
 ISOPOINT_API isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale);
 
@@ -280,7 +292,7 @@ ISOPOINT_API isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface,
  * @param of_points of type float or double, a tuple for each point
  * @param result memory for a tuple of each vertex, one after the other, of the same type */
 ISOPOINT_API isopoint_status isopoint_average_at_splat_vertices(
-  isopoint_surface* surface, const isopoint_array* of_points, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_points, void* result);
 
 #ifdef __cplusplus
 }

@@ -58,7 +58,7 @@ compile()
   local object=$folder/$1/${2##*/}.o
   zig c++ -target "$1" -c -O2 -g0 -std=c++17 -fPIC \
     -ffp-contract=off -fno-math-errno -frounding-math \
-    -DISOPOINT_BUILDS_LIBRARY "-DISOPOINT_VERSION=\"elsewhere\"" \
+    -DISOPOINT_BUILDS_LIBRARY \
     -DCGAL_DISABLE_GMP=1 -DCGAL_DISABLE_MPFR=1 -DCGAL_HEADER_ONLY=1 -DBOOST_NO_CXX98_FUNCTION_BASE \
     -I. -I"$folder/shims" -isystem "$folder/headers" "$2" -o "$object" > "$object.log" 2>&1 || echo "$1: $2 fails: $object.log" >&2
 }

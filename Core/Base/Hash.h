@@ -13,13 +13,14 @@
 namespace isopoint
 {
 
-/// A hash of numbers (FNV-1a, eight bytes at a time) that changing one of them always changes.
+/// A hash of numbers that changing one of them always changes, and changing several all but surely.
 inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
 {
-  std::uint64_t hash = 14695981039346656037u;
+  std::uint64_t hash = count;
   for (std::size_t i = 0; i < count; ++i)
   {
-    hash = (hash ^ numbers[i]) * 1099511628211u;
+    hash = (hash ^ numbers[i]) * 11400714819323198485u; // 2^64 over the golden ratio
+    hash ^= hash >> 32;                                 // products carry upwards alone
   }
   return hash;
 }

@@ -126,13 +126,29 @@ inline std::size_t availableThreadsOfRank()
 constexpr bool hasThreads = true;
 
 /// Lets an execution run on the threads of oneTBB, this many at most, the calling one included. If
-/// the system or memory grants fewer, these do all the work. Tasks must not throw, which
+/// the system or memory grants fewer, these do all the work; if oneTBB once failed to start, the
+/// calling one alone, since a further call would wait for ever. Tasks must not throw, which
 /// forRanges() ensures.
 inline void useThreads(Execution& execution, std::size_t threads)
 {
-  execution.threads = std::min(
-    threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  const auto arena = std::make_shared<tbb::task_arena>(static_cast<int>(execution.threads));
+  static std::atomic<bool> hasFailed{ false };
+  std::shared_ptr<tbb::task_arena> arena;
+  try
+  {
+    if (hasFailed)
+    {
+      return;
+    }
+    threads = std::min(
+      threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    arena = std::make_shared<tbb::task_arena>(static_cast<int>(threads));
+  }
+  catch (const std::exception&)
+  {
+    hasFailed = true;
+    return;
+  }
+  execution.threads = threads;
   execution.parallelFor = [arena, most = execution.threads](
                             std::size_t count, std::size_t grain, const RangeTask& task)
   {

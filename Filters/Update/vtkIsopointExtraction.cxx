@@ -128,6 +128,7 @@ void vtkIsopointExtraction::StartCounting(const std::vector<double>& isovalues)
   const char* const name =
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
   counts.array = name ? name : "";
+  counts.contoursBlocks = this->Options.ContourBlocks;
   this->Report = std::move(counts);
 }
 

@@ -110,19 +110,11 @@ unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
 }
 
 void vtkIsopointUpdate::ReportMessages()
+try
 {
   if (this->Team.rank() > 0)
   {
     return;
-  }
-  std::vector<isopoint::Message> messages;
-  try
-  {
-    messages = isopoint::describeReport(this->Report);
-  }
-  catch (const std::bad_alloc&)
-  {
-    return; // the output is complete without warnings
   }
   // A cause is reported when it comes up, and not again as long as it lasts for this input.
   vtkAlgorithm* const producer = this->Filter->GetInputAlgorithm();
@@ -130,7 +122,7 @@ void vtkIsopointUpdate::ReportMessages()
     this->ReportedOf == producer ? this->Reported : std::set<std::string>();
   this->ReportedOf = producer;
   this->Reported.clear();
-  for (isopoint::Message& message : messages)
+  for (isopoint::Message& message : isopoint::describeReport(this->Report))
   {
     this->Reported.insert(message.cause);
     if (before.count(message.cause) > 0)
@@ -148,4 +140,8 @@ void vtkIsopointUpdate::ReportMessages()
     }
     this->Filter->InvokeEvent(vtkCommand::MessageEvent, message.text.data());
   }
+}
+catch (const std::bad_alloc&)
+{
+  // The output is complete without messages.
 }

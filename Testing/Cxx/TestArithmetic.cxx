@@ -3,6 +3,7 @@
 #include "Random.h"
 
 #include "Core/Base/Cosine.h"
+#include "Core/Base/Hash.h"
 #include "Core/Base/Vector.h"
 #include "Core/Fit/Lanes.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace
@@ -94,4 +96,29 @@ TEST(Arithmetic, CosinesAreRoundedToNearest)
     const double angle = tenths * pi / 1800.0;
     EXPECT_NEAR(cosineOf(angle), std::cos(angle), 0x1p-53) << tenths;
   }
+}
+
+TEST(Arithmetic, AHashTellsTwoChangesFromNone)
+{
+  constexpr std::size_t count = 512; // bytes
+  const isopoint::Execution execution;
+  std::vector<unsigned char> flags(count, 0);
+  std::set<std::uint64_t> hashes{ isopoint::hashOf(execution, flags.data(), count) };
+  std::size_t expected = 1;
+  for (const unsigned char flag : { 1, 2, 32, 128 })
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (std::size_t j = i; j < count; j += 8) // pairs at one place of words, the least safe ones
+      {
+        flags[i] = flag;
+        flags[j] = flag;
+        hashes.insert(isopoint::hashOf(execution, flags.data(), count));
+        ++expected;
+        flags[i] = 0;
+        flags[j] = 0;
+      }
+    }
+  }
+  EXPECT_EQ(hashes.size(), expected);
 }

@@ -300,7 +300,7 @@ TEST(Library, ExcludedAndInvalidSamplesTakeNoPart)
   std::int32_t isWarning = -1;
   const char* const message = isopoint_get_message(surface.get(), 0, &isWarning);
   ASSERT_NE(message, nullptr);
-  expectContains(message, "Skipped 501 of 5000 samples: 1 not finite, 500");
+  expectContains(message, "Skipped 501 of 5000 samples: 1 not finite, 500 excluded");
   EXPECT_EQ(isWarning, 0);
   EXPECT_EQ(isopoint_get_message(surface.get(), 1, nullptr), nullptr);
 }
@@ -415,16 +415,63 @@ TEST(Library, InvalidArraysAreErrorsAndLeaveNoSamples)
     ISOPOINT_INVALID_ARGUMENT, isopoint_set_samples(extractor.get(), &positions, &values, &values));
 }
 
-TEST(Library, OptionsOfAnEarlierVersionKeepDefaultsForTheRest)
+TEST(Library, OptionsAreOfThisVersionAndSwitchesOnOrOff)
 {
   const Extractor extractor = makeExtractor();
   ASSERT_EQ(Cloud().load(extractor.get()), ISOPOINT_OK);
-  isopoint_options options;
-  std::memset(&options, 0xff, sizeof(options));
-  const std::size_t early = offsetof(isopoint_options, angle);
-  isopoint_initialize_options(&options, early);
-  EXPECT_EQ(bytesOf(extract(extractor.get(), { 0.7 }, options).get()),
-    bytesOf(extract(extractor.get(), { 0.7 }).get()));
+  const double isovalue = 0.7;
+  isopoint_surface* surface = nullptr;
+  const auto expectInvalid = [&](const auto& change)
+  {
+    isopoint_options options = defaults();
+    change(options);
+    errorOf(ISOPOINT_INVALID_ARGUMENT,
+      isopoint_extract(extractor.get(), &isovalue, 1, &options, &surface));
+  };
+  for (const std::uint64_t size : { 0, 7, 8, 9, 40, 71, 73, 1000 })
+  {
+    expectInvalid([size](isopoint_options& options) { options.size = size; });
+  }
+  expectInvalid([](isopoint_options& options) { options.reserved = 1; });
+  for (const std::int32_t value : { -1, 2, std::numeric_limits<std::int32_t>::min() })
+  {
+    expectInvalid([value](isopoint_options& options) { options.triangles = value; });
+    expectInvalid([value](isopoint_options& options) { options.keep_tetrahedra = value; });
+  }
+  // No more is written than the caller has.
+  std::array<unsigned char, sizeof(isopoint_options)> bytes;
+  bytes.fill(0xff);
+  isopoint_initialize_options(
+    reinterpret_cast<isopoint_options*>(bytes.data()), offsetof(isopoint_options, angle));
+  EXPECT_EQ(bytes[offsetof(isopoint_options, angle)], 0xff);
+  EXPECT_EQ(bytes[offsetof(isopoint_options, angle) - 1], 0);
+}
+
+TEST(Library, SplatMeshesNeedNormalsToo)
+{
+  const Extractor extractor = makeExtractor();
+  ASSERT_EQ(Cloud().load(extractor.get()), ISOPOINT_OK);
+  isopoint_options options = defaults();
+  options.compute_normals = 0;
+  const Surface surface = extract(extractor.get(), { 0.7 }, options);
+  expectContains(errorOf(ISOPOINT_INVALID_ARGUMENT, isopoint_make_splat_mesh(surface.get(), 1.0)),
+    "compute_normals");
+}
+
+TEST(Library, NoSampleThatTakesPartIsExplained)
+{
+  const Cloud cloud(10);
+  const std::vector<std::uint8_t> excluded(10, 1);
+  const isopoint_array positions = cloud.positionArray();
+  const isopoint_array values = cloud.valueArray();
+  const isopoint_array flags = arrayOf(excluded, ISOPOINT_UINT8, 1);
+  const Extractor extractor = makeExtractor();
+  ASSERT_EQ(isopoint_set_samples(extractor.get(), &positions, &values, &flags), ISOPOINT_OK);
+  const Surface surface = extract(extractor.get(), { 0.7 });
+  ASSERT_NE(isopoint_get_message(surface.get(), 0, nullptr), nullptr);
+  expectContains(isopoint_get_message(surface.get(), 0, nullptr), "no sample takes part");
+  EXPECT_EQ(isopoint_interpolate(surface.get(), &values, nullptr), ISOPOINT_OK);
+  isopoint_get_value_range(extractor.get(), nullptr);
 }
 
 TEST(Library, CloudsWithoutSamplesHaveEmptySurfaces)
@@ -477,7 +524,13 @@ TEST(Library, ProgressAscendsOnTheCallersThread)
   const Extractor extractor = makeExtractor();
   Observed observed;
   ASSERT_EQ(isopoint_set_callbacks(extractor.get(), observe, isCanceled, &observed), ISOPOINT_OK);
-  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+  for (int time = 0; time < 2; ++time) // the second time only values are replaced
+  {
+    observed.fractions.clear();
+    ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+    ASSERT_FALSE(observed.fractions.empty());
+    EXPECT_EQ(observed.fractions.back(), 1.0);
+  }
   for (const isopoint_options& options : { defaults(), withTriangles() })
   {
     observed.fractions.clear();
@@ -510,8 +563,19 @@ TEST(Library, ACanceledCallCanBeRepeated)
     observed.cancelAfter = -1;
     EXPECT_EQ(bytesOf(extract(extractor.get(), { 0.7 }).get()), expected);
   }
+  const Surface surface = extract(extractor.get(), { 0.7 });
+  ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
+  const std::string mesh = bytesOf(surface.get());
   observed.asked = 0;
   observed.cancelAfter = 0;
+  EXPECT_EQ(isopoint_make_splat_mesh(surface.get(), 0.5), ISOPOINT_CANCELED);
+  EXPECT_EQ(bytesOf(surface.get()), mesh);
+  const std::vector<double> ofPoints(numbersOf<double>(surface.get(), ISOPOINT_ISOVALUES).size());
+  const isopoint_array array = arrayOf(ofPoints, ISOPOINT_DOUBLE, 1);
+  std::vector<double> means(
+    numbersOf<std::int64_t>(surface.get(), ISOPOINT_SPLAT_VERTEX_POINTS).size());
+  EXPECT_EQ(isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_OK);
+  observed.asked = 0;
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_CANCELED);
   EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
