@@ -19,8 +19,10 @@ inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
   std::uint64_t hash = count;
   for (std::size_t i = 0; i < count; ++i)
   {
+    // Products carry upwards alone; shifts bring changes down again.
     hash = (hash ^ numbers[i]) * 11400714819323198485u; // 2^64 over the golden ratio
-    hash ^= hash >> 32;                                 // products carry upwards alone
+    hash = (hash ^ hash >> 29) * 11400714819323198485u;
+    hash ^= hash >> 32;
   }
   return hash;
 }
