@@ -63,7 +63,8 @@ void writeTriangles(const Execution& execution, const ExtractedIsosurface& extra
     {
       for (std::size_t corner = 0; corner < 3; ++corner)
       {
-        corners[3 * i + corner] = static_cast<T>(firstPoint + extracted.triangles[i][corner]);
+        corners[3 * i + corner] =
+          static_cast<T>(firstPoint) + static_cast<T>(extracted.triangles[i][corner]);
       }
     });
 }

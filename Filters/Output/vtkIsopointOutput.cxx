@@ -81,7 +81,7 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
   vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(connectivity, static_cast<vtkIdType>(3 * isopoint::countTriangles(surfaces)));
+  vtkAllocateTuples(connectivity, 3 * static_cast<vtkIdType>(isopoint::countTriangles(surfaces)));
   vtkIdType* corners = connectivity->GetPointer(0);
   std::size_t firstPoint = 0;
   for (const isopoint::ExtractedIsosurface& extracted : surfaces)
