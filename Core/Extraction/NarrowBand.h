@@ -125,6 +125,7 @@ private:
     if (unfinished > 0)
     {
       std::vector<std::size_t> tops;
+      tops.reserve(front.size());
       for (const BandNode& node : front)
       {
         tops.push_back(node.nodeIndex);

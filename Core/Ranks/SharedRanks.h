@@ -177,6 +177,7 @@ public:
   void gatherLeaves(std::vector<std::size_t>& leaves)
   {
     std::vector<SentEnd> own;
+    own.reserve(leaves.size());
     for (const std::size_t leaf : leaves)
     {
       own.push_back(sentEnd(this->Tree, leaf));

@@ -122,6 +122,7 @@ public:
   void shareNormals(std::vector<Splat>& splats)
   {
     std::vector<Vector> normals;
+    normals.reserve(splats.size());
     for (const Splat& splat : splats)
     {
       normals.push_back(splat.normal);
