@@ -8,23 +8,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 namespace isopoint
 {
 
-/// A hash of numbers that changing one of them always changes, and changing several all but surely.
+/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
+inline std::uint64_t mixBits(std::uint64_t number)
+{
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  return number ^ (number >> 31);
+}
+
+/// The hash of numbers that another one follows.
+inline std::uint64_t extendedHash(std::uint64_t hash, std::uint64_t number)
+{
+  return mixBits((hash ^ number) + 0x9e3779b97f4a7c15u);
+}
+
+/// A hash of numbers. Changing one of them always changes it; changing several does not once in
+/// 2^64 cases.
 inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
 {
-  std::uint64_t hash = count;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    // Products carry upwards alone; shifts bring changes down again.
-    hash = (hash ^ numbers[i]) * 11400714819323198485u; // 2^64 over the golden ratio
-    hash = (hash ^ hash >> 29) * 11400714819323198485u;
-    hash ^= hash >> 32;
-  }
-  return hash;
+  return std::accumulate(numbers, numbers + count, std::uint64_t{ count }, extendedHash);
 }
 
 /// A hash of bytes, likewise, on all threads. O(bytes)

@@ -3,6 +3,7 @@
 #define isopoint_Loading_h
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Hash.h"
 #include "Core/Tree/Path.h"
 #include "Core/Tree/SampleTree.h"
 
@@ -168,14 +169,6 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
-/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
-inline std::uint64_t mixBits(std::uint64_t number)
-{
-  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
-  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
-  return number ^ (number >> 31);
-}
-
 /// What an item that takes part adds to a digest.
 template <class TCoordinate>
 std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
@@ -186,7 +179,7 @@ std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
     const auto coordinate = static_cast<double>(position[axis]);
     std::uint64_t bits = 0;
     std::memcpy(&bits, &coordinate, sizeof(bits));
-    hash = mixBits((hash ^ bits) + 0x9e3779b97f4a7c15u);
+    hash = extendedHash(hash, bits);
   }
   return hash;
 }
