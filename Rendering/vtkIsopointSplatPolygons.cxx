@@ -136,8 +136,12 @@ bool setMeans(
   const auto means = vtkAOSDataArrayTemplate<T>::FastDownCast(to);
   if (values && means)
   {
-    isopoint::meansAtVertices(execution, mesh, values->GetPointer(0),
-      static_cast<std::size_t>(values->GetNumberOfComponents()), means->GetPointer(0));
+    const auto components = static_cast<std::size_t>(values->GetNumberOfComponents());
+    const T* const numbers = values->GetPointer(0);
+    isopoint::meansAtVertices(
+      execution, mesh, components,
+      [&](std::size_t point, std::size_t i) { return numbers[components * point + i]; },
+      means->GetPointer(0));
   }
   return values && means;
 }

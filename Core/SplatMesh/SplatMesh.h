@@ -63,11 +63,12 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
   const std::function<SplatFan(std::size_t point)>& fanAt);
 
 /// Values of points at the vertices, so that colors are interpolated as on a mesh; see meanAt().
-/// @param values a number of components for each point
-/// @param means of the same for each vertex; written
-template <class T>
-void meansAtVertices(const Execution& execution, const SplatMesh& mesh, const T* values,
-  std::size_t components, T* means)
+/// @param components of each value
+/// @param numberOf(point, component) from any thread
+/// @param means components of each vertex; written
+template <class T, class NumberOf>
+void meansAtVertices(const Execution& execution, const SplatMesh& mesh, std::size_t components,
+  const NumberOf& numberOf, T* means)
 {
   static_assert(std::is_floating_point<T>::value, "others have no mean");
   forEachIndex(execution, mesh.vertices.size(),
@@ -76,7 +77,7 @@ void meansAtVertices(const Execution& execution, const SplatMesh& mesh, const T*
       for (std::size_t i = 0; i < components; ++i)
       {
         means[components * vertex + i] = static_cast<T>(
-          mesh.meanAt(vertex, [&](std::size_t point) { return values[components * point + i]; }));
+          mesh.meanAt(vertex, [&](std::size_t point) { return numberOf(point, i); }));
       }
     });
 }

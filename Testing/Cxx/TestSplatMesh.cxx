@@ -424,7 +424,10 @@ TEST(SplatMesh, MeansAreThoseOfAllThatMeet)
     std::vector<T> values(components * splats.size());
     std::generate(values.begin(), values.end(), [&]() { return static_cast<T>(random()); });
     std::vector<T> means(components * mesh.vertices.size());
-    isopoint::meansAtVertices(Execution{}, mesh, values.data(), components, means.data());
+    isopoint::meansAtVertices(
+      Execution{}, mesh, components,
+      [&](std::size_t point, std::size_t i) { return values[components * point + i]; },
+      means.data());
     for (std::size_t vertex = 0; vertex < groups.size(); ++vertex)
     {
       for (std::size_t k = 0; k < components; ++k)
