@@ -32,24 +32,27 @@ struct SampleTypes
 };
 
 /// Loads samples in the narrowest layout for their types. If the extractor holds the same positions
-/// already, only the values are replaced, and the tree is kept. Collective. Throws what
+/// already, only the values are replaced, and the tree is kept. Throws what
 /// IsosurfaceExtractor::load() does.
+/// @param team null for one process; collective otherwise
 /// @param types of all ranks
 /// @param read see IsosurfaceExtractor::load()
 template <class Reader>
-void loadOrReplace(const Execution& execution, Team& team, IsosurfaceExtractor& extractor,
+void loadOrReplace(const Execution& execution, Team* team, IsosurfaceExtractor& extractor,
   const SampleTypes& types, std::size_t count, const Reader& read)
 {
   // A rank alone may have dropped its samples, as for lack of memory.
-  const bool areHeld = !team.isAny(extractor.isOnRanks() != (team.size() > 1));
+  const bool areHeld = !team || !team->isAny(extractor.isOnRanks() != (team->size() > 1));
   const auto load = [&](auto coordinate, auto value)
   {
     using Coordinate = decltype(coordinate);
     using Value = decltype(value);
-    if (!areHeld || !extractor.replaceValues<Coordinate, Value>(execution, count, read))
+    if (areHeld && extractor.replaceValues<Coordinate, Value>(execution, count, read))
     {
-      extractor.load<Coordinate, Value>(execution, team, count, read);
+      return;
     }
+    team ? extractor.load<Coordinate, Value>(execution, *team, count, read)
+         : extractor.load<Coordinate, Value>(execution, count, read);
   };
   types.areFloatPositions ? (types.areFloatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                           : (types.areFloatValues ? load(0.0, 0.0f) : load(0.0, 0.0));

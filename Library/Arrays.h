@@ -63,17 +63,18 @@ class ArrayReader
 {
 public:
   /// @throws UsageError if the array contradicts itself
+  /// @param name what the array is of, for messages
   ArrayReader(const isopoint_array* array, const char* name)
+    : Described(std::string("The array of ") + name)
   {
-    const std::string described = std::string("The array of ") + name;
     if (!array)
     {
-      throw UsageError(described + " is null. Pass an isopoint_array.");
+      throw UsageError(this->Described + " is null. Pass an isopoint_array.");
     }
     this->Array = *array;
     if (array->components < 1 || array->count < 0 || (array->count > 0 && !array->data))
     {
-      throw UsageError(described + " has " + std::to_string(array->count) + " tuples of " +
+      throw UsageError(this->Described + " has " + std::to_string(array->count) + " tuples of " +
                        std::to_string(array->components) + " components" +
                        (array->data ? "" : " and no data") +
                        ". Pass at least one component, and memory for all tuples.");
@@ -96,12 +97,11 @@ public:
   int components() const { return this->Array.components; }
 
   /// @throws UsageError unless there are this many tuples of this many components
-  void require(const char* name, std::size_t count, int components) const
+  void require(std::size_t count, int components) const
   {
     if (this->count() != count || this->components() != components)
     {
-      throw UsageError(std::string("The array of ") + name + " has " +
-                       std::to_string(this->count()) + " tuples of " +
+      throw UsageError(this->Described + " has " + std::to_string(this->count()) + " tuples of " +
                        std::to_string(this->components()) + " components. Pass " +
                        std::to_string(count) + " of " + std::to_string(components) + ".");
     }
@@ -128,6 +128,7 @@ public:
   }
 
 private:
+  std::string Described;
   isopoint_array Array;
   // Modulo 2^64, since strides may be negative.
   std::uint64_t Stride;

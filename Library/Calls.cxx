@@ -249,24 +249,6 @@ isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
     });
 }
 
-namespace
-{
-
-/// This process alone.
-class OneProcess : public isopoint::Communicator
-{
-public:
-  int rank() const override { return 0; }
-  int size() const override { return 1; }
-  void allReduce(std::uint64_t*, std::size_t, isopoint::Reduction) override {}
-  void exchange(const std::vector<isopoint::OutgoingBytes>&,
-    const std::vector<isopoint::IncomingBytes>&) override
-  {
-  }
-};
-
-} // namespace
-
 isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
   const isopoint_array* values, const isopoint_array* excluded)
 {
@@ -276,10 +258,8 @@ isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoi
       require(extractor, "extractor");
       const isopoint::SampleReader read(positions, values, excluded);
       const isopoint::SampleTypes types = read.types();
-      OneProcess process;
-      isopoint::Team team(process);
       isopoint::loadOrReplace(
-        extractor->makeExecution(), team, extractor->Extractor, types, read.count(), read);
+        extractor->makeExecution(), nullptr, extractor->Extractor, types, read.count(), read);
       extractor->Types = types;
       extractor->Counts = read.counts();
       extractor->HasSamples = true;

@@ -24,8 +24,8 @@ public:
     : Positions(positions, "positions")
     , Values(values, "values")
   {
-    this->Positions.require("positions", this->Positions.count(), 3);
-    this->Values.require("values", this->Positions.count(), 1);
+    this->Positions.require(this->Positions.count(), 3);
+    this->Values.require(this->Positions.count(), 1);
     if (!isFloatingPoint(this->Positions.type()))
     {
       throw UsageError("The array of positions holds integers. Pass float or double.");
@@ -33,7 +33,7 @@ public:
     if (excluded)
     {
       this->Excluded.emplace(excluded, "excluded samples");
-      this->Excluded->require("excluded samples", this->Positions.count(), 1);
+      this->Excluded->require(this->Positions.count(), 1);
       if (this->Excluded->type() != ISOPOINT_UINT8)
       {
         throw UsageError("The array of excluded samples is not of bytes. Pass ISOPOINT_UINT8.");
@@ -57,7 +57,7 @@ public:
   {
     CloudCounts counts;
     counts.items = this->count();
-    for (std::size_t id = 0; id < this->count(); ++id)
+    for (std::size_t id = 0; this->Excluded && id < this->count(); ++id)
     {
       counts.excluded += this->isExcluded(id) ? 1 : 0;
     }

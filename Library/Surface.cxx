@@ -148,7 +148,7 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
 void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result) const
 {
   const isopoint::ArrayReader reader(ofSamples, "the samples");
-  reader.require("the samples", this->SampleCount, reader.components());
+  reader.require(this->SampleCount, reader.components());
   requireMemory(result, this->Isovalues.size());
   const auto components = static_cast<std::size_t>(reader.components());
   isopoint::withType(reader.type(),
@@ -249,28 +249,21 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
     throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.");
   }
   const isopoint::ArrayReader reader(ofPoints, "the points");
-  reader.require("the points", this->Isovalues.size(), reader.components());
+  reader.require(this->Isovalues.size(), reader.components());
   requireMemory(result, this->Splats.mesh.vertices.size());
   if (!isopoint::isFloatingPoint(reader.type()))
   {
     throw isopoint::UsageError("The array of the points holds integers, which have no mean. Pass"
                                " float or double.");
   }
-  const auto components = static_cast<std::size_t>(reader.components());
-  isopoint::withType(reader.type(),
-    [&](auto type)
-    {
-      using T = decltype(type);
-      T* const means = static_cast<T*>(result);
-      isopoint::forEachIndex(this->Run, this->Splats.mesh.vertices.size(),
-        [&](std::size_t vertex)
-        {
-          for (std::size_t i = 0; i < components; ++i)
-          {
-            means[components * vertex + i] =
-              static_cast<T>(this->Splats.mesh.meanAt(vertex, [&](std::size_t point)
-                { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); }));
-          }
-        });
-    });
+  const auto average = [&](auto type)
+  {
+    using T = decltype(type);
+    isopoint::meansAtVertices(
+      this->Run, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
+      [&](std::size_t point, std::size_t i)
+      { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); },
+      static_cast<T*>(result));
+  };
+  reader.type() == ISOPOINT_FLOAT ? average(float{}) : average(double{});
 }

@@ -180,5 +180,5 @@ void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& 
   isopoint::IsosurfaceExtractor& extractor)
 {
   const BlockReader read(blocks);
-  isopoint::loadOrReplace(execution, team, extractor, types, read.count(), read);
+  isopoint::loadOrReplace(execution, &team, extractor, types, read.count(), read);
 }
