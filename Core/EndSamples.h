@@ -10,7 +10,8 @@
 namespace isopoint
 {
 
-/// The ids of all samples at ends of edges and of those that coincide with them, ascending.
+/// The ids of the samples at the ends of edges, and of samples coincident with them, in ascending
+/// order.
 std::vector<std::uint64_t> endSamples(const std::vector<ExtractedIsosurface>& surfaces);
 
 /// Replaces each id by its position among the sorted ids that endSamples() returns.

@@ -122,7 +122,8 @@ void checkOptions(const Options& options, OptionNaming naming = sameName);
 /// Each isovalue once, ascending. @throws UsageError if one is not a number
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
 
-/// The options with those that have no effect on triangles as if they were not there.
+/// The options that take effect: for triangles, those of points alone are reset to their defaults,
+/// and splats are off.
 Options effectiveOptions(const Options& options);
 
 /// Whether the output's positions are float. @param areFloatPositions those of all samples

@@ -21,7 +21,7 @@ std::size_t countIsopoints(const std::vector<ExtractedIsosurface>& surfaces);
 /// The triangles of all surfaces.
 std::size_t countTriangles(const std::vector<ExtractedIsosurface>& surfaces);
 
-/// Memory for the computed arrays of isopoints; null for those that are not wanted.
+/// Where to write the computed arrays of isopoints. Null pointers skip an array.
 struct OutputArrays
 {
   float* normals = nullptr; // three numbers of each isopoint

@@ -51,7 +51,7 @@ struct Report
   bool contoursBlocks = false;                // whether each block is a cloud of its own
   std::uint64_t unprojectedPoints = 0;        // that no fit moved
   std::uint64_t droppedInGaps = 0;            // edges, or tetrahedra, that were left out
-  std::uint64_t samples = 0;                  // those that took no part included
+  std::uint64_t samples = 0;                  // all, including skipped ones
   std::uint64_t notFinite = 0;                // samples with such a coordinate or value
   std::uint64_t excluded = 0;                 // samples that the caller left out, such as ghosts
   std::uint64_t withoutArray = 0;             // samples of data sets without the contoured array
@@ -70,7 +70,7 @@ struct Report
   /// Of all isovalues.
   std::uint64_t pointCount() const;
 
-  /// Those that took no part, for any reason.
+  /// Samples that were skipped, for any reason.
   std::uint64_t skippedCount() const
   {
     return this->notFinite + this->excluded + this->withoutArray;

@@ -33,7 +33,7 @@ class Options(ctypes.Structure):
 
 
 def load(path):
-    """The library, with the types of those functions that do not take and return int."""
+    """Loads the library, and declares what functions return that do not return int."""
     library = ctypes.CDLL(path)
     library.isopoint_create_extractor.restype = ctypes.c_void_p
     library.isopoint_get_error.restype = ctypes.c_char_p

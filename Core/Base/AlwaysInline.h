@@ -2,8 +2,8 @@
 #ifndef isopoint_AlwaysInline_h
 #define isopoint_AlwaysInline_h
 
-/// In front of functions that are inlined by force: compilers give up on that in large functions,
-/// where it matters most. Each compiler has its own word for it, and warns of those of others.
+/// Forces a function to be inlined: compilers give up on that in large functions, where it matters
+/// most. Each compiler spells this attribute differently and warns about other spellings.
 #if defined(__GNUC__)
 #define ISOPOINT_ALWAYS_INLINE [[gnu::always_inline]]
 #elif defined(_MSC_VER)

@@ -49,8 +49,8 @@ inline TwoDoubles quotient(const TwoDoubles& a, double divisor)
   return exactSum(high, ((a.high - back.high) - back.low + a.low) / divisor);
 }
 
-/// The cosine of 0 to pi, which differs by less than 2^-99 from what is rounded to the nearest
-/// double: results depend on it, and those of C libraries differ in the last bit.
+/// The cosine of an angle from 0 to pi, rounded to the nearest double; the error before rounding is
+/// less than 2^-99. Results depend on its last bit, in which C libraries differ.
 inline double cosineOf(double angle)
 {
   const TwoDoubles square = exactProduct(angle, angle);
