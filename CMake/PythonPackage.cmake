@@ -1,5 +1,5 @@
-# The Python package `scatteredisopoints`: the wrapped modules, and an __init__.py that imports their
-# classes. It can be imported from the build folder; installed under /usr/local, it is on the search
+# The Python package `scatteredisopoints`: its sources on the C library and, with VTK, the wrapped
+# modules. It can be imported from the build folder; installed under /usr/local, it is on the search
 # path of Debian's python3, whose folder for packages has a name of its own.
 execute_process(
   COMMAND "${Python3_EXECUTABLE}" -c
@@ -9,7 +9,38 @@ execute_process(
 set(SCATTEREDISOPOINTS_PYTHON_DIR
   "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages}" CACHE STRING
   "Where the Python package is installed, relative to the prefix or absolute")
+set(package "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
 
+# path_from_package(VARIABLE folder): of an installed folder, so that the tree can be moved.
+macro (path_from_package variable folder)
+  file(RELATIVE_PATH ${variable} "/prefix/${package}" "/prefix/${folder}")
+  string(REGEX REPLACE "/$" "" ${variable} "${${variable}}")
+endmacro ()
+path_from_package(libraries_from_package "${CMAKE_INSTALL_LIBDIR}")
+
+set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
+set(built_package "${CMAKE_BINARY_DIR}/${package}")
+file(GLOB python_sources RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/Python/scatteredisopoints" CONFIGURE_DEPENDS
+  Python/scatteredisopoints/*.py)
+foreach (file IN LISTS python_sources ITEMS py.typed)
+  configure_file("Python/scatteredisopoints/${file}" "${built_package}/${file}" COPYONLY)
+  install(FILES "${built_package}/${file}" DESTINATION "${package}" COMPONENT package)
+endforeach ()
+path_from_package(plugin_from_package
+  "${CMAKE_INSTALL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}/ScatteredIsopoints/ScatteredIsopoints${CMAKE_SHARED_MODULE_SUFFIX}")
+set(library_file "$<TARGET_SONAME_FILE_NAME:isopoint>")
+if (WIN32)
+  set(library_file "$<TARGET_FILE_NAME:isopoint>")
+  path_from_package(libraries_from_package "${CMAKE_INSTALL_BINDIR}")
+endif ()
+set(library_from_package "${libraries_from_package}/${library_file}")
+configure_file(Python/scatteredisopoints/_paths.py.in _paths.py.in @ONLY)
+file(GENERATE OUTPUT "${built_package}/_paths.py" INPUT "${CMAKE_CURRENT_BINARY_DIR}/_paths.py.in")
+install(FILES "${built_package}/_paths.py" DESTINATION "${package}" COMPONENT package)
+
+if (NOT SCATTEREDISOPOINTS_VTK)
+  return()
+endif ()
 vtk_module_wrap_python(
   MODULES ${python_modules}
   TARGET ScatteredIsopoints::ScatteredIsopointsPython
@@ -17,23 +48,6 @@ vtk_module_wrap_python(
   MODULE_DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/ScatteredIsopoints"
   INSTALL_HEADERS OFF)
-
-set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOINTS_PYTHON_DIR}")
-set(built_package "${SCATTEREDISOPOINTS_PYTHON_BUILD_PATH}/scatteredisopoints")
-foreach (file __init__.py contouring.py py.typed ray_tracing.py)
-  configure_file("Filters/Python/${file}" "${built_package}/${file}" COPYONLY)
-  list(APPEND python_sources "${built_package}/${file}")
-endforeach ()
-file(RELATIVE_PATH plugin_from_package
-  "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints"
-  "/prefix/${CMAKE_INSTALL_LIBDIR}/${SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY}/ScatteredIsopoints/ScatteredIsopoints${CMAKE_SHARED_MODULE_SUFFIX}")
-configure_file(Filters/Python/plugin.py.in "${built_package}/plugin.py" @ONLY)
-install(FILES ${python_sources} "${built_package}/plugin.py"
-  DESTINATION "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
-
-# A relative run path from the package to the libraries, so that the installed tree can be moved.
-file(RELATIVE_PATH libraries_from_package
-  "/prefix/${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints" "/prefix/${CMAKE_INSTALL_LIBDIR}")
 if (APPLE)
   set(own_folder "@loader_path")
 else ()

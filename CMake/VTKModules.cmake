@@ -1,4 +1,4 @@
-# All that needs VTK or ParaView: the modules, the ray tracer, the Python package and the plugin.
+# All that needs VTK or ParaView, except the Python package: the modules, the ray tracer and the plugin.
 
 # Rays are traced with Embree 4 or 3, where one of them is available.
 find_package(embree 4 QUIET)
@@ -59,10 +59,6 @@ if (SCATTEREDISOPOINTS_PACKAGES)
   set(SCATTEREDISOPOINTS_PLUGIN_SUBDIRECTORY
     "paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/plugins")
   include("CMake/Packages.cmake")
-endif ()
-
-if (deliverables)
-  include("CMake/PythonPackage.cmake")
 endif ()
 
 if (deliverables AND SCATTEREDISOPOINTS_USE_PARAVIEW)

@@ -150,6 +150,20 @@ isopoint::Options optionsFrom(const isopoint_options* given)
   return options;
 }
 
+/// @param threads at most, or 0: all cores
+isopoint::Execution executionOnThreads(std::int32_t threads)
+{
+  isopoint::Execution execution;
+  const std::size_t available = isopoint::availableThreadsOfRank();
+  const std::size_t chosen =
+    threads > 0 ? std::min(static_cast<std::size_t>(threads), available) : available;
+  if (chosen > 1)
+  {
+    isopoint::useThreads(execution, chosen);
+  }
+  return execution;
+}
+
 } // namespace
 
 struct isopoint_extractor
@@ -165,14 +179,7 @@ struct isopoint_extractor
 
   isopoint::Execution makeExecution() const
   {
-    isopoint::Execution execution;
-    const std::size_t available = isopoint::availableThreadsOfRank();
-    const std::size_t threads =
-      this->Threads > 0 ? std::min(static_cast<std::size_t>(this->Threads), available) : available;
-    if (threads > 1)
-    {
-      isopoint::useThreads(execution, threads);
-    }
+    isopoint::Execution execution = executionOnThreads(this->Threads);
     if (this->Progress)
     {
       execution.progress = [call = this->Progress, user = this->User](double fraction)
@@ -387,6 +394,17 @@ isopoint_status isopoint_interpolate(
     {
       require(surface, "surface");
       surface->interpolate(of_samples, result);
+    });
+}
+
+isopoint_status isopoint_create_surface(const isopoint_array* points, const isopoint_array* normals,
+  const isopoint_array* axes, const isopoint_array* polygons, isopoint_surface** surface)
+{
+  return run(
+    [&]()
+    {
+      require(surface, "place for the surface");
+      *surface = new isopoint_surface(executionOnThreads(0), points, normals, axes, polygons);
     });
 }
 

@@ -53,6 +53,39 @@ isopoint_surface::Coordinates makeCoordinates(bool areFloat, std::size_t count)
                   : isopoint_surface::Coordinates(std::vector<double>(3 * count));
 }
 
+/// The numbers of an array of points, one after the other.
+/// @throws UsageError unless they are of type T, this many tuples of this many components
+template <class T>
+std::vector<T> numbersOf(
+  const isopoint_array* array, const char* name, std::size_t count, std::size_t components)
+{
+  const isopoint::ArrayReader reader(array, name);
+  reader.require(count, static_cast<int>(components));
+  if (reader.type() != typeOf<T>())
+  {
+    throw isopoint::UsageError(std::string("The array of ") + name + " has the type " +
+                               std::to_string(reader.type()) + ". Pass the type " +
+                               std::to_string(typeOf<T>()) + " of isopoint_type.");
+  }
+  std::vector<T> numbers;
+  numbers.reserve(components * count);
+  for (std::size_t i = 0; i < components * count; ++i)
+  {
+    numbers.push_back(reader.at<T>(i / components, static_cast<int>(i % components)));
+  }
+  return numbers;
+}
+
+isopoint_surface::Coordinates coordinatesOf(const isopoint_array* points)
+{
+  const isopoint::ArrayReader reader(points, "the points");
+  if (reader.type() == ISOPOINT_FLOAT)
+  {
+    return numbersOf<float>(points, "the points", reader.count(), 3);
+  }
+  return numbersOf<double>(points, "the points", reader.count(), 3);
+}
+
 /// @throws UsageError if there is no memory for tuples
 void requireMemory(const void* result, std::size_t tuples)
 {
@@ -118,6 +151,24 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   }
 }
 
+isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
+  const isopoint_array* points, const isopoint_array* normals, const isopoint_array* axes,
+  const isopoint_array* polygons)
+  : Run(execution)
+  , Points(coordinatesOf(points))
+  , Normals(numbersOf<float>(normals, "the normals", this->pointCount(), 3))
+  , SplatAxes(numbersOf<float>(axes, "the splat axes", this->pointCount(), 3))
+  , SplatPolygons(numbersOf<float>(
+      polygons, "the splat polygons", this->pointCount(), isopoint::numbersOfSplat))
+  , Splats(execution, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
+{
+}
+
+std::size_t isopoint_surface::pointCount() const
+{
+  return std::visit([](const auto& numbers) { return numbers.size() / 3; }, this->Points);
+}
+
 isopoint_array isopoint_surface::array(std::int32_t id) const
 {
   const std::array<isopoint_array, ISOPOINT_SPLAT_TRIANGLES + 1> arrays{
@@ -179,7 +230,7 @@ void isopoint_surface::makeSplatMesh(double scale)
     throw isopoint::UsageError(
       "The scale of splats is " + std::to_string(scale) + ". Pass a number greater than 0.");
   }
-  if ((this->Radii.empty() || this->Normals.empty()) && !this->Isovalues.empty())
+  if ((this->SplatAxes.empty() || this->Normals.empty()) && this->pointCount() > 0)
   {
     throw isopoint::UsageError("The surface has no splats. Extract points with compute_splats and"
                                " compute_normals.");
@@ -203,7 +254,7 @@ void isopoint_surface::makeSplatMesh(double scale)
   };
   const isopoint::Execution making = isopoint::partOf(this->Run, 0.0, 0.9);
   this->Splats =
-    SplatArrays(this->Run, isopoint::buildSplatMesh(making, this->Radii.size(), fanAt), areFloat);
+    SplatArrays(this->Run, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
   this->HasSplatMesh = true;
   this->Run.progress(1.0);
 }
@@ -249,7 +300,7 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
     throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.");
   }
   const isopoint::ArrayReader reader(ofPoints, "the points");
-  reader.require(this->Isovalues.size(), reader.components());
+  reader.require(this->pointCount(), reader.components());
   requireMemory(result, this->Splats.mesh.vertices.size());
   if (!isopoint::isFloatingPoint(reader.type()))
   {

@@ -27,6 +27,10 @@ struct isopoint_surface
     std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
     bool areFloatPositions, const isopoint::Report& report, std::size_t samples);
 
+  /// See isopoint_create_surface(). @throws isopoint::UsageError, std::bad_alloc
+  isopoint_surface(const isopoint::Execution& execution, const isopoint_array* points,
+    const isopoint_array* normals, const isopoint_array* axes, const isopoint_array* polygons);
+
   /// See isopoint_get_array(). @throws isopoint::UsageError, std::bad_alloc
   isopoint_array array(std::int32_t id) const;
 
@@ -43,6 +47,7 @@ struct isopoint_surface
   isopoint::Report report;
 
 private:
+  std::size_t pointCount() const;
   bool hasFloatPoints() const { return std::holds_alternative<std::vector<float>>(this->Points); }
 
   /// The triangles of all splats.
@@ -58,7 +63,7 @@ private:
   };
 
   isopoint::Execution Run;
-  std::size_t SampleCount;                          // those that take no part included
+  std::size_t SampleCount = 0;                      // those that take no part included
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
   Coordinates Points;
   std::vector<double> Isovalues;

@@ -24,8 +24,7 @@
  *
  * Threads: two extractors, and two surfaces, may be used on two threads at the same time; one
  * extractor, or one surface, on one thread at a time. An extractor and a surface of it may be used on
- * two. Results do not depend on the number of
- * threads.
+ * two. Results do not depend on the number of threads.
  *
  * Errors: functions that can fail return an isopoint_status. isopoint_get_error() then has the
  * cause and the remedy. Outputs through pointers are written only where a function succeeds. No
@@ -127,9 +126,9 @@ enum
   ISOPOINT_PRECISION_INPUT = 2 /* that of the samples' positions */
 };
 
-/* What to extract. isopoint_initialize_options() sets `size` and all defaults; options that later
- * versions add follow behind, and they accept the size of this one. 0 and 1 stand for off and on. docs/properties.md describes each
- * option at length. */
+/* What to extract. isopoint_initialize_options() sets `size` and all defaults. Later versions may add
+ * options at the end, and still accept the size of this version. 0 and 1 stand for off and on.
+ * docs/properties.md describes each option at length. */
 typedef struct isopoint_options
 {
   uint64_t size;                     /* of this struct, in bytes */
@@ -280,6 +279,16 @@ ISOPOINT_API isopoint_status isopoint_get_array(
  * @param result memory for a tuple of each point, one after the other */
 ISOPOINT_API isopoint_status isopoint_interpolate(
   const isopoint_surface* surface, const isopoint_array* of_samples, void* result);
+
+/* Makes a surface of points with splats that were kept from an earlier one, such as those in a file or
+ * a part of them, to make a splat mesh of it. It has these arrays alone, and runs on all cores. O(n)
+ * @param points three float or double
+ * @param normals, axes, polygons one tuple for each point, of types and components as in
+ * isopoint_array_id
+ * @param surface receives a surface, to be freed by isopoint_destroy_surface() */
+ISOPOINT_API isopoint_status isopoint_create_surface(const isopoint_array* points,
+  const isopoint_array* normals, const isopoint_array* axes, const isopoint_array* polygons,
+  isopoint_surface** surface);
 
 /* Makes the triangles of all splats, for renderers of meshes, in place of former ones: each splat
  * has vertices of its own. Needs compute_normals and compute_splats. After an error the former ones

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The ParaView plugin that is installed together with this package."""
 
-from pathlib import Path
+from __future__ import annotations
+
 from typing import Any, Optional
 
-_PLUGIN = (Path(__file__).parent / "@plugin_from_package@").resolve()
+from ._paths import PLUGIN
 
 
 def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
@@ -23,17 +24,17 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     RuntimeError
         If there is no plugin, as in a build without ParaView, or it cannot be loaded.
     """
-    if not _PLUGIN.exists():
-        raise RuntimeError(f"There is no {_PLUGIN}: build and install with ParaView")
+    if not PLUGIN.exists():
+        raise RuntimeError(f"There is no {PLUGIN}: build and install with ParaView")
     from paraview import servermanager, simple
 
     tracker = servermanager.vtkPVPluginTracker.GetInstance()
     loaded = (tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
               if tracker.GetPluginLoaded(i))
     if "ScatteredIsopoints" not in loaded:
-        simple.LoadPlugin(str(_PLUGIN), remote=False)
+        simple.LoadPlugin(str(PLUGIN), remote=False)
     if not hasattr(simple, "ScatteredIsopoints"):  # the server has not loaded it
-        simple.LoadPlugin(str(_PLUGIN), remote=True)
+        simple.LoadPlugin(str(PLUGIN), remote=True)
     if namespace is not None:
         for name in ("ScatteredIsopoints", "ScatteredIsosurface"):
             namespace[name] = getattr(simple, name)

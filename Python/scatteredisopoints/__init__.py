@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Isosurfaces straight from scattered samples.
+
+contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; Samples keeps the tree from
+one isovalue to the next. Both need NumPy alone. Where this project is installed with VTK, the package
+has its classes, too; with ParaView, load_plugin() and ray_trace().
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from . import _library
+from ._isosurface import Isosurface
+from ._samples import Samples
+from .contouring import contour
+from .plugin import load_plugin
+
+__version__ = _library.version().decode()
+
+# Modules of compiled classes; each may be missing. They load VTK, so that this package does not.
+_COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
+             "vtkScatteredIsopointRayTracing")
+
+_NAMES = ["Isosurface", "Samples", "contour", "load_plugin"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__all__":
+        return _NAMES + _classes()
+    if name == "ray_trace" and _compiled("vtkScatteredIsopointRayTracing"):
+        return importlib.import_module(".ray_tracing", __name__).ray_trace
+    if name.startswith("vtk") or name == "ray_trace":
+        for module in map(_compiled, _COMPILED):
+            if hasattr(module, name):
+                return getattr(module, name)
+        raise AttributeError(f"There is no {name}: build this project with VTK, as its"
+                             " docs/installing.md says.")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_classes()})
+
+
+def _classes() -> list[str]:
+    """All compiled classes, and ray_trace() where there is a ray tracer."""
+    names = [name for module in map(_compiled, _COMPILED) for name in dir(module)
+             if name.startswith("vtk")]
+    return names + ["ray_trace"] * any("RayTracer" in name for name in names)
+
+
+def _compiled(module: str) -> Any:
+    """A module of compiled classes, or None if there is none for this interpreter and its VTK."""
+    try:
+        return importlib.import_module(f".{module}", __name__)
+    except ImportError:
+        return None

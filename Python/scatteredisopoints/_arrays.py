@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""NumPy arrays as the C library reads them."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Mapping, Optional, Union
+
+import numpy as np
+
+
+def readable(name: str, array: Any) -> np.ndarray:
+    """An array of a type that the library reads, with any strides but zero; masked places are NaN.
+
+    Raises TypeError of a type without an order, such as complex numbers or text.
+    """
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        array = array.astype(np.result_type(array.dtype, np.float32)).filled(np.nan)
+    result = np.asarray(array)
+    if result.dtype == bool:
+        result = result.astype(np.uint8)
+    elif result.dtype == np.float16:
+        result = result.astype(np.float32)
+    elif result.dtype.kind == "f" and result.dtype.itemsize > 8:
+        result = result.astype(np.float64)
+    if result.dtype.kind not in "fiu":
+        raise TypeError(f"{name} are of the type {result.dtype}, not real numbers")
+    result = np.asarray(result, dtype=result.dtype.newbyteorder("="))
+    if 0 in result.strides or not result.flags.aligned:
+        result = np.array(result, order="C")
+    return result
+
+
+def positions_of(array: Any) -> np.ndarray:
+    """Positions of the shape (n, 3), of float32 or float64."""
+    result = readable("positions", array)
+    if result.ndim != 2 or result.shape[1] != 3:
+        raise ValueError(f"positions have the shape {result.shape}, not (n, 3): for samples in a"
+                         " plane append zeros")
+    return result if result.dtype.kind == "f" else result.astype(np.float64)
+
+
+def values_of(array: Any, count: int) -> np.ndarray:
+    """Values of the shape (count,)."""
+    if array is None:
+        raise TypeError("values are missing: one for each position")
+    return column("values", array, count, one_component=True)
+
+
+def column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
+    """An array of the samples: of the shape (count,) or, if that is allowed, (count, components)."""
+    result = readable(name, array)
+    if one_component and result.ndim == 2 and result.shape[1] == 1:
+        result = result[:, 0]
+    has_components = result.ndim == 2 and result.shape[1] > 0 and not one_component
+    if len(result.shape) == 0 or len(result) != count or not (result.ndim == 1 or has_components):
+        wanted = f"({count},)" if one_component else f"({count},) or ({count}, components)"
+        raise ValueError(f"{name} have the shape {result.shape}, not {wanted}")
+    return result
+
+
+def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str, np.ndarray]:
+    """Arrays of the samples by name, except the values."""
+    if arrays is None:
+        return {}
+    if not isinstance(arrays, Mapping) or not all(isinstance(name, str) for name in arrays):
+        raise TypeError("arrays are to be a mapping of names to arrays")
+    if "values" in arrays:
+        raise ValueError('an array cannot have the name "values", which is that of the values')
+    return {name: column(name, array, count) for name, array in arrays.items()}
+
+
+def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
+    """One or several isovalues as a list; masked ones are left out."""
+    if isovalues is None or isinstance(isovalues, (str, bytes)):
+        raise TypeError(f"isovalues are {isovalues!r}, not numbers")
+    if np.ndim(isovalues) == 0 and not hasattr(isovalues, "__iter__"):
+        return [float(isovalues)]
+    if isinstance(isovalues, np.ma.MaskedArray):
+        isovalues = isovalues.compressed()
+    return [float(value) for value in np.ravel(list(isovalues))]

@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The samples of data sets of VTK, and of packages that have its classes (PyVista, cvista, vedo).
+
+Only methods of the objects are used, so that any of these packages will do. docs/properties.md says
+which points and cells are samples.
+"""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass
+from typing import Any, Iterator, Optional
+
+import numpy as np
+
+from ._arrays import readable
+from ._ghosts import excluded_cells, excluded_points
+
+POINT, CELL = 0, 1
+# What the attributes of a data set are used for, as in vtkDataSetAttributes::AttributeTypes.
+GLOBAL_IDS, PEDIGREE_IDS = 5, 6
+
+
+@dataclass
+class Block:
+    """The samples of one data set."""
+
+    positions: np.ndarray
+    values: np.ndarray
+    excluded: Optional[np.ndarray]  # bool, or None if there are no ghosts
+    arrays: dict[str, np.ndarray]
+    uses: dict[str, int]  # arrays that are an attribute: vectors, texture coordinates, ...
+
+
+@dataclass
+class DataSamples:
+    """The samples of all blocks of a data object together."""
+
+    positions: np.ndarray
+    values: np.ndarray
+    excluded: Optional[np.ndarray]
+    name: str  # of the values
+    arrays: dict[str, np.ndarray]
+    uses: dict[str, int]
+    without_array: int  # points or cells of blocks that lack it
+    package: str = ""  # which has the data object's class
+    is_of_pyvista: bool = False
+
+
+def data_object(source: Any) -> Any:
+    """The data object that something is or wraps, as objects of vedo do; None of arrays."""
+    if hasattr(source, "IsA") and hasattr(source, "GetDataObjectType"):
+        return source
+    if isinstance(source, (np.ndarray, list, tuple)):
+        return None
+    for name in ("dataset", "VTKObject", "inputdata", "polydata"):
+        wrapped = getattr(source, name, None)
+        if callable(wrapped) and not hasattr(wrapped, "IsA"):
+            wrapped = wrapped()
+        if hasattr(wrapped, "IsA"):
+            return wrapped
+    return None
+
+
+def package_of(data: Any) -> str:
+    """The name of the package that has the class of a data object: vtkmodules, cvista."""
+    for base in type(data).__mro__:
+        package, _, module = base.__module__.rpartition(".")
+        if module.startswith("vtkCommon"):
+            return package
+    raise TypeError(f"{type(data).__name__} is none of VTK's data objects")
+
+
+def is_of_pyvista(data: Any) -> bool:
+    """Whether a data object is one of PyVista's, rather than of VTK."""
+    return any(base.__module__.startswith("pyvista.") for base in type(data).__mro__)
+
+
+def module_of(data: Any, name: str) -> Any:
+    """A module of that package."""
+    return importlib.import_module(f"{package_of(data)}.{name}")
+
+
+def leaves(data: Any) -> Iterator[Any]:
+    """The data sets of a composite, or the data set itself."""
+    if not data.IsA("vtkCompositeDataSet"):
+        yield data
+        return
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        yield iterator.GetCurrentDataObject()
+        iterator.GoToNextItem()
+
+
+def as_numpy(array: Any) -> np.ndarray:
+    """The numbers of a data array, shape (n,) or (n, components), which share its memory if they
+    follow each other there."""
+    kind = array.GetDataType()
+    is_bits = kind == 1
+    if is_bits or not array.HasStandardMemoryLayout():
+        classes = module_of(array, "vtkCommonCore")
+        copy = classes.vtkDataArray.CreateDataArray(3 if is_bits else kind)
+        copy.DeepCopy(array)
+        array, kind = copy, copy.GetDataType()
+    letter = "f" if kind in (10, 11) else "u" if kind in (3, 5, 7, 9, 17) else "i"
+    dtype = np.dtype(f"{letter}{array.GetDataTypeSize()}")
+    count, components = array.GetNumberOfTuples(), array.GetNumberOfComponents()
+    numbers = np.frombuffer(array, dtype) if count else np.empty(0, dtype)
+    return numbers if components == 1 else numbers.reshape(count, components)
+
+
+def samples_of(data: Any, values: Any, prefers_cells: bool = False) -> DataSamples:
+    """The samples of a data object.
+
+    Parameters
+    ----------
+    values
+        The name of an array of points or cells, one number for each of a data set's points or cells,
+        or None: the active scalars of the points.
+    prefers_cells
+        Whether the name is that of an array of cells where points have such an array, too.
+    """
+    is_supported = data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")
+    if not is_supported:
+        remedy = ("convert it to points first" if data.IsA("vtkTable") else
+                  "apply vtkHyperTreeGridCellCenters first" if data.IsA("vtkHyperTreeGrid") else
+                  "convert it to a data set first")
+        raise TypeError(f"A {data.GetClassName()} has no samples: {remedy}.")
+    given = None if values is None or isinstance(values, str) else readable("values", values)
+    if given is not None and not data.IsA("vtkDataSet"):
+        raise TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
+    associations = (CELL, POINT) if prefers_cells else (POINT, CELL)
+    blocks, without_array, names = [], 0, []
+    name = values if isinstance(values, str) else None
+    for leaf in leaves(data):
+        size = _size(leaf)
+        found = _find(leaf, values, given, associations) if size else None
+        if found is None:
+            without_array += size
+            names += [_array_names(leaf)] if size else []
+            continue
+        blocks.append(_block(leaf, *found))
+        if values is None and name is None:
+            name = found[1].GetName()
+    if not blocks:
+        _raise_nothing(values, names)
+    samples = _joined(blocks, name or "values", without_array)
+    samples.package, samples.is_of_pyvista = package_of(data), is_of_pyvista(data)
+    return samples
+
+
+def _size(leaf: Any) -> int:
+    is_data_set = leaf.IsA("vtkDataSet")
+    return max(leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()) if is_data_set else 0
+
+
+def _find(leaf: Any, values: Any, given: Optional[np.ndarray], associations: tuple[int, int]
+          ) -> Optional[tuple[int, Any]]:
+    """Where the values of a data set are, and what they are: an array of VTK or NumPy."""
+    if given is not None:
+        counts = leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()
+        if given.shape not in [(count,) for count in counts]:
+            raise ValueError(f"{len(given)} values for a data set of {counts[0]} points and"
+                             f" {counts[1]} cells: there is to be one for each"
+                             if given.ndim == 1 else
+                             f"values have the shape {given.shape}, not ({counts[0]},)")
+        return (POINT if len(given) == counts[POINT] else CELL), given
+    if values is None:
+        scalars = leaf.GetPointData().GetScalars()
+        return (POINT, scalars) if scalars else None
+    for association in associations:
+        data = leaf.GetPointData() if association == POINT else leaf.GetCellData()
+        array = data.GetAbstractArray(values)
+        if array:
+            return association, array
+    return None
+
+
+def _array_names(leaf: Any) -> tuple[list[str], list[str]]:
+    def names(data):
+        found = [data.GetArrayName(i) or "(unnamed)" for i in range(data.GetNumberOfArrays())]
+        return [name for name in found if name != "vtkGhostType"]
+    return names(leaf.GetPointData()), names(leaf.GetCellData())
+
+
+def _raise_nothing(values: Any, names: list[tuple[list[str], list[str]]]) -> None:
+    if not names:
+        raise ValueError("The input has no points or cells. Give a data set with a scalar array.")
+    wanted = "active point scalars" if values is None else f'point or cell array named "{values}"'
+    of_points, of_cells = ([", ".join(list_) or "none" for list_ in names[0]])
+    raise ValueError(f"The input has no {wanted}. The point arrays are: {of_points}; the cell arrays"
+                     f" are: {of_cells}.")
+
+
+def _block(leaf: Any, association: int, scalars: Any) -> Block:
+    of_points = association == POINT
+    if not isinstance(scalars, np.ndarray):
+        name = scalars.GetName() or ""
+        if not hasattr(scalars, "GetDataTypeSize") or not scalars.IsA("vtkDataArray"):
+            raise TypeError(f'The array "{name}" holds no numbers.')
+        if scalars.GetNumberOfComponents() != 1:
+            raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
+                             " but a scalar array has one. Compute a component or the magnitude first.")
+    positions = _point_positions(leaf) if of_points else _cell_centers(leaf)
+    values = scalars if isinstance(scalars, np.ndarray) else as_numpy(scalars)
+    if len(values) != len(positions):
+        raise ValueError(f'The array "{name}" has {len(values)} values for {len(positions)}'
+                         f" {'points' if of_points else 'cells'}.")
+    excluded = excluded_points(leaf, as_numpy) if of_points else excluded_cells(leaf, as_numpy)
+    arrays, uses = _further_arrays(leaf.GetPointData() if of_points else leaf.GetCellData(),
+                                   scalars, len(positions))
+    return Block(positions, values, excluded, arrays, uses)
+
+
+def _further_arrays(data: Any, scalars: Any, count: int):
+    arrays, uses = {}, {}
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetArray(i)
+        use = data.IsArrayAnAttribute(i)
+        if (array and array is not scalars and array.GetNumberOfTuples() == count
+                and use != GLOBAL_IDS and array.GetName() not in (None, "vtkGhostType")):
+            arrays[array.GetName()] = as_numpy(array)
+            if use >= 0:
+                uses[array.GetName()] = use
+    return arrays, uses
+
+
+def _joined(blocks: list[Block], name: str, without_array: int) -> DataSamples:
+    first, *others = blocks
+    arrays = {key: array for key, array in first.arrays.items() if all(
+        key in other.arrays and other.arrays[key].dtype == array.dtype
+        and other.arrays[key].shape[1:] == array.shape[1:] for other in others)}
+    uses = {key: use for key, use in first.uses.items()
+            if key in arrays and all(other.uses.get(key) == use for other in others)}
+    if not others:
+        return DataSamples(first.positions, first.values, first.excluded, name, arrays, uses,
+                           without_array)
+    excluded = None
+    if any(block.excluded is not None for block in blocks):
+        excluded = np.concatenate([
+            np.zeros(len(block.positions), bool) if block.excluded is None else block.excluded
+            for block in blocks])
+    return DataSamples(
+        np.concatenate([block.positions for block in blocks]),
+        np.concatenate([block.values for block in blocks]),
+        excluded, name,
+        {key: np.concatenate([block.arrays[key] for block in blocks]) for key in arrays},
+        uses, without_array)
+
+
+def _point_positions(leaf: Any) -> np.ndarray:
+    if leaf.IsA("vtkImageData"):
+        extent = leaf.GetExtent()
+        return _image_positions(leaf, [np.arange(extent[2 * axis], extent[2 * axis + 1] + 1.0)
+                                       for axis in range(3)], leaf.GetOrigin())
+    if leaf.IsA("vtkRectilinearGrid"):
+        return _lattice([as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)])
+    return as_numpy(leaf.GetPoints().GetData())
+
+
+def _coordinates(grid: Any) -> tuple[Any, Any, Any]:
+    return grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()
+
+
+def _lattice(axes: list[np.ndarray]) -> np.ndarray:
+    """All positions with these coordinates, x fastest."""
+    z, y, x = np.meshgrid(axes[2], axes[1], axes[0], indexing="ij")
+    return np.stack([x.ravel(), y.ravel(), z.ravel()], axis=-1)
+
+
+def _image_positions(image: Any, indices: list[np.ndarray], origin) -> np.ndarray:
+    """As VTK computes them from continuous indices, to the last bit."""
+    spacing, matrix = image.GetSpacing(), image.GetDirectionMatrix()
+    index = _lattice(indices)
+    positions = np.empty_like(index)
+    for row in range(3):
+        terms = [index[:, column] * spacing[column] * matrix.GetElement(row, column)
+                 for column in range(3)]
+        positions[:, row] = terms[0] + terms[1] + terms[2] + origin[row]
+    return positions
+
+
+def _cell_centers(leaf: Any) -> np.ndarray:
+    if leaf.IsA("vtkImageData"):
+        # The image whose points are the centers: its origin is the center of the first cell.
+        extent = leaf.GetExtent()
+        steps = [extent[2 * axis + 1] > extent[2 * axis] for axis in range(3)]
+        halfway = [np.array([0.5 if step else 0.0]) for step in steps]
+        origin = _image_positions(leaf, halfway, leaf.GetOrigin())[0]
+        return _image_positions(leaf, [
+            np.arange(extent[2 * axis], extent[2 * axis + 1] + (0.0 if steps[axis] else 1.0))
+            for axis in range(3)], origin)
+    if leaf.IsA("vtkRectilinearGrid"):
+        axes = [as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)]
+        return _lattice([0.5 * axis[:-1] + 0.5 * axis[1:] if len(axis) > 1 else axis for axis in axes])
+    centers = module_of(leaf, "vtkCommonCore").vtkDoubleArray()
+    centers.SetNumberOfComponents(3)
+    centers.SetNumberOfTuples(leaf.GetNumberOfCells())
+    module_of(leaf, "vtkFiltersCore").vtkCellCenters.ComputeCellCenters(leaf, centers)
+    positions = as_numpy(centers)
+    points = leaf.GetPoints() if leaf.IsA("vtkPointSet") else None
+    return positions.astype(np.float32) if points and points.GetDataType() == 10 else positions

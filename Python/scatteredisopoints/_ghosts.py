@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which points and cells of data sets are no samples, since they are ghosts or hidden."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+# Bits of vtkGhostType: of points, and of cells.
+DUPLICATE_POINT, HIDDEN_POINT = 1, 2
+DUPLICATE_CELL, REFINED_CELL, HIDDEN_CELL = 1, 8, 32
+
+AsNumpy = Callable[[Any], np.ndarray]
+
+
+def excluded_points(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
+    """Whether each point is a ghost, hidden, or of no cells but hidden ones or ghosts; None if none
+    is."""
+    points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
+    cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
+    excluded = None
+    if points is not None:
+        excluded = (points & (DUPLICATE_POINT | HIDDEN_POINT)) != 0
+    # If the points have a ghost array, it marks the duplicates among them.
+    bits = HIDDEN_CELL | REFINED_CELL | (DUPLICATE_CELL if points is None else 0)
+    if cells is not None and (cells & bits).any():
+        is_excluded = (cells & bits) != 0
+        cell, point = _cell_points(data, as_numpy)
+        in_excluded = np.zeros(data.GetNumberOfPoints(), bool)
+        in_sample = np.zeros(data.GetNumberOfPoints(), bool)
+        in_excluded[point[is_excluded[cell]]] = True
+        in_sample[point[~is_excluded[cell]]] = True
+        excluded = in_excluded & ~in_sample | (False if excluded is None else excluded)
+    return excluded
+
+
+def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
+    """Whether each cell is a ghost, hidden, covered by a finer one, has a hidden point, or no points
+    at all; None if none is."""
+    points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
+    cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
+    excluded = np.zeros(data.GetNumberOfCells(), bool)
+    if cells is not None:
+        excluded |= (cells & (DUPLICATE_CELL | REFINED_CELL | HIDDEN_CELL)) != 0
+    has_hidden = points is not None and (points & HIDDEN_POINT).any()
+    if has_hidden or _cell_arrays(data):
+        cell, point = _cell_points(data, as_numpy)
+        if has_hidden:
+            excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
+        excluded |= np.bincount(cell, minlength=len(excluded)) == 0
+    return excluded if excluded.any() else None
+
+
+def _ghosts(attributes: Any, count: int, as_numpy: AsNumpy) -> Optional[np.ndarray]:
+    array = attributes.GetArray("vtkGhostType")
+    is_usable = (array and array.IsA("vtkUnsignedCharArray") and array.GetNumberOfComponents() == 1
+                 and array.GetNumberOfTuples() >= count)
+    return as_numpy(array)[:count] if is_usable else None
+
+
+def _cell_arrays(data: Any) -> list[Any]:
+    """The vtkCellArrays of a data set, in the order of its cells; none of a structured one."""
+    if data.IsA("vtkPolyData"):
+        return [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
+    is_unstructured = data.IsA("vtkUnstructuredGrid") or data.IsA("vtkExplicitStructuredGrid")
+    return [data.GetCells()] if is_unstructured else []
+
+
+def _cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
+    """All pairs of a cell and a point of it, as the ids of both."""
+    arrays = _cell_arrays(data)
+    if arrays:
+        sizes = [np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays]
+        points = [as_numpy(array.GetConnectivityArray()) for array in arrays]
+        sizes = np.concatenate(sizes)
+        return np.repeat(np.arange(len(sizes)), sizes), np.concatenate(points)
+    dimensions = np.array(data.GetDimensions())
+    steps = np.minimum(dimensions - 1, 1)  # to the far corners of a cell; 0 along flat axes
+    cells = np.maximum(dimensions - 1, 1)
+    corner = np.arange(np.prod(cells)).reshape(cells[::-1])
+    z, y, x = np.unravel_index(corner.ravel(), corner.shape)
+    found = [((z + dz) * dimensions[1] + y + dy) * dimensions[0] + x + dx
+             for dz in range(steps[2] + 1) for dy in range(steps[1] + 1) for dx in range(steps[0] + 1)]
+    return np.tile(corner.ravel(), len(found)), np.concatenate(found)

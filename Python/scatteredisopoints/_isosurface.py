@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What contour() returns."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_void_p
+from typing import Any, Callable, Mapping, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import readable
+
+
+class Isosurface:
+    """Points on isosurfaces, or triangles between them.
+
+    Arrays are views of the memory of the result, which they keep alive.
+    """
+
+    points: np.ndarray
+    """Positions in the unit of the input: shape (n, 3), of float32 or float64."""
+
+    triangles: Optional[np.ndarray]
+    """Indices of points, shape (m, 3), counterclockwise seen from lower values; None of points."""
+
+    arrays: dict[str, np.ndarray]
+    """All numeric arrays of the points by name: shape (n,) or (n, components)."""
+
+    splat_shapes: Mapping[str, np.ndarray]
+    """What splats look like, as docs/properties.md describes: SplatAxis, shape (n, 3), and
+    SplatPolygon, (n, 40); empty if splats were not computed."""
+
+    def __init__(
+        self,
+        points: np.ndarray,
+        triangles: Optional[np.ndarray],
+        arrays: dict[str, np.ndarray],
+        splat_shapes: Mapping[str, np.ndarray],
+        make_polydata: Callable[[Isosurface], Any],
+    ):
+        self.points = points
+        self.triangles = triangles
+        self.arrays = arrays
+        self.splat_shapes = splat_shapes
+        self._make_polydata = make_polydata
+        self._polydata = None
+
+    @property
+    def are_triangles(self) -> bool:
+        """Whether triangles were extracted, or points alone."""
+        return self.triangles is not None
+
+    @property
+    def normals(self) -> Optional[np.ndarray]:
+        """Unit normals towards decreasing values: shape (n, 3); None if they were not computed."""
+        return self.arrays.get("Normals")
+
+    @property
+    def radii(self) -> Optional[np.ndarray]:
+        """Radii of splats in the unit of positions: shape (n,); None if not computed."""
+        return self.arrays.get("Radius")
+
+    @property
+    def polydata(self) -> Any:
+        """Points, vertices or triangles, and all arrays, whose memory it shares.
+
+        A pyvista.PolyData if the samples were an object of PyVista, otherwise a vtkPolyData.
+        Raises ImportError where neither VTK nor PyVista is installed.
+        """
+        if self._polydata is None:
+            self._polydata = self._make_polydata(self)
+        return self._polydata
+
+    def splats(self, scale: float = 1.0) -> Isosurface:
+        """The triangles that show points as a closed, lit surface, for programs that draw meshes.
+
+        Each splat has vertices of its own: for a connected mesh extract triangles.
+
+        Parameters
+        ----------
+        scale
+            Factor on the size of splats, greater than 0; 1 closes the surface.
+
+        Returns
+        -------
+        Triangles with normals and the arrays of the points; where splats meet at a vertex, real
+        numbers are averaged.
+
+        Raises
+        ------
+        ValueError
+            If there are no splats: of triangles, or if they or normals were switched off.
+        """
+        if not self.splat_shapes or self.normals is None:
+            raise ValueError("The surface has no splats: extract points with compute_splats and"
+                             " compute_normals.")
+        pointer = c_void_p()
+        _library.run(_library.create_surface, *(_library.Array.of(readable(name, array)) for name, array in (
+            ("points", self.points), ("normals", self.normals),
+            ("splat axes", self.splat_shapes["SplatAxis"]),
+            ("splat polygons", self.splat_shapes["SplatPolygon"]))), byref(pointer))
+        surface = _library.Handle(pointer.value, _library.destroy_surface)
+        _library.run(_library.make_splat_mesh, surface, scale)
+        point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
+        arrays = {name: _at_vertices(surface, readable(name, array), point_of_vertex)
+                  for name, array in self.arrays.items()}
+        arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
+        return Isosurface(
+            _library.view(surface, _library.SPLAT_VERTICES),
+            _library.view(surface, _library.SPLAT_TRIANGLES), arrays, {}, self._make_polydata)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __repr__(self) -> str:
+        shown = f"{len(self)} points"
+        if self.triangles is not None:
+            shown += f", {len(self.triangles)} triangles"
+        return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
+
+
+def _at_vertices(surface: _library.Handle, array: np.ndarray, point_of_vertex) -> np.ndarray:
+    """An array of points at the vertices of their splats."""
+    if array.dtype.kind != "f":
+        return array[point_of_vertex]
+    result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
+    _library.run(_library.average_at_splat_vertices, surface, _library.Array.of(array),
+                 result.ctypes.data)
+    return result

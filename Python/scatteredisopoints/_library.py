@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The C library by ctypes. Its header, isopoint.h, describes all that is declared here."""
+
+from __future__ import annotations
+
+import ctypes
+import signal
+import threading
+import weakref
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint64, c_void_p
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from ._paths import LIBRARY
+
+# isopoint_array_id
+(POINTS, ISOVALUES, NORMALS, GRADIENTS, PROJECTION_ORDERS, EDGES, EDGE_PARAMETERS, TRIANGLES, RADII,
+ SPLAT_AXES, SPLAT_POLYGONS, SPLAT_VERTICES, SPLAT_VERTEX_NORMALS, SPLAT_VERTEX_POINTS,
+ SPLAT_TRIANGLES) = range(15)
+
+# isopoint_type
+TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"))
+
+# isopoint_status
+OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR = range(5)
+
+
+class Array(ctypes.Structure):
+    """isopoint_array"""
+
+    _fields_ = [("data", c_void_p), ("type", c_int32), ("components", c_int32), ("count", c_int64),
+                ("stride", c_int64), ("component_stride", c_int64)]
+
+    @classmethod
+    def of(cls, numbers: np.ndarray) -> Array:
+        """Of an array of the shape (n,) or (n, components), as readable() returns it, which has to
+        outlive this."""
+        columns = numbers.ndim == 2
+        return cls(numbers.ctypes.data, TYPES.index(numbers.dtype), numbers.shape[1] if columns else 1,
+                   len(numbers), numbers.strides[0], numbers.strides[1] if columns else 0)
+
+
+class Options(ctypes.Structure):
+    """isopoint_options, with the defaults"""
+
+    _fields_ = [("size", c_uint64), *((name, c_int32) for name in (
+        "triangles", "projection", "normal_method", "drop_gaps", "compute_normals",
+        "compute_gradients", "compute_projection_orders", "output_points_precision",
+        "number_of_neighbors", "compute_splats")),
+        ("angle", c_double), ("minimum_spacing", c_double), ("keep_tetrahedra", c_int32),
+        ("reserved", c_int32)]
+
+    def __init__(self):
+        super().__init__()
+        initialize_options(byref(self), ctypes.sizeof(self))
+
+
+Progress = ctypes.CFUNCTYPE(None, c_void_p, c_double)
+Cancels = ctypes.CFUNCTYPE(ctypes.c_int, c_void_p)
+
+try:
+    _library = ctypes.CDLL(LIBRARY)
+except OSError as error:
+    raise ImportError(f"The C library cannot be loaded: {error}. Install this package again, for this"
+                      " system.") from None
+
+
+def _declare(name: str, *arguments: Any, result: Any = ctypes.c_int):
+    function = getattr(_library, "isopoint_" + name)
+    function.argtypes, function.restype = arguments, result
+    return function
+
+
+_get_error = _declare("get_error", result=c_char_p)
+version = _declare("version", result=c_char_p)
+initialize_options = _declare("initialize_options", POINTER(Options), c_size_t, result=None)
+create_extractor = _declare("create_extractor", result=c_void_p)
+destroy_extractor = _declare("destroy_extractor", c_void_p, result=None)
+set_threads = _declare("set_threads", c_void_p, c_int32)
+set_callbacks = _declare("set_callbacks", c_void_p, Progress, Cancels, c_void_p)
+set_samples = _declare("set_samples", c_void_p, POINTER(Array), POINTER(Array), POINTER(Array))
+get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
+extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),
+                   POINTER(c_void_p))
+create_surface = _declare("create_surface", POINTER(Array), POINTER(Array), POINTER(Array),
+                          POINTER(Array), POINTER(c_void_p))
+destroy_surface = _declare("destroy_surface", c_void_p, result=None)
+get_message = _declare("get_message", c_void_p, c_int64, POINTER(c_int32), result=c_char_p)
+get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
+interpolate = _declare("interpolate", c_void_p, POINTER(Array), c_void_p)
+make_splat_mesh = _declare("make_splat_mesh", c_void_p, c_double)
+average_at_splat_vertices = _declare(
+    "average_at_splat_vertices", c_void_p, POINTER(Array), c_void_p)
+
+
+class Handle:
+    """An extractor or a surface, which is destroyed together with this."""
+
+    def __init__(self, pointer: int, destroy: Callable[[int], None]):
+        if not pointer:
+            raise MemoryError("There is no memory for a tree.")
+        self._as_parameter_ = c_void_p(pointer)
+        weakref.finalize(self, destroy, pointer).atexit = False
+
+
+class _Call(threading.local):
+    """The call of the library that a thread is in, for its callbacks."""
+
+    progress: Optional[Callable[[float], Any]] = None
+    error: Optional[BaseException] = None  # what a callback raised
+    interrupted = False
+
+
+_call = _Call()
+
+
+@Progress
+def _report_progress(_user, fraction):
+    try:
+        if _call.progress is not None and _call.error is None:
+            _call.progress(fraction)
+    except BaseException as error:
+        _call.error = error
+
+
+@Cancels
+def _cancels(_user):
+    try:
+        return _call.interrupted or _call.error is not None
+    except BaseException as error:  # of a handler of signals
+        _call.error = error
+        return True
+
+
+def create() -> Handle:
+    """An extractor whose calls can be interrupted and report progress; see run()."""
+    extractor = Handle(create_extractor(), destroy_extractor)
+    run(set_callbacks, extractor, _report_progress, _cancels, None)
+    return extractor
+
+
+def run(function: Any, *arguments: Any, progress: Optional[Callable[[float], Any]] = None) -> None:
+    """Calls a function of the library that returns a status, and raises what it or `progress` did.
+
+    Ctrl-C stops the call. What a handler of signals raises between ctypes and a callback is lost, so
+    that Python's handler, which raises KeyboardInterrupt, runs after the call.
+    """
+    handler = signal.getsignal(signal.SIGINT)
+    is_replaced = callable(handler) and threading.current_thread() is threading.main_thread()
+    frames = []
+
+    def note_interrupt(_number, frame):
+        frames.append(frame)
+        _call.interrupted = True
+
+    outer = _call.progress, _call.error, _call.interrupted
+    _call.progress, _call.error, _call.interrupted = progress, None, False
+    if is_replaced:
+        signal.signal(signal.SIGINT, note_interrupt)
+    try:
+        status = function(*arguments)
+        error = _call.error
+    finally:
+        if is_replaced:
+            signal.signal(signal.SIGINT, handler)
+        _call.progress, _call.error, _call.interrupted = outer
+    if frames:
+        handler(signal.SIGINT, frames[-1])
+    if error is not None:
+        raise error
+    if status != OK:
+        kinds = {INVALID_ARGUMENT: ValueError, OUT_OF_MEMORY: MemoryError, CANCELED: InterruptedError}
+        raise kinds.get(status, RuntimeError)(_get_error().decode())
+
+
+def view(surface: Handle, array_id: int) -> np.ndarray:
+    """An array of a surface: its memory, which the result keeps alive."""
+    array = Array()
+    run(get_array, surface, array_id, byref(array))
+    dtype = TYPES[array.type]
+    shape = (array.count,) if array.components == 1 else (array.count, array.components)
+    if array.count == 0:
+        return np.empty(shape, dtype)
+    size = array.count * array.components * dtype.itemsize
+    memory = (ctypes.c_char * size).from_address(array.data)
+    memory.surface = surface
+    return np.frombuffer(memory, dtype).reshape(shape)
+
+
+def messages(surface: Handle) -> list[str]:
+    """What the user may have to know of a surface."""
+    found: list[str] = []
+    while (text := get_message(surface, len(found), None)) is not None:
+        found.append(text.decode())
+    return found

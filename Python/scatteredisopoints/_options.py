@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of contour(): properties in snake case, as keyword arguments."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Mapping
+
+from ._library import Options
+
+# Constants that can be named, by option. Their numbers are those of isopoint.h.
+CONSTANTS = {
+    "projection": {"NO_PROJECTION": 0, "LINEAR_FIT": 1, "QUADRATIC_FIT": 2, "CUBIC_FIT": 3,
+                   "CREASE_FIT": 4},
+    "normal_method": {"AUTOMATIC_NORMALS": -1, "NORMALS_FROM_FIELD": 0, "NORMALS_FROM_PLANES": 1},
+    "output_points_precision": {"SINGLE_PRECISION": 0, "DOUBLE_PRECISION": 1, "DEFAULT_PRECISION": 2},
+}
+
+_OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
+_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "reserved")
+
+
+def option_names(triangles: bool) -> list[str]:
+    """The options of triangles, or of points."""
+    names = [name for name, _type in Options._fields_
+             if name not in _NOT_OPTIONS and not (triangles and name in _OF_POINTS)]
+    return sorted(names + ["compute_scalars", "keep_tree"])
+
+
+def constant(name: str, value: Any) -> Any:
+    """The number of a constant that is named by a string, other values as they are.
+
+    Raises ValueError if the option has no such constant.
+    """
+    if not isinstance(value, str):
+        return value
+    number = CONSTANTS.get(name, {}).get(value.upper())
+    if number is None:
+        known = ", ".join(CONSTANTS.get(name, {})) or "a number"
+        raise ValueError(f"{name} cannot be {value!r}: it is {known}")
+    return number
+
+
+def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
+    """Raises TypeError if an option is unknown, ValueError if the library has no such value."""
+    names = option_names(triangles)
+    options = Options()
+    options.triangles = int(triangles)
+    for name, value in given.items():
+        if name not in names:
+            raise TypeError(f"unknown option {name}; there are {', '.join(names)}")
+        field = {"keep_tree": "keep_tetrahedra"}.get(name, name)
+        if name != "compute_scalars":
+            setattr(options, field, _number(name, constant(name, value), getattr(options, field)))
+    return options
+
+
+def _number(name: str, value: Any, default: Any) -> Any:
+    """A value of the type of the default, whose range the library checks."""
+    try:
+        if isinstance(default, float):
+            return float(value)
+        number = operator.index(bool(value) if type(value).__name__ in ("bool", "bool_") else value)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} cannot be {value!r}: it is a number") from None
+    if not -2**31 <= number < 2**31:
+        raise ValueError(f"{name} is {value!r}, which is out of range.")
+    return number

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Isosurfaces as data of VTK or PyVista, which share the memory of the arrays."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Mapping, Optional
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._isosurface import Isosurface
+
+
+@dataclass
+class PolyDataMaker:
+    """Makes the same data as the compiled filters do."""
+
+    package: Optional[str] = None
+    """That has VTK's classes; None: whichever is installed."""
+
+    wraps: bool = False
+    """Whether the result is a pyvista.PolyData."""
+
+    scalars: Optional[str] = None
+    """The name of the values."""
+
+    uses: Mapping[str, int] = field(default_factory=dict)
+    """Arrays that are an attribute: vectors, texture coordinates, ..."""
+
+    def __call__(self, surface: Isosurface) -> Any:
+        package = self.package or _installed_package()
+        model = importlib.import_module(package + ".vtkCommonDataModel")
+        core = importlib.import_module(package + ".vtkCommonCore")
+        support = importlib.import_module(package + ".util.numpy_support")
+
+        def as_vtk(array: np.ndarray, name: Optional[str] = None, kind: Optional[int] = None):
+            result = support.numpy_to_vtk(np.ascontiguousarray(array), array_type=kind)
+            if name is not None:
+                result.SetName(name)
+            return result
+
+        def cells(corners: np.ndarray):
+            id_type = core.vtkIdTypeArray().GetDataType()
+            offsets = np.arange(len(corners) + 1, dtype=np.int64) * corners.shape[1]
+            result = model.vtkCellArray()
+            result.SetData(as_vtk(offsets, kind=id_type), as_vtk(corners.ravel(), kind=id_type))
+            return result
+
+        data = model.vtkPolyData()
+        points = core.vtkPoints()
+        points.SetData(as_vtk(surface.points))
+        data.SetPoints(points)
+        if surface.triangles is not None:
+            data.SetPolys(cells(surface.triangles))
+        else:
+            data.SetVerts(cells(np.arange(len(surface.points), dtype=np.int64)[:, None]))
+        attributes = data.GetPointData()
+        for name, array in surface.arrays.items():
+            index = attributes.AddArray(as_vtk(array, name))
+            if name in self.uses:
+                attributes.SetActiveAttribute(index, self.uses[name])
+        if self.scalars in surface.arrays:
+            attributes.SetActiveScalars(self.scalars)
+        if "Normals" in surface.arrays:
+            attributes.SetActiveNormals("Normals")
+        for name, array in surface.splat_shapes.items():
+            shapes = as_vtk(array, name)
+            shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)
+            data.GetCellData().AddArray(shapes)
+        if "SplatAxis" in surface.splat_shapes:
+            data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points turn them
+        if self.wraps:
+            return importlib.import_module("pyvista").PolyData(data)
+        return data
+
+
+def _installed_package() -> str:
+    for package in ("vtkmodules", "cvista"):
+        if importlib.util.find_spec(package) is not None:
+            return package
+    raise ImportError("polydata needs VTK: pip install vtk, or pip install pyvista. The attributes"
+                      " points, normals, radii, triangles and arrays need NumPy alone.")

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Samples whose tree is kept between isovalues: see Samples."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import warnings
+from ctypes import byref, c_double, c_void_p
+from typing import Any, Iterable, Iterator, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _datasets, _library
+from ._arrays import further_arrays, isovalues_of, positions_of, readable, values_of
+from ._isosurface import Isosurface
+from ._options import make_options
+from ._polydata import PolyDataMaker
+from ._progress import Progress, shown_progress
+
+
+class Samples:
+    """Scattered samples, and a tree that is kept between isovalues and time steps.
+
+    Several threads may use one object: their calls take turns. Objects do not wait for each other.
+
+    Parameters
+    ----------
+    positions
+        As in :func:`contour`.
+    values
+        As in :func:`contour`.
+    threads
+        How many to use at most; None: all cores that the process may use.
+    progress
+        As in :func:`contour`, of loading.
+
+    Raises
+    ------
+    ValueError, TypeError, MemoryError, KeyboardInterrupt
+        As :func:`contour` does.
+    """
+
+    def __init__(
+        self,
+        positions: Any,
+        values: Any = None,
+        *,
+        threads: Optional[int] = None,
+        progress: Progress = None,
+    ):
+        self._lock = threading.RLock()
+        self._is_in_call = False
+        self._extractor = _library.create()
+        if threads is not None:
+            if isinstance(threads, bool) or threads < 1:
+                raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
+            _library.run(_library.set_threads, self._extractor, min(int(threads), 2**31 - 1))
+        self._arrays: Optional[dict[str, np.ndarray]] = None  # of a data set
+        self._without_array = 0
+        self._maker: dict[str, Any] = {"scalars": "values"}
+        self._excluded: Optional[np.ndarray] = None
+        samples = positions if isinstance(positions, _datasets.DataSamples) else None
+        data = None if samples else _datasets.data_object(positions)
+        if data is not None:
+            samples = _datasets.samples_of(data, values)
+        if samples is None:
+            self._positions = positions_of(positions)
+            loaded = values_of(values, len(self._positions))
+        else:
+            self._positions = readable("positions", samples.positions)
+            loaded = readable("values", samples.values)
+            self._excluded = samples.excluded
+            self._arrays = samples.arrays
+            self._without_array = samples.without_array
+            self._maker = {"package": samples.package, "wraps": samples.is_of_pyvista,
+                           "scalars": samples.name, "uses": samples.uses}
+        if len(self._positions) == 0:
+            raise ValueError("There are no samples: the input has no points.")
+        self._load(loaded, progress)
+
+    def __len__(self) -> int:
+        """The number of samples, with those that are left out."""
+        return len(self._positions)
+
+    def __repr__(self) -> str:
+        least, greatest = self.range
+        return f"<Samples: {len(self)}, values from {least:g} to {greatest:g}>"
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest value of the samples that take part; NaN if there are none."""
+        range_ = (2 * c_double)()
+        with self._exclusive():
+            _library.get_value_range(self._extractor, byref(range_))
+        return range_[0], range_[1]
+
+    def replace_values(self, values: Any, *, progress: Progress = None) -> None:
+        """Gives the samples other values, of a later time step: the tree is kept.
+
+        Parameters
+        ----------
+        values
+            One for each sample, shape (n,), of any real type.
+        progress
+            As in :func:`contour`.
+        """
+        self._load(values_of(values, len(self)), progress)
+
+    @contextlib.contextmanager
+    def _exclusive(self) -> Iterator[None]:
+        """Lets one thread at a time use the extractor."""
+        with self._lock:
+            if self._is_in_call:
+                raise RuntimeError("A progress callback cannot use the samples that it is called for.")
+            self._is_in_call = True
+            try:
+                yield
+            finally:
+                self._is_in_call = False
+
+    def _load(self, values: np.ndarray, progress: Progress) -> None:
+        excluded = self._excluded
+        with self._exclusive(), shown_progress(progress, "Loading samples") as report:
+            _library.run(
+                _library.set_samples, self._extractor,
+                _library.Array.of(self._positions), _library.Array.of(values),
+                None if excluded is None else _library.Array.of(excluded.view(np.uint8)),
+                progress=report)
+            self._value_type = np.float32 if values.dtype == np.float32 else np.float64
+
+    def contour(
+        self,
+        isovalues: Union[float, Iterable[float]] = 0.0,
+        *,
+        triangles: bool = False,
+        arrays: Optional[Mapping[str, Any]] = None,
+        progress: Progress = None,
+        **options: Any,
+    ) -> Isosurface:
+        """Extracts isosurfaces: :func:`contour` describes parameters, result and errors.
+
+        The second call, and further ones, take a fraction of the time of the first.
+        """
+        return self._contour(isovalues, triangles, arrays, progress, options, stacklevel=3)
+
+    def _contour(self, isovalues, triangles, arrays, progress, options, stacklevel) -> Isosurface:
+        if arrays is not None and self._arrays is not None:
+            raise TypeError("arrays go with an array of positions: add them to the data set instead")
+        chosen = make_options(triangles, options)
+        levels = isovalues_of(isovalues)
+        of_samples = self._arrays
+        if of_samples is None:
+            of_samples = further_arrays(arrays, len(self))
+        pointer = c_void_p()
+        with self._exclusive(), shown_progress(progress, "Contouring") as report:
+            _library.run(
+                _library.extract, self._extractor, (len(levels) * c_double)(*levels), len(levels),
+                byref(chosen), byref(pointer), progress=report)
+            surface = _library.Handle(pointer.value, _library.destroy_surface)
+            value_type = self._value_type
+        texts = _library.messages(surface)
+        if self._without_array:
+            texts.append(f"{self._without_array} points or cells are left out: their blocks do not have"
+                         " the array.")
+        found = self._interpolated(surface, of_samples)
+        if options.get("compute_scalars", True):
+            isovalues = _library.view(surface, _library.ISOVALUES)
+            found[self._maker["scalars"]] = isovalues.astype(value_type, copy=False)
+        computed = _computed(surface, chosen)
+        texts += [f'The computed array "{name}" replaces the one of the samples: rename that, or switch'
+                  " the computed one off." for name in computed if name in found]
+        found.update(computed)
+        for text in texts:
+            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        return self._as_isosurface(surface, found, chosen)
+
+    def _interpolated(self, surface, of_samples: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        edges = _library.view(surface, _library.EDGES)
+        found: dict[str, np.ndarray] = {}
+        for name, array in of_samples.items():
+            if self._maker.get("uses", {}).get(name) == _datasets.PEDIGREE_IDS:
+                is_first_nearer = _library.view(surface, _library.EDGE_PARAMETERS) < 0.5
+                found[name] = array[np.where(is_first_nearer, *edges.T)]
+                continue
+            array = readable(name, array)
+            found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
+            _library.run(_library.interpolate, surface, _library.Array.of(array),
+                         found[name].ctypes.data)
+        return found
+
+    def _as_isosurface(self, surface, arrays, options: _library.Options) -> Isosurface:
+        triangles, shapes = None, {}
+        if options.triangles:
+            triangles = _library.view(surface, _library.TRIANGLES)
+        elif options.compute_splats:
+            shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
+                      "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
+        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes,
+                          PolyDataMaker(**self._maker))
+
+
+def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:
+    """The arrays that the library computes for each point, by the names that the filters give them."""
+    are_wanted = {
+        "Normals": (_library.NORMALS, options.compute_normals),
+        "Radius": (_library.RADII, options.compute_splats and not options.triangles),
+        "Gradients": (_library.GRADIENTS, options.compute_gradients),
+        "ProjectionOrder": (_library.PROJECTION_ORDERS, options.compute_projection_orders),
+    }
+    return {name: _library.view(surface, array_id)
+            for name, (array_id, is_wanted) in are_wanted.items() if is_wanted}

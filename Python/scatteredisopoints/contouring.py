@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Isosurfaces of NumPy arrays and data sets in one call: see contour()."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from typing import Any, Callable, Iterable, Mapping, Optional, Union
+
+from . import _datasets
+from ._arrays import isovalues_of
+from ._isosurface import Isosurface
+from ._progress import Progress, shown_progress
+from ._samples import Samples
+
+
+def contour(
+    positions: Any,
+    values: Any = None,
+    isovalues: Union[float, Iterable[float]] = 0.0,
+    *,
+    triangles: bool = False,
+    arrays: Optional[Mapping[str, Any]] = None,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Isosurface:
+    """Extracts isosurfaces from scattered samples, as points or as triangles.
+
+    Parameters
+    ----------
+    positions
+        The samples' positions, shape (n, 3), in any unit of length. Arrays of float32 and float64 of
+        the machine's byte order are not copied. Or a data set in place of arrays: of VTK, PyVista or
+        vedo, any grid or composite.
+    values
+        The samples' values, shape (n,), of any real type; integers count as rounded. Samples with a
+        value that is not finite or masked are left out. Of a data set: the name of an array of its
+        points or cells, an array with one value for each point or cell, or None for the active
+        scalars of its points.
+    isovalues
+        One or several (any iterable), in the unit of the values.
+    triangles
+        Whether to connect points by triangles, rather than to give them radii.
+    arrays
+        Further arrays of the samples by name, shapes (n,) or (n, components), which are interpolated.
+        Not of a data set, which has its own.
+    threads
+        How many to use at most; None: all cores that the process may use. The result does not depend
+        on it.
+    progress
+        A function that is called with the share that is done, from 0 to 1; what it raises ends the
+        work. True: a bar, by tqdm or rich.
+    **options
+        Properties of the filters in snake case, as `drop_gaps=False`, `projection="CREASE_FIT"`,
+        `compute_gradients=True`. docs/properties.md lists them. On several ranks each process
+        contours its own samples, unless `controller` is given, which needs the compiled VTK classes:
+        then all ranks have to call this together, and an error is raised on the first one alone.
+
+    Returns
+    -------
+    Isosurface
+        Points, normals, radii or triangles, and all arrays.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If arguments have a wrong shape or type, an option is unknown or out of its range, or there
+        are no samples.
+    MemoryError
+        If there is not enough memory for the tree or the result.
+    KeyboardInterrupt
+        After Ctrl-C, within a fraction of a second.
+
+    Warns
+    -----
+    RuntimeWarning
+        Of samples that are left out, isovalues without a surface, and the like.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import contour
+    >>> positions = np.random.default_rng(1).random((20000, 3))
+    >>> surface = contour(positions, np.linalg.norm(positions - 0.5, axis=1), 0.3)
+    >>> float(np.abs(np.linalg.norm(surface.points - 0.5, axis=1) - 0.3).max()) < 1e-3
+    True
+    """
+    data = _datasets.data_object(positions)
+    controller = options.get("controller")
+    is_of_vtk = isinstance(data, _class_of_vtkmodules("vtkDataObject"))
+    if controller is not None or (is_of_vtk and threads is None):
+        filters = compiled_filters()
+        if filters is not None:
+            return filters.filtered(positions if data is None else data, values,
+                                    isovalues_of(isovalues), triangles, arrays, progress, options)
+        if controller is not None:
+            raise TypeError("The option controller needs the compiled VTK classes: build this project"
+                            " with VTK, as its docs/installing.md says.")
+    options.pop("controller", None)
+    with shown_progress(progress, "Contouring") as report:
+        samples = Samples(positions, values, threads=threads, progress=_part(report, 0.0))
+        return samples._contour(
+            isovalues, triangles, arrays, _part(report, 0.5), options, stacklevel=3)
+
+
+def _part(report: Optional[Callable[[float], Any]], begin: float) -> Progress:
+    """Progress of one half of the work."""
+    return None if report is None else lambda fraction: report(begin + 0.5 * fraction)
+
+
+def compiled_filters() -> Optional[Any]:
+    """The module that runs the compiled filters, or None where they are not installed."""
+    try:
+        return importlib.import_module("._filters", __package__)
+    except ImportError:
+        return None
+
+
+def _class_of_vtkmodules(name: str) -> Union[type, tuple]:
+    """A class of vtkmodules.vtkCommonDataModel, or none where nobody has imported that."""
+    module = sys.modules.get("vtkmodules.vtkCommonDataModel")
+    return getattr(module, name, ())
