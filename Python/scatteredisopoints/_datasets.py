@@ -253,7 +253,7 @@ def _point_positions(leaf: Any) -> np.ndarray:
     if leaf.IsA("vtkImageData"):
         extent = leaf.GetExtent()
         return _image_positions(leaf, [np.arange(extent[2 * axis], extent[2 * axis + 1] + 1.0)
-                                       for axis in range(3)], leaf.GetOrigin())
+                                       for axis in range(3)])
     if leaf.IsA("vtkRectilinearGrid"):
         return _lattice([as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)])
     return as_numpy(leaf.GetPoints().GetData())
@@ -269,15 +269,20 @@ def _lattice(axes: list[np.ndarray]) -> np.ndarray:
     return np.stack([x.ravel(), y.ravel(), z.ravel()], axis=-1)
 
 
-def _image_positions(image: Any, indices: list[np.ndarray], origin) -> np.ndarray:
-    """As VTK computes them from continuous indices, to the last bit."""
-    spacing, matrix = image.GetSpacing(), image.GetDirectionMatrix()
-    index = _lattice(indices)
-    positions = np.empty_like(index)
+def _image_positions(image: Any, indices: list[np.ndarray], origin=None) -> np.ndarray:
+    """Positions at continuous indices, as VTK computes them, to the last bit.
+
+    Parameters
+    ----------
+    origin
+        In place of the image's own.
+    """
+    matrix = image.GetIndexToPhysicalMatrix()
+    x, y, z = _lattice(indices).T
+    positions = np.empty((len(x), 3))
     for row in range(3):
-        terms = [index[:, column] * spacing[column] * matrix.GetElement(row, column)
-                 for column in range(3)]
-        positions[:, row] = terms[0] + terms[1] + terms[2] + origin[row]
+        a, b, c, d = (matrix.GetElement(row, column) for column in range(4))
+        positions[:, row] = a * x + b * y + c * z + (d if origin is None else origin[row])
     return positions
 
 
@@ -287,7 +292,7 @@ def _cell_centers(leaf: Any) -> np.ndarray:
         extent = leaf.GetExtent()
         steps = [extent[2 * axis + 1] > extent[2 * axis] for axis in range(3)]
         halfway = [np.array([0.5 if step else 0.0]) for step in steps]
-        origin = _image_positions(leaf, halfway, leaf.GetOrigin())[0]
+        origin = _image_positions(leaf, halfway)[0]
         return _image_positions(leaf, [
             np.arange(extent[2 * axis], extent[2 * axis + 1] + (0.0 if steps[axis] else 1.0))
             for axis in range(3)], origin)

@@ -36,17 +36,22 @@ class PolyDataMaker:
         core = importlib.import_module(package + ".vtkCommonCore")
         support = importlib.import_module(package + ".util.numpy_support")
 
-        def as_vtk(array: np.ndarray, name: Optional[str] = None, kind: Optional[int] = None):
-            result = support.numpy_to_vtk(np.ascontiguousarray(array), array_type=kind)
+        id_type = core.vtkIdTypeArray().GetDataType()
+
+        def as_vtk(array: np.ndarray, name: Optional[str] = None):
+            result = support.numpy_to_vtk(np.ascontiguousarray(array))
             if name is not None:
                 result.SetName(name)
             return result
 
+        def ids(numbers: np.ndarray):
+            # A copy: vtkCellArray keeps the memory of ids, but not the array that keeps NumPy's.
+            return support.numpy_to_vtk(numbers, deep=True, array_type=id_type)
+
         def cells(corners: np.ndarray):
-            id_type = core.vtkIdTypeArray().GetDataType()
             offsets = np.arange(len(corners) + 1, dtype=np.int64) * corners.shape[1]
             result = model.vtkCellArray()
-            result.SetData(as_vtk(offsets, kind=id_type), as_vtk(corners.ravel(), kind=id_type))
+            result.SetData(ids(offsets), ids(corners.ravel()))
             return result
 
         data = model.vtkPolyData()

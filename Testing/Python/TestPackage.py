@@ -1,0 +1,474 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package with NumPy alone: TestPackage.py [PATH OF isopoint.h]"""
+
+import ctypes
+import doctest
+import gc
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+import warnings
+
+import numpy as np
+import scatteredisopoints
+from scatteredisopoints import Isosurface, Samples, _library, _options, contour, contouring
+
+HEADER = pathlib.Path(__file__).parents[2] / "Library/isopoint.h"
+
+
+def cloud(count=5000, dtype=np.float64, seed=1):
+    positions = np.random.default_rng(seed).random((count, 3)).astype(dtype)
+    return positions, np.linalg.norm(positions - 0.5, axis=1).astype(dtype)
+
+
+def contents(surface: Isosurface):
+    """All bytes of a surface."""
+    triangles = None if surface.triangles is None else surface.triangles.tobytes()
+    arrays = {**surface.arrays, **surface.splat_shapes}
+    return surface.points.tobytes(), triangles, {name: arrays[name].tobytes() for name in arrays}
+
+
+class Signatures(unittest.TestCase):
+    """The declarations of _library are those of the header."""
+
+    C_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
+               "double": ctypes.c_double, "const void*": ctypes.c_void_p}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(), flags=re.DOTALL)
+
+    def members(self, struct):
+        body = re.search(r"typedef struct %s\s*{(.*?)}" % struct, self.text, re.DOTALL)[1]
+        return [(name, self.C_TYPES[kind.strip()])
+                for kind, name in re.findall(r"([\w *]+?\*?) (\w+);", body)]
+
+    def test_structs(self):
+        for struct, mirror in (("isopoint_array", _library.Array), ("isopoint_options", _library.Options)):
+            self.assertEqual(self.members(struct), list(mirror._fields_))
+
+    def test_ids_of_arrays(self):
+        body = re.search(r"typedef enum isopoint_array_id\s*{(.*?)}", self.text, re.DOTALL)[1]
+        ids = re.findall(r"ISOPOINT_(\w+) = (\d+)", body)
+        self.assertEqual(len(ids), 15)
+        for name, number in ids:
+            self.assertEqual(getattr(_library, name), int(number))
+
+    def test_named_constants(self):
+        names = {"PROJECTION_NONE": "NO_PROJECTION", "NORMALS_AUTOMATIC": "AUTOMATIC_NORMALS",
+                 "PRECISION_INPUT": "DEFAULT_PRECISION"}
+        found = {}
+        for name, number in re.findall(
+                r"ISOPOINT_((?:PROJECTION_(?!ORDERS)|NORMALS_|PRECISION_)\w+) = (-?\d+)", self.text):
+            own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(r"^PRECISION_(.*)", r"\1_PRECISION", name))
+            found[names.get(name, own)] = int(number)
+        ours = {name: number for constants in _options.CONSTANTS.values()
+                for name, number in constants.items()}
+        self.assertEqual(found, ours)
+
+    def test_functions(self):
+        counts = {}
+        for name, parameters in re.findall(
+                r"ISOPOINT_API [\w ]+?\*?\s*isopoint_(\w+)\(((?:[^()]|\([^()]*\))*)\);", self.text):
+            callbacks = re.sub(r"\(\*(\w+)\)\([^()]*\)", r"\1", parameters)
+            counts[name] = 0 if callbacks.strip() == "void" else callbacks.count(",") + 1
+        declared = {name: function for name, function in vars(_library).items()
+                    if isinstance(function, ctypes._CFuncPtr) and hasattr(function, "argtypes")
+                    and getattr(function, "__name__", "").startswith("isopoint_")}
+        self.assertGreater(len(declared), 14)
+        for function in declared.values():
+            name = function.__name__[len("isopoint_"):]
+            self.assertEqual(len(function.argtypes), counts[name], name)
+
+    def test_counts_have_64_bits(self):
+        kinds = dict(_library.Array._fields_)
+        for member in ("count", "stride", "component_stride"):
+            self.assertEqual(ctypes.sizeof(kinds[member]), 8)
+        self.assertIs(_library.extract.argtypes[2], ctypes.c_int64)
+
+
+class Arrays(unittest.TestCase):
+    def test_layouts_make_no_difference(self):
+        positions, values = cloud()
+        expected = contents(contour(positions, values, 0.3))
+        padded = np.zeros(len(values), [("pad", "u1"), ("x", "f8", 3), ("v", "f8")])
+        padded["x"], padded["v"] = positions, values
+        read_only = positions.copy()
+        read_only.flags.writeable = False
+        table = np.column_stack([positions, values])
+        for name, place, value in (
+                ("Fortran's order", np.asfortranarray(positions), values),
+                ("backwards", positions[::-1][::-1], values[::-1].copy()[::-1]),
+                ("strides", np.repeat(positions, 2, axis=0)[::2], np.repeat(values, 3)[::3]),
+                ("columns", table[:, :3], table[:, 3]),
+                ("swapped bytes", positions.astype(">f8"), values.astype(">f8")),
+                ("not aligned", padded["x"], padded["v"]),
+                ("read-only", read_only, values[:, None]),
+                ("lists", positions.tolist(), values.tolist()),
+                ("long double", positions.astype(np.longdouble), values)):
+            with self.subTest(name):
+                self.assertEqual(contents(contour(place, value, 0.3)), expected)
+
+    def test_broadcast_arrays(self):
+        positions, _ = cloud(100)
+        constant = np.broadcast_to(1.0, 100)  # a stride of zero
+        with self.assertWarnsRegex(RuntimeWarning, "all values of the array are 1"):
+            self.assertEqual(len(contour(positions, constant, 1.0)), 0)
+        in_a_plane = np.broadcast_to(positions[:1], (100, 3))
+        with self.assertWarns(RuntimeWarning):
+            self.assertEqual(len(contour(in_a_plane, np.arange(100.0), 5.5)), 0)
+
+    def test_types_of_values(self):
+        positions, values = cloud()
+        whole = np.rint(100 * values)
+        expected = contour(positions, whole.astype(np.int32), 30.5).points
+        for kind in ("i1", "u1", "i2", "u2", "i8", "u8", ">i4"):
+            found = contour(positions, whole.astype(kind), 30.5).points
+            np.testing.assert_allclose(found, expected, atol=1e-5, err_msg=kind)
+        self.assertGreater(len(contour(positions, values > 0.3, 0.5)), 100)
+        self.assertGreater(len(contour(positions, values.astype(np.float16), 0.3)), 100)
+
+    def test_samples_that_are_no_numbers(self):
+        positions, values = cloud()
+        bad = np.arange(len(values)) % 7 == 0
+        expected = contents(contour(positions[~bad], values[~bad], 0.3))[0]
+        with_nan, with_inf, places = values.copy(), values.copy(), positions.copy()
+        with_nan[bad], with_inf[bad], places[bad, 1] = np.nan, np.inf, np.nan
+        for place, value in ((positions, with_nan), (positions, with_inf), (places, values),
+                             (positions, np.ma.masked_array(values, bad)),
+                             (np.ma.masked_array(positions, np.column_stack(3 * [bad])), values)):
+            with self.assertWarnsRegex(RuntimeWarning, "Skipped 715 of 5000 samples: not finite"):
+                self.assertEqual(contents(contour(place, value, 0.3))[0], expected)
+
+    def test_few_samples(self):
+        with self.assertRaisesRegex(ValueError, "no samples"):
+            contour(np.zeros((0, 3)), np.zeros(0))
+        for count in (1, 2, 3, 4, 5):
+            positions, values = cloud(count)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                for triangles in (False, True):
+                    surface = contour(positions, values, np.median(values), triangles=triangles)
+                    self.assertEqual(surface.points.shape, (len(surface), 3))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertEqual(len(contour(np.full((9, 3), np.nan), np.arange(9.0), 4.5)), 0)
+
+    def test_wrong_arguments(self):
+        positions, values = cloud(100)
+        for arguments, options, error, text in (
+                ((positions[:, :2], values), {}, ValueError, r"\(100, 2\), not \(n, 3\).*append zeros"),
+                ((positions.ravel(), values), {}, ValueError, r"\(300,\), not \(n, 3\)"),
+                ((3.0, values), {}, ValueError, r"\(\), not \(n, 3\)"),
+                ((positions, 3.0), {}, ValueError, r"values have the shape \(\), not \(100,\)"),
+                ((positions, values[:99]), {}, ValueError, r"\(99,\), not \(100,\)"),
+                ((positions, positions), {}, ValueError, r"values have the shape \(100, 3\)"),
+                ((positions,), {}, TypeError, "values are missing"),
+                ((positions * 1j, values), {}, TypeError, "positions are of the type complex128"),
+                ((positions, ["a"] * 100), {}, TypeError, "values are of the type"),
+                ((positions, np.full(100, None)), {}, TypeError, "values are of the type object"),
+                ((positions, values, np.nan), {}, ValueError, "not a number"),
+                ((positions, values, "0.3"), {}, TypeError, "not numbers"),
+                ((positions, values, None), {}, TypeError, "not numbers"),
+                ((positions, values), {"threads": 0}, ValueError, "threads are 0"),
+                ((positions, values), {"arrays": {"a": values[:3]}}, ValueError, "a have the shape"),
+                ((positions, values), {"arrays": [values]}, TypeError, "a mapping of names"),
+                ((positions, values), {"arrays": {"values": values}}, ValueError, "cannot have the name"),
+                ((positions, values), {"gap": 2}, TypeError, "unknown option gap; there are .*drop_gaps"),
+                ((positions, values), {"size": 2}, TypeError, "unknown option size"),
+                ((positions, values), {"triangles": True, "angle": 30.0}, TypeError, "unknown option"),
+                ((positions, values), {"angle": 200.0}, ValueError, "angle is 200, .*0 to 180"),
+                ((positions, values), {"angle": "wide"}, ValueError, "angle cannot be 'wide'"),
+                ((positions, values), {"projection": "cubes"}, ValueError, "projection cannot be"),
+                ((positions, values), {"projection": 1.5}, ValueError, "projection cannot be 1.5"),
+                ((positions, values), {"number_of_neighbors": 2**32 + 12}, ValueError, "out of range"),
+                ((positions, values), {"drop_gaps": 2}, ValueError, "0 or 1"),
+                ((positions, values), {"controller": object()}, TypeError, "controller")):
+            if "controller" in options and contouring.compiled_filters():
+                continue
+            with self.subTest(text=text), self.assertRaisesRegex(error, text):
+                contour(*arguments, **options)
+
+
+class Results(unittest.TestCase):
+    def test_points_and_splats(self):
+        positions, values = cloud(20000)
+        surface = contour(positions, values, 0.3)
+        self.assertLess(np.abs(np.linalg.norm(surface.points - 0.5, axis=1) - 0.3).max(), 1e-3)
+        self.assertEqual(surface.normals.shape, surface.points.shape)
+        self.assertEqual(surface.radii.shape, (len(surface),))
+        self.assertIsNone(surface.triangles)
+        splats = surface.splats()
+        self.assertEqual(set(splats.arrays), {"values", "Radius", "Normals"})
+        self.assertLess(splats.triangles.max(), len(splats))
+        for scale in (1.0, 0.5):
+            splats = surface.splats(scale)
+            corners = splats.points[splats.triangles]
+            areas = np.linalg.norm(
+                np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+            self.assertAlmostEqual(areas.sum() / (4 * np.pi * 0.3**2), scale**2, delta=0.02)
+        for wrong in (0.0, -1.0, np.nan, np.inf):
+            with self.assertRaisesRegex(ValueError, "The scale of splats"):
+                surface.splats(wrong)
+
+    def test_surfaces_without_splats(self):
+        positions, values = cloud()
+        for options in (dict(triangles=True), dict(compute_splats=False), dict(compute_normals=False)):
+            with self.assertRaisesRegex(ValueError, "has no splats"):
+                contour(positions, values, 0.3, **options).splats()
+
+    def test_triangles_are_closed(self):
+        positions, values = cloud(20000, np.float32)
+        surface = contour(positions, values, [0.2, 0.3], triangles=True)
+        edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        _, counts = np.unique(edges, axis=0, return_counts=True)
+        self.assertEqual(counts.tolist(), [2] * len(counts))
+        self.assertEqual(surface.arrays["values"].dtype, np.float32)
+        self.assertEqual(set(surface.arrays["values"]), {np.float32(0.2), np.float32(0.3)})
+
+    def test_arrays_are_interpolated(self):
+        positions, values = cloud()
+        count = np.arange(len(values))
+        surface = contour(positions, values, 0.3, projection="no_projection", arrays={
+            "place": positions, "double": 2 * values, "count": count, "swapped": values.astype(">f4")})
+        np.testing.assert_allclose(surface.arrays["place"], surface.points, atol=1e-12)
+        np.testing.assert_allclose(surface.arrays["double"], 0.6, atol=1e-12)
+        self.assertEqual(surface.arrays["count"].dtype, count.dtype)
+        np.testing.assert_allclose(surface.arrays["swapped"], 0.3, atol=1e-6)
+        with self.assertWarnsRegex(RuntimeWarning, 'computed array "Normals" replaces'):
+            contour(positions, values, 0.3, arrays={"Normals": positions})
+
+    def test_arrays_that_are_not_computed(self):
+        positions, values = cloud()
+        surface = contour(positions, values, 0.3, compute_normals=False, compute_splats=False,
+                          compute_scalars=False)
+        self.assertEqual(surface.arrays, {})
+        self.assertIsNone(surface.normals)
+        self.assertIsNone(surface.radii)
+        surface = contour(positions, values, 0.3, compute_gradients=True,
+                          compute_projection_orders=True, output_points_precision="SINGLE_PRECISION")
+        self.assertEqual(surface.arrays["Gradients"].shape, (len(surface), 3))
+        self.assertEqual(surface.arrays["ProjectionOrder"].dtype, np.uint8)
+        self.assertEqual(surface.points.dtype, np.float32)
+
+    def test_threads_make_no_difference(self):
+        positions, values = cloud(30000)
+        for triangles in (False, True):
+            found = [contents(contour(positions, values, 0.3, triangles=triangles, threads=threads))
+                     for threads in (None, 1, 3)]
+            self.assertEqual(found[1:], [found[0]] * 2)
+
+    def test_views_outlive_what_they_are_of(self):
+        points = contour(*cloud(), 0.3).points
+        expected = points.copy()
+        gc.collect()
+        other = [contour(*cloud(seed=seed), 0.3) for seed in range(2, 6)]
+        np.testing.assert_array_equal(points, expected)
+        points[0] = 7.0  # may be written
+        self.assertEqual(len(other), 4)
+
+    def test_nothing_to_see(self):
+        positions, values = cloud(500)
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 99"):
+            surface = contour(positions, values, 99.0, triangles=True)
+        self.assertEqual((len(surface), surface.triangles.shape), (0, (0, 3)))
+        self.assertEqual(len(contour(positions, values, [])), 0)
+
+    def test_docstrings(self):
+        for owner in (contouring, scatteredisopoints._samples):
+            self.assertEqual(doctest.testmod(owner).failed, 0)
+
+
+class KeptTrees(unittest.TestCase):
+    def test_samples_yield_what_contour_does(self):
+        positions, values = cloud()
+        samples = Samples(positions, values)
+        self.assertEqual(len(samples), 5000)
+        self.assertEqual(samples.range, (values.min(), values.max()))
+        for isovalue in (0.3, 0.2, 0.4):
+            for triangles in (False, True):
+                self.assertEqual(contents(samples.contour(isovalue, triangles=triangles)),
+                                 contents(contour(positions, values, isovalue, triangles=triangles)))
+
+    def test_values_are_replaced(self):
+        positions, values = cloud()
+        samples = Samples(positions, values)
+        samples.contour(0.3)
+        for later in (np.sin(5 * values), values.astype(np.float32), np.rint(100 * values).astype(int)):
+            samples.replace_values(later)
+            isovalue = float(np.median(later)) + 0.25
+            self.assertEqual(contents(samples.contour(isovalue)),
+                             contents(contour(positions, later, isovalue)))
+        with self.assertRaisesRegex(ValueError, r"values have the shape \(3,\)"):
+            samples.replace_values(values[:3])
+
+    def test_two_threads_share_samples(self):
+        positions, values = cloud(20000)
+        samples = Samples(positions, values)
+        isovalues = np.linspace(0.1, 0.6, 12)
+        expected = [contents(contour(positions, values, isovalue)) for isovalue in isovalues]
+        found = [None] * len(isovalues)
+
+        def extract(first):
+            for i in range(first, len(isovalues), 2):
+                surface = samples.contour(isovalues[i])
+                surface.splats()
+                found[i] = contents(surface)
+
+        run_together(lambda: extract(0), lambda: extract(1))
+        self.assertEqual(found, expected)
+
+    def test_two_objects_on_two_threads(self):
+        found = {}
+
+        def extract(seed):
+            found[seed] = contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True))
+
+        run_together(lambda: extract(1), lambda: extract(2))
+        for seed in (1, 2):
+            self.assertEqual(found[seed],
+                             contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True)))
+
+    def test_memory_is_given_back(self):
+        statm = pathlib.Path("/proc/self/statm")
+        if not statm.exists():
+            self.skipTest("memory is read from /proc")
+        positions, values = cloud(50000)
+
+        def extract():
+            contour(positions, values, 0.3, triangles=True)
+            contour(positions, values, 0.3).splats()
+            return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+        for _ in range(5):
+            before = extract()
+        for _ in range(15):
+            after = extract()
+        # One tree and surface have some 10 MB.
+        self.assertLess(after - before, 30e6)
+
+
+class Interruptions(unittest.TestCase):
+    def test_progress_rises_to_one(self):
+        positions, values = cloud(100000)
+        for triangles in (False, True):
+            fractions = []
+            contour(positions, values, 0.3, triangles=triangles, progress=fractions.append)
+            self.assertEqual(fractions, sorted(fractions))
+            self.assertEqual(fractions[-1], 1.0)
+            self.assertGreater(len(fractions), 5)
+            self.assertGreaterEqual(fractions[0], 0.0)
+
+    def test_progress_may_end_the_work(self):
+        class Enough(Exception):
+            pass
+
+        def stop(fraction):
+            if fraction > 0.2:
+                raise Enough
+
+        positions, values = cloud(100000)
+        samples = Samples(positions, values)
+        with self.assertRaises(Enough):
+            samples.contour(0.3, progress=stop)
+        with self.assertRaises(Enough):
+            Samples(positions, values, progress=stop)
+        self.assertEqual(contents(samples.contour(0.3)), contents(contour(positions, values, 0.3)))
+
+    def test_progress_cannot_use_the_same_samples(self):
+        samples = Samples(*cloud())
+        with self.assertRaisesRegex(RuntimeError, "cannot use the samples"):
+            samples.contour(0.3, progress=lambda _: samples.contour(0.2))
+        other = Samples(*cloud(seed=2))
+        samples.contour(0.3, progress=lambda _: other.contour(0.2))
+
+    def test_interrupts_are_raised(self):
+        positions, values = cloud(100000)
+        samples = Samples(positions, values)
+
+        def interrupt(fraction):
+            if fraction > 0.2:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        for _ in range(20):
+            with self.assertRaises(KeyboardInterrupt):
+                samples.contour(0.3, progress=interrupt)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertGreater(len(samples.contour(0.3)), 1000)
+
+    def test_interrupts_from_outside(self):
+        """A signal that arrives at any time ends a script with KeyboardInterrupt."""
+        script = (
+            "import numpy, os, signal, threading\n"
+            "from scatteredisopoints import contour\n"
+            "positions = numpy.random.default_rng(1).random((200000, 3))\n"
+            "values = positions.sum(axis=1)\n"
+            "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+            "while True:\n"
+            "    contour(positions, values, 1.5, triangles=True)\n")
+        result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertRegex(result.stderr, r"KeyboardInterrupt\n$")
+        self.assertNotIn("Exception ignored", result.stderr)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "there is no fork()")
+    def test_forked_children(self):
+        positions, values = cloud(50000)
+        samples = Samples(positions, values)
+        expected = contents(samples.contour(0.3)), contents(samples.contour(0.3, triangles=True))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of fork() in a process with threads
+            child = os.fork()
+        if child == 0:
+            signal.alarm(120)  # a child that waits is a failure
+            found = contents(samples.contour(0.3)), contents(samples.contour(0.3, triangles=True))
+            again = contents(contour(positions, values, 0.3, triangles=True))
+            os._exit(0 if (found, again) == (expected, expected[1]) else 1)
+        _, status = os.waitpid(child, 0)
+        self.assertEqual(status, 0)
+        self.assertEqual(contents(samples.contour(0.3)), expected[0])
+
+
+class Imports(unittest.TestCase):
+    def test_import_loads_no_other_package(self):
+        script = ("import sys, numpy; before = set(sys.modules); import scatteredisopoints\n"
+                  "print(*{name.split('.')[0] for name in set(sys.modules) - before})")
+        result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        loaded = set(result.stdout.split()) - set(sys.stdlib_module_names if sys.version_info >= (3, 10)
+                                                  else ())
+        self.assertFalse(loaded & {"vtkmodules", "vtk", "pyvista", "cvista", "tqdm", "rich"})
+
+    def test_names(self):
+        self.assertRegex(scatteredisopoints.__version__, r"^\d+\.\d+\.\d+$")
+        self.assertLessEqual({"contour", "Samples", "Isosurface"}, set(dir(scatteredisopoints)))
+        with self.assertRaisesRegex(AttributeError, "no attribute 'nothing'"):
+            scatteredisopoints.nothing
+        with self.assertRaisesRegex(AttributeError, "There is no vtkNothing: build this project with VTK"):
+            scatteredisopoints.vtkNothing
+
+
+def run_together(*functions):
+    """Runs functions on a thread each; raises what one raised."""
+    errors = []
+
+    def run(function):
+        try:
+            function()
+        except BaseException as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=run, args=(function,)) for function in functions]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if errors:
+        raise errors[0]
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""PyVista's accessor, found through the installed package: on vtk, and on cvista."""
+
+import gc
+import unittest
+import warnings
+import weakref
+
+import numpy as np
+import pyvista as pv
+from scatteredisopoints import contour
+
+
+def cloud(count=20000):
+    data = pv.PolyData(np.random.default_rng(1).random((count, 3)))
+    data["distance"] = np.linalg.norm(data.points - 0.5, axis=1)
+    data["place"] = data.points
+    data["count"] = np.arange(count)
+    data.set_active_scalars("distance")
+    return data
+
+
+def grid():
+    data = pv.ImageData(dimensions=(20, 21, 22), spacing=(0.1, 0.2, 0.3), origin=(1, 2, 3))
+    data["distance"] = np.linalg.norm(data.points - data.center, axis=1)
+    data.cell_data["of cells"] = np.linalg.norm(data.cell_centers().points - data.center, axis=1)
+    return data
+
+
+class Accessor(unittest.TestCase):
+    def test_nothing_has_to_be_imported(self):
+        names = [accessor.name for accessor in pv.registered_accessors()]
+        self.assertIn("scattered", dir(cloud()) + names)
+
+    def test_triangles(self):
+        data = cloud()
+        surface = data.scattered.contour([0.3], "distance")
+        self.assertIs(type(surface), pv.PolyData)
+        self.assertTrue(surface.is_manifold)
+        self.assertAlmostEqual(surface.volume / (4 / 3 * np.pi * 0.3**3), 1.0, delta=1e-3)
+        self.assertEqual(surface.active_scalars_name, "distance")
+        self.assertEqual(set(surface.array_names), {"distance", "place", "count", "Normals"})
+        np.testing.assert_allclose(surface["place"], surface.points, atol=1e-3)
+        expected = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True)
+        np.testing.assert_array_equal(surface.points, expected.points)
+        np.testing.assert_array_equal(surface.regular_faces, expected.triangles)
+
+    def test_isopoints_and_splats(self):
+        isopoints = cloud().scattered.contour([0.3], triangles=False)
+        self.assertEqual(isopoints.n_verts, isopoints.n_points)
+        self.assertLessEqual({"Normals", "Radius"}, set(isopoints.point_data))
+        splats = isopoints.scattered.splats()
+        self.assertAlmostEqual(splats.area / (4 * np.pi * 0.3**2), 1.0, delta=0.02)
+        outwards = np.einsum("ij,ij->i", splats.point_normals, splats.points - 0.5)
+        self.assertLess(outwards.max(), 0.0)  # to decreasing values
+        half = isopoints.extract_cells(np.flatnonzero(isopoints.points[:, 0] < 0.5))
+        part = pv.PolyData(half.points)
+        part.point_data.update(half.point_data)
+        with self.assertRaisesRegex(ValueError, "has no splats"):
+            cloud().scattered.splats()
+
+    def test_numbers_of_isosurfaces(self):
+        data = cloud()
+        surface = data.scattered.contour(5, rng=(0.1, 0.5))
+        np.testing.assert_allclose(np.unique(surface["distance"]), np.linspace(0.1, 0.5, 5))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # corners of the cube have gaps
+            surface = data.scattered.contour()
+        inner = np.linspace(data["distance"].min(), data["distance"].max(), 10)[1:-1]
+        self.assertLessEqual(set(np.unique(surface["distance"])), set(inner))
+
+    def test_all_kinds_of_data(self):
+        image = grid()
+        for data in (image, image.cast_to_rectilinear_grid(), image.cast_to_structured_grid(),
+                     image.cast_to_unstructured_grid(), pv.MultiBlock([image]),
+                     pv.MultiBlock([None, pv.MultiBlock([image, cloud()])]),
+                     pv.PartitionedDataSet([image])):
+            with self.subTest(type(data).__name__):
+                if not isinstance(data, pv.DataSet):
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore")  # of blocks without the array
+                        self.assertGreater(data.scattered.contour([1.0], "of cells").n_points, 1000)
+                    continue
+                self.assertGreater(data.scattered.contour([1.0], "distance").n_points, 1000)
+                of_cells = data.scattered.contour([1.0], "of cells")
+                np.testing.assert_allclose(of_cells.points.mean(axis=0), data.center, atol=1e-2)
+                self.assertEqual(data.scattered.contour([1.0], data["distance"]).n_points,
+                                 data.scattered.contour([1.0], "distance").n_points)
+
+    def test_preference(self):
+        data = grid()
+        data.cell_data["distance"] = data.cell_data["of cells"] + 0.1
+        of_points = data.scattered.contour([1.0], "distance")
+        of_cells = data.scattered.contour([1.1], "distance", preference="cell")
+        self.assertNotEqual(of_points.n_points, of_cells.n_points)
+        self.assertEqual(of_cells.n_points, data.scattered.contour([1.0], "of cells").n_points)
+        with self.assertRaisesRegex(ValueError, "preference cannot be 'both'"):
+            data.scattered.contour([1.0], preference="both")
+
+    def test_ghosts_are_left_out(self):
+        data = cloud()
+        hidden = data.points[:, 0] > 0.5
+        data.point_data["vtkGhostType"] = np.where(hidden, 2, 0).astype(np.uint8)
+        surface = data.scattered.contour([0.3], "distance")
+        self.assertLess(surface.bounds[1], 0.52)
+
+    def test_changes_are_noticed(self):
+        data = cloud()
+        samples = self.samples_of(data)
+        self.assertIs(self.samples_of(data, 0.2), samples)
+        data["distance"][:100] = 5.0
+        self.assertIsNot(self.samples_of(data), samples)
+        changed = data.scattered.contour([0.3])
+        self.assertEqual(changed.n_points, contour(
+            np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True).points.shape[0])
+        blocks = pv.MultiBlock([data])
+        before = blocks.scattered.contour([0.3], "distance").n_points
+        data.points[:, 0] *= 2.0
+        self.assertNotEqual(blocks.scattered.contour([0.3], "distance").n_points, before)
+
+    def samples_of(self, data, isovalue=0.3):
+        data.scattered.contour([isovalue])
+        return data.scattered._samples
+
+    def test_memory_is_given_back(self):
+        data = cloud()
+        samples = weakref.ref(self.samples_of(data))
+        del data
+        gc.collect()
+        self.assertIsNone(samples())
+
+    def test_what_has_no_samples(self):
+        with self.assertRaisesRegex(TypeError, "A Table has no samples"):
+            pv.Table(np.zeros((3, 2))).scattered
+        data = cloud()
+        for scalars, error, text in (("speed", ValueError, 'named "speed"'),
+                                     ("place", ValueError, "3 components"),
+                                     (np.zeros(3), ValueError, "3 values for a data set of 20000")):
+            with self.assertRaisesRegex(error, text):
+                data.scattered.contour([0.3], scalars)
+        with self.assertRaisesRegex(ValueError, "no active scalars"):
+            pv.PolyData(data.points).scattered.contour([0.3])
+        with self.assertRaisesRegex(TypeError, "unknown option gaps"):
+            data.scattered.contour([0.3], gaps=1)
+
+    def test_data_of_contour(self):
+        surface = contour(cloud(), "distance", 0.3)
+        self.assertIs(type(surface.polydata), pv.PolyData)
+        points = surface.points
+        points[0] = 7.0
+        self.assertEqual(surface.polydata.points[0].tolist(), [7.0, 7.0, 7.0])
+        self.assertGreater(surface.splats().polydata.n_cells, 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()
