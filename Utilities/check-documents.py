@@ -4,7 +4,7 @@
 
 Links, anchors, and paths and identifiers in backticks exist; commands in blocks marked bash parse
 and name scripts, presets, targets, options and tests that exist; blocks marked python or pvpython
-compile and, where asked for, run; values in tables of constants are those of the sources; nothing is
+compile and, where asked for, run, those marked py (PyVista) compile; values in tables of constants are those of the sources; nothing is
 left to be filled in. Prints file:line: message for each defect and exits with 1 if there is any.
 
 A comment before a block, <!-- setup: FILE.py --> or <!-- setup: code -->, runs before it.
@@ -25,7 +25,7 @@ from markdown_document import Document, read
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
 SOURCES = (".h", ".cxx", ".glsl", ".py", ".sh", ".cmake")  # in backticks, these are the tree's
-LANGUAGES = ("bash", "cmake", "pvpython", "python", "text")
+LANGUAGES = ("bash", "cmake", "pvpython", "py", "python", "text")
 STANDARD_TARGETS = {"all", "clean", "install", "package", "test"}
 PLACEHOLDERS = {"GetX", "SetX", "XOff", "XOn"}  # stand for identifiers
 WITH_IDENTIFIERS = (".h", ".cxx", ".xml", ".py", ".glsl", ".cmake", ".in", "CMakeLists.txt")
@@ -182,7 +182,7 @@ class Checker:
                 self.report(name, first, "a block in the unknown language %s" % (language or "(none)"))
             elif language == "bash":
                 self.check_commands(name, first, code)
-            elif language in ("python", "pvpython"):
+            elif language in ("python", "pvpython", "py"):
                 self.check_script(name, first, language, code, setup)
 
     def check_link(self, name, number, target):

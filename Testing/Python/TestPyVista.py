@@ -37,7 +37,7 @@ class Accessor(unittest.TestCase):
         surface = data.scattered.contour([0.3], "distance")
         self.assertIs(type(surface), pv.PolyData)
         self.assertTrue(surface.is_manifold)
-        self.assertAlmostEqual(surface.volume / (4 / 3 * np.pi * 0.3**3), 1.0, delta=1e-3)
+        self.assertAlmostEqual(surface.volume / (4 / 3 * np.pi * 0.3**3), 1.0, delta=0.01)
         self.assertEqual(surface.active_scalars_name, "distance")
         self.assertEqual(set(surface.array_names), {"distance", "place", "count", "Normals"})
         np.testing.assert_allclose(surface["place"], surface.points, atol=1e-3)
@@ -53,9 +53,6 @@ class Accessor(unittest.TestCase):
         self.assertAlmostEqual(splats.area / (4 * np.pi * 0.3**2), 1.0, delta=0.02)
         outwards = np.einsum("ij,ij->i", splats.point_normals, splats.points - 0.5)
         self.assertLess(outwards.max(), 0.0)  # to decreasing values
-        half = isopoints.extract_cells(np.flatnonzero(isopoints.points[:, 0] < 0.5))
-        part = pv.PolyData(half.points)
-        part.point_data.update(half.point_data)
         with self.assertRaisesRegex(ValueError, "has no splats"):
             cloud().scattered.splats()
 

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The wheel in clean environments: TestWheel.py FOLDER [WHEEL]
+
+Builds the wheel with pip unless one is given, makes virtual environments below FOLDER, and tests it there
+with each Python that is found. Results have to be those of the compiled filters, which the interpreter
+that runs this can import. Ends with 77, which says that the test is skipped, if packages cannot be had.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TESTS = ROOT / "Testing/Python"
+SKIPPED = 77
+OLDEST_NUMPY = {(3, 9): "1.19.5"}
+
+sys.path.insert(0, str(ROOT / "Utilities"))
+import markdown_document  # noqa: E402
+
+
+def clean_environment(**more):
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    return {**kept, "PIP_DISABLE_PIP_VERSION_CHECK": "1", **more}
+
+
+def run(command, **options):
+    """@returns what a command prints; ends with its output if it fails"""
+    result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True, **options)
+    if result.returncode != 0:
+        sys.exit(f"failed: {' '.join(map(str, command))}\n{result.stdout}")
+    return result.stdout
+
+
+class Environment:
+    """A virtual environment with the wheel and other packages."""
+
+    def __init__(self, folder, interpreter, *packages):
+        shutil.rmtree(folder, ignore_errors=True)
+        run([interpreter, "-m", "venv", folder], env=clean_environment())
+        self.python = folder / "bin/python"
+        self.folder = folder
+        run([self.python, "-m", "pip", "install", "--quiet", *packages], env=clean_environment())
+
+    def run(self, *command, **environment):
+        return run([self.python, *command], env=clean_environment(**environment), cwd=self.folder)
+
+    def describe(self):
+        return self.run("-c", "import importlib.metadata as m, sys\n"
+                        "names = ('numpy', 'vtk', 'cvista', 'pyvista')\n"
+                        "found = {d.metadata['Name']: d.version for d in m.distributions()}\n"
+                        "print('Python', sys.version.split()[0],"
+                        " *(f'{n} {found[n]}' for n in names if n in found))").strip()
+
+
+def found_pythons():
+    """Interpreters by version, those of this project's oldest supported one and later."""
+    names = [f"python3.{minor}" for minor in range(9, 15)]
+    paths = [shutil.which(name) for name in names]
+    versions = pathlib.Path.home() / ".pyenv/versions"
+    paths += [str(path) for path in sorted(versions.glob("3.*/bin/python3"))]
+    found = {}
+    for path in filter(None, paths):
+        answer = subprocess.run(
+            [path, "-c", "import ensurepip, sys; print(*sys.version_info[:2])"],
+            capture_output=True, text=True)
+        version = tuple(map(int, answer.stdout.split())) if answer.returncode == 0 else (0, 0)
+        if version >= (3, 9):
+            found.setdefault(version, path)
+    return dict(sorted(found.items()))
+
+
+def check_reachable(python):
+    answer = subprocess.run([str(python), "-m", "pip", "download", "--no-deps", "--quiet", "--dest",
+                             os.devnull + "x", "wheel"], capture_output=True, text=True)
+    if "Could not find" in answer.stderr or "connection" in answer.stderr.lower():
+        print("skipped: packages cannot be had from an index\n" + answer.stderr)
+        sys.exit(SKIPPED)
+
+
+def built_wheel(folder):
+    builder = Environment(folder / "builder", sys.executable, "pip")
+    run([builder.python, "-m", "pip", "wheel", "--no-deps", "--wheel-dir", folder, ROOT],
+        env=clean_environment())
+    return next(folder.glob("scatteredisopoints-*.whl"))
+
+
+def check_results(environment, expected):
+    found = environment.run(TESTS / "extractions.py")
+    different = sum(a != b for a, b in zip(found.splitlines(), expected.splitlines()))
+    if found != expected:
+        sys.exit(f"failed: {environment.describe()}: {different} of {len(expected.splitlines())}"
+                 " extractions differ from those of the compiled filters")
+
+
+def run_examples(environment):
+    """The blocks of the documents for PyVista and for NumPy alone."""
+    count = 0
+    for path in (ROOT / "README.md", ROOT / "docs/python.md"):
+        for language, first, code, setup in markdown_document.Document(str(path)).blocks:
+            if language == "py":
+                before = (ROOT / setup).read_text() if setup.endswith(".py") else setup
+                environment.run("-W", "error::RuntimeWarning", "-c", before + "\n" + code,
+                                PYVISTA_OFF_SCREEN="true")
+                count += 1
+    environment.run(ROOT / "Examples/pyvista_cloud.py", PYVISTA_OFF_SCREEN="true")
+    return count
+
+
+def main(folder, wheel=None):
+    folder = pathlib.Path(folder).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    pythons = found_pythons()
+    check_reachable(sys.executable)
+    wheel = pathlib.Path(wheel).resolve() if wheel else built_wheel(folder)
+    print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.2f} MB")
+    expected = run([sys.executable, TESTS / "extractions.py", "--filters"])
+
+    for version, path in pythons.items():
+        numpy = f"numpy=={OLDEST_NUMPY[version]}" if version in OLDEST_NUMPY else "numpy"
+        environment = Environment(folder / "numpy{}.{}".format(*version), path, wheel, numpy)
+        check_results(environment, expected)
+        if version in (min(pythons), max(pythons)):
+            environment.run(TESTS / "TestPackage.py")
+        print(environment.describe() + ": the same bytes")
+
+    newest = max(version for version in pythons if version >= (3, 10))
+    environment = Environment(folder / "vtk", pythons[newest], wheel, "vtk")
+    environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees")
+    check_results(environment, expected)
+    print(environment.describe() + ": passed")
+    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista",
+                              "tqdm")
+    for backend in ("vtk", "cvista"):
+        environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
+        print(f"{environment.describe()}: PyVista on {backend} passed")
+    print(f"{run_examples(environment)} examples of the documents ran")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prints hashes of 24 extractions: extractions.py [--filters], which goes through the compiled filters
+rather than the C library. The lines are the same wherever results are."""
+
+import hashlib
+import sys
+import warnings
+
+import numpy as np
+from scatteredisopoints import contour, contouring
+
+
+def samples(number):
+    random = np.random.default_rng(number)
+    positions = random.random((4000, 3))
+    kind = number % 4
+    if kind == 1:
+        positions = np.floor(12 * positions)  # a lattice, with coincident samples
+    elif kind == 2:
+        positions = positions**3  # dense at a corner
+    elif kind == 3:
+        positions[:, 2] = np.round(8 * positions[:, 2]) / 8  # slices
+    scaled = (positions - positions.min(axis=0)) / np.ptp(positions, axis=0)
+    values = (np.abs(scaled - 0.5).max(axis=1) if number % 3 == 0
+              else np.linalg.norm(scaled - 0.5, axis=1) + 0.05 * np.sin(9 * scaled[:, 0]))
+    dtype = [np.float32, np.float64][number % 2]
+    values = np.rint(100 * values).astype(np.int16) if number % 5 == 4 else values.astype(dtype)
+    return positions.astype(dtype), values
+
+
+def options_of(number):
+    options = {"projection": ["CUBIC_FIT", "NO_PROJECTION", "QUADRATIC_FIT", "CREASE_FIT"][number % 4],
+               "compute_gradients": number % 3 == 1, "drop_gaps": number % 7 != 3}
+    if number % 2 == 0 and number % 3 == 2:
+        options["minimum_spacing"] = 0.5
+    return options
+
+
+def main(extract):
+    for number in range(24):
+        positions, values = samples(number)
+        for triangles in (False, True):
+            options = options_of(number)
+            if triangles:
+                options.pop("minimum_spacing", None)
+            isovalues = np.quantile(values, [0.3, 0.5]) + 0.001
+            surface = extract(positions, values, [float(value) for value in isovalues], triangles, options)
+            arrays = [surface.points, *(surface.arrays[name] for name in sorted(surface.arrays)),
+                      *(surface.splat_shapes[name] for name in sorted(surface.splat_shapes))]
+            if triangles:
+                arrays.append(surface.triangles.astype(np.int64))
+            hashes = [hashlib.sha256(array.tobytes()).hexdigest()[:12] for array in arrays]
+            print(number, "triangles" if triangles else "points", len(surface), *hashes)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    if sys.argv[1:] == ["--filters"]:
+        filtered = contouring.compiled_filters().filtered
+        main(lambda positions, values, isovalues, triangles, options: filtered(
+            positions, values, isovalues, triangles, None, None, options))
+    else:
+        main(lambda positions, values, isovalues, triangles, options: contour(
+            positions, values, isovalues, triangles=triangles, **options))
