@@ -2,6 +2,7 @@
 #include "Library/Surface.h"
 
 #include "Core/Base/UsageError.h"
+#include "Core/Base/Vector.h"
 #include "Core/OutputArrays.h"
 #include "Core/SplatMesh/SplatFan.h"
 #include "Library/Arrays.h"
@@ -244,13 +245,17 @@ void isopoint_surface::makeSplatMesh(double scale)
       return isopoint::Vector{ static_cast<double>(numbers[3 * point]),
         static_cast<double>(numbers[3 * point + 1]), static_cast<double>(numbers[3 * point + 2]) };
     };
+    const isopoint::Vector position = std::visit(vectorAt, this->Points);
+    if (!isopoint::isFinite(position))
+    {
+      return isopoint::SplatFan{};
+    }
     isopoint::SplatNumbers numbers;
     std::copy_n(
       this->SplatPolygons.begin() + static_cast<std::ptrdiff_t>(isopoint::numbersOfSplat * point),
       isopoint::numbersOfSplat, numbers.begin());
-    return isopoint::fanOf(std::visit(vectorAt, this->Points),
-      isopoint::unitNormal(vectorAt(this->Normals)), vectorAt(this->SplatAxes), numbers, scale,
-      error);
+    return isopoint::fanOf(position, isopoint::unitNormal(vectorAt(this->Normals)),
+      vectorAt(this->SplatAxes), numbers, scale, error);
   };
   const isopoint::Execution making = isopoint::partOf(this->Run, 0.0, 0.9);
   this->Splats =

@@ -677,3 +677,85 @@ TEST(Library, SplatMeshesAreTheSurface)
   }
   EXPECT_GT(mixed, points.size() / 4);
 }
+
+namespace
+{
+
+/// The arrays of isopoints that isopoint_create_surface() takes.
+struct KeptSplats
+{
+  std::vector<double> points;
+  std::vector<float> normals;
+  std::vector<float> axes;
+  std::vector<float> polygons;
+
+  explicit KeptSplats(isopoint_surface* surface)
+    : points(numbersOf<double>(surface, ISOPOINT_POINTS))
+    , normals(numbersOf<float>(surface, ISOPOINT_NORMALS))
+    , axes(numbersOf<float>(surface, ISOPOINT_SPLAT_AXES))
+    , polygons(numbersOf<float>(surface, ISOPOINT_SPLAT_POLYGONS))
+  {
+  }
+
+  isopoint_status create(isopoint_surface** surface, int components = 3) const
+  {
+    const isopoint_array places = arrayOf(this->points, ISOPOINT_DOUBLE, 3);
+    const isopoint_array directions = arrayOf(this->normals, ISOPOINT_FLOAT, components);
+    const isopoint_array along = arrayOf(this->axes, ISOPOINT_FLOAT, 3);
+    const isopoint_array shapes = arrayOf(this->polygons, ISOPOINT_FLOAT, 40);
+    return isopoint_create_surface(&places, &directions, &along, &shapes, surface);
+  }
+};
+
+} // namespace
+
+TEST(Library, KeptSplatsYieldTheSameMesh)
+{
+  const Cloud cloud;
+  const Extractor extractor = makeExtractor();
+  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+  const Surface surface = extract(extractor.get(), { 0.7 });
+  ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 0.9), ISOPOINT_OK);
+  KeptSplats kept(surface.get());
+
+  isopoint_surface* created = nullptr;
+  ASSERT_EQ(kept.create(&created), ISOPOINT_OK) << isopoint_get_error();
+  const Surface again{ created, isopoint_destroy_surface };
+  ASSERT_EQ(isopoint_make_splat_mesh(again.get(), 0.9), ISOPOINT_OK) << isopoint_get_error();
+  EXPECT_EQ(numbersOf<double>(again.get(), ISOPOINT_SPLAT_VERTICES),
+    numbersOf<double>(surface.get(), ISOPOINT_SPLAT_VERTICES));
+  const auto triangles = numbersOf<std::int64_t>(again.get(), ISOPOINT_SPLAT_TRIANGLES);
+  EXPECT_EQ(triangles, numbersOf<std::int64_t>(surface.get(), ISOPOINT_SPLAT_TRIANGLES));
+  ASSERT_FALSE(triangles.empty());
+  std::vector<float> means(
+    3 * numbersOf<std::int64_t>(again.get(), ISOPOINT_SPLAT_VERTEX_POINTS).size());
+  const isopoint_array normals = arrayOf(kept.normals, ISOPOINT_FLOAT, 3);
+  EXPECT_EQ(isopoint_average_at_splat_vertices(again.get(), &normals, means.data()), ISOPOINT_OK);
+
+  expectContains(errorOf(ISOPOINT_INVALID_ARGUMENT, kept.create(&created, 1)), "the normals");
+  errorOf(ISOPOINT_INVALID_ARGUMENT, kept.create(nullptr));
+  kept.axes.resize(kept.axes.size() - 3);
+  expectContains(errorOf(ISOPOINT_INVALID_ARGUMENT, kept.create(&created)), "the splat axes");
+}
+
+TEST(Library, KeptSplatsThatAreNotFiniteAreNotDrawn)
+{
+  const Cloud cloud;
+  const Extractor extractor = makeExtractor();
+  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+  KeptSplats kept(extract(extractor.get(), { 0.7 }).get());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  kept.points[0] = nan;
+  kept.points[4] = infinity;
+  kept.normals[6] = static_cast<float>(nan);
+  kept.axes[9] = static_cast<float>(infinity);
+  kept.polygons[160] = static_cast<float>(nan);
+  isopoint_surface* created = nullptr;
+  ASSERT_EQ(kept.create(&created), ISOPOINT_OK);
+  const Surface again{ created, isopoint_destroy_surface };
+  ASSERT_EQ(isopoint_make_splat_mesh(again.get(), 1.0), ISOPOINT_OK);
+  const auto drawn = numbersOf<std::int64_t>(again.get(), ISOPOINT_SPLAT_VERTEX_POINTS);
+  ASSERT_FALSE(drawn.empty());
+  EXPECT_EQ(*std::min_element(drawn.begin(), drawn.end()), 5);
+}
