@@ -202,7 +202,7 @@ def _block(leaf: Any, association: int, scalars: Any) -> Block:
         if scalars.GetNumberOfComponents() != 1:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
                              " but a scalar array has one. Compute a component or the magnitude first.")
-    positions = _point_positions(leaf) if of_points else _cell_centers(leaf)
+    positions = point_positions(leaf) if of_points else _cell_centers(leaf)
     values = scalars if isinstance(scalars, np.ndarray) else as_numpy(scalars)
     if len(values) != len(positions):
         raise ValueError(f'The array "{name}" has {len(values)} values for {len(positions)}'
@@ -249,7 +249,7 @@ def _joined(blocks: list[Block], name: str, without_array: int) -> DataSamples:
         uses, without_array)
 
 
-def _point_positions(leaf: Any) -> np.ndarray:
+def point_positions(leaf: Any) -> np.ndarray:
     if leaf.IsA("vtkImageData"):
         extent = leaf.GetExtent()
         return _image_positions(leaf, [np.arange(extent[2 * axis], extent[2 * axis + 1] + 1.0)

@@ -26,7 +26,7 @@ def excluded_points(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
     bits = HIDDEN_CELL | REFINED_CELL | (DUPLICATE_CELL if points is None else 0)
     if cells is not None and (cells & bits).any():
         is_excluded = (cells & bits) != 0
-        cell, point = _cell_points(data, as_numpy)
+        cell, point = cell_points(data, as_numpy)
         in_excluded = np.zeros(data.GetNumberOfPoints(), bool)
         in_sample = np.zeros(data.GetNumberOfPoints(), bool)
         in_excluded[point[is_excluded[cell]]] = True
@@ -45,7 +45,7 @@ def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
         excluded |= (cells & (DUPLICATE_CELL | REFINED_CELL | HIDDEN_CELL)) != 0
     has_hidden = points is not None and (points & HIDDEN_POINT).any()
     if has_hidden or _cell_arrays(data):
-        cell, point = _cell_points(data, as_numpy)
+        cell, point = cell_points(data, as_numpy)
         if has_hidden:
             excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
         excluded |= np.bincount(cell, minlength=len(excluded)) == 0
@@ -67,7 +67,7 @@ def _cell_arrays(data: Any) -> list[Any]:
     return [data.GetCells()] if is_unstructured else []
 
 
-def _cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
+def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
     """All pairs of a cell and a point of it, as the ids of both."""
     arrays = _cell_arrays(data)
     if arrays:

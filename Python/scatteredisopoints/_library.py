@@ -8,6 +8,7 @@ import signal
 import threading
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint64, c_void_p
+from dataclasses import dataclass
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -86,6 +87,9 @@ extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Opti
 create_surface = _declare("create_surface", POINTER(Array), POINTER(Array), POINTER(Array),
                           POINTER(Array), POINTER(c_void_p))
 destroy_surface = _declare("destroy_surface", c_void_p, result=None)
+get_skipped_count = _declare("get_skipped_count", c_void_p, result=c_int64)
+get_unprojected_count = _declare("get_unprojected_count", c_void_p, result=c_int64)
+get_dropped_count = _declare("get_dropped_count", c_void_p, result=c_int64)
 get_message = _declare("get_message", c_void_p, c_int64, POINTER(c_int32), result=c_char_p)
 get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
 interpolate = _declare("interpolate", c_void_p, POINTER(Array), c_void_p)
@@ -108,6 +112,7 @@ class _Call(threading.local):
     """The call of the library that a thread is in, for its callbacks."""
 
     progress: Optional[Callable[[float], Any]] = None
+    is_canceled: Optional[Callable[[], bool]] = None
     error: Optional[BaseException] = None  # what a callback raised
     interrupted = False
 
@@ -127,8 +132,9 @@ def _report_progress(_user, fraction):
 @Cancels
 def _cancels(_user):
     try:
-        return _call.interrupted or _call.error is not None
-    except BaseException as error:  # of a handler of signals
+        return (_call.interrupted or _call.error is not None
+                or (_call.is_canceled is not None and bool(_call.is_canceled())))
+    except BaseException as error:
         _call.error = error
         return True
 
@@ -140,8 +146,14 @@ def create() -> Handle:
     return extractor
 
 
-def run(function: Any, *arguments: Any, progress: Optional[Callable[[float], Any]] = None) -> None:
-    """Calls a function of the library that returns a status, and raises what it or `progress` did.
+def run(
+    function: Any,
+    *arguments: Any,
+    progress: Optional[Callable[[float], Any]] = None,
+    is_canceled: Optional[Callable[[], bool]] = None,
+) -> None:
+    """Calls a function of the library that returns a status, and raises what it or a callback did:
+    InterruptedError after a cancellation.
 
     Ctrl-C stops the call. What a handler of signals raises between ctypes and a callback is lost, so
     that Python's handler, which raises KeyboardInterrupt, runs after the call.
@@ -154,8 +166,9 @@ def run(function: Any, *arguments: Any, progress: Optional[Callable[[float], Any
         frames.append(frame)
         _call.interrupted = True
 
-    outer = _call.progress, _call.error, _call.interrupted
-    _call.progress, _call.error, _call.interrupted = progress, None, False
+    outer = dict(vars(_call))
+    _call.progress, _call.is_canceled = progress, is_canceled
+    _call.error, _call.interrupted = None, False
     if is_replaced:
         signal.signal(signal.SIGINT, note_interrupt)
     try:
@@ -164,7 +177,8 @@ def run(function: Any, *arguments: Any, progress: Optional[Callable[[float], Any
     finally:
         if is_replaced:
             signal.signal(signal.SIGINT, handler)
-        _call.progress, _call.error, _call.interrupted = outer
+        vars(_call).clear()
+        vars(_call).update(outer)
     if frames:
         handler(signal.SIGINT, frames[-1])
     if error is not None:
@@ -188,9 +202,19 @@ def view(surface: Handle, array_id: int) -> np.ndarray:
     return np.frombuffer(memory, dtype).reshape(shape)
 
 
-def messages(surface: Handle) -> list[str]:
+@dataclass(frozen=True)
+class Message:
     """What the user may have to know of a surface."""
-    found: list[str] = []
-    while (text := get_message(surface, len(found), None)) is not None:
-        found.append(text.decode())
+
+    text: str
+    is_warning: bool
+    """Whether the result is not what was asked for."""
+
+
+def messages(surface: Handle) -> list[Message]:
+    """All messages about a surface."""
+    found: list[Message] = []
+    is_warning = c_int32()
+    while (text := get_message(surface, len(found), byref(is_warning))) is not None:
+        found.append(Message(text.decode(), bool(is_warning.value)))
     return found

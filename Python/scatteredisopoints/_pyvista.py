@@ -10,10 +10,9 @@ import numpy as np
 import pyvista as pv
 
 from . import _datasets
-from ._isosurface import Isosurface
-from ._polydata import PolyDataMaker
 from ._progress import Progress
 from ._samples import Samples
+from ._splats import polygons_of
 
 
 @pv.register_dataset_accessor("scattered", pv.DataObject)
@@ -108,22 +107,17 @@ class ScatteredAccessor:
         pyvista.PolyData
             Triangles with normals: draw them with ``smooth_shading=True``.
 
+        Notes
+        -----
+        Filters that keep the cells of points, such as ``clip`` and ``threshold``, keep their splats.
+        Points with normals alone become octagons.
+
         Examples
         --------
         >>> isopoints = cloud.scattered.contour([0.3], triangles=False)  # doctest: +SKIP
         >>> isopoints.scattered.splats().plot(smooth_shading=True)  # doctest: +SKIP
         """
-        data = self._dataset
-        shapes = {name: np.asarray(data.cell_data[name]) for name in ("SplatAxis", "SplatPolygon")
-                  if data.IsA("vtkPolyData") and name in data.cell_data}
-        if len(shapes) < 2 or "Normals" not in data.point_data:
-            raise ValueError("The data set has no splats: call its samples' scattered.contour() with"
-                             " triangles=False, and keep Normals and the cells of its points.")
-        arrays = {name: np.asarray(array) for name, array in data.point_data.items()
-                  if np.asarray(array).dtype.kind in "fiu"}
-        isopoints = Isosurface(np.asarray(data.points), None, arrays, shapes, PolyDataMaker(
-            package=_datasets.package_of(data), wraps=True, scalars=data.active_scalars_name))
-        return isopoints.splats(scale).polydata
+        return polygons_of(self._dataset, "Radius", 0.0, scale).polydata
 
     def _load(self, scalars: Any, preference: str, progress: Progress) -> Samples:
         if preference not in ("point", "cell"):

@@ -7,6 +7,7 @@ import contextlib
 import threading
 import warnings
 from ctypes import byref, c_double, c_void_p
+from dataclasses import dataclass
 from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
@@ -17,6 +18,16 @@ from ._isosurface import Isosurface
 from ._options import make_options
 from ._polydata import PolyDataMaker
 from ._progress import Progress, shown_progress
+
+
+@dataclass
+class Extracted:
+    """An isosurface, and what there is to say of it."""
+
+    isosurface: Isosurface
+    messages: list[_library.Message]
+    unprojected: int
+    dropped: int
 
 
 class Samples:
@@ -77,7 +88,8 @@ class Samples:
                            "scalars": samples.name, "uses": samples.uses}
         if len(self._positions) == 0:
             raise ValueError("There are no samples: the input has no points.")
-        self._load(loaded, progress)
+        with shown_progress(progress, "Loading samples") as report:
+            self._load(loaded, progress=report)
 
     def __len__(self) -> int:
         """The number of samples, with those that are left out."""
@@ -105,7 +117,8 @@ class Samples:
         progress
             As in :func:`contour`.
         """
-        self._load(values_of(values, len(self)), progress)
+        with shown_progress(progress, "Loading samples") as report:
+            self._load(values_of(values, len(self)), progress=report)
 
     @contextlib.contextmanager
     def _exclusive(self) -> Iterator[None]:
@@ -119,14 +132,13 @@ class Samples:
             finally:
                 self._is_in_call = False
 
-    def _load(self, values: np.ndarray, progress: Progress) -> None:
+    def _load(self, values: np.ndarray, **callbacks: Any) -> None:
         excluded = self._excluded
-        with self._exclusive(), shown_progress(progress, "Loading samples") as report:
+        with self._exclusive():
             _library.run(
                 _library.set_samples, self._extractor,
                 _library.Array.of(self._positions), _library.Array.of(values),
-                None if excluded is None else _library.Array.of(excluded.view(np.uint8)),
-                progress=report)
+                None if excluded is None else _library.Array.of(excluded.view(np.uint8)), **callbacks)
             self._value_type = np.float32 if values.dtype == np.float32 else np.float64
 
     def contour(
@@ -145,6 +157,14 @@ class Samples:
         return self._contour(isovalues, triangles, arrays, progress, options, stacklevel=3)
 
     def _contour(self, isovalues, triangles, arrays, progress, options, stacklevel) -> Isosurface:
+        with shown_progress(progress, "Contouring") as report:
+            extracted = self._extract(isovalues, triangles, arrays, options, progress=report)
+        for message in extracted.messages:
+            warnings.warn(message.text, RuntimeWarning, stacklevel=stacklevel)
+        return extracted.isosurface
+
+    def _extract(self, isovalues, triangles, arrays, options, **callbacks) -> Extracted:
+        """What contour() does, without warnings. Callbacks are those of _library.run()."""
         if arrays is not None and self._arrays is not None:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
@@ -153,27 +173,30 @@ class Samples:
         if of_samples is None:
             of_samples = further_arrays(arrays, len(self))
         pointer = c_void_p()
-        with self._exclusive(), shown_progress(progress, "Contouring") as report:
+        with self._exclusive():
             _library.run(
                 _library.extract, self._extractor, (len(levels) * c_double)(*levels), len(levels),
-                byref(chosen), byref(pointer), progress=report)
+                byref(chosen), byref(pointer), **callbacks)
             surface = _library.Handle(pointer.value, _library.destroy_surface)
             value_type = self._value_type
-        texts = _library.messages(surface)
+        messages = _library.messages(surface)
         if self._without_array:
-            texts.append(f"{self._without_array} points or cells are left out: their blocks do not have"
-                         " the array.")
+            messages.append(_library.Message(
+                f"{self._without_array} points or cells are left out: their blocks do not have the"
+                " array.", is_warning=False))
         found = self._interpolated(surface, of_samples)
         if options.get("compute_scalars", True):
             isovalues = _library.view(surface, _library.ISOVALUES)
             found[self._maker["scalars"]] = isovalues.astype(value_type, copy=False)
         computed = _computed(surface, chosen)
-        texts += [f'The computed array "{name}" replaces the one of the samples: rename that, or switch'
-                  " the computed one off." for name in computed if name in found]
+        messages += [_library.Message(
+            f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
+            " it or switch the computed array off.", is_warning=True)
+            for name in computed if name in found]
         found.update(computed)
-        for text in texts:
-            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-        return self._as_isosurface(surface, found, chosen)
+        return Extracted(
+            self._as_isosurface(surface, found, chosen), messages,
+            _library.get_unprojected_count(surface), _library.get_dropped_count(surface))
 
     def _interpolated(self, surface, of_samples: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)

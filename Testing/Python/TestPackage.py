@@ -395,7 +395,7 @@ class Interruptions(unittest.TestCase):
             if fraction > 0.2:
                 os.kill(os.getpid(), signal.SIGINT)
 
-        for _ in range(20):
+        for _ in range(5):
             with self.assertRaises(KeyboardInterrupt):
                 samples.contour(0.3, progress=interrupt)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)

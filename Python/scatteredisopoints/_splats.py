@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The splats of points in a data set, as they leave the filters or behind others that keep them."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _datasets
+from ._ghosts import cell_points
+from ._isosurface import Isosurface
+from ._polydata import PolyDataMaker
+
+# Octagons of the radius of their axis, as SplatPolygon describes them.
+_ANGLES = 2.0 * np.pi * np.arange(8) / 8
+OCTAGON = np.stack([np.cos(_ANGLES), np.sin(_ANGLES), *np.zeros((3, 8))], axis=-1).ravel()
+
+
+def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Isosurface:
+    """The triangles that show the points of a data set; see vtkIsopointSplatPolygons.
+
+    Raises ValueError if the points have no normals.
+    """
+    points = _datasets.point_positions(data)
+    attributes = data.GetPointData()
+    normals = _numbers(attributes.GetNormals() or attributes.GetArray("Normals"), len(points))
+    if normals is None:
+        raise ValueError("The points have no normals: extract them with ComputeNormals.")
+    radii = _numbers(attributes.GetArray(radius_array or "Radius"), len(points))
+    if radii is None:
+        radii = np.full(len(points), radius if radius > 0 else _automatic_radius(points))
+    axes = _perpendicular(normals.astype(np.float64)) * radii[:, None]
+    polygons = np.tile(OCTAGON.astype(np.float32), (len(points), 1))
+    axes = axes.astype(np.float32)
+    _take_shapes(data, axes, polygons)
+    arrays = {}
+    for i in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetArray(i)
+        if array and array.GetName() not in (None, "vtkGhostType", "Normals"):
+            arrays[array.GetName()] = _datasets.as_numpy(array)
+    scalars = attributes.GetScalars()
+    maker = PolyDataMaker(package=_datasets.package_of(data), wraps=_datasets.is_of_pyvista(data),
+                          scalars=scalars.GetName() if scalars else None)
+    isopoints = Isosurface(points, None, {**arrays, "Normals": normals.astype(np.float32)},
+                           {"SplatAxis": axes, "SplatPolygon": polygons}, maker)
+    return isopoints.splats(scale)
+
+
+def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
+    """Those that vertex cells have take the place of octagons. Files may have them at the points."""
+    cells, point = cell_points(data, _datasets.as_numpy)
+    count = np.bincount(cells, minlength=data.GetNumberOfCells())
+    is_vertex = count[cells] == 1
+    for attributes, size, of_elements, of_points in (
+            (data.GetCellData(), data.GetNumberOfCells(), cells[is_vertex], point[is_vertex]),
+            (data.GetPointData(), len(axes), slice(None), slice(None))):
+        found = [_numbers(attributes.GetArray(name), size) for name in ("SplatAxis", "SplatPolygon")]
+        if found[0] is not None and found[1] is not None:
+            axes[of_points], polygons[of_points] = (array[of_elements] for array in found)
+            return
+
+
+def _numbers(array: Any, count: int) -> Optional[np.ndarray]:
+    return _datasets.as_numpy(array) if array and array.GetNumberOfTuples() == count else None
+
+
+def _perpendicular(normals: np.ndarray) -> np.ndarray:
+    """Unit vectors perpendicular to others."""
+    smallest = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    across = np.cross(normals, smallest)
+    return across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
+
+
+def _automatic_radius(points: np.ndarray) -> float:
+    finite = points[np.isfinite(points).all(axis=1)]
+    diagonal = np.linalg.norm(np.ptp(finite, axis=0)) if len(finite) else 0.0
+    return 2.0 * diagonal / np.sqrt(len(points)) or 1.0
