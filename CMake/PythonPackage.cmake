@@ -22,6 +22,14 @@ set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOIN
 set(built_package "${CMAKE_BINARY_DIR}/${package}")
 file(GLOB python_sources RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/Python/scatteredisopoints" CONFIGURE_DEPENDS
   Python/scatteredisopoints/*.py)
+foreach (name IN ITEMS ScatteredIsopoints ScatteredIsosurface)
+  configure_file("${FILTER_PROPERTIES_DIR}/${name}.xml" "${built_package}/paraview/${name}.xml" COPYONLY)
+endforeach ()
+configure_file(Plugin/IsopointSplatPolygons.xml "${built_package}/paraview/IsopointSplatPolygons.xml" COPYONLY)
+configure_file(Python/scatteredisopoints/paraview/scattered_isopoints.py
+  "${built_package}/paraview/scattered_isopoints.py" COPYONLY)
+install(DIRECTORY "${built_package}/paraview" DESTINATION "${package}" COMPONENT package
+  FILES_MATCHING PATTERN "*.xml" PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 foreach (file IN LISTS python_sources ITEMS py.typed)
   configure_file("Python/scatteredisopoints/${file}" "${built_package}/${file}" COPYONLY)
   install(FILES "${built_package}/${file}" DESTINATION "${package}" COMPONENT package)

@@ -35,8 +35,11 @@ def __getattr__(name: str) -> Any:
         for module in map(_compiled, _COMPILED):
             if hasattr(module, name):
                 return getattr(module, name)
-        raise AttributeError(f"There is no {name}: build this project with VTK, as its"
-                             " docs/installing.md says.")
+        in_python = _in_python()
+        if hasattr(in_python, name):
+            return getattr(in_python, name)
+        raise AttributeError(f"There is no {name} here: install VTK (pip install vtk), or build this"
+                             " project with VTK, as its docs/installing.md says.")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -48,7 +51,17 @@ def _classes() -> list[str]:
     """All compiled classes, and ray_trace() where there is a ray tracer."""
     names = [name for module in map(_compiled, _COMPILED) for name in dir(module)
              if name.startswith("vtk")]
+    if not names:
+        names = [name for name in dir(_in_python()) if name.startswith(("vtkScattered", "vtkIsopoint"))]
     return names + ["ray_trace"] * any("RayTracer" in name for name in names)
+
+
+def _in_python() -> Any:
+    """The module of the filters in Python, or None without VTK."""
+    try:
+        return importlib.import_module("._vtk", __name__)
+    except ImportError:
+        return None
 
 
 def _compiled(module: str) -> Any:

@@ -67,29 +67,31 @@ class Samples:
             if isinstance(threads, bool) or threads < 1:
                 raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
             _library.run(_library.set_threads, self._extractor, min(int(threads), 2**31 - 1))
+        self._excluded: Optional[np.ndarray] = None
         self._arrays: Optional[dict[str, np.ndarray]] = None  # of a data set
         self._without_array = 0
         self._maker: dict[str, Any] = {"scalars": "values"}
-        self._excluded: Optional[np.ndarray] = None
-        samples = positions if isinstance(positions, _datasets.DataSamples) else None
-        data = None if samples else _datasets.data_object(positions)
-        if data is not None:
-            samples = _datasets.samples_of(data, values)
-        if samples is None:
-            self._positions = positions_of(positions)
-            loaded = values_of(values, len(self._positions))
-        else:
-            self._positions = readable("positions", samples.positions)
-            loaded = readable("values", samples.values)
-            self._excluded = samples.excluded
-            self._arrays = samples.arrays
-            self._without_array = samples.without_array
-            self._maker = {"package": samples.package, "wraps": samples.is_of_pyvista,
-                           "scalars": samples.name, "uses": samples.uses}
-        if len(self._positions) == 0:
-            raise ValueError("There are no samples: the input has no points.")
+        data = None
+        if not isinstance(positions, _datasets.DataSamples):
+            data = _datasets.data_object(positions)
         with shown_progress(progress, "Loading samples") as report:
-            self._load(loaded, progress=report)
+            if isinstance(positions, _datasets.DataSamples):
+                self._take(positions, progress=report)
+            elif data is not None:
+                self._take(_datasets.samples_of(data, values), progress=report)
+            else:
+                self._positions = positions_of(positions)
+                self._load(values_of(values, len(self._positions)), progress=report)
+
+    def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
+        """Loads samples of a data object; of the same positions as before the tree is kept."""
+        self._positions = readable("positions", samples.positions)
+        self._excluded = samples.excluded
+        self._arrays = samples.arrays
+        self._without_array = samples.without_array
+        self._maker = {"package": samples.package, "wraps": samples.is_of_pyvista,
+                       "scalars": samples.name, "uses": samples.uses}
+        self._load(readable("values", samples.values), **callbacks)
 
     def __len__(self) -> int:
         """The number of samples, with those that are left out."""
@@ -106,6 +108,12 @@ class Samples:
         with self._exclusive():
             _library.get_value_range(self._extractor, byref(range_))
         return range_[0], range_[1]
+
+    @property
+    def skipped(self) -> int:
+        """The number of samples that are left out, as they are not finite, masked or hidden."""
+        with self._exclusive():
+            return _library.get_skipped_count(self._extractor)
 
     def replace_values(self, values: Any, *, progress: Progress = None) -> None:
         """Gives the samples other values, of a later time step: the tree is kept.
@@ -133,6 +141,8 @@ class Samples:
                 self._is_in_call = False
 
     def _load(self, values: np.ndarray, **callbacks: Any) -> None:
+        if len(self._positions) == 0:
+            raise ValueError("There are no samples: the input has no points.")
         excluded = self._excluded
         with self._exclusive():
             _library.run(

@@ -1,0 +1,16 @@
+# The properties of both filters as XML, each from what Plugin/ScatteredFilter.xml.in says of it: for
+# ParaView's plugin and for the filters of the Python package. In ${FILTER_PROPERTIES_DIR}/NAME.xml.
+set(FILTER_PROPERTIES_DIR "${CMAKE_BINARY_DIR}/properties")
+function (configure_filter filter name label kind other_kind)
+  file(READ "${PROJECT_SOURCE_DIR}/Plugin/ScatteredFilter.xml.in" text)
+  string(ASCII 1 begin)
+  string(ASCII 2 end)
+  string(REPLACE "<${other_kind}>" "${begin}" text "${text}")
+  string(REPLACE "</${other_kind}>" "${end}" text "${text}")
+  string(REGEX REPLACE "${begin}[^${end}]*${end}\n?" "" text "${text}")
+  string(REGEX REPLACE "</?${kind}>\n?" "" text "${text}")
+  file(CONFIGURE OUTPUT "${FILTER_PROPERTIES_DIR}/${name}.xml" CONTENT "${text}" @ONLY)
+endfunction ()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS Plugin/ScatteredFilter.xml.in)
+configure_filter(Isopoint ScatteredIsopoints "Scattered Isopoints" points triangles)
+configure_filter(Isosurface ScatteredIsosurface "Scattered Isosurface" triangles points)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""ParaView's plugin in Python, for a ParaView that the compiled plugin is not for: Scattered Isopoints,
+Scattered Isosurface and Isopoint Splat Polygons.
+
+Proxies, properties and help are those of the compiled plugin's XML. Points come with their polygons, since
+there is no representation that draws their splats. Load it by Tools > Manage Plugins, by PV_PLUGIN_PATH,
+which names this folder, or by scatteredisopoints.load_plugin() in a script.
+"""
+
+import os
+import sys
+from xml.etree import ElementTree
+
+# The package may be beside this file alone, as where a folder is all that ParaView knows of.
+_SITE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+if _SITE not in sys.path:
+    sys.path.append(_SITE)
+
+from scatteredisopoints import _vtk  # noqa: E402
+from scatteredisopoints._properties import proxy_of  # noqa: E402
+
+paraview_plugin_name = "ScatteredIsopointsPython"
+paraview_plugin_version = _vtk.VERSION
+
+
+def _adapted(name, class_name):
+    """The XML of a proxy, of what the compiled plugin brings replaced by ParaView's own."""
+    proxy = proxy_of(name)
+    proxy.tag = "SourceProxy"
+    proxy.set("class", f"{__name__}.{class_name}")
+    proxy.set("si_class", "vtkSIPythonSourceProxy")
+    for element in list(proxy):
+        if element.get("name") == "UseGlobalController":
+            proxy.remove(element)
+        if element.get("panel_widget") == "isopoint_counts":
+            del element.attrib["panel_widget"]
+    for element in proxy.iter():
+        element.tag = {"IsopointArrayDomain": "ArrayListDomain",
+                       "IsopointRangeDomain": "ArrayRangeDomain"}.get(element.tag, element.tag)
+        if element.get("name") == "ContourValues":
+            element.set("default_values", "0.5")
+        if element.tag == "ArrayRangeDomain":
+            element.set("default_mode", "mid")
+        element.attrib.pop("icon", None)
+    for parent in list(proxy.iter()):
+        for child in list(parent):
+            is_ours = child.tag == "RepresentationType" or child.get("value") == "vtkHyperTreeGrid"
+            if is_ours:
+                parent.remove(child)
+    group = ElementTree.Element("ProxyGroup", name="filters")
+    group.append(proxy)
+    root = ElementTree.Element("ServerManagerConfiguration")
+    root.append(group)
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def _is_loaded(name):
+    """Whether the compiled plugin is loaded."""
+    from paraview import servermanager
+
+    tracker = servermanager.vtkPVPluginTracker.GetInstance()
+    return any(tracker.GetPluginName(i) == name and tracker.GetPluginLoaded(i)
+               for i in range(tracker.GetNumberOfPlugins()))
+
+
+class ScatteredIsopoints(_vtk.vtkScatteredIsopointFilter):
+    """Isosurfaces as points, with the polygons that show them."""
+
+    _has_polygons = True
+
+
+class ScatteredIsosurface(_vtk.vtkScatteredIsosurfaceFilter):
+    """Isosurfaces as triangles."""
+
+
+class IsopointSplatPolygons(_vtk.vtkIsopointSplatPolygons):
+    """The polygons of isopoints."""
+
+
+if _is_loaded("ScatteredIsopoints"):
+    print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
+else:
+    for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons):
+        _class._pvsm_proxy_xml = _adapted(_class.__name__, _class.__name__)
