@@ -8,9 +8,9 @@ usage()
   cat << END
 usage: $0 PRESET [TARGET...]
 Installs the Debian packages that are missing, for which it needs root, and builds targets of a preset of
-CMakePresets.json: by default all but the tests, whose target is "tests". For the preset "check" it
-installs what Utilities/check.sh needs and builds nothing. A folder that is configured with CI=true in
-the environment stops at the first warning of the compiler.
+CMakePresets.json: by default all but the tests, whose target is "tests". Instead of a preset, "check"
+installs what Utilities/check.sh needs, and "wheel" what "pip install ." needs; both build nothing. A
+folder that is configured with CI=true in the environment stops at the first warning of the compiler.
 END
 }
 
@@ -36,7 +36,7 @@ fi
 package_lists=(Utilities/debian-packages.txt)
 if [[ $preset == vtk* ]]; then
   package_lists+=(Utilities/debian-packages-vtk.txt)
-elif [[ $preset != library ]]; then
+elif [[ $preset != library && $preset != wheel ]]; then
   release=$(. /etc/os-release && echo "${VERSION_ID-}")
   package_lists+=("Utilities/debian-packages-paraview-$release.txt")
 fi
@@ -102,7 +102,7 @@ if [[ ${release-} == 13 ]] && ((EUID == 0)); then
   done
 fi
 
-if [[ $preset == check ]]; then
+if [[ $preset == check || $preset == wheel ]]; then
   exit 0
 fi
 configure()
