@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The ParaView plugin that is installed together with this package."""
+"""The ParaView plugins that are installed together with this package."""
 
 from __future__ import annotations
 
+import inspect
 from typing import Any, Optional
 
-from ._paths import PLUGIN
+from ._paths import PLUGIN, PYTHON_PLUGIN
+
+_PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons")
 
 
 def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     """
     Loads the plugin into ParaView, and into the server if there is one, where it has to be under
-    the same path. paraview.simple then has ScatteredIsopoints and ScatteredIsosurface. Does nothing
-    if it is loaded.
+    the same path: the compiled one if this package was built with ParaView, otherwise that in
+    Python. paraview.simple then has ScatteredIsopoints, ScatteredIsosurface and
+    IsopointSplatPolygons. Does nothing if it is loaded.
 
     Parameters
     ----------
@@ -21,20 +25,23 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
 
     Raises
     ------
+    ImportError
+        If this is not the Python of ParaView.
     RuntimeError
-        If there is no plugin, as in a build without ParaView, or it cannot be loaded.
+        If the plugin cannot be loaded.
     """
-    if not PLUGIN.exists():
-        raise RuntimeError(f"There is no {PLUGIN}: build and install with ParaView")
     from paraview import servermanager, simple
 
+    if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 calls, and Python 3.11 lacks
+        inspect.getargspec = inspect.getfullargspec
+    path = PLUGIN if PLUGIN.exists() else PYTHON_PLUGIN
     tracker = servermanager.vtkPVPluginTracker.GetInstance()
     loaded = (tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
               if tracker.GetPluginLoaded(i))
-    if "ScatteredIsopoints" not in loaded:
-        simple.LoadPlugin(str(PLUGIN), remote=False)
-    if not hasattr(simple, "ScatteredIsopoints"):  # the server has not loaded it
-        simple.LoadPlugin(str(PLUGIN), remote=True)
+    if not {"ScatteredIsopoints", "ScatteredIsopointsPython"} & set(loaded):
+        simple.LoadPlugin(str(path), remote=False)
+    if not hasattr(simple, _PROXIES[0]):  # the server has not loaded it
+        simple.LoadPlugin(str(path), remote=True)
     if namespace is not None:
-        for name in ("ScatteredIsopoints", "ScatteredIsosurface"):
+        for name in _PROXIES:
             namespace[name] = getattr(simple, name)

@@ -30,10 +30,10 @@ def _adapted(name, class_name):
     proxy.set("class", f"{__name__}.{class_name}")
     proxy.set("si_class", "vtkSIPythonSourceProxy")
     for element in list(proxy):
-        if element.get("name") == "UseGlobalController":
+        # ParaView does not read counts back from Python.
+        is_count = element.get("information_only") == "1" or element.get("label") == "Last Update"
+        if is_count or element.get("name") == "UseGlobalController":
             proxy.remove(element)
-        if element.get("panel_widget") == "isopoint_counts":
-            del element.attrib["panel_widget"]
     for element in proxy.iter():
         element.tag = {"IsopointArrayDomain": "ArrayListDomain",
                        "IsopointRangeDomain": "ArrayRangeDomain"}.get(element.tag, element.tag)
