@@ -96,17 +96,16 @@ def check_results(environment, expected):
                  " extractions differ from those of the compiled filters")
 
 
-def run_examples(environment):
-    """The blocks of the documents for PyVista and for NumPy alone."""
+def run_examples(environment, language):
+    """The blocks of the documents in a language: "py" is for PyVista, "python" for VTK and NumPy."""
     count = 0
     for path in (ROOT / "README.md", ROOT / "docs/python.md"):
-        for language, first, code, setup in markdown_document.Document(str(path)).blocks:
-            if language == "py":
+        for found, _, code, setup in markdown_document.Document(str(path)).blocks:
+            if found == language:
                 before = (ROOT / setup).read_text() if setup.endswith(".py") else setup
                 environment.run("-W", "error::RuntimeWarning", "-c", before + "\n" + code,
                                 PYVISTA_OFF_SCREEN="true")
                 count += 1
-    environment.run(ROOT / "Examples/pyvista_cloud.py", PYVISTA_OFF_SCREEN="true")
     return count
 
 
@@ -132,13 +131,15 @@ def main(folder, wheel=None):
     environment = Environment(folder / "vtk", pythons[newest], wheel, "vtk")
     environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees")
     check_results(environment, expected)
-    print(environment.describe() + ": passed")
+    examples = run_examples(environment, "python")
+    print(f"{environment.describe()}: passed, {examples} examples of the documents")
     environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista",
                               "tqdm")
     for backend in ("vtk", "cvista"):
         environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
         print(f"{environment.describe()}: PyVista on {backend} passed")
-    print(f"{run_examples(environment)} examples of the documents ran")
+    environment.run(ROOT / "Examples/pyvista_cloud.py", PYVISTA_OFF_SCREEN="true")
+    print(f"{run_examples(environment, 'py')} examples of the documents ran")
 
 
 if __name__ == "__main__":
