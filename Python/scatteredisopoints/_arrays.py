@@ -13,7 +13,8 @@ def readable(name: str, array: Any) -> np.ndarray:
 
     Raises TypeError of a type without an order, such as complex numbers or text.
     """
-    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+    is_masked = isinstance(array, np.ma.MaskedArray) and array.dtype.kind in "fiub"
+    if is_masked and np.ma.is_masked(array):
         array = array.astype(np.result_type(array.dtype, np.float32)).filled(np.nan)
     result = np.asarray(array)
     if result.dtype == bool:
@@ -23,7 +24,8 @@ def readable(name: str, array: Any) -> np.ndarray:
     elif result.dtype.kind == "f" and result.dtype.itemsize > 8:
         result = result.astype(np.float64)
     if result.dtype.kind not in "fiu":
-        raise TypeError(f"{name} are of the type {result.dtype}, not real numbers")
+        remedy = ": convert them, as by astype(float)" if result.dtype.kind == "O" else ""
+        raise TypeError(f"{name} are of the type {result.dtype}, not real numbers{remedy}")
     result = np.asarray(result, dtype=result.dtype.newbyteorder("="))
     if 0 in result.strides or not result.flags.aligned:
         result = np.array(result, order="C")
@@ -73,8 +75,11 @@ def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
     """One or several isovalues as a list; masked ones are left out."""
     if isovalues is None or isinstance(isovalues, (str, bytes)):
         raise TypeError(f"isovalues are {isovalues!r}, not numbers")
-    if np.ndim(isovalues) == 0 and not hasattr(isovalues, "__iter__"):
-        return [float(isovalues)]
     if isinstance(isovalues, np.ma.MaskedArray):
         isovalues = isovalues.compressed()
-    return [float(value) for value in np.ravel(list(isovalues))]
+    elif hasattr(isovalues, "__iter__") and not isinstance(isovalues, np.ndarray):
+        isovalues = list(isovalues)
+    values = np.atleast_1d(np.asarray(isovalues))
+    if values.size and values.dtype.kind not in "fiub":
+        raise TypeError(f"isovalues are of the type {values.dtype}, not numbers")
+    return values.ravel().astype(np.float64).tolist()

@@ -25,26 +25,28 @@ GLOBAL_IDS, PEDIGREE_IDS = 5, 6
 class Block:
     """The samples of one data set."""
 
-    positions: np.ndarray
+    positions: Any
     values: np.ndarray
     excluded: Optional[np.ndarray]  # bool, or None if there are no ghosts
-    arrays: dict[str, np.ndarray]
+    arrays: dict[str, Any]
     uses: dict[str, int]  # arrays that are an attribute: vectors, texture coordinates, ...
 
 
 @dataclass
 class DataSamples:
-    """The samples of all blocks of a data object together."""
+    """The samples of all blocks of a data object together. Positions and arrays of one block are VTK's:
+    see numbers_of()."""
 
-    positions: np.ndarray
+    positions: Any
     values: np.ndarray
     excluded: Optional[np.ndarray]
     name: str  # of the values
-    arrays: dict[str, np.ndarray]
+    arrays: dict[str, Any]
     uses: dict[str, int]
     without_array: int  # points or cells of blocks that lack it
     package: str = ""  # which has the data object's class
     is_of_pyvista: bool = False
+    field_data: Any = None
 
 
 def data_object(source: Any) -> Any:
@@ -110,6 +112,23 @@ def as_numpy(array: Any) -> np.ndarray:
     return numbers if components == 1 else numbers.reshape(count, components)
 
 
+def numbers_of(array: Any) -> np.ndarray:
+    """The numbers of an array of VTK or NumPy. Those of VTK may be reallocated, so that nothing keeps
+    them longer than a call."""
+    return array if isinstance(array, np.ndarray) else as_numpy(array)
+
+
+def state_of(data: Any) -> tuple:
+    """What changes when a data object does, as far as VTK notices it."""
+    state = []
+    for leaf in leaves(data):
+        times = [leaf.GetMTime()]
+        if leaf.IsA("vtkRectilinearGrid"):
+            times += [axis.GetMTime() for axis in _coordinates(leaf)]
+        state.append((leaf.__this__, *times))
+    return tuple(state)
+
+
 def samples_of(data: Any, values: Any, prefers_cells: bool = False) -> DataSamples:
     """The samples of a data object.
 
@@ -147,6 +166,8 @@ def samples_of(data: Any, values: Any, prefers_cells: bool = False) -> DataSampl
         _raise_nothing(values, names)
     samples = _joined(blocks, name or "values", without_array)
     samples.package, samples.is_of_pyvista = package_of(data), is_of_pyvista(data)
+    samples.field_data = module_of(data, "vtkCommonDataModel").vtkFieldData()
+    samples.field_data.ShallowCopy(data.GetFieldData())
     return samples
 
 
@@ -160,6 +181,8 @@ def _find(leaf: Any, values: Any, given: Optional[np.ndarray], associations: tup
     """Where the values of a data set are, and what they are: an array of VTK or NumPy."""
     if given is not None:
         counts = leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()
+        if given.ndim == 2 and given.shape[1] == 1:
+            given = given[:, 0]
         if given.shape not in [(count,) for count in counts]:
             raise ValueError(f"{len(given)} values for a data set of {counts[0]} points and"
                              f" {counts[1]} cells: there is to be one for each"
@@ -168,11 +191,11 @@ def _find(leaf: Any, values: Any, given: Optional[np.ndarray], associations: tup
         return (POINT if len(given) == counts[POINT] else CELL), given
     if values is None:
         scalars = leaf.GetPointData().GetScalars()
-        return (POINT, scalars) if scalars else None
+        return (POINT, scalars) if scalars is not None else None
     for association in associations:
         data = leaf.GetPointData() if association == POINT else leaf.GetCellData()
         array = data.GetAbstractArray(values)
-        if array:
+        if array is not None:
             return association, array
     return None
 
@@ -202,14 +225,19 @@ def _block(leaf: Any, association: int, scalars: Any) -> Block:
         if scalars.GetNumberOfComponents() != 1:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
                              " but a scalar array has one. Compute a component or the magnitude first.")
-    positions = point_positions(leaf) if of_points else _cell_centers(leaf)
+    positions: Any = None
+    if of_points and leaf.IsA("vtkPointSet"):
+        positions = leaf.GetPoints().GetData()
+    else:
+        positions = point_positions(leaf) if of_points else _cell_centers(leaf)
+    count = leaf.GetNumberOfPoints() if of_points else leaf.GetNumberOfCells()
     values = scalars if isinstance(scalars, np.ndarray) else as_numpy(scalars)
-    if len(values) != len(positions):
-        raise ValueError(f'The array "{name}" has {len(values)} values for {len(positions)}'
+    if len(values) != count:
+        raise ValueError(f'The array "{name}" has {len(values)} values for {count}'
                          f" {'points' if of_points else 'cells'}.")
     excluded = excluded_points(leaf, as_numpy) if of_points else excluded_cells(leaf, as_numpy)
     arrays, uses = _further_arrays(leaf.GetPointData() if of_points else leaf.GetCellData(),
-                                   scalars, len(positions))
+                                   scalars, count)
     return Block(positions, values, excluded, arrays, uses)
 
 
@@ -218,9 +246,9 @@ def _further_arrays(data: Any, scalars: Any, count: int):
     for i in range(data.GetNumberOfArrays()):
         array = data.GetArray(i)
         use = data.IsArrayAnAttribute(i)
-        if (array and array is not scalars and array.GetNumberOfTuples() == count
+        if (array is not None and array is not scalars and array.GetNumberOfTuples() == count
                 and use != GLOBAL_IDS and array.GetName() not in (None, "vtkGhostType")):
-            arrays[array.GetName()] = as_numpy(array)
+            arrays[array.GetName()] = array
             if use >= 0:
                 uses[array.GetName()] = use
     return arrays, uses
@@ -228,35 +256,37 @@ def _further_arrays(data: Any, scalars: Any, count: int):
 
 def _joined(blocks: list[Block], name: str, without_array: int) -> DataSamples:
     first, *others = blocks
-    arrays = {key: array for key, array in first.arrays.items() if all(
-        key in other.arrays and other.arrays[key].dtype == array.dtype
-        and other.arrays[key].shape[1:] == array.shape[1:] for other in others)}
-    uses = {key: use for key, use in first.uses.items()
-            if key in arrays and all(other.uses.get(key) == use for other in others)}
     if not others:
-        return DataSamples(first.positions, first.values, first.excluded, name, arrays, uses,
-                           without_array)
+        return DataSamples(first.positions, first.values, first.excluded, name, first.arrays,
+                           first.uses, without_array)
+    positions = [numbers_of(block.positions) for block in blocks]
+    arrays = [{key: numbers_of(array) for key, array in block.arrays.items()} for block in blocks]
+    common = [key for key, array in arrays[0].items() if all(
+        key in other and other[key].dtype == array.dtype and other[key].shape[1:] == array.shape[1:]
+        for other in arrays)]
+    uses = {key: use for key, use in first.uses.items()
+            if key in common and all(other.uses.get(key) == use for other in others)}
     excluded = None
     if any(block.excluded is not None for block in blocks):
         excluded = np.concatenate([
-            np.zeros(len(block.positions), bool) if block.excluded is None else block.excluded
-            for block in blocks])
+            np.zeros(len(place), bool) if block.excluded is None else block.excluded
+            for block, place in zip(blocks, positions)])
     return DataSamples(
-        np.concatenate([block.positions for block in blocks]),
-        np.concatenate([block.values for block in blocks]),
-        excluded, name,
-        {key: np.concatenate([block.arrays[key] for block in blocks]) for key in arrays},
-        uses, without_array)
+        np.concatenate(positions), np.concatenate([block.values for block in blocks]), excluded, name,
+        {key: np.concatenate([of_block[key] for of_block in arrays]) for key in common}, uses,
+        without_array)
 
 
 def point_positions(leaf: Any) -> np.ndarray:
+    """The points of a data set, shape (n, 3)."""
     if leaf.IsA("vtkImageData"):
         extent = leaf.GetExtent()
         return _image_positions(leaf, [np.arange(extent[2 * axis], extent[2 * axis + 1] + 1.0)
                                        for axis in range(3)])
     if leaf.IsA("vtkRectilinearGrid"):
         return _lattice([as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)])
-    return as_numpy(leaf.GetPoints().GetData())
+    points = leaf.GetPoints()
+    return np.zeros((0, 3)) if points is None else as_numpy(points.GetData())
 
 
 def _coordinates(grid: Any) -> tuple[Any, Any, Any]:
@@ -299,10 +329,13 @@ def _cell_centers(leaf: Any) -> np.ndarray:
     if leaf.IsA("vtkRectilinearGrid"):
         axes = [as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)]
         return _lattice([0.5 * axis[:-1] + 0.5 * axis[1:] if len(axis) > 1 else axis for axis in axes])
+    if leaf.GetNumberOfPoints() == 0:
+        raise ValueError("The data set has cells, but no points: its cells have no centers.")
     centers = module_of(leaf, "vtkCommonCore").vtkDoubleArray()
     centers.SetNumberOfComponents(3)
     centers.SetNumberOfTuples(leaf.GetNumberOfCells())
     module_of(leaf, "vtkFiltersCore").vtkCellCenters.ComputeCellCenters(leaf, centers)
     positions = as_numpy(centers)
     points = leaf.GetPoints() if leaf.IsA("vtkPointSet") else None
-    return positions.astype(np.float32) if points and points.GetDataType() == 10 else positions
+    is_float = points is not None and points.GetDataType() == 10
+    return positions.astype(np.float32) if is_float else positions

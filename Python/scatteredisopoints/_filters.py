@@ -6,6 +6,8 @@ from __future__ import annotations
 import errno
 import importlib
 import re
+import signal
+import threading
 import warnings
 from typing import Any, Mapping, Optional
 
@@ -18,7 +20,8 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from ._arrays import column, further_arrays, positions_of, readable, values_of
 from ._datasets import is_of_pyvista
 from ._isosurface import Isosurface
-from ._options import constant
+from ._options import constant, make_options, switch
+from ._polydata import PolyDataMaker
 from ._progress import Progress, shown_progress
 from .vtkScatteredIsopointFilters import (
     vtkScatteredContourFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter)
@@ -34,6 +37,7 @@ def filtered(
     options: Mapping[str, Any],
 ) -> Isosurface:
     """contour() of a data object of vtkmodules, or of arrays."""
+    triangles = switch("triangles", triangles)
     isopoints = vtkScatteredIsosurfaceFilter() if triangles else vtkScatteredIsopointFilter()
     if not isinstance(source, vtkDataObject):
         isopoints.SetInputData(_samples(source, values, arrays))
@@ -44,13 +48,12 @@ def filtered(
     isopoints.SetNumberOfContours(len(isovalues))
     for i, isovalue in enumerate(isovalues):
         isopoints.SetValue(i, isovalue)
+    make_options(triangles, {name: value for name, value in options.items()
+                             if name not in ("controller", "use_all_cores")})
     for name, value in options.items():
         _set_option(isopoints, name, value)
     with shown_progress(progress, "Contouring") as report:
-        if report is not None:
-            isopoints.AddObserver(
-                "ProgressEvent", lambda caller, _event: report(caller.GetProgress()))
-        _update(isopoints)
+        _update(isopoints, report)
     output = vtkPolyData()
     output.ShallowCopy(isopoints.GetOutput())
     if is_of_pyvista(source):
@@ -66,8 +69,10 @@ def _isosurface(data: vtkPolyData, are_triangles: bool) -> Isosurface:
         triangles = np.zeros((0, 3), np.int64)
         if data.GetNumberOfPolys() > 0:
             triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    scalars = data.GetPointData().GetScalars()
+    maker = PolyDataMaker("vtkmodules", is_of_pyvista(data), scalars and scalars.GetName())
     return Isosurface(points, triangles, _arrays(data.GetPointData()), _arrays(data.GetCellData()),
-                      lambda _surface: data)
+                      maker, data)
 
 
 def _arrays(attributes: Any) -> dict[str, np.ndarray]:
@@ -153,8 +158,22 @@ def _set_option(isopoints: vtkScatteredContourFilter, name: str, value: Any) -> 
             raise ValueError(f"{name} is {value!r}, which is out of range.")
 
 
-def _update(isopoints: vtkScatteredContourFilter) -> None:
-    """Runs the filter. Raises what it reports."""
+def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:
+    """Runs the filter. Raises what it reports, and what `report` raised. Ctrl-C ends it."""
+    raised: list[BaseException] = []
+
+    def end(error: BaseException) -> None:
+        raised.append(error)
+        isopoints.SetAbortExecute(1)
+
+    def advance(caller, _event):
+        try:
+            if report is not None and not raised:
+                report(caller.GetProgress())
+        except BaseException as error:
+            end(error)
+
+    isopoints.AddObserver("ProgressEvent", advance)
     errors: list[str] = []
     cautions: list[str] = []
 
@@ -169,7 +188,18 @@ def _update(isopoints: vtkScatteredContourFilter) -> None:
     watch("ErrorEvent", errors)
     watch("WarningEvent", cautions)
     watch("MessageEvent", cautions)
-    isopoints.Update()
+    # VTK prints what an observer raises, so that Python's handler must not raise in one.
+    is_replaced = signal.getsignal(signal.SIGINT) is signal.default_int_handler and (
+        threading.current_thread() is threading.main_thread())
+    if is_replaced:
+        signal.signal(signal.SIGINT, lambda *_: end(KeyboardInterrupt()))
+    try:
+        isopoints.Update()
+    finally:
+        if is_replaced:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    if raised:
+        raise raised[0]
     for text in cautions:
         warnings.warn(text, RuntimeWarning, stacklevel=4)
     if errors:

@@ -54,7 +54,7 @@ def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
 
 def _ghosts(attributes: Any, count: int, as_numpy: AsNumpy) -> Optional[np.ndarray]:
     array = attributes.GetArray("vtkGhostType")
-    is_usable = (array and array.IsA("vtkUnsignedCharArray") and array.GetNumberOfComponents() == 1
+    is_usable = (array is not None and array.IsA("vtkUnsignedCharArray") and array.GetNumberOfComponents() == 1
                  and array.GetNumberOfTuples() >= count)
     return as_numpy(array)[:count] if is_usable else None
 
@@ -75,6 +75,8 @@ def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
         points = [as_numpy(array.GetConnectivityArray()) for array in arrays]
         sizes = np.concatenate(sizes)
         return np.repeat(np.arange(len(sizes)), sizes), np.concatenate(points)
+    if not hasattr(data, "GetDimensions"):  # points without cells
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
     dimensions = np.array(data.GetDimensions())
     steps = np.minimum(dimensions - 1, 1)  # to the far corners of a cell; 0 along flat axes
     cells = np.maximum(dimensions - 1, 1)

@@ -9,7 +9,7 @@ from typing import Any, Callable, Mapping, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import readable
+from ._arrays import column, readable
 
 
 class Isosurface:
@@ -38,13 +38,17 @@ class Isosurface:
         arrays: dict[str, np.ndarray],
         splat_shapes: Mapping[str, np.ndarray],
         make_polydata: Callable[[Isosurface], Any],
+        polydata: Any = None,
     ):
         self.points = points
         self.triangles = triangles
         self.arrays = arrays
         self.splat_shapes = splat_shapes
         self._make_polydata = make_polydata
-        self._polydata = None
+        self._polydata = polydata
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
 
     @property
     def are_triangles(self) -> bool:
@@ -95,15 +99,15 @@ class Isosurface:
         if not self.splat_shapes or self.normals is None:
             raise ValueError("The surface has no splats: extract points with compute_splats and"
                              " compute_normals.")
+        parts = [("points", self.points), ("normals", self.normals),
+                 *((name, self.splat_shapes[name]) for name in ("SplatAxis", "SplatPolygon"))]
         pointer = c_void_p()
-        _library.run(_library.create_surface, *(_library.Array.of(readable(name, array)) for name, array in (
-            ("points", self.points), ("normals", self.normals),
-            ("splat axes", self.splat_shapes["SplatAxis"]),
-            ("splat polygons", self.splat_shapes["SplatPolygon"]))), byref(pointer))
+        _library.run(_library.create_surface, *(
+            _library.Array.of(readable(name, array)) for name, array in parts), byref(pointer))
         surface = _library.Handle(pointer.value, _library.destroy_surface)
-        _library.run(_library.make_splat_mesh, surface, scale)
+        _library.run(_library.make_splat_mesh, surface, float(scale))
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
-        arrays = {name: _at_vertices(surface, readable(name, array), point_of_vertex)
+        arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
-import signal
 import threading
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint64, c_void_p
 from dataclasses import dataclass
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Generator, Optional
 
 import numpy as np
 
@@ -38,6 +38,8 @@ class Array(ctypes.Structure):
         """Of an array of the shape (n,) or (n, components), as readable() returns it, which has to
         outlive this."""
         columns = numbers.ndim == 2
+        if numbers.ndim not in (1, 2):
+            raise ValueError(f"an array has the shape {numbers.shape}, not (n,) or (n, components)")
         return cls(numbers.ctypes.data, TYPES.index(numbers.dtype), numbers.shape[1] if columns else 1,
                    len(numbers), numbers.strides[0], numbers.strides[1] if columns else 0)
 
@@ -101,88 +103,110 @@ average_at_splat_vertices = _declare(
 class Handle:
     """An extractor or a surface, which is destroyed together with this."""
 
-    def __init__(self, pointer: int, destroy: Callable[[int], None]):
+    def __init__(self, pointer: int | None, destroy: Callable[[int], None]):
         if not pointer:
             raise MemoryError("There is no memory for a tree.")
         self._as_parameter_ = c_void_p(pointer)
+        self.callbacks: Any = None  # which a surface calls as its extractor did
         weakref.finalize(self, destroy, pointer).atexit = False
 
 
-class _Call(threading.local):
-    """The call of the library that a thread is in, for its callbacks."""
+class Callbacks:
+    """Progress and cancellation of one call.
 
-    progress: Optional[Callable[[float], Any]] = None
-    is_canceled: Optional[Callable[[], bool]] = None
-    error: Optional[BaseException] = None  # what a callback raised
-    interrupted = False
+    What a callback of ctypes raises is lost, and handlers of signals may raise before its first line
+    is reached, also that of Ctrl-C. So ctypes calls two methods in C alone: of a dictionary, which
+    keeps the last fraction, and of a generator that waits within a try block.
+    """
+
+    def __init__(
+        self,
+        progress: Optional[Callable[[float], Any]] = None,
+        is_canceled: Optional[Callable[[], bool]] = None,
+    ):
+        self.error: Optional[BaseException] = None
+        self._report, self._is_canceled = progress, is_canceled
+        self._fractions: dict[Any, float] = {}  # by the user of the callback, which is None
+        self._reported: Optional[float] = None
+        answers = self._answers()
+        next(answers)
+        self.progress = Progress(self._fractions.__setitem__)
+        self.cancels = Cancels(answers.send)
+
+    def _answers(self) -> Generator[int, Any, None]:
+        answer = 0
+        while True:
+            try:
+                yield answer
+                answer = int(self._is_over())
+            except GeneratorExit:
+                raise
+            except BaseException as error:
+                self.error, answer = error, 1
+
+    def _is_over(self) -> bool:
+        if self.error is None:
+            self.report()
+        return (self.error is not None or _Calls.are_over
+                or (self._is_canceled is not None and bool(self._is_canceled())))
+
+    def report(self) -> None:
+        """Reports progress that was not reported yet."""
+        fraction = self._fractions.get(None)
+        if self._report is not None and fraction is not None and fraction != self._reported:
+            self._reported = fraction
+            self._report(fraction)
 
 
-_call = _Call()
+class _Calls:
+    """The calls that run, which have to end before the interpreter does."""
+
+    are_over = False
+    count = 0
+    changed = threading.Condition()
 
 
-@Progress
-def _report_progress(_user, fraction):
-    try:
-        if _call.progress is not None and _call.error is None:
-            _call.progress(fraction)
-    except BaseException as error:
-        _call.error = error
-
-
-@Cancels
-def _cancels(_user):
-    try:
-        return (_call.interrupted or _call.error is not None
-                or (_call.is_canceled is not None and bool(_call.is_canceled())))
-    except BaseException as error:
-        _call.error = error
-        return True
+@atexit.register
+def _end_calls() -> None:
+    _Calls.are_over = True
+    with _Calls.changed:
+        _Calls.changed.wait_for(lambda: _Calls.count == 0, timeout=10.0)
 
 
 def create() -> Handle:
-    """An extractor whose calls can be interrupted and report progress; see run()."""
-    extractor = Handle(create_extractor(), destroy_extractor)
-    run(set_callbacks, extractor, _report_progress, _cancels, None)
-    return extractor
+    """An extractor without samples."""
+    return Handle(create_extractor(), destroy_extractor)
 
 
-def run(
-    function: Any,
-    *arguments: Any,
-    progress: Optional[Callable[[float], Any]] = None,
-    is_canceled: Optional[Callable[[], bool]] = None,
-) -> None:
-    """Calls a function of the library that returns a status, and raises what it or a callback did:
-    InterruptedError after a cancellation.
+def run(function: Any, *arguments: Any) -> None:
+    """Calls a function of the library that returns a status, and raises what it tells of."""
+    _check(function(*arguments))
 
-    Ctrl-C stops the call. What a handler of signals raises between ctypes and a callback is lost, so
-    that Python's handler, which raises KeyboardInterrupt, runs after the call.
-    """
-    handler = signal.getsignal(signal.SIGINT)
-    is_replaced = callable(handler) and threading.current_thread() is threading.main_thread()
-    frames = []
 
-    def note_interrupt(_number, frame):
-        frames.append(frame)
-        _call.interrupted = True
-
-    outer = dict(vars(_call))
-    _call.progress, _call.is_canceled = progress, is_canceled
-    _call.error, _call.interrupted = None, False
-    if is_replaced:
-        signal.signal(signal.SIGINT, note_interrupt)
+def run_with(callbacks: Callbacks, extractor: Handle, function: Any, *arguments: Any) -> None:
+    """The same of a function of an extractor. Raises what a callback or a handler of signals did, and
+    InterruptedError after a cancellation."""
+    run(set_callbacks, extractor, callbacks.progress, callbacks.cancels, None)
+    with _Calls.changed:
+        _Calls.count += 1
     try:
         status = function(*arguments)
-        error = _call.error
     finally:
-        if is_replaced:
-            signal.signal(signal.SIGINT, handler)
-        vars(_call).clear()
-        vars(_call).update(outer)
-    if frames:
-        handler(signal.SIGINT, frames[-1])
-    if error is not None:
-        raise error
+        with _Calls.changed:
+            _Calls.count -= 1
+            _Calls.changed.notify_all()
+        set_callbacks(extractor, Progress(), Cancels(), None)
+    error, callbacks.error = callbacks.error, None
+    try:
+        if error is not None:
+            raise error
+    finally:
+        del error  # whose traceback has this frame
+    _check(status)
+    callbacks.report()
+
+
+def _check(status: int) -> None:
     if status != OK:
         kinds = {INVALID_ARGUMENT: ValueError, OUT_OF_MEMORY: MemoryError, CANCELED: InterruptedError}
         raise kinds.get(status, RuntimeError)(_get_error().decode())

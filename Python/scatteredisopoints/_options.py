@@ -6,6 +6,8 @@ from __future__ import annotations
 import operator
 from typing import Any, Mapping
 
+import numpy as np
+
 from ._library import Options
 
 # Constants that can be named, by option. Their numbers are those of isopoint.h.
@@ -42,27 +44,40 @@ def constant(name: str, value: Any) -> Any:
 
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
-    """Raises TypeError if an option is unknown, ValueError if the library has no such value."""
+    """Raises TypeError if an option is unknown, ValueError if it cannot have a value. The library
+    checks the ranges of numbers."""
     names = option_names(triangles)
     options = Options()
-    options.triangles = int(triangles)
+    options.triangles = int(switch("triangles", triangles))
     for name, value in given.items():
         if name not in names:
             raise TypeError(f"unknown option {name}; there are {', '.join(names)}")
-        field = {"keep_tree": "keep_tetrahedra"}.get(name, name)
-        if name != "compute_scalars":
-            setattr(options, field, _number(name, constant(name, value), getattr(options, field)))
+        if name == "compute_scalars":
+            switch(name, value)
+        elif name == "keep_tree":
+            options.keep_tetrahedra = int(switch(name, value))
+        else:
+            setattr(options, name, _number(name, constant(name, value), getattr(options, name)))
     return options
 
 
+def switch(name: str, value: Any) -> bool:
+    """Raises ValueError unless a value is true or false, as a bool or a number."""
+    if not isinstance(value, (bool, int, np.bool_, np.integer)) or value not in (0, 1):
+        raise ValueError(f"{name} cannot be {value!r}: it is True or False")
+    return bool(value)
+
+
 def _number(name: str, value: Any, default: Any) -> Any:
-    """A value of the type of the default, whose range the library checks."""
+    """A value of the type of the default."""
+    if name.startswith(("compute_", "drop_")):
+        return int(switch(name, value))
     try:
-        if isinstance(default, float):
-            return float(value)
-        number = operator.index(bool(value) if type(value).__name__ in ("bool", "bool_") else value)
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        number = float(value) if isinstance(default, float) else operator.index(value)
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name} cannot be {value!r}: it is a number") from None
-    if not -2**31 <= number < 2**31:
+    if isinstance(number, int) and not -2**31 <= number < 2**31:
         raise ValueError(f"{name} is {value!r}, which is out of range.")
     return number

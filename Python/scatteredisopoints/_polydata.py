@@ -30,6 +30,12 @@ class PolyDataMaker:
     uses: Mapping[str, int] = field(default_factory=dict)
     """Arrays that are an attribute: vectors, texture coordinates, ..."""
 
+    field_data: Any = None
+    """Arrays of the whole input, a vtkFieldData."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "field_data": None}  # VTK's objects cannot be pickled
+
     def __call__(self, surface: Isosurface) -> Any:
         package = self.package or _installed_package()
         model = importlib.import_module(package + ".vtkCommonDataModel")
@@ -77,6 +83,8 @@ class PolyDataMaker:
             data.GetCellData().AddArray(shapes)
         if "SplatAxis" in surface.splat_shapes:
             data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points turn them
+        if self.field_data is not None:
+            data.GetFieldData().ShallowCopy(self.field_data)
         if self.wraps:
             return importlib.import_module("pyvista").PolyData(data)
         return data

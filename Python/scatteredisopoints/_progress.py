@@ -21,6 +21,8 @@ def shown_progress(progress: Progress, title: str) -> Iterator[Optional[Callable
         yield None
     elif callable(progress):
         yield progress
+    elif progress is not True:
+        raise TypeError(f"progress cannot be {progress!r}: it is a function, True or None")
     elif importlib.util.find_spec("tqdm") is not None:
         from tqdm.auto import tqdm
 

@@ -4,6 +4,9 @@ pyvista.accessors."""
 
 from __future__ import annotations
 
+import threading
+import weakref
+from collections import OrderedDict
 from typing import Any, Optional, Sequence, Union
 
 import numpy as np
@@ -23,12 +26,7 @@ class ScatteredAccessor:
     """
 
     def __init__(self, dataset: Any):
-        if not (dataset.IsA("vtkDataSet") or dataset.IsA("vtkCompositeDataSet")):
-            raise TypeError(f"A {type(dataset).__name__} has no samples: make a pyvista.PolyData of its"
-                            " positions first.")
         self._dataset = dataset
-        self._samples: Optional[Samples] = None
-        self._loaded: Any = None  # what the samples are of
 
     def contour(
         self,
@@ -46,7 +44,7 @@ class ScatteredAccessor:
         Parameters
         ----------
         isosurfaces : int | sequence[float], default: 10
-            Number of isosurfaces, evenly spaced over ``rng``, or their values.
+            Number of isosurfaces, evenly spaced, or their values.
         scalars : str | array_like[float], optional
             Name of an array of points or cells, or values for each of them. By default the active
             scalars.
@@ -54,7 +52,8 @@ class ScatteredAccessor:
             Whether to connect points by triangles. ``False`` yields isopoints with normals and radii,
             which :meth:`splats` turns into polygons.
         rng : sequence[float], optional
-            Range of values of a number of isosurfaces. By default that of all samples.
+            Least and greatest value of a number of isosurfaces. By default they are inside the range
+            of all samples, at whose ends there is no surface.
         preference : str, default: "point"
             Whether ``scalars`` names an array of points or cells, ``"point"`` or ``"cell"``, where
             both have one.
@@ -86,10 +85,10 @@ class ScatteredAccessor:
         """
         samples = self._load(scalars, preference, progress_bar)
         if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
-            least, greatest = samples.range if rng is None else rng
-            isosurfaces = np.linspace(least, greatest, isosurfaces)
-            if rng is None:  # nothing is beyond the least and the greatest value
-                isosurfaces = isosurfaces[(isosurfaces > least) & (isosurfaces < greatest)]
+            if isosurfaces < 0 or (rng is not None and len(rng) != 2):
+                raise ValueError("isosurfaces are a number, 0 or more, and rng has two values")
+            isosurfaces = (np.linspace(*samples.range, isosurfaces + 2)[1:-1] if rng is None
+                           else np.linspace(*rng, isosurfaces))
         surface = samples._contour(
             isosurfaces, triangles, None, progress_bar, options, stacklevel=3)
         return surface.polydata
@@ -120,20 +119,44 @@ class ScatteredAccessor:
         return polygons_of(self._dataset, "Radius", 0.0, scale).polydata
 
     def _load(self, scalars: Any, preference: str, progress: Progress) -> Samples:
+        data = self._dataset
+        if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
+            raise TypeError(f"A {type(data).__name__} has no samples: make a pyvista.PolyData of its"
+                            " positions first.")
         if preference not in ("point", "cell"):
             raise ValueError(f"preference cannot be {preference!r}: it is 'point' or 'cell'")
-        leaves = [leaf for leaf in _datasets.leaves(self._dataset) if leaf is not None]
-        if scalars is None and leaves:
-            info = leaves[0].active_scalars_info
-            scalars = info.name
-            preference = info.association.name.lower()
-            if scalars is None:
-                raise ValueError("There are no active scalars: give the name of an array as scalars.")
-        loaded = None
-        if isinstance(scalars, str):
-            loaded = scalars, preference, tuple(leaf.GetMTime() for leaf in leaves)
-        if loaded is None or loaded != self._loaded:
-            self._samples = Samples(
-                _datasets.samples_of(self._dataset, scalars, preference == "cell"), progress=progress)
-            self._loaded = loaded
-        return self._samples
+        if scalars is None:
+            scalars, preference = _active_scalars(data)
+        if not isinstance(scalars, str):
+            return Samples(_datasets.samples_of(data, scalars), progress=progress)
+        return _kept_samples(data, scalars, preference, progress)
+
+
+def _active_scalars(data: Any) -> tuple[str, str]:
+    """The name of the active scalars of the first data set that has some, and what they are of."""
+    for leaf in _datasets.leaves(data):
+        info = leaf.active_scalars_info if isinstance(leaf, pv.DataSet) and leaf.n_points else None
+        if info is not None and info.name is not None:
+            return info.name, info.association.name.lower()
+    raise ValueError("There are no active scalars: give the name of an array as scalars.")
+
+
+# The trees of the data sets that were contoured last, by their ids. They are kept here rather than by the
+# accessors, which live as long as their data sets, until the garbage collector finds both.
+_kept: OrderedDict[int, tuple[Any, Any, Samples]] = OrderedDict()
+_lock = threading.Lock()
+MOST_KEPT = 2
+
+
+def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) -> Samples:
+    """The samples of a data set, unless it has changed those of the last call."""
+    key = scalars, preference, _datasets.state_of(data)
+    with _lock:
+        owner, loaded, samples = _kept.pop(id(data), (None, None, None))
+    if owner is None or owner() is not data or loaded != key:
+        samples = Samples(_datasets.samples_of(data, scalars, preference == "cell"), progress=progress)
+    with _lock:
+        _kept[id(data)] = weakref.ref(data, lambda _, id_=id(data): _kept.pop(id_, None)), key, samples
+        while len(_kept) > MOST_KEPT:
+            _kept.popitem(last=False)
+    return samples

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import operator
 import threading
 import warnings
 from ctypes import byref, c_double, c_void_p
@@ -34,6 +35,7 @@ class Samples:
     """Scattered samples, and a tree that is kept between isovalues and time steps.
 
     Several threads may use one object: their calls take turns. Objects do not wait for each other.
+    Positions and arrays must not be changed as long as the object is used.
 
     Parameters
     ----------
@@ -64,11 +66,13 @@ class Samples:
         self._is_in_call = False
         self._extractor = _library.create()
         if threads is not None:
-            if isinstance(threads, bool) or threads < 1:
+            if isinstance(threads, bool) or operator.index(threads) < 1:
                 raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
-            _library.run(_library.set_threads, self._extractor, min(int(threads), 2**31 - 1))
+            _library.run(_library.set_threads, self._extractor, min(operator.index(threads), 2**31 - 1))
         self._excluded: Optional[np.ndarray] = None
-        self._arrays: Optional[dict[str, np.ndarray]] = None  # of a data set
+        self._arrays: Optional[Mapping[str, Any]] = None  # of a data set: NumPy's, or VTK's
+        self._range = (np.nan, np.nan)
+        self._is_loaded = False
         self._without_array = 0
         self._maker: dict[str, Any] = {"scalars": "values"}
         data = None
@@ -81,21 +85,24 @@ class Samples:
                 self._take(_datasets.samples_of(data, values), progress=report)
             else:
                 self._positions = positions_of(positions)
-                self._load(values_of(values, len(self._positions)), progress=report)
+                self._count = len(self._positions)
+                self._load(values_of(values, self._count), progress=report)
 
     def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
         """Loads samples of a data object; of the same positions as before the tree is kept."""
-        self._positions = readable("positions", samples.positions)
+        self._positions = samples.positions
+        self._count = len(_datasets.numbers_of(samples.positions))
         self._excluded = samples.excluded
         self._arrays = samples.arrays
         self._without_array = samples.without_array
         self._maker = {"package": samples.package, "wraps": samples.is_of_pyvista,
-                       "scalars": samples.name, "uses": samples.uses}
+                       "scalars": samples.name, "uses": samples.uses,
+                       "field_data": samples.field_data}
         self._load(readable("values", samples.values), **callbacks)
 
     def __len__(self) -> int:
         """The number of samples, with those that are left out."""
-        return len(self._positions)
+        return self._count
 
     def __repr__(self) -> str:
         least, greatest = self.range
@@ -104,10 +111,10 @@ class Samples:
     @property
     def range(self) -> tuple[float, float]:
         """Least and greatest value of the samples that take part; NaN if there are none."""
-        range_ = (2 * c_double)()
-        with self._exclusive():
-            _library.get_value_range(self._extractor, byref(range_))
-        return range_[0], range_[1]
+        return self._range
+
+    def __reduce__(self) -> Any:
+        raise TypeError("Samples cannot be copied or pickled: make them again of positions and values.")
 
     @property
     def skipped(self) -> int:
@@ -141,15 +148,29 @@ class Samples:
                 self._is_in_call = False
 
     def _load(self, values: np.ndarray, **callbacks: Any) -> None:
-        if len(self._positions) == 0:
+        if self._count == 0:
             raise ValueError("There are no samples: the input has no points.")
+        positions = readable("positions", self._current("positions", self._positions))
         excluded = self._excluded
         with self._exclusive():
-            _library.run(
-                _library.set_samples, self._extractor,
-                _library.Array.of(self._positions), _library.Array.of(values),
-                None if excluded is None else _library.Array.of(excluded.view(np.uint8)), **callbacks)
+            self._is_loaded = False
+            _library.run_with(
+                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, self._extractor,
+                _library.Array.of(positions), _library.Array.of(values),
+                None if excluded is None else _library.Array.of(excluded.view(np.uint8)))
+            range_ = (2 * c_double)()
+            _library.get_value_range(self._extractor, byref(range_))
+            self._range = range_[0], range_[1]
             self._value_type = np.float32 if values.dtype == np.float32 else np.float64
+            self._is_loaded = True
+
+    def _current(self, name: str, array: Any) -> np.ndarray:
+        """An array of the samples as it is now: those of data sets may have been reallocated."""
+        numbers = _datasets.numbers_of(array)
+        if len(numbers) != self._count:
+            raise ValueError(f"{name} of the data set have changed from {self._count} to {len(numbers)}"
+                             " tuples: make new Samples.")
+        return numbers
 
     def contour(
         self,
@@ -184,10 +205,18 @@ class Samples:
             of_samples = further_arrays(arrays, len(self))
         pointer = c_void_p()
         with self._exclusive():
-            _library.run(
-                _library.extract, self._extractor, (len(levels) * c_double)(*levels), len(levels),
-                byref(chosen), byref(pointer), **callbacks)
-            surface = _library.Handle(pointer.value, _library.destroy_surface)
+            if not self._is_loaded:
+                raise ValueError("The samples have no values, since replacing them failed or was"
+                                 " interrupted: call replace_values().")
+            called = _library.Callbacks(**callbacks)
+            try:
+                _library.run_with(
+                    called, self._extractor, _library.extract, self._extractor,
+                    (len(levels) * c_double)(*levels), len(levels), byref(chosen), byref(pointer))
+            finally:
+                if pointer.value:
+                    surface = _library.Handle(pointer.value, _library.destroy_surface)
+                    surface.callbacks = called
             value_type = self._value_type
         messages = _library.messages(surface)
         if self._without_array:
@@ -196,6 +225,10 @@ class Samples:
                 " array.", is_warning=False))
         found = self._interpolated(surface, of_samples)
         if options.get("compute_scalars", True):
+            if self._maker["scalars"] in found:
+                messages.append(_library.Message(
+                    f'The isovalues replace the array "{self._maker["scalars"]}" of the data set: rename'
+                    " that.", is_warning=True))
             isovalues = _library.view(surface, _library.ISOVALUES)
             found[self._maker["scalars"]] = isovalues.astype(value_type, copy=False)
         computed = _computed(surface, chosen)
@@ -208,15 +241,15 @@ class Samples:
             self._as_isosurface(surface, found, chosen), messages,
             _library.get_unprojected_count(surface), _library.get_dropped_count(surface))
 
-    def _interpolated(self, surface, of_samples: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    def _interpolated(self, surface, of_samples: Mapping[str, Any]) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)
         found: dict[str, np.ndarray] = {}
         for name, array in of_samples.items():
             if self._maker.get("uses", {}).get(name) == _datasets.PEDIGREE_IDS:
                 is_first_nearer = _library.view(surface, _library.EDGE_PARAMETERS) < 0.5
-                found[name] = array[np.where(is_first_nearer, *edges.T)]
+                found[name] = self._current(name, array)[np.where(is_first_nearer, *edges.T)]
                 continue
-            array = readable(name, array)
+            array = readable(name, self._current(name, array))
             found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
             _library.run(_library.interpolate, surface, _library.Array.of(array),
                          found[name].ctypes.data)

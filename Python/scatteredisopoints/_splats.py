@@ -22,12 +22,19 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
 
     Raises ValueError if the points have no normals.
     """
+    if not data.IsA("vtkDataSet"):
+        raise TypeError(f"A {data.GetClassName()} has no points of its own: pass its blocks, or combine"
+                        " them first.")
     points = _datasets.point_positions(data)
     attributes = data.GetPointData()
-    normals = _numbers(attributes.GetNormals() or attributes.GetArray("Normals"), len(points))
-    if normals is None:
+    active = attributes.GetNormals()
+    normals = _numbers(attributes.GetArray("Normals") if active is None else active, len(points), 3)
+    if normals is None and len(points) > 0:
         raise ValueError("The points have no normals: extract them with ComputeNormals.")
-    radii = _numbers(attributes.GetArray(radius_array or "Radius"), len(points))
+    normals = np.zeros((0, 3)) if normals is None else normals
+    radii = _numbers(attributes.GetArray(radius_array or "Radius"), len(points), 1)
+    if radii is not None and (radii < 0).any():
+        raise ValueError(f"The array of radii, {radius_array}, has negative numbers.")
     if radii is None:
         radii = np.full(len(points), radius if radius > 0 else _automatic_radius(points))
     axes = _perpendicular(normals.astype(np.float64)) * radii[:, None]
@@ -37,11 +44,11 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
     arrays = {}
     for i in range(attributes.GetNumberOfArrays()):
         array = attributes.GetArray(i)
-        if array and array.GetName() not in (None, "vtkGhostType", "Normals"):
+        if array is not None and array.GetName() not in (None, "vtkGhostType", "Normals"):
             arrays[array.GetName()] = _datasets.as_numpy(array)
     scalars = attributes.GetScalars()
     maker = PolyDataMaker(package=_datasets.package_of(data), wraps=_datasets.is_of_pyvista(data),
-                          scalars=scalars.GetName() if scalars else None)
+                          scalars=None if scalars is None else scalars.GetName())
     isopoints = Isosurface(points, None, {**arrays, "Normals": normals.astype(np.float32)},
                            {"SplatAxis": axes, "SplatPolygon": polygons}, maker)
     return isopoints.splats(scale)
@@ -55,14 +62,18 @@ def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
     for attributes, size, of_elements, of_points in (
             (data.GetCellData(), data.GetNumberOfCells(), cells[is_vertex], point[is_vertex]),
             (data.GetPointData(), len(axes), slice(None), slice(None))):
-        found = [_numbers(attributes.GetArray(name), size) for name in ("SplatAxis", "SplatPolygon")]
+        found = [_numbers(attributes.GetArray(name), size, components)
+                 for name, components in (("SplatAxis", 3), ("SplatPolygon", len(OCTAGON)))]
         if found[0] is not None and found[1] is not None:
             axes[of_points], polygons[of_points] = (array[of_elements] for array in found)
             return
 
 
-def _numbers(array: Any, count: int) -> Optional[np.ndarray]:
-    return _datasets.as_numpy(array) if array and array.GetNumberOfTuples() == count else None
+def _numbers(array: Any, count: int, components: int) -> Optional[np.ndarray]:
+    """Those of an array of this shape, None of others."""
+    is_usable = (array is not None and array.GetNumberOfTuples() == count
+                 and array.GetNumberOfComponents() == components)
+    return _datasets.as_numpy(array) if is_usable else None
 
 
 def _perpendicular(normals: np.ndarray) -> np.ndarray:
@@ -75,4 +86,4 @@ def _perpendicular(normals: np.ndarray) -> np.ndarray:
 def _automatic_radius(points: np.ndarray) -> float:
     finite = points[np.isfinite(points).all(axis=1)]
     diagonal = np.linalg.norm(np.ptp(finite, axis=0)) if len(finite) else 0.0
-    return 2.0 * diagonal / np.sqrt(len(points)) or 1.0
+    return 2.0 * diagonal / np.sqrt(max(len(points), 1)) or 1.0

@@ -258,7 +258,7 @@ class _Contour(_Algorithm):
         info = self.GetInputArrayInformation(0)
         name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
         cells = info.Get(vtkDataObject.FIELD_ASSOCIATION()) == vtkDataObject.FIELD_ASSOCIATION_CELLS
-        key = name, cells, [(leaf.GetMTime(), leaf) for leaf in _datasets.leaves(data)]
+        key = name, cells, _datasets.state_of(data)
         kept = self._kept.get(number)
         if kept is None or kept[0] != key:
             found = _datasets.samples_of(data, name or None, cells)

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Data sets that are read through their methods yield what the compiled filters make of them."""
 
+import os
+import pickle
+import signal
 import unittest
 import warnings
 
@@ -231,6 +234,67 @@ class DataSetsTest(unittest.TestCase):
             Samples(data, "place")
         with self.assertRaisesRegex(ValueError, '"short" has 1 values for 3000 points'):
             Samples(data, "short")
+
+    def test_arrays_that_are_reallocated(self):
+        data, isovalue = prepared(cloud(), False, "")
+        samples = Samples(data, "distance")
+        expected = samples.contour(isovalue)
+        data.GetPointData().GetArray("place").Squeeze()
+        same = samples.contour(isovalue)
+        np.testing.assert_array_equal(same.arrays["place"], expected.arrays["place"])
+        data.GetPointData().GetArray("place").InsertNextTuple3(0.0, 0.0, 0.0)
+        with self.assertRaisesRegex(ValueError, "place of the data set have changed from 3000 to 3001"):
+            samples.contour(isovalue)
+        data.GetPoints().Reset()
+        with self.assertRaisesRegex(ValueError, "positions of the data set have changed"):
+            samples.replace_values(np.zeros(3000))
+
+    def test_malformed_data(self):
+        data = polygons()
+        data.SetPoints(None)
+        array = numpy_to_vtk(np.zeros(data.GetNumberOfCells()), deep=True)
+        array.SetName("of cells")
+        data.GetCellData().AddArray(array)
+        with self.assertRaisesRegex(ValueError, "cells, but no points"):
+            Samples(data, "of cells")
+
+    def test_names_that_meet(self):
+        data, isovalue = prepared(cloud(), False, "")
+        array = numpy_to_vtk(np.arange(3000.0), deep=True)
+        array.SetName("values")
+        data.GetPointData().AddArray(array)
+        with self.assertWarnsRegex(RuntimeWarning, 'replace the array "values"'):
+            Samples(data, np.arange(3000.0)).contour(isovalue + 7)
+
+    def test_field_data_are_copied(self):
+        data, isovalue = prepared(cloud(), False, "")
+        time = numpy_to_vtk(np.array([1.5]), deep=True)
+        time.SetName("TimeValue")
+        data.GetFieldData().AddArray(time)
+        for surface in (Samples(data, "distance").contour(isovalue), contour(data, "distance", isovalue)):
+            copied = surface.polydata.GetFieldData().GetArray("TimeValue")
+            self.assertEqual(copied.GetValue(0), 1.5)
+
+    def test_the_compiled_path_keeps_its_promises(self):
+        data, isovalue = prepared(cloud(50000), False, "")
+
+        def fail(_fraction):
+            raise InterruptedError
+
+        with self.assertRaises(InterruptedError):
+            contour(data, "distance", isovalue, progress=fail)
+        for options in (dict(projection=None), dict(triangles="no"), dict(drop_gaps="maybe")):
+            with self.assertRaisesRegex(ValueError, "cannot be"):
+                contour(data, "distance", isovalue, **options)
+        surface = contour(data, "distance", isovalue)
+        again = pickle.loads(pickle.dumps(surface))
+        np.testing.assert_array_equal(again.points, surface.points)
+
+        def interrupt(_fraction):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            contour(data, "distance", isovalue, progress=interrupt)
 
     def test_threads_of_data_sets(self):
         data, isovalue = prepared(cloud(), False, "")

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python package with NumPy alone: TestPackage.py [PATH OF isopoint.h]"""
 
+import contextlib
+import copy
 import ctypes
 import doctest
 import gc
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -176,6 +179,12 @@ class Arrays(unittest.TestCase):
                 ((positions, values, "0.3"), {}, TypeError, "not numbers"),
                 ((positions, values, None), {}, TypeError, "not numbers"),
                 ((positions, values), {"threads": 0}, ValueError, "threads are 0"),
+                ((positions, values), {"threads": 2.5}, TypeError, "float"),
+                ((positions, values), {"progress": 3}, TypeError, "progress cannot be 3"),
+                ((positions, values), {"triangles": "no"}, ValueError, "triangles cannot be 'no'"),
+                ((positions, values), {"projection": True}, ValueError, "projection cannot be True"),
+                ((positions, values, [1j]), {}, TypeError, "isovalues are of the type complex128"),
+                ((positions, values, ["0.3"]), {}, TypeError, "isovalues are of the type"),
                 ((positions, values), {"arrays": {"a": values[:3]}}, ValueError, "a have the shape"),
                 ((positions, values), {"arrays": [values]}, TypeError, "a mapping of names"),
                 ((positions, values), {"arrays": {"values": values}}, ValueError, "cannot have the name"),
@@ -187,7 +196,7 @@ class Arrays(unittest.TestCase):
                 ((positions, values), {"projection": "cubes"}, ValueError, "projection cannot be"),
                 ((positions, values), {"projection": 1.5}, ValueError, "projection cannot be 1.5"),
                 ((positions, values), {"number_of_neighbors": 2**32 + 12}, ValueError, "out of range"),
-                ((positions, values), {"drop_gaps": 2}, ValueError, "0 or 1"),
+                ((positions, values), {"drop_gaps": 2}, ValueError, "True or False"),
                 ((positions, values), {"controller": object()}, TypeError, "controller")):
             if "controller" in options and contouring.compiled_filters():
                 continue
@@ -198,7 +207,7 @@ class Arrays(unittest.TestCase):
 class Results(unittest.TestCase):
     def test_points_and_splats(self):
         positions, values = cloud(20000)
-        surface = contour(positions, values, 0.3)
+        surface = contour(positions, values, np.array(0.3))
         self.assertLess(np.abs(np.linalg.norm(surface.points - 0.5, axis=1) - 0.3).max(), 1e-3)
         self.assertEqual(surface.normals.shape, surface.points.shape)
         self.assertEqual(surface.radii.shape, (len(surface),))
@@ -215,6 +224,10 @@ class Results(unittest.TestCase):
         for wrong in (0.0, -1.0, np.nan, np.inf):
             with self.assertRaisesRegex(ValueError, "The scale of splats"):
                 surface.splats(wrong)
+        for wrong in (np.ones((len(surface), 2, 3)), np.ones(3)):
+            surface.arrays["wrong"] = wrong
+            with self.assertRaisesRegex(ValueError, "wrong have the shape"):
+                surface.splats()
 
     def test_surfaces_without_splats(self):
         positions, values = cloud()
@@ -307,6 +320,30 @@ class KeptTrees(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, r"values have the shape \(3,\)"):
             samples.replace_values(values[:3])
 
+    def test_values_that_were_not_replaced(self):
+        positions, values = cloud(100000)
+        samples = Samples(positions, values)
+
+        def fail(_):
+            raise InterruptedError
+
+        with self.assertRaises(InterruptedError):
+            samples.replace_values(2 * values, progress=fail)
+        with self.assertRaisesRegex(ValueError, "call replace_values"):
+            samples.contour(0.3)
+        samples.replace_values(values)
+        self.assertEqual(contents(samples.contour(0.3)), contents(contour(positions, values, 0.3)))
+
+    def test_copies(self):
+        samples = Samples(*cloud())
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                copied(samples)
+        surface = samples.contour(0.3)
+        for again in (copy.deepcopy(surface), pickle.loads(pickle.dumps(surface))):
+            self.assertEqual(contents(again), contents(surface))
+            self.assertEqual(len(again.splats()), len(surface.splats()))
+
     def test_two_threads_share_samples(self):
         positions, values = cloud(20000)
         samples = Samples(positions, values)
@@ -340,7 +377,15 @@ class KeptTrees(unittest.TestCase):
             self.skipTest("memory is read from /proc")
         positions, values = cloud(50000)
 
+        def fail(fraction):
+            if fraction == 1.0:
+                raise StopIteration
+
+        samples = Samples(positions, values)
+
         def extract():
+            with contextlib.suppress(StopIteration):  # when there is a surface
+                samples.contour(0.3, progress=fail, compute_gradients=True)
             contour(positions, values, 0.3, triangles=True)
             contour(positions, values, 0.3).splats()
             return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
@@ -398,20 +443,49 @@ class Interruptions(unittest.TestCase):
         for _ in range(5):
             with self.assertRaises(KeyboardInterrupt):
                 samples.contour(0.3, progress=interrupt)
-        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
         self.assertGreater(len(samples.contour(0.3)), 1000)
 
-    def test_interrupts_from_outside(self):
-        """A signal that arrives at any time ends a script with KeyboardInterrupt."""
-        script = (
+    def test_all_handlers_of_signals_may_raise(self):
+        result = self.run_script(
+            "def end(*_): raise TimeoutError\n"
+            "signal.signal(signal.SIGALRM, end)\n"
+            "for _ in range(10):\n"
+            "    signal.setitimer(signal.ITIMER_REAL, 0.05)\n"
+            "    try:\n"
+            "        while True: contour(positions, values, 1.5, triangles=True)\n"
+            "    except TimeoutError: print('raised')\n")
+        self.assertEqual((result.stdout, result.stderr), (10 * "raised\n", ""))
+
+    def test_handlers_of_signals_may_go_on(self):
+        result = self.run_script(
+            "noted = []\n"
+            "signal.signal(signal.SIGINT, lambda *_: noted.append(1))\n"
+            "threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+            "while not noted: surface = contour(positions, values, 1.5, triangles=True)\n"
+            "print(len(surface) > 1000)\n")
+        self.assertEqual((result.stdout, result.stderr), ("True\n", ""))
+
+    def test_the_interpreter_may_end_in_a_call(self):
+        result = self.run_script(
+            "def work():\n"
+            "    while True: contour(positions, values, 1.5, triangles=True)\n"
+            "threading.Thread(target=work, daemon=True).start()\n"
+            "import time; time.sleep(0.3)\n")
+        self.assertEqual(result.returncode, 0)
+        self.assertNotIn("FATAL", result.stderr)
+
+    def run_script(self, script):
+        return subprocess.run([sys.executable, "-c", (
             "import numpy, os, signal, threading\n"
             "from scatteredisopoints import contour\n"
             "positions = numpy.random.default_rng(1).random((200000, 3))\n"
-            "values = positions.sum(axis=1)\n"
+            "values = positions.sum(axis=1)\n") + script], capture_output=True, text=True)
+
+    def test_interrupts_from_outside(self):
+        """A signal that arrives at any time ends a script with KeyboardInterrupt."""
+        result = self.run_script(
             "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
-            "while True:\n"
-            "    contour(positions, values, 1.5, triangles=True)\n")
-        result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+            "while True: contour(positions, values, 1.5, triangles=True)\n")
         self.assertRegex(result.stderr, r"KeyboardInterrupt\n$")
         self.assertNotIn("Exception ignored", result.stderr)
 
@@ -447,7 +521,7 @@ class Imports(unittest.TestCase):
         self.assertLessEqual({"contour", "Samples", "Isosurface"}, set(dir(scatteredisopoints)))
         with self.assertRaisesRegex(AttributeError, "no attribute 'nothing'"):
             scatteredisopoints.nothing
-        with self.assertRaisesRegex(AttributeError, "There is no vtkNothing: build this project with VTK"):
+        with self.assertRaisesRegex(AttributeError, "There is no vtkNothing here: install VTK"):
             scatteredisopoints.vtkNothing
 
 

@@ -8,7 +8,7 @@ import weakref
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import contour
+from scatteredisopoints import _pyvista, contour
 
 
 def cloud(count=20000):
@@ -70,8 +70,11 @@ class Accessor(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # corners of the cube have gaps
             surface = data.scattered.contour()
-        inner = np.linspace(data["distance"].min(), data["distance"].max(), 10)[1:-1]
+        inner = np.linspace(data["distance"].min(), data["distance"].max(), 12)[1:-1]
         self.assertLessEqual(set(np.unique(surface["distance"])), set(inner))
+        self.assertEqual(len(np.unique(data.scattered.contour(3, "count")["count"])), 3)
+        with self.assertRaisesRegex(ValueError, "rng has two values"):
+            data.scattered.contour(3, rng=(1, 2, 3))
 
     def test_all_kinds_of_data(self):
         image = grid()
@@ -122,20 +125,49 @@ class Accessor(unittest.TestCase):
         data.points[:, 0] *= 2.0
         self.assertNotEqual(blocks.scattered.contour([0.3], "distance").n_points, before)
 
+        axes = grid().cast_to_rectilinear_grid()
+        before = axes.scattered.contour([1.0], "distance").bounds
+        axes.GetXCoordinates().SetValue(19, 50.0)
+        axes.GetXCoordinates().Modified()
+        self.assertNotEqual(axes.scattered.contour([1.0], "distance").bounds, before)
+        moved = pv.PolyData(data.points + 5)
+        moved.GetPointData().ShallowCopy(data.GetPointData())
+        blocks.SetBlock(0, moved)
+        self.assertGreater(blocks.scattered.contour([0.3], "distance").center[2], 5)
+
     def samples_of(self, data, isovalue=0.3):
         data.scattered.contour([isovalue])
-        return data.scattered._samples
+        return next(reversed(_pyvista._kept.values()))[2]
 
-    def test_memory_is_given_back(self):
-        data = cloud()
-        samples = weakref.ref(self.samples_of(data))
-        del data
+    def test_few_trees_are_kept(self):
+        trees = [weakref.ref(self.samples_of(cloud(2000))) for _ in range(6)]
+        self.assertLessEqual(sum(tree() is not None for tree in trees), _pyvista.MOST_KEPT)
         gc.collect()
-        self.assertIsNone(samples())
+        self.assertEqual(sum(tree() is not None for tree in trees), 0)
+
+    def test_splats_of_other_data(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            empty = cloud().scattered.contour([99.0], triangles=False)
+        for data in (empty, pv.PolyData()):
+            self.assertEqual(data.scattered.splats().n_points, 0)
+        isopoints = cloud().scattered.contour([0.3], triangles=False)
+        points = isopoints.cast_to_pointset()
+        self.assertGreater(points.scattered.splats().n_cells, 1000)
+        with self.assertRaisesRegex(TypeError, "combine"):
+            pv.MultiBlock([isopoints]).scattered.splats()
+
+    def test_active_scalars_of_composites(self):
+        blocks = pv.MultiBlock([pv.PolyData(), pv.PolyData(np.zeros((1, 3))), cloud()])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the point without them
+            self.assertGreater(blocks.scattered.contour([0.3]).n_points, 100)
 
     def test_what_has_no_samples(self):
+        table = pv.Table(np.zeros((3, 2)))
+        self.assertTrue(hasattr(table, "scattered"))
         with self.assertRaisesRegex(TypeError, "A Table has no samples"):
-            pv.Table(np.zeros((3, 2))).scattered
+            table.scattered.contour([0.3])
         data = cloud()
         for scalars, error, text in (("speed", ValueError, 'named "speed"'),
                                      ("place", ValueError, "3 components"),
