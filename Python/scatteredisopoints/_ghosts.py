@@ -46,7 +46,7 @@ def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
     has_hidden = points is not None and (points & HIDDEN_POINT).any()
     if has_hidden or _cell_arrays(data):
         cell, point = cell_points(data, as_numpy)
-        if has_hidden:
+        if points is not None:
             excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
         excluded |= np.bincount(cell, minlength=len(excluded)) == 0
     return excluded if excluded.any() else None
@@ -71,10 +71,9 @@ def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
     """All pairs of a cell and a point of it, as the ids of both."""
     arrays = _cell_arrays(data)
     if arrays:
-        sizes = [np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays]
-        points = [as_numpy(array.GetConnectivityArray()) for array in arrays]
-        sizes = np.concatenate(sizes)
-        return np.repeat(np.arange(len(sizes)), sizes), np.concatenate(points)
+        sizes = np.concatenate([np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays])
+        points = np.concatenate([as_numpy(array.GetConnectivityArray()) for array in arrays])
+        return np.repeat(np.arange(len(sizes)), sizes), points
     if not hasattr(data, "GetDimensions"):  # points without cells
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
     dimensions = np.array(data.GetDimensions())

@@ -24,8 +24,8 @@ _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "reserved")
 
 def option_names(triangles: bool) -> list[str]:
     """The options of triangles, or of points."""
-    names = [name for name, _type in Options._fields_
-             if name not in _NOT_OPTIONS and not (triangles and name in _OF_POINTS)]
+    names = [field[0] for field in Options._fields_]
+    names = [name for name in names if name not in _NOT_OPTIONS and not (triangles and name in _OF_POINTS)]
     return sorted(names + ["compute_scalars", "keep_tree"])
 
 

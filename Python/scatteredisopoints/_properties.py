@@ -37,7 +37,7 @@ def proxy_of(name: str) -> ElementTree.Element:
     """The XML of a filter by its proxy's name: ScatteredIsopoints, ScatteredIsosurface,
     IsopointSplatPolygons."""
     root = ElementTree.parse(Path(__file__).parent / "paraview" / f"{name}.xml").getroot()
-    return root.find("ProxyGroup")[0]
+    return root[0][0]  # ServerManagerConfiguration, ProxyGroup
 
 
 def properties_of(name: str) -> list[Property]:
@@ -53,11 +53,11 @@ def properties_of(name: str) -> list[Property]:
             if domain.tag == "BooleanDomain":
                 least, greatest, is_switch = 0, 1, True
             elif domain.tag == "EnumerationDomain":
-                values = [int(entry.get("value")) for entry in domain]
+                values = [int(entry.attrib["value"]) for entry in domain]
                 least, greatest = min(values), max(values)
             elif domain.tag.endswith("RangeDomain"):
                 least = kind(domain.get("min", least))
                 greatest = kind(domain.get("max", float("inf") if kind is float else greatest))
-        name = element.get("command")[3:]
-        found.append(Property(name, kind(element.get("default_values")), least, greatest, is_switch))
+        name = element.attrib["command"][3:]
+        found.append(Property(name, kind(element.attrib["default_values"]), least, greatest, is_switch))
     return found

@@ -7,7 +7,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
@@ -87,8 +87,9 @@ class ScatteredAccessor:
         if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
             if isosurfaces < 0 or (rng is not None and len(rng) != 2):
                 raise ValueError("isosurfaces are a number, 0 or more, and rng has two values")
-            isosurfaces = (np.linspace(*samples.range, isosurfaces + 2)[1:-1] if rng is None
-                           else np.linspace(*rng, isosurfaces))
+            count = int(isosurfaces)
+            isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
+                           else np.linspace(rng[0], rng[1], count).tolist())
         surface = samples._contour(
             isosurfaces, triangles, None, progress_bar, options, stacklevel=3)
         return surface.polydata
@@ -148,15 +149,24 @@ _lock = threading.Lock()
 MOST_KEPT = 2
 
 
+def _forget(id_: int) -> Callable[[Any], None]:
+    """What to do when a data set is freed."""
+    def forget(_reference: Any) -> None:
+        _kept.pop(id_, None)
+    return forget
+
+
 def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) -> Samples:
     """The samples of a data set, unless it has changed those of the last call."""
     key = scalars, preference, _datasets.state_of(data)
     with _lock:
-        owner, loaded, samples = _kept.pop(id(data), (None, None, None))
-    if owner is None or owner() is not data or loaded != key:
+        kept = _kept.pop(id(data), None)
+    if kept is not None and kept[0]() is data and kept[1] == key:
+        samples = kept[2]
+    else:
         samples = Samples(_datasets.samples_of(data, scalars, preference == "cell"), progress=progress)
     with _lock:
-        _kept[id(data)] = weakref.ref(data, lambda _, id_=id(data): _kept.pop(id_, None)), key, samples
+        _kept[id(data)] = weakref.ref(data, _forget(id(data))), key, samples
         while len(_kept) > MOST_KEPT:
             _kept.popitem(last=False)
     return samples

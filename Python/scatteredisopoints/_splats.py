@@ -62,10 +62,10 @@ def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
     for attributes, size, of_elements, of_points in (
             (data.GetCellData(), data.GetNumberOfCells(), cells[is_vertex], point[is_vertex]),
             (data.GetPointData(), len(axes), slice(None), slice(None))):
-        found = [_numbers(attributes.GetArray(name), size, components)
-                 for name, components in (("SplatAxis", 3), ("SplatPolygon", len(OCTAGON)))]
-        if found[0] is not None and found[1] is not None:
-            axes[of_points], polygons[of_points] = (array[of_elements] for array in found)
+        axis = _numbers(attributes.GetArray("SplatAxis"), size, 3)
+        polygon = _numbers(attributes.GetArray("SplatPolygon"), size, len(OCTAGON))
+        if axis is not None and polygon is not None:
+            axes[of_points], polygons[of_points] = axis[of_elements], polygon[of_elements]
             return
 
 

@@ -31,7 +31,7 @@ UNKNOWN_ERROR = 40000 + 99  # vtkErrorCode::UnknownError
 def _with_properties(name: str, *others: str):
     """Gives a class the methods SetX, GetX, XOn and XOff of all properties X of a proxy, except of some."""
 
-    def add(cls: type) -> type:
+    def add(cls: Any) -> Any:
         cls.PROPERTIES = {property_.name: property_ for property_ in properties_of(name)
                           if property_.name not in others}
         for property_ in cls.PROPERTIES.values():

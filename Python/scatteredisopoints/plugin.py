@@ -33,7 +33,7 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     from paraview import servermanager, simple
 
     if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 calls, and Python 3.11 lacks
-        inspect.getargspec = inspect.getfullargspec
+        setattr(inspect, "getargspec", inspect.getfullargspec)
     path = PLUGIN if PLUGIN.exists() else PYTHON_PLUGIN
     tracker = servermanager.vtkPVPluginTracker.GetInstance()
     loaded = (tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
