@@ -7,10 +7,11 @@ each plugin loads the states of the other."""
 
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
+
+from python_site import python_alone
 
 BUILD = """
 from paraview.simple import *
@@ -78,18 +79,6 @@ class Installation:
         check(done.returncode == 0 and "rror" not in done.stdout and "Traceback" not in done.stdout,
               text + done.stdout)
         return found, done.stdout
-
-
-def python_alone(folder, library, package):
-    """A copy of the package as the wheel has it: without compiled classes."""
-    copy = folder / "site/scatteredisopoints"
-    shutil.copytree(package, copy, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
-    (copy / "_paths.py").write_text(
-        "from pathlib import Path\n"
-        f"LIBRARY = {library!r}\n"
-        "PLUGIN = Path('nothing')\n"
-        "PYTHON_PLUGIN = Path(__file__).parent / 'paraview/scattered_isopoints.py'\n")
-    return folder / "site"
 
 
 def main(library, package, pvbatch, compiled_plugin):
