@@ -43,7 +43,8 @@ class Environment:
         run([interpreter, "-m", "venv", folder], env=clean_environment())
         self.python = folder / "bin/python"
         self.folder = folder
-        run([self.python, "-m", "pip", "install", "--quiet", *packages], env=clean_environment())
+        if packages:
+            self.run("-m", "pip", "install", "--quiet", *packages)
 
     def run(self, *command, **environment):
         return run([self.python, *command], env=clean_environment(**environment), cwd=self.folder)
@@ -73,18 +74,16 @@ def found_pythons():
     return dict(sorted(found.items()))
 
 
-def check_reachable(python):
-    answer = subprocess.run([str(python), "-m", "pip", "download", "--no-deps", "--quiet", "--dest",
-                             os.devnull + "x", "wheel"], capture_output=True, text=True)
-    if "Could not find" in answer.stderr or "connection" in answer.stderr.lower():
+def check_reachable(builder):
+    answer = subprocess.run([str(builder.python), "-m", "pip", "download", "--no-deps", "--quiet", "wheel"],
+                            cwd=builder.folder, env=clean_environment(), capture_output=True, text=True)
+    if answer.returncode != 0:
         print("skipped: packages cannot be had from an index\n" + answer.stderr)
         sys.exit(SKIPPED)
 
 
-def built_wheel(folder):
-    builder = Environment(folder / "builder", sys.executable, "pip")
-    run([builder.python, "-m", "pip", "wheel", "--no-deps", "--wheel-dir", folder, ROOT],
-        env=clean_environment())
+def built_wheel(builder, folder):
+    builder.run("-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, ROOT)
     return next(folder.glob("scatteredisopoints-*.whl"))
 
 
@@ -114,8 +113,9 @@ def main(folder, wheel=None):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     pythons = found_pythons()
-    check_reachable(sys.executable)
-    wheel = pathlib.Path(wheel).resolve() if wheel else built_wheel(folder)
+    builder = Environment(folder / "builder", sys.executable)
+    check_reachable(builder)
+    wheel = pathlib.Path(wheel).resolve() if wheel else built_wheel(builder, folder)
     print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.2f} MB")
     expected = run([sys.executable, TESTS / "extractions.py", "--filters"])
 
