@@ -293,6 +293,7 @@ class DataSetsTest(unittest.TestCase):
         def interrupt(_fraction):
             os.kill(os.getpid(), signal.SIGINT)
 
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with self.assertRaises(KeyboardInterrupt):
             contour(data, "distance", isovalue, progress=interrupt)
 
