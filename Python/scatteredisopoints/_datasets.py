@@ -68,7 +68,7 @@ def package_of(data: Any) -> str:
     """The name of the package that has the class of a data object: vtkmodules, cvista."""
     for base in type(data).__mro__:
         package, _, module = base.__module__.rpartition(".")
-        if module.startswith("vtkCommon"):
+        if module == "vtkCommonCore":  # that of vtkObject; cvista has data objects that name vtkmodules
             return package
     raise TypeError(f"{type(data).__name__} is none of VTK's data objects")
 
