@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import Any, Optional
 
 from ._paths import PLUGIN, PYTHON_PLUGIN
@@ -30,6 +29,8 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     RuntimeError
         If the plugin cannot be loaded.
     """
+    import inspect
+
     from paraview import servermanager, simple
 
     if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 calls, and Python 3.11 lacks
