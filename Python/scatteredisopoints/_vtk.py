@@ -17,6 +17,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkPolyData)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkCommonMisc import vtkContourValues
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _datasets, _library
 from ._options import CONSTANTS
@@ -60,6 +61,13 @@ def _add_methods(cls: type, property_: Property) -> None:
     for method, function in methods.items():
         function.__name__, function.__qualname__ = method, f"{cls.__name__}.{method}"
         setattr(cls, method, function)
+
+
+def is_first_of_several() -> bool:
+    """Whether this process is the first one of several, by VTK's global controller."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    return (controller is not None and controller.GetNumberOfProcesses() > 1
+            and controller.GetLocalProcessId() == 0)
 
 
 class _Algorithm(VTKPythonAlgorithmBase):
@@ -193,6 +201,10 @@ class _Contour(_Algorithm):
         data = vtkDataObject.GetData(inputs[0], 0)
         output = vtkDataObject.GetData(outputs, 0)
         self._error_code, messages = 0, []
+        if is_first_of_several():
+            messages.append(_library.Message(
+                "Each process contours its own samples: surfaces have seams. The compiled plugin"
+                " contours those of all processes as one cloud.", is_warning=True))
         self._counts = dict.fromkeys(self._counts, 0)
         try:
             if isinstance(output, vtkCompositeDataSet):

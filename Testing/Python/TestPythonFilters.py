@@ -3,6 +3,7 @@
 
 import errno
 import unittest
+from unittest import mock
 
 import fingerprint
 import numpy as np
@@ -188,6 +189,17 @@ class PythonFilters(unittest.TestCase):
                     found.append({event: len(list_) for event, list_ in texts.items()})
                     filter_.SetValue(0, 0.3)
                 self.assertEqual(found[0], found[1])
+
+    def test_several_processes_are_told_of_once(self):
+        with mock.patch.object(_vtk, "is_first_of_several", lambda: True):
+            filter_ = _vtk.vtkScatteredIsopointFilter()
+            filter_.SetInputData(cloud())
+            texts = observed(filter_)
+            for isovalue in (0.3, 0.4):
+                filter_.SetValue(0, isovalue)
+                filter_.Update()
+        self.assertEqual(len(texts["WarningEvent"]), 1)
+        self.assertIn("Each process contours its own samples", texts["WarningEvent"][0])
 
     def test_an_abort_leaves_nothing(self):
         filter_ = _vtk.vtkScatteredIsosurfaceFilter()
