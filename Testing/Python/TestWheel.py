@@ -15,6 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TESTS = ROOT / "Testing/Python"
 SKIPPED = 77
+DRAWING = {"PYVISTA_OFF_SCREEN": "true", "PYVISTA_VTK_BACKEND": "vtk"}  # cvista draws nothing
 OLDEST_NUMPY = {(3, 9): "1.19.5"}
 
 sys.path.insert(0, str(ROOT / "Utilities"))
@@ -102,8 +103,7 @@ def run_examples(environment, language):
         for found, _, code, setup in markdown_document.Document(str(path)).blocks:
             if found == language:
                 before = (ROOT / setup).read_text() if setup.endswith(".py") else setup
-                environment.run("-W", "error::RuntimeWarning", "-c", before + "\n" + code,
-                                PYVISTA_OFF_SCREEN="true")
+                environment.run("-W", "error::RuntimeWarning", "-c", before + "\n" + code, **DRAWING)
                 count += 1
     return count
 
@@ -138,7 +138,7 @@ def main(folder, wheel=None):
     for backend in ("vtk", "cvista"):
         environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
         print(f"{environment.describe()}: PyVista on {backend} passed")
-    environment.run(ROOT / "Examples/pyvista_cloud.py", PYVISTA_OFF_SCREEN="true")
+    environment.run(ROOT / "Examples/pyvista_cloud.py", **DRAWING)
     print(f"{run_examples(environment, 'py')} examples of the documents ran")
 
 
