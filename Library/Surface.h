@@ -63,7 +63,7 @@ private:
   };
 
   isopoint::Execution Run;
-  std::size_t SampleCount = 0;                      // those that take no part included
+  std::size_t SampleCount = 0;                      // including those that take no part
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
   Coordinates Points;
   std::vector<double> Isovalues;

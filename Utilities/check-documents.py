@@ -4,8 +4,8 @@
 
 Links, anchors, and paths and identifiers in backticks exist; commands in blocks marked bash parse
 and name scripts, presets, targets, options and tests that exist; blocks marked python or pvpython
-compile and, where asked for, run, those marked py (PyVista) compile; values in tables of constants are those of the sources; nothing is
-left to be filled in. Prints file:line: message for each defect and exits with 1 if there is any.
+compile and, where asked for, run; blocks marked py, which need PyVista, compile; values in tables of
+constants are those of the sources; nothing is left to be filled in. Prints file:line: message for each defect and exits with 1 if there is any.
 
 A comment before a block, <!-- setup: FILE.py --> or <!-- setup: code -->, runs before it.
 """

@@ -9,7 +9,7 @@ has its classes, too; with ParaView, load_plugin() and ray_trace().
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _library
 from ._isosurface import Isosurface

@@ -17,6 +17,9 @@ from ._arrays import readable
 from ._ghosts import excluded_cells, excluded_points
 
 POINT, CELL = 0, 1
+# Types of arrays, as in vtkType.h.
+BIT, UNSIGNED_CHAR, FLOAT, DOUBLE = 1, 3, 10, 11
+UNSIGNED = (UNSIGNED_CHAR, 5, 7, 9, 17)
 # What the attributes of a data set are used for, as in vtkDataSetAttributes::AttributeTypes.
 GLOBAL_IDS, PEDIGREE_IDS = 5, 6
 
@@ -99,13 +102,12 @@ def as_numpy(array: Any) -> np.ndarray:
     """The numbers of a data array, shape (n,) or (n, components), which share its memory if they
     follow each other there."""
     kind = array.GetDataType()
-    is_bits = kind == 1
-    if is_bits or not array.HasStandardMemoryLayout():
-        classes = module_of(array, "vtkCommonCore")
-        copy = classes.vtkDataArray.CreateDataArray(3 if is_bits else kind)
+    if kind == BIT or not array.HasStandardMemoryLayout():
+        kind = UNSIGNED_CHAR if kind == BIT else kind
+        copy = module_of(array, "vtkCommonCore").vtkDataArray.CreateDataArray(kind)
         copy.DeepCopy(array)
-        array, kind = copy, copy.GetDataType()
-    letter = "f" if kind in (10, 11) else "u" if kind in (3, 5, 7, 9, 17) else "i"
+        array = copy
+    letter = "f" if kind in (FLOAT, DOUBLE) else "u" if kind in UNSIGNED else "i"
     dtype = np.dtype(f"{letter}{array.GetDataTypeSize()}")
     count, components = array.GetNumberOfTuples(), array.GetNumberOfComponents()
     numbers = np.frombuffer(array, dtype) if count else np.empty(0, dtype)
@@ -207,13 +209,17 @@ def _array_names(leaf: Any) -> tuple[list[str], list[str]]:
     return names(leaf.GetPointData()), names(leaf.GetCellData())
 
 
+class NoSamplesError(ValueError):
+    """A data object has no points, cells or array of values."""
+
+
 def _raise_nothing(values: Any, names: list[tuple[list[str], list[str]]]) -> None:
     if not names:
-        raise ValueError("The input has no points or cells. Give a data set with a scalar array.")
+        raise NoSamplesError("The input has no points or cells. Give a data set with a scalar array.")
     wanted = "active point scalars" if values is None else f'point or cell array named "{values}"'
     of_points, of_cells = ([", ".join(list_) or "none" for list_ in names[0]])
-    raise ValueError(f"The input has no {wanted}. The point arrays are: {of_points}; the cell arrays"
-                     f" are: {of_cells}.")
+    raise NoSamplesError(f"The input has no {wanted}. The point arrays are: {of_points}; the cell arrays"
+                         f" are: {of_cells}.")
 
 
 def _block(leaf: Any, association: int, scalars: Any) -> Block:
@@ -337,5 +343,5 @@ def _cell_centers(leaf: Any) -> np.ndarray:
     module_of(leaf, "vtkFiltersCore").vtkCellCenters.ComputeCellCenters(leaf, centers)
     positions = as_numpy(centers)
     points = leaf.GetPoints() if leaf.IsA("vtkPointSet") else None
-    is_float = points is not None and points.GetDataType() == 10
+    is_float = points is not None and points.GetDataType() == FLOAT
     return positions.astype(np.float32) if is_float else positions

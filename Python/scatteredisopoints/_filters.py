@@ -20,7 +20,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from ._arrays import column, further_arrays, positions_of, readable, values_of
 from ._datasets import is_of_pyvista
 from ._isosurface import Isosurface
-from ._options import constant, make_options, switch
+from ._options import constant, make_options, snake_case, switch
 from ._polydata import PolyDataMaker
 from ._progress import Progress, shown_progress
 from .vtkScatteredIsopointFilters import (
@@ -140,7 +140,7 @@ def _options_of(isopoints: vtkScatteredContourFilter) -> dict[str, str]:
     # Outputs are one vtkPolyData, and a controller is an option of its own.
     others = {"SetValue", "SetNumberOfContours", "SetContourBlocks", "SetUseGlobalController"}
     return {
-        re.sub(r"(?<!^)(?=[A-Z])", "_", method[3:]).lower(): method
+        snake_case(method[3:]): method
         for method in dir(isopoints)
         if method.startswith("Set") and "To" not in method[3:] and method not in inherited | others
     }

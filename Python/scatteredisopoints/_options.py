@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import operator
+import re
 from typing import Any, Mapping
 
 import numpy as np
@@ -20,6 +21,11 @@ CONSTANTS = {
 
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "reserved")
+
+
+def snake_case(name: str) -> str:
+    """The name of a property as an option: DropGaps as drop_gaps."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
 
 
 def option_names(triangles: bool) -> list[str]:

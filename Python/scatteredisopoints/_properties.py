@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Union
 from xml.etree import ElementTree
+
+from ._options import snake_case
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Property:
     @property
     def option(self) -> str:
         """Its name as an option of contour(), in snake case."""
-        return re.sub(r"(?<!^)(?=[A-Z])", "_", self.name).lower()
+        return snake_case(self.name)
 
     def clamped(self, value: Union[int, float]) -> Union[int, float]:
         """The nearest value in the range; NaN stays as it is."""

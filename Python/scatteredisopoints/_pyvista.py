@@ -13,7 +13,7 @@ import numpy as np
 import pyvista as pv
 
 from . import _datasets
-from ._progress import Progress
+from ._progress import Progress, shown_progress
 from ._samples import Samples
 from ._splats import polygons_of
 
@@ -129,8 +129,13 @@ class ScatteredAccessor:
         if scalars is None:
             scalars, preference = _active_scalars(data)
         if not isinstance(scalars, str):
-            return Samples(_datasets.samples_of(data, scalars), progress=progress)
+            return _loaded(_datasets.samples_of(data, scalars), progress)
         return _kept_samples(data, scalars, preference, progress)
+
+
+def _loaded(samples: _datasets.DataSamples, progress: Progress) -> Samples:
+    with shown_progress(progress, "Loading samples") as report:
+        return Samples._of(samples, progress=report)
 
 
 def _active_scalars(data: Any) -> tuple[str, str]:
@@ -164,7 +169,7 @@ def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) 
     if kept is not None and kept[0]() is data and kept[1] == key:
         samples = kept[2]
     else:
-        samples = Samples(_datasets.samples_of(data, scalars, preference == "cell"), progress=progress)
+        samples = _loaded(_datasets.samples_of(data, scalars, preference == "cell"), progress)
     with _lock:
         _kept[id(data)] = weakref.ref(data, _forget(id(data))), key, samples
         while len(_kept) > MOST_KEPT:

@@ -62,6 +62,25 @@ class Samples:
         threads: Optional[int] = None,
         progress: Progress = None,
     ):
+        self._initialize(threads)
+        data = _datasets.data_object(positions)
+        with shown_progress(progress, "Loading samples") as report:
+            if data is not None:
+                self._take(_datasets.samples_of(data, values), progress=report)
+            else:
+                self._positions = positions_of(positions)
+                self._count = len(self._positions)
+                self._load(values_of(values, self._count), progress=report)
+
+    @classmethod
+    def _of(cls, samples: _datasets.DataSamples, **callbacks: Any) -> Samples:
+        """Those of a data object. Callbacks are those of _library.Callbacks."""
+        created = cls.__new__(cls)
+        created._initialize(None)
+        created._take(samples, **callbacks)
+        return created
+
+    def _initialize(self, threads: Optional[int]) -> None:
         self._lock = threading.RLock()
         self._is_in_call = False
         self._extractor = _library.create()
@@ -75,18 +94,6 @@ class Samples:
         self._is_loaded = False
         self._without_array = 0
         self._maker: dict[str, Any] = {"scalars": "values"}
-        data = None
-        if not isinstance(positions, _datasets.DataSamples):
-            data = _datasets.data_object(positions)
-        with shown_progress(progress, "Loading samples") as report:
-            if isinstance(positions, _datasets.DataSamples):
-                self._take(positions, progress=report)
-            elif data is not None:
-                self._take(_datasets.samples_of(data, values), progress=report)
-            else:
-                self._positions = positions_of(positions)
-                self._count = len(self._positions)
-                self._load(values_of(values, self._count), progress=report)
 
     def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
         """Loads samples of a data object; of the same positions as before the tree is kept."""
@@ -101,7 +108,7 @@ class Samples:
         self._load(readable("values", samples.values), **callbacks)
 
     def __len__(self) -> int:
-        """The number of samples, with those that are left out."""
+        """The number of samples, including those that are left out."""
         return self._count
 
     def __repr__(self) -> str:

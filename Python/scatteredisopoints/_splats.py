@@ -55,7 +55,7 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
 
 
 def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
-    """Those that vertex cells have take the place of octagons. Files may have them at the points."""
+    """Replaces octagons by the shapes of vertex cells, which files may have at the points."""
     cells, point = cell_points(data, _datasets.as_numpy)
     count = np.bincount(cells, minlength=data.GetNumberOfCells())
     is_vertex = count[cells] == 1

@@ -2,14 +2,14 @@
 """The filters in Python, on the C library, for a VTK that the compiled classes are not for.
 
 Methods, constants, defaults, ranges, output arrays and messages are those of the compiled classes, whose
-comments describe them. What is different: the input cannot be a vtkHyperTreeGrid, strings are not carried
-to the output, each process contours its own samples, and C++ callers of GetErrorCode() see 0.
+comments describe them. Differences: a vtkHyperTreeGrid is not accepted, strings are not carried to the
+output, each process contours its own samples, and C++ callers of GetErrorCode() see 0.
 """
 
 from __future__ import annotations
 
 import errno
-from typing import Any, Optional
+from typing import Any, Callable, Optional
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkOutputWindow
@@ -70,6 +70,18 @@ def is_first_of_several() -> bool:
             and controller.GetLocalProcessId() == 0)
 
 
+def _fill(output: Any, data: Any, make: Callable[[Any, int], Optional[vtkPolyData]]) -> None:
+    """Gives a composite the structure of another one, with what is made of each of its blocks."""
+    output.CopyStructure(data)
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    number = 0
+    while not iterator.IsDoneWithTraversal():
+        output.SetDataSet(iterator, make(iterator.GetCurrentDataObject(), number))
+        number += 1
+        iterator.GoToNextItem()
+
+
 class _Algorithm(VTKPythonAlgorithmBase):
     """What vtkPythonAlgorithm lacks of a filter of VTK."""
 
@@ -121,8 +133,9 @@ class _Algorithm(VTKPythonAlgorithmBase):
 
     def _fail(self, error: Exception, output: vtkDataObject) -> None:
         output.Initialize()
-        codes = {ValueError: errno.EINVAL, TypeError: errno.EINVAL, MemoryError: errno.ENOMEM}
-        self._error_code = codes.get(type(error), UNKNOWN_ERROR)
+        is_usage = isinstance(error, (ValueError, TypeError))
+        is_memory = isinstance(error, MemoryError)
+        self._error_code = errno.EINVAL if is_usage else errno.ENOMEM if is_memory else UNKNOWN_ERROR
         self._report("ErrorEvent", str(error))
 
 
@@ -225,23 +238,20 @@ class _Contour(_Algorithm):
         return 1
 
     def _contour_blocks(self, data: Any, output: Any, messages: list[_library.Message]) -> None:
-        output.CopyStructure(data)
-        iterator, found = data.NewIterator(), []
-        iterator.InitTraversal()
-        while not iterator.IsDoneWithTraversal():
-            found.append(iterator.GetCurrentDataObject())
-            iterator.GoToNextItem()
-        number = 0
-        iterator.InitTraversal()
-        while not iterator.IsDoneWithTraversal():
+        count = sum(1 for _ in _datasets.leaves(data))
+        lacking: list[_datasets.NoSamplesError] = []
+
+        def contour(block: Any, number: int) -> Optional[vtkPolyData]:
             try:
-                part = number / len(found), (number + 1) / len(found)
-                surface = self._contour_one(iterator.GetCurrentDataObject(), number, part, messages)
-            except ValueError:
-                surface = None
-            output.SetDataSet(iterator, surface)
-            number += 1
-            iterator.GoToNextItem()
+                part = number / count, (number + 1) / count
+                return self._contour_one(block, number, part, messages)
+            except _datasets.NoSamplesError as error:
+                lacking.append(error)
+                return None
+
+        _fill(output, data, contour)
+        if count and len(lacking) == count:
+            raise lacking[0]
 
     def _contour_one(self, data: Any, number: int, part: tuple[float, float],
                      messages: list[_library.Message]) -> vtkPolyData:
@@ -276,7 +286,7 @@ class _Contour(_Algorithm):
             found = _datasets.samples_of(data, name or None, cells)
             callbacks = dict(progress=progress, is_canceled=self.GetAbortExecute)
             if kept is None:
-                samples = Samples(found, progress=progress)
+                samples = Samples._of(found, **callbacks)
             else:
                 samples = kept[1]
                 samples._take(found, **callbacks)
@@ -343,12 +353,7 @@ class vtkIsopointSplatPolygons(_Algorithm):
             if isinstance(output, vtkPolyData):
                 output.ShallowCopy(self._polygons(data))
                 return 1
-            output.CopyStructure(data)
-            iterator = data.NewIterator()
-            iterator.InitTraversal()
-            while not iterator.IsDoneWithTraversal():
-                output.SetDataSet(iterator, self._polygons(iterator.GetCurrentDataObject()))
-                iterator.GoToNextItem()
+            _fill(output, data, lambda block, _: self._polygons(block))
         except Exception as error:
             self._fail(error, output)
         return 1

@@ -10,6 +10,15 @@ from ._paths import PLUGIN, PYTHON_PLUGIN
 _PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons")
 
 
+def loaded_plugins() -> set[str]:
+    """The names of the plugins that ParaView has loaded."""
+    from paraview import servermanager
+
+    tracker = servermanager.vtkPVPluginTracker.GetInstance()
+    return {tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
+            if tracker.GetPluginLoaded(i)}
+
+
 def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     """
     Loads the plugin into ParaView, and into the server if there is one, where it has to be under
@@ -31,15 +40,12 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     """
     import inspect
 
-    from paraview import servermanager, simple
+    from paraview import simple
 
     if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 calls, and Python 3.11 lacks
         setattr(inspect, "getargspec", inspect.getfullargspec)
     path = PLUGIN if PLUGIN.exists() else PYTHON_PLUGIN
-    tracker = servermanager.vtkPVPluginTracker.GetInstance()
-    loaded = (tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
-              if tracker.GetPluginLoaded(i))
-    if not {"ScatteredIsopoints", "ScatteredIsopointsPython"} & set(loaded):
+    if not {"ScatteredIsopoints", "ScatteredIsopointsPython"} & loaded_plugins():
         simple.LoadPlugin(str(path), remote=False)
     if not hasattr(simple, _PROXIES[0]):  # the server has not loaded it
         simple.LoadPlugin(str(path), remote=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Events as of a user's mouse, played to ParaView's window, in which a script reports what is shown."""
+"""Plays a user's mouse events to ParaView's window, where a script reports what is shown."""
 
 import json
 import os
@@ -75,8 +75,8 @@ ADVANCED = event(PANEL + "SearchBox/AdvancedButton", "set_boolean", "true")
 
 
 def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
-    """What is shown after the events, by the names of the pipeline's items. Meanwhile another thread
-    may do something with the process."""
+    """Plays events, while another thread may do something with the process.
+    @returns what is shown afterwards, by the names of the pipeline's items, and what was printed"""
     folder = tempfile.mkdtemp(dir=FOLDER)
     script, played = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
     with open(script, "w", encoding="utf-8") as file:

@@ -8,7 +8,7 @@ import unittest
 import warnings
 
 import numpy as np
-from scatteredisopoints import Samples, _datasets, contour, contouring
+from scatteredisopoints import Samples, contour, contouring
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (

@@ -190,6 +190,22 @@ class PythonFilters(unittest.TestCase):
                     filter_.SetValue(0, 0.3)
                 self.assertEqual(found[0], found[1])
 
+    def test_errors_of_blocks(self):
+        """Blocks may lack the array, but nothing else goes unnoticed."""
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, cloud())
+        for change in (lambda f: f.SetAngle(200.0),
+                       lambda f: f.SetInputArrayToProcess(0, 0, 0, 0, "speed")):
+            for class_ in PAIRS[0]:
+                filter_ = class_()
+                filter_.SetInputData(blocks)
+                filter_.SetValue(0, 0.3)
+                filter_.ContourBlocksOn()
+                texts = observed(filter_)
+                change(filter_)
+                filter_.Update()
+                self.assertEqual((filter_.GetErrorCode(), len(texts["ErrorEvent"])), (errno.EINVAL, 1))
+
     def test_several_processes_are_told_of_once(self):
         with mock.patch.object(_vtk, "is_first_of_several", lambda: True):
             filter_ = _vtk.vtkScatteredIsopointFilter()

@@ -18,16 +18,17 @@ if _SITE not in sys.path:
 
 from scatteredisopoints import _vtk  # noqa: E402
 from scatteredisopoints._properties import proxy_of  # noqa: E402
+from scatteredisopoints.plugin import loaded_plugins  # noqa: E402
 
 paraview_plugin_name = "ScatteredIsopointsPython"
 paraview_plugin_version = _vtk.VERSION
 
 
-def _adapted(name, class_name):
-    """The XML of a proxy, of what the compiled plugin brings replaced by ParaView's own."""
+def _adapted(name):
+    """The XML of a proxy, with ParaView's own classes in place of the compiled plugin's."""
     proxy = proxy_of(name)
     proxy.tag = "SourceProxy"
-    proxy.set("class", f"{__name__}.{class_name}")
+    proxy.set("class", f"{__name__}.{name}")
     proxy.set("si_class", "vtkSIPythonSourceProxy")
     for element in list(proxy):
         # ParaView does not read counts back from Python.
@@ -54,15 +55,6 @@ def _adapted(name, class_name):
     return ElementTree.tostring(root, encoding="unicode")
 
 
-def _is_loaded(name):
-    """Whether the compiled plugin is loaded."""
-    from paraview import servermanager
-
-    tracker = servermanager.vtkPVPluginTracker.GetInstance()
-    return any(tracker.GetPluginName(i) == name and tracker.GetPluginLoaded(i)
-               for i in range(tracker.GetNumberOfPlugins()))
-
-
 class ScatteredIsopoints(_vtk.vtkScatteredIsopointFilter):
     """Isosurfaces as points, with the polygons that show them."""
 
@@ -77,8 +69,8 @@ class IsopointSplatPolygons(_vtk.vtkIsopointSplatPolygons):
     """The polygons of isopoints."""
 
 
-if _is_loaded("ScatteredIsopoints"):
+if "ScatteredIsopoints" in loaded_plugins():
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
 else:
     for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons):
-        _class._pvsm_proxy_xml = _adapted(_class.__name__, _class.__name__)
+        _class._pvsm_proxy_xml = _adapted(_class.__name__)
