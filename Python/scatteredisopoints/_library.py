@@ -147,7 +147,7 @@ class Callbacks:
     def _is_over(self) -> bool:
         if self.error is None:
             self.report()
-        return (self.error is not None or _Calls.are_over
+        return (self.error is not None or _Calls.are_over()
                 or (self._is_canceled is not None and bool(self._is_canceled())))
 
     def report(self) -> None:
@@ -159,17 +159,38 @@ class Callbacks:
 
 
 class _Calls:
-    """The calls that run, which have to end before the interpreter does."""
+    """The calls that run. Those of daemon threads have to end before the interpreter does, which aborts
+    if it stops a thread within a callback, or one that prints an error."""
 
-    are_over = False
-    count = 0
     changed = threading.Condition()
+    count = 0
+    last_thread: Optional[int] = None
+    """The thread that ends the interpreter, once it does. No other thread may call then."""
+
+    @classmethod
+    def are_over(cls) -> bool:
+        return cls.last_thread not in (None, threading.get_ident())
+
+    @classmethod
+    def begin(cls) -> None:
+        with cls.changed:
+            if cls.are_over():
+                raise SystemExit  # which ends a thread and prints nothing
+            cls.count += 1
+
+    @classmethod
+    def end(cls) -> None:
+        with cls.changed:
+            cls.count -= 1
+            cls.changed.notify_all()
+            if cls.are_over():
+                raise SystemExit
 
 
 @atexit.register
 def _end_calls() -> None:
-    _Calls.are_over = True
     with _Calls.changed:
+        _Calls.last_thread = threading.get_ident()
         _Calls.changed.wait_for(lambda: _Calls.count == 0, timeout=10.0)
 
 
@@ -186,16 +207,13 @@ def run(function: Any, *arguments: Any) -> None:
 def run_with(callbacks: Callbacks, extractor: Handle, function: Any, *arguments: Any) -> None:
     """The same of a function of an extractor. Raises what a callback or a handler of signals did, and
     InterruptedError after a cancellation."""
-    run(set_callbacks, extractor, callbacks.progress, callbacks.cancels, None)
-    with _Calls.changed:
-        _Calls.count += 1
+    _Calls.begin()
     try:
+        run(set_callbacks, extractor, callbacks.progress, callbacks.cancels, None)
         status = function(*arguments)
     finally:
-        with _Calls.changed:
-            _Calls.count -= 1
-            _Calls.changed.notify_all()
         set_callbacks(extractor, Progress(), Cancels(), None)
+        _Calls.end()
     error, callbacks.error = callbacks.error, None
     try:
         if error is not None:
