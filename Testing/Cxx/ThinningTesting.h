@@ -47,7 +47,7 @@ inline Isosurface surfaceOf(std::vector<LocalFit> fits)
   Isosurface surface;
   for (std::size_t i = 0; i < fits.size(); ++i)
   {
-    surface.edges.push_back({ i, i + 1, 0.5 });
+    surface.edges.push_back({ { i, i + 1 }, 0.5 });
     surface.positions.push_back(fits[i].position);
     surface.decreasingEdges.push_back({ 0.0, 0.0, 1.0 });
   }
