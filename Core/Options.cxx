@@ -85,14 +85,18 @@ std::vector<double> sortedIsovalues(const std::vector<double>& isovalues)
 
 Options effectiveOptions(const Options& options)
 {
+  const Options defaults;
   Options effective = options;
   if (options.triangles)
   {
-    const Options defaults;
     effective.angle = defaults.angle;
     effective.minimumSpacing = defaults.minimumSpacing;
     effective.numberOfNeighbors = defaults.numberOfNeighbors;
     effective.computeSplats = false;
+  }
+  else
+  {
+    effective.regularize = defaults.regularize;
   }
   return effective;
 }
@@ -104,6 +108,7 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.dropsGaps = options.dropGaps;
   request.isosurface.fit = fitRequestOf(options);
   request.isosurface.partsCreases = options.computeNormals;
+  request.isosurface.regularizes = options.regularize;
   request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;
   if (needsSplats(options))

@@ -45,6 +45,9 @@ struct Options
   int numberOfNeighbors = defaultNeighborCount;
   bool computeSplats = true;
 
+  // Of triangles alone:
+  bool regularize = true; // see IsosurfaceRequest::regularizes
+
   /// Whether triangles are kept for the next extraction; see IsosurfaceRequest::keepsBand.
   bool keepBand = true;
 };
@@ -84,6 +87,7 @@ inline constexpr Option<int> numberOfNeighbors{ "NumberOfNeighbors", &Options::n
   1000 };
 inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeSplats, false,
   true };
+inline constexpr Option<bool> regularize{ "Regularize", &Options::regularize, false, true };
 
 } // namespace option
 
@@ -98,7 +102,11 @@ void forEachOption(const Options& options, const Visitor& visit)
   visit(option::computeGradients);
   visit(option::computeProjectionOrders);
   visit(option::outputPointsPrecision);
-  if (!options.triangles)
+  if (options.triangles)
+  {
+    visit(option::regularize);
+  }
+  else
   {
     visit(option::angle);
     visit(option::minimumSpacing);
@@ -122,8 +130,8 @@ void checkOptions(const Options& options, OptionNaming naming = sameName);
 /// Each isovalue once, ascending. @throws UsageError if one is not a number
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
 
-/// The options that take effect: for triangles, those of points alone are reset to their defaults,
-/// and splats are off.
+/// The options that take effect: those of triangles or of points alone are reset to their defaults
+/// for the other, and triangles have no splats.
 Options effectiveOptions(const Options& options);
 
 /// Whether the output's positions are float. @param areFloatPositions those of all samples

@@ -12,3 +12,6 @@ vtkScatteredIsosurfaceFilter::vtkScatteredIsosurfaceFilter()
   this->SetProgressText("Scattered Isosurface"); // as in ParaView's menu
   this->Options->Core.triangles = true;
 }
+
+vtkIsopointOptionMacro(
+  vtkScatteredIsosurfaceFilter, Regularize, vtkTypeBool, isopoint::option::regularize);

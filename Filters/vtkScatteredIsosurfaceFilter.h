@@ -8,15 +8,16 @@
  * samples (marching tetrahedra), which it does not build: only samples near the surface are
  * tetrahedralized, and each tetrahedron that crosses the isovalue is certified against all samples.
  * docs/triangles.md in the source distribution defines the result and proves that it is the same.
+ * By default they are then made fewer and well shaped (see SetRegularize()).
  *
  * Inputs, samples, isovalues, blocks, errors and what is kept between updates are those of
  * vtkScatteredIsopointFilter, and so are the guarantees of its class documentation, except for the
  * following. In the output, a vtkPolyData (or a composite; see SetContourBlocks()),
  *
- * 1. each edge of the tetrahedralization that crosses the isovalue has one point. Points are
- *    ordered by isovalue, then by the lower and the higher sample id of their edge. Where samples
- *    have the isovalue, the edges that end at one of them share one point there, in the place of
- * the first of them, and triangles without area are left out.
+ * 1. with RegularizeOff(), each edge of the tetrahedralization that crosses the isovalue has one
+ *    point. Points are ordered by isovalue, then by the lower and the higher sample id of their
+ *    edge. Where samples have the isovalue, the edges that end at one of them share one point
+ *    there, in the place of the first of them, and triangles without area are left out.
  * 2. triangles are ordered by isovalue, then by their points, the lowest first. Their right-hand
  *    normals point to decreasing values, as those of vtkContourFilter do. All coordinates and
  *    triangles depend on the input and the options alone, to the last bit.
@@ -66,6 +67,20 @@ class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredIsosurfaceFilter
 public:
   static vtkScatteredIsosurfaceFilter* New();
   vtkTypeMacro(vtkScatteredIsosurfaceFilter, vtkScatteredContourFilter);
+
+  ///@{
+  /**
+   * Whether points are merged and edges of triangles flipped, so that triangles are well shaped:
+   * points that are nearest to one sample become one point at their mean, short edges are merged
+   * likewise, both where that keeps the topology, and edges are flipped to be Delaunay. That leaves
+   * about a third of the points and triangles, and takes less time. Off: the exact isosurface of
+   * the Delaunay tetrahedralization (marching tetrahedra). docs/triangles.md has the rule. Default:
+   * on.
+   */
+  virtual void SetRegularize(vtkTypeBool regularize);
+  virtual vtkTypeBool GetRegularize();
+  vtkBooleanMacro(Regularize, vtkTypeBool);
+  ///@}
 
 protected:
   vtkScatteredIsosurfaceFilter();

@@ -111,6 +111,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::angle, &Core::angle);
   visit(&C::minimum_spacing, &Core::minimumSpacing);
   visit(&C::keep_tetrahedra, &Core::keepBand);
+  visit(&C::regularize, &Core::regularize);
 }
 
 /// @param given null, or options of this version
@@ -128,10 +129,6 @@ isopoint::Options optionsFrom(const isopoint_options* given)
                        " version of the library.");
     }
     all = *given;
-  }
-  if (all.reserved != 0)
-  {
-    throw UsageError("The reserved option is " + std::to_string(all.reserved) + ". Leave it 0.");
   }
   isopoint::Options options;
   forEachMember(

@@ -148,7 +148,9 @@ typedef struct isopoint_options
   /* Of triangles: whether the tetrahedra near the surface are kept for the next isovalue, which is
    * faster then, unless they are many. The result is the same. */
   int32_t keep_tetrahedra; /* Default: 1 */
-  int32_t reserved;        /* 0 */
+  /* Of triangles: whether vertices are merged, and edges flipped, to fewer and well-shaped ones. 0:
+   * the exact isosurface of the Delaunay tetrahedralization. */
+  int32_t regularize; /* Default: 1 */
 } isopoint_options;
 
 /* Sets all options to their defaults. @param size sizeof(isopoint_options) */

@@ -74,6 +74,9 @@ struct IsosurfaceRequest
   /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that
   /// each has one normal.
   bool partsCreases = false;
+  /// Of triangles: whether vertices are merged, and edges flipped, to well-shaped triangles; see
+  /// docs/triangles.md.
+  bool regularizes = false;
 };
 
 /// The edge of an isopoint, between two samples on either side of the isovalue.

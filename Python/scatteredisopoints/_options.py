@@ -20,7 +20,8 @@ CONSTANTS = {
 }
 
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
-_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "reserved")
+_OF_TRIANGLES = ("regularize",)
+_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra")
 
 
 def snake_case(name: str) -> str:
@@ -31,7 +32,8 @@ def snake_case(name: str) -> str:
 def option_names(triangles: bool) -> list[str]:
     """The options of triangles, or of points."""
     names = [field[0] for field in Options._fields_]
-    names = [name for name in names if name not in _NOT_OPTIONS and not (triangles and name in _OF_POINTS)]
+    others = _NOT_OPTIONS + (_OF_POINTS if triangles else _OF_TRIANGLES)
+    names = [name for name in names if name not in others]
     return sorted(names + ["compute_scalars", "keep_tree"])
 
 
@@ -76,7 +78,7 @@ def switch(name: str, value: Any) -> bool:
 
 def _number(name: str, value: Any, default: Any) -> Any:
     """A value of the type of the default."""
-    if name.startswith(("compute_", "drop_")):
+    if name.startswith(("compute_", "drop_", "regularize")):
         return int(switch(name, value))
     try:
         if isinstance(value, (bool, np.bool_)):

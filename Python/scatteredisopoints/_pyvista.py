@@ -60,7 +60,8 @@ class ScatteredAccessor:
         progress_bar : bool, default: False
             Display a progress bar, for which tqdm or rich is needed.
         **options : dict, optional
-            Options of :func:`scatteredisopoints.contour`, such as ``drop_gaps=False``.
+            Options of :func:`scatteredisopoints.contour`, such as ``drop_gaps=False`` or
+            ``regularize=False``.
 
         Returns
         -------

@@ -53,7 +53,8 @@ def contour(
         work. True: a bar, by tqdm or rich.
     **options
         Properties of the filters in snake case, as `drop_gaps=False`, `projection="CREASE_FIT"`,
-        `compute_gradients=True`. docs/properties.md lists them. On several ranks each process
+        `compute_gradients=True`. docs/properties.md lists them, and which are of points or of
+        triangles alone. On several ranks each process
         contours its own samples, unless `controller` is given, which needs the compiled VTK classes:
         then all ranks have to call this together, and an error is raised on the first one alone.
 

@@ -197,6 +197,14 @@ TEST(RanksFilter, DifferentOptionsAreOneError)
               }),
     1);
   EXPECT_EQ(errorsOf(
+              [](int rank)
+              {
+                const auto filter = vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New();
+                filter->SetRegularize(rank == 0);
+                return filter;
+              }),
+    1);
+  EXPECT_EQ(errorsOf(
               [&](int rank)
               {
                 const auto filter = newPoints();

@@ -61,7 +61,7 @@ def options_of(filter_):
              "compute_projection_orders": "ComputeProjectionOrders",
              "output_points_precision": "OutputPointsPrecision", "angle": "Angle",
              "minimum_spacing": "MinimumSpacing", "number_of_neighbors": "NumberOfNeighbors",
-             "compute_splats": "ComputeSplats"}
+             "compute_splats": "ComputeSplats", "regularize": "Regularize"}
     options = {option: getattr(filter_, "Get" + name)() for option, name in names.items()
                if hasattr(filter_, "Get" + name)}
     options["triangles"] = int(isinstance(filter_, vtkScatteredIsosurfaceFilter))

@@ -176,6 +176,22 @@ TEST(Library, ResultsDependOnNeitherThreadsNorWhatWasExtractedBefore)
   }
 }
 
+TEST(Library, RegularizedTrianglesAreFewer)
+{
+  const Extractor extractor = makeExtractor();
+  ASSERT_EQ(Cloud().load(extractor.get()), ISOPOINT_OK);
+  isopoint_options options = withTriangles();
+  EXPECT_EQ(options.regularize, 1);
+  const auto countTriangles = [&]()
+  {
+    const Surface surface = extract(extractor.get(), { 0.7 }, options);
+    return numbersOf<std::int64_t>(surface.get(), ISOPOINT_TRIANGLES).size() / 3;
+  };
+  const std::size_t few = countTriangles();
+  options.regularize = 0;
+  EXPECT_LT(few, countTriangles() / 2);
+}
+
 TEST(Library, NewValuesAtTheSamePositionsReplaceTheFormerOnes)
 {
   Cloud cloud;
@@ -432,11 +448,11 @@ TEST(Library, OptionsAreOfThisVersionAndSwitchesOnOrOff)
   {
     expectInvalid([size](isopoint_options& options) { options.size = size; });
   }
-  expectInvalid([](isopoint_options& options) { options.reserved = 1; });
   for (const std::int32_t value : { -1, 2, std::numeric_limits<std::int32_t>::min() })
   {
     expectInvalid([value](isopoint_options& options) { options.triangles = value; });
     expectInvalid([value](isopoint_options& options) { options.keep_tetrahedra = value; });
+    expectInvalid([value](isopoint_options& options) { options.regularize = value; });
   }
   // No more is written than the caller has.
   std::array<unsigned char, sizeof(isopoint_options)> bytes;

@@ -181,6 +181,10 @@ def panel():
         drop_gaps = create(Input=simple.Wavelet()).SMProxy.GetProperty("DropGaps")
         check(drop_gaps.GetPanelVisibility() == "default", "DropGaps")
         check(drop_gaps.GetElement(0) == 1, "gaps are dropped")
+    points, triangles = (create(Input=simple.Wavelet()).SMProxy.GetProperty("Regularize")
+                         for create in filters())
+    check(points is None and triangles.GetPanelVisibility() == "default", "Regularize")
+    check(triangles.GetElement(0) == 1, "triangles are regularized")
 
 
 def main(plugin):

@@ -19,7 +19,7 @@ wavelet = Wavelet(WholeExtent=[-15, 15] * 3)
 wavelet.UpdatePipeline()
 points = ScatteredIsopoints(registrationName="points", Input=wavelet, Isosurfaces=[180.0], DropGaps=0)
 surface = ScatteredIsosurface(registrationName="surface", Input=wavelet,
-                              ContourBy=["POINTS", "RTData"], Projection="Quadratic fit")
+                              ContourBy=["POINTS", "RTData"], Projection="Quadratic fit", Regularize=0)
 Show(surface)
 Render()
 """

@@ -25,7 +25,8 @@ def main(library, package, paraview):
     state = str(folder / "state.pvsm")
     shown, _ = play(paraview, plugin, [
         choose("Scattered Isosurface"), expect("DropGaps", "visible", "true"),
-        set_property("Projection", "Quadratic fit"), set_property("DropGaps", "false"), APPLY,
+        set_property("Projection", "Quadratic fit"), set_property("DropGaps", "false"),
+        set_property("Regularize", "false"), APPLY,
         ADVANCED, expect("KeepTree", "visible", "true")],
         f"isopoints.Isosurfaces = [150.0]\nsimple.SaveState({state!r})\nsimple.SetActiveSource(wavelet)\n"
         "simple.SetActiveSource = lambda _: None")

@@ -208,6 +208,7 @@ class RanksTest(RanksTestCase):
     def test_arrays_of_every_kind(self):
         for kind in FILTERS:
             self.check(self.dealt(uniform(3000, 1)), kind=kind, values=(0.1, 1.1), **ALL_ARRAYS)
+        self.check(self.dealt(uniform(3000, 1)), kind=FILTERS[1], Regularize=0, **ALL_ARRAYS)
 
     def test_ranks_without_samples(self):
         points = uniform(1500, 2)

@@ -36,6 +36,8 @@ def rows_follow_others(plugin, paraview):
                    expect("KeepTree", "visible", "true"), expect("ContourBlocks", "visible", "false"),
                    expect("NormalMethod", "enabled", "true")]
         points = name == "Scattered Isopoints"
+        if not points:
+            events += [expect("Regularize", "visible", "true")]
         if points:
             events += [expect("NumberOfNeighbors", "enabled", "true"),
                        expect("MinimumSpacing", "enabled", "true"),

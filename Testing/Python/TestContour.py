@@ -94,6 +94,11 @@ class ContourTest(unittest.TestCase):
         self.same(result, filtered(as_data(positions, values), [0.3], Projection=2, DropGaps=True,
                                    ComputeGradients=1, ComputeNormals=0))
         self.assertIsNone(result.normals)
+        result = contour(positions, values, 0.3, triangles=True, regularize=False)
+        self.same(result, filtered(
+            as_data(positions, values), [0.3], vtkScatteredIsosurfaceFilter, Regularize=0))
+        with self.assertRaisesRegex(TypeError, "unknown option regularize"):
+            contour(positions, values, 0.3, regularize=False)
         with self.assertRaisesRegex(TypeError, "unknown option gap; there are .*drop_gaps"):
             contour(positions, values, 0.3, gap=2)
         with self.assertRaisesRegex(TypeError, "unknown option angle"):

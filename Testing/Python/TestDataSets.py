@@ -180,6 +180,7 @@ class DataSetsTest(unittest.TestCase):
         for dtype in (np.float32, np.float64):
             data, isovalue = prepared(cloud(dtype=dtype), False, "points")
             self.same(data, "distance", [isovalue, 0.2], triangles=True)
+            self.same(data, "distance", [isovalue, 0.2], triangles=True, regularize=False)
             self.same(data, "count", [700.5, 20.5], compute_gradients=True)
             data.GetPointData().SetActiveScalars("distance")
             self.same(data, None, [isovalue], projection="no_projection")
@@ -283,7 +284,8 @@ class DataSetsTest(unittest.TestCase):
 
         with self.assertRaises(InterruptedError):
             contour(data, "distance", isovalue, progress=fail)
-        for options in (dict(projection=None), dict(triangles="no"), dict(drop_gaps="maybe")):
+        for options in (dict(projection=None), dict(triangles="no"), dict(drop_gaps="maybe"),
+                        dict(triangles=True, regularize="maybe")):
             with self.assertRaisesRegex(ValueError, "cannot be"):
                 contour(data, "distance", isovalue, **options)
         surface = contour(data, "distance", isovalue)

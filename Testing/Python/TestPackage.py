@@ -191,6 +191,8 @@ class Arrays(unittest.TestCase):
                 ((positions, values), {"gap": 2}, TypeError, "unknown option gap; there are .*drop_gaps"),
                 ((positions, values), {"size": 2}, TypeError, "unknown option size"),
                 ((positions, values), {"triangles": True, "angle": 30.0}, TypeError, "unknown option"),
+                ((positions, values), {"regularize": True}, TypeError, "unknown option regularize"),
+                ((positions, values), {"triangles": True, "regularize": 2}, ValueError, "True or False"),
                 ((positions, values), {"angle": 200.0}, ValueError, "angle is 200, .*0 to 180"),
                 ((positions, values), {"angle": "wide"}, ValueError, "angle cannot be 'wide'"),
                 ((positions, values), {"projection": "cubes"}, ValueError, "projection cannot be"),
@@ -237,12 +239,21 @@ class Results(unittest.TestCase):
 
     def test_triangles_are_closed(self):
         positions, values = cloud(20000, np.float32)
-        surface = contour(positions, values, [0.2, 0.3], triangles=True)
-        edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        _, counts = np.unique(edges, axis=0, return_counts=True)
-        self.assertEqual(counts.tolist(), [2] * len(counts))
-        self.assertEqual(surface.arrays["values"].dtype, np.float32)
-        self.assertEqual(set(surface.arrays["values"]), {np.float32(0.2), np.float32(0.3)})
+        for regularize in (False, True):
+            surface = contour(positions, values, [0.2, 0.3], triangles=True, regularize=regularize)
+            edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+            _, counts = np.unique(edges, axis=0, return_counts=True)
+            self.assertEqual(counts.tolist(), [2] * len(counts))
+            self.assertEqual(surface.arrays["values"].dtype, np.float32)
+            self.assertEqual(set(surface.arrays["values"]), {np.float32(0.2), np.float32(0.3)})
+
+    def test_regularized_triangles_are_fewer(self):
+        positions, values = cloud(20000)
+        regular, exact = (contour(positions, values, 0.3, triangles=True, **options)
+                          for options in ({}, {"regularize": False}))
+        self.assertLess(len(regular.triangles), len(exact.triangles) / 2)
+        samples = Samples(positions, values)
+        self.assertEqual(contents(samples.contour(0.3, triangles=True, regularize=False)), contents(exact))
 
     def test_arrays_are_interpolated(self):
         positions, values = cloud()

@@ -41,9 +41,12 @@ class Accessor(unittest.TestCase):
         self.assertEqual(surface.active_scalars_name, "distance")
         self.assertEqual(set(surface.array_names), {"distance", "place", "count", "Normals"})
         np.testing.assert_allclose(surface["place"], surface.points, atol=5e-3)
-        expected = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True)
-        np.testing.assert_array_equal(surface.points, expected.points)
-        np.testing.assert_array_equal(surface.regular_faces, expected.triangles)
+        for options in ({}, {"regularize": False}):
+            surface = data.scattered.contour([0.3], "distance", **options)
+            expected = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3,
+                               triangles=True, **options)
+            np.testing.assert_array_equal(surface.points, expected.points)
+            np.testing.assert_array_equal(surface.regular_faces, expected.triangles)
 
     def test_isopoints_and_splats(self):
         isopoints = cloud().scattered.contour([0.3], triangles=False)

@@ -45,6 +45,7 @@ def main(extract):
             options = options_of(number)
             if triangles:
                 options.pop("minimum_spacing", None)
+                options["regularize"] = number % 5 < 3
             isovalues = np.sort(values)[[len(values) // 3, len(values) // 2]] + 0.001
             surface = extract(positions, values, [float(value) for value in isovalues], triangles, options)
             arrays = [surface.points, *(surface.arrays[name] for name in sorted(surface.arrays)),

@@ -176,6 +176,7 @@ def configured(number, filter_class):
         "OutputPointsPrecision": int(random.integers(3)),
         "ContourBlocks": int(random.random() < 0.3),
         "KeepTree": int(random.random() < 0.8),
+        "Regularize": choose(random, 0, 1),
     }
     for name in ("Normals", "Splats", "Scalars", "Gradients", "ProjectionOrders"):
         options["Compute" + name] = int(random.random() < 0.7)
