@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace
@@ -66,29 +67,56 @@ vtkIdType countFeatureEdges(vtkPolyData* surface)
 
 TEST(IsosurfaceFilter, YieldsAClosedSurface)
 {
-  const auto filter = newFilter(newCloud(100000), 0.7);
-  const auto errors = watchErrors(filter);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 0);
-  vtkPolyData* const surface = filter->GetOutput();
-  ASSERT_GT(surface->GetNumberOfPolys(), 10000);
-  EXPECT_EQ(surface->GetNumberOfVerts(), 0);
-  EXPECT_EQ(surface->GetNumberOfPoints() - surface->GetNumberOfPolys() / 2, 2); // Euler
-  EXPECT_EQ(countFeatureEdges(surface), 0);
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  const vtkSmartPointer<vtkPolyData> cloud = newCloud(100000);
+  for (const bool regularizes : { false, true })
   {
-    double p[3];
-    surface->GetPoint(i, p);
-    EXPECT_NEAR(vtkMath::Norm(p), 0.7, 1e-3);
-    double normal[3];
-    surface->GetPointData()->GetNormals()->GetTuple(i, normal);
-    EXPECT_LT(vtkMath::Dot(p, normal), -0.69);
-    EXPECT_NEAR(surface->GetPointData()->GetArray("x")->GetComponent(i, 0), p[0], 0.02);
-    EXPECT_EQ(surface->GetPointData()->GetArray("distance")->GetComponent(i, 0), 0.7);
+    SCOPED_TRACE(regularizes);
+    const auto filter = newFilter(cloud, 0.7);
+    filter->SetRegularize(regularizes);
+    const auto errors = watchErrors(filter);
+    filter->Update();
+    EXPECT_EQ(errors->Count, 0);
+    vtkPolyData* const surface = filter->GetOutput();
+    ASSERT_GT(surface->GetNumberOfPolys(), regularizes ? 5000 : 10000);
+    EXPECT_EQ(surface->GetNumberOfVerts(), 0);
+    EXPECT_EQ(surface->GetNumberOfPoints() - surface->GetNumberOfPolys() / 2, 2); // Euler
+    EXPECT_EQ(countFeatureEdges(surface), 0);
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      surface->GetPoint(i, p);
+      EXPECT_NEAR(vtkMath::Norm(p), 0.7, 1e-3);
+      double normal[3];
+      surface->GetPointData()->GetNormals()->GetTuple(i, normal);
+      EXPECT_LT(vtkMath::Dot(p, normal), -0.69);
+      EXPECT_NEAR(surface->GetPointData()->GetArray("x")->GetComponent(i, 0), p[0], 0.02);
+      EXPECT_EQ(surface->GetPointData()->GetArray("distance")->GetComponent(i, 0), 0.7);
+    }
+    EXPECT_EQ(surface->GetPointData()->GetArray("Radius"), nullptr);
+    EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), 0);
+    EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 0);
   }
-  EXPECT_EQ(surface->GetPointData()->GetArray("Radius"), nullptr);
-  EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), 0);
-  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 0);
+}
+
+TEST(IsosurfaceFilter, RegularizeLeavesFewerTriangles)
+{
+  const auto filter = newFilter(newCloud(20000), 0.7);
+  EXPECT_TRUE(filter->GetRegularize());
+  filter->RegularizeOff();
+  EXPECT_FALSE(filter->GetRegularize());
+  filter->Update();
+  const vtkIdType all = filter->GetOutput()->GetNumberOfPolys();
+  const vtkMTimeType before = filter->GetMTime();
+  filter->RegularizeOff();
+  EXPECT_EQ(filter->GetMTime(), before);
+  filter->RegularizeOn();
+  EXPECT_GT(filter->GetMTime(), before);
+  filter->Update();
+  EXPECT_LT(filter->GetOutput()->GetNumberOfPolys(), all / 2);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 5);
+  std::ostringstream printed;
+  filter->Print(printed);
+  EXPECT_NE(printed.str().find("Regularize: On"), std::string::npos);
 }
 
 TEST(IsosurfaceFilter, ServesFiltersOfMeshes)
@@ -132,6 +160,7 @@ TEST(IsosurfaceFilter, AgreesWithContourOnTetrahedra)
   contour->Update();
   const auto filter = newFilter(cloud, 0.7);
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  filter->RegularizeOff();
   filter->Update();
   const auto volumeOf = [](vtkPolyData* surface)
   {
