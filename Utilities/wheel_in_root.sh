@@ -208,7 +208,8 @@ import scatteredisopoints
 positions = np.random.default_rng(1).random((20000, 3))
 x, y, z = positions.T - 0.5
 digest = hashlib.sha256()
-for options in ({}, {"triangles": True}, {"projection": "CREASE_FIT"}):
+for options in ({}, {"triangles": True}, {"triangles": True, "regularize": False},
+                {"projection": "CREASE_FIT"}):
     surface = scatteredisopoints.contour(positions, x * x + y * y + z * z, 0.1, **options)
     assert len(surface.points) > 100
     digest.update(surface.points.tobytes())

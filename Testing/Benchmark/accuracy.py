@@ -37,6 +37,8 @@ def filtered(kind, projection):
         isopoints.SetValue(0, isovalue)
         isopoints.SetProjection(projection)
         isopoints.DropGapsOff()
+        if kind is vtkScatteredIsosurfaceFilter:
+            isopoints.RegularizeOff()
         if projection == kind.NO_PROJECTION:
             isopoints.SetNormalMethod(kind.NORMALS_FROM_PLANES)
         isopoints.Update()

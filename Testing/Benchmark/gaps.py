@@ -135,7 +135,8 @@ def main(folder):
             truth = mesh_surface(mesh, array, isovalue)
             area = areas_of(corners_of(truth)).sum()
             found = [
-                contour(samples, array, isovalue, triangles=True, projection="NO_PROJECTION", drop_gaps=drops).polydata
+                contour(samples, array, isovalue, triangles=True, projection="NO_PROJECTION", drop_gaps=drops,
+                        regularize=False).polydata
                 for drops in (False, True)
             ]
             off = [far_area(surface, truth, tree, spacings) for surface in found]

@@ -123,6 +123,8 @@ class Table:
         isopoints.SetComputeNormals(has_fit and is_all)
         if kind is vtkScatteredIsopointFilter:
             isopoints.SetComputeSplats(has_fit and is_all)
+        else:
+            isopoints.SetRegularize(has_fit)
         isopoints.SetComputeGradients(has_fit and not is_all)
         isopoints.SetProjection(kind.CUBIC_FIT if has_fit else kind.NO_PROJECTION)
         isopoints.UseAllCoresOff()

@@ -224,6 +224,7 @@ def reference_of(data, array, isovalue):
     if has_cells and first.GetPointData().HasArray(array):
         return contour_of(data, array, isovalue)
     triangles = vtkScatteredIsosurfaceFilter()
+    triangles.RegularizeOff()
     return configured(triangles, data, array, isovalue)
 
 
