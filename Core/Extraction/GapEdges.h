@@ -104,7 +104,7 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
   }
   keepUnique(seeds);
   parts.unite(ranks, seeds);
-  spread.spread(std::move(seeds));
+  spread.spread(GapCriterion::weak(), std::move(seeds));
   return spread.takeInGap();
 }
 

@@ -26,11 +26,16 @@ namespace isopoint
 class GapCriterion
 {
 public:
+  /// The cosine of the largest angle at which samples are behind an end: 1 / sqrt 3
+  static constexpr double coneCosine = 1.0 / 1.7320508075688772;
+
   /// @param factor positive
   /// @param count of samples behind an end, the farthest of which has the spacing: 1 to 3
-  GapCriterion(double factor, std::size_t count)
+  /// @param cosine of the largest angle, 0 for all of the half-space behind an end
+  GapCriterion(double factor, std::size_t count, double cosine = coneCosine)
     : Factor(factor)
     , WantedCount(count)
+    , Cosine(cosine)
   {
   }
 
@@ -51,8 +56,31 @@ public:
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
-    return this->isCrowdedBehind(tree, bounds, own, other) &&
-           this->isCrowdedBehind(tree, bounds, other, own);
+    return this->isCrowded(tree, bounds, own, other) && this->isCrowded(tree, bounds, other, own);
+  }
+
+  /// Whether the edge is longer than `factor` times the spacing behind its end. See drops().
+  template <class TSample>
+  bool isCrowded(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
+    const TSample& other) const
+  {
+    const Vector center = positionOf(end);
+    Behind<TSample> behind{ tree, bounds, center, offsetBetween(center, positionOf(other)), {} };
+    // The smallest node around all that may count.
+    const Region box = this->boxAround(center, behind.edge.length);
+    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+    Region region = tree.region;
+    for (;;)
+    {
+      const Node<TSample>& node = tree.nodes[nodeIndex];
+      const bool isUpper = node.isSplit() && box.lower[node.axis] > node.plane;
+      if (!isUpper && !(node.isSplit() && box.upper[node.axis] < node.plane))
+      {
+        return this->findBehind(nodeIndex, region, behind);
+      }
+      (isUpper ? region.lower : region.upper)[node.axis] = node.plane;
+      nodeIndex = tree.child(node, isUpper);
+    }
   }
 
   /// Whether edges at the sample of a leaf may be dropped that are no longer than this: a quick
@@ -73,7 +101,6 @@ public:
 
 private:
   static constexpr std::size_t mostWanted = 3;
-  static constexpr double cosine = 1.0 / 1.7320508075688772; // 1 / sqrt 3
 
   /// The positions found so far behind an end, each once.
   template <class TSample>
@@ -106,30 +133,6 @@ private:
     Found<TSample> found;
     std::size_t visited = 0; // nodes
   };
-
-  /// Whether the edge is longer than `factor` times the spacing behind its end.
-  template <class TSample>
-  bool isCrowdedBehind(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds,
-    const TSample& end, const TSample& other) const
-  {
-    const Vector center = positionOf(end);
-    Behind<TSample> behind{ tree, bounds, center, offsetBetween(center, positionOf(other)), {} };
-    // The smallest node around all that may count.
-    const Region box = this->boxAround(center, behind.edge.length);
-    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
-    Region region = tree.region;
-    for (;;)
-    {
-      const Node<TSample>& node = tree.nodes[nodeIndex];
-      const bool isUpper = node.isSplit() && box.lower[node.axis] > node.plane;
-      if (!isUpper && !(node.isSplit() && box.upper[node.axis] < node.plane))
-      {
-        return this->findBehind(nodeIndex, region, behind);
-      }
-      (isUpper ? region.lower : region.upper)[node.axis] = node.plane;
-      nodeIndex = tree.child(node, isUpper);
-    }
-  }
 
   /// Adds samples behind an end. @returns whether there are enough
   template <class TSample>
@@ -176,7 +179,7 @@ private:
         const Offset offset = offsetBetween(behind.center, positionOf(sample));
         return this->Factor * offset.length < behind.edge.length &&
                -dot(offset.vector, behind.edge.vector) >
-                 cosine * (offset.length * behind.edge.length);
+                 this->Cosine * (offset.length * behind.edge.length);
       },
       behind.found);
   }
@@ -188,7 +191,7 @@ private:
   {
     const double least = std::sqrt(offsets.leastSquaredLength);
     return this->Factor * least < behind.edge.length &&
-           -leastProduct(behind.edge, offsets) > cosine * (least * behind.edge.length);
+           -leastProduct(behind.edge, offsets) > this->Cosine * (least * behind.edge.length);
   }
 
   /// Adds the samples of an unsplit node that are wanted. @returns whether there are enough
@@ -224,6 +227,43 @@ private:
 
   double Factor;
   std::size_t WantedCount;
+  double Cosine;
+};
+
+/// The weak gap criterion, and edges that leave the body. An edge leaves it at the end x if
+/// - nothing goes on behind x: fewer than two positions lie in the cone there within twice the
+///   edge's length. So both ends of the edge cannot agree;
+/// - samples stand close around x: the edge is over the strong criterion there, with all of the
+///   half-space for the cone;
+/// - the edge is over the weak criterion at its other end.
+/// So edges to a far sample, or to the last of slices that are evenly apart, stay.
+class RimCriterion
+{
+public:
+  /// As GapCriterion::drops().
+  template <class TSample>
+  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+    const TSample& other) const
+  {
+    const bool isOwnCrowded = this->Weak.isCrowded(tree, bounds, own, other);
+    const bool isOtherCrowded = this->Weak.isCrowded(tree, bounds, other, own);
+    return (isOwnCrowded && isOtherCrowded) ||
+           (isOwnCrowded && this->leavesAt(tree, bounds, other, own)) ||
+           (isOtherCrowded && this->leavesAt(tree, bounds, own, other));
+  }
+
+private:
+  template <class TSample>
+  bool leavesAt(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
+    const TSample& other) const
+  {
+    return this->Around.isCrowded(tree, bounds, end, other) &&
+           !this->Beyond.isCrowded(tree, bounds, end, other);
+  }
+
+  GapCriterion Weak = GapCriterion::weak();
+  GapCriterion Around{ 4.0, 3, 0.0 };
+  GapCriterion Beyond{ 0.5, 2 };
 };
 
 } // namespace isopoint

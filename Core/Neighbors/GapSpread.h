@@ -57,8 +57,9 @@ public:
 
   /// Those of some parts that have an edge over a criterion, and those that other ranks found.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so do the other functions
+  template <class TCriterion>
   std::vector<std::size_t> over(
-    const GapCriterion& criterion, const std::vector<std::size_t>& candidates)
+    const TCriterion& criterion, const std::vector<std::size_t>& candidates)
   {
     constexpr std::size_t grain = 256;
     std::vector<char> marks(candidates.size(), 0);
@@ -79,8 +80,10 @@ public:
   }
 
   /// Marks what is in gaps.
+  /// @param weak the weak criterion
   /// @param front the seeds, each once
-  void spread(std::vector<std::size_t> front)
+  template <class TCriterion>
+  void spread(const TCriterion& weak, std::vector<std::size_t> front)
   {
     this->IsReached.resize(this->Parts.size(), 0);
     this->IsInGap.resize(this->Parts.size(), 0);
@@ -90,7 +93,7 @@ public:
     }
     while (this->Ranks.isAny(!front.empty()))
     {
-      front = this->next(this->over(GapCriterion::weak(), front));
+      front = this->next(this->over(weak, front));
     }
   }
 
@@ -104,7 +107,8 @@ public:
   const std::vector<char>& isReached() const { return this->IsReached; }
 
 private:
-  bool isOver(const GapCriterion& criterion, std::size_t part)
+  template <class TCriterion>
+  bool isOver(const TCriterion& criterion, std::size_t part)
   {
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)

@@ -150,7 +150,7 @@ public:
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   std::vector<char> find()
   {
-    this->Spread.spread(this->seeds());
+    this->Spread.spread(RimCriterion(), this->seeds());
     return this->withFragments(this->Spread.isInGap());
   }
 

@@ -277,10 +277,10 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
 /// Section 6: whether the end x of the edge {x, y} is crowded. It is if among all samples,
 /// coincident ones once, at least so many lie in the cone behind x, nearer than the edge's length
 /// over the factor.
+/// @param cosine of the cone: C, of 54.7356 degrees
 inline bool isCrowded(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double factor,
-  std::ptrdiff_t wanted)
+  std::ptrdiff_t wanted, double cosine = 1.0 / 1.7320508075688772)
 {
-  constexpr double cosine = 1.0 / 1.7320508075688772; // C, of 54.7356 degrees
   const Vector u = difference(cells[y].position, cells[x].position);
   const auto counts = [&](const Cell& z)
   {

@@ -61,9 +61,17 @@ struct Tetrahedron
   Corners corners;
   std::vector<std::size_t> neighbors; // across crossing facets
   bool isAtHull = false;              // has a crossing facet there
-  bool isWeak = false;                // has an edge over the weak criterion
+  bool isWeak = false;                // has an edge over the weak criterion, or leaving the body
   bool isStrong = false;
 };
+
+/// Whether the edge {x, y} leaves the body at x.
+bool leavesBody(const std::vector<bruteforce::Cell>& cells, std::size_t x, std::size_t y)
+{
+  return bruteforce::isCrowded(cells, y, x, 2.0, 2) &&
+         bruteforce::isCrowded(cells, x, y, 4.0, 3, 0.0) &&
+         !bruteforce::isCrowded(cells, x, y, 0.5, 2);
+}
 
 std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
 {
@@ -129,7 +137,8 @@ std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
       {
         const std::size_t x = cellOf.at(tetrahedron.corners[i]);
         const std::size_t y = cellOf.at(tetrahedron.corners[j]);
-        tetrahedron.isWeak |= bruteforce::isDroppedByGap(tree.cells, x, y, 2.0, 2);
+        tetrahedron.isWeak |= bruteforce::isDroppedByGap(tree.cells, x, y, 2.0, 2) ||
+                              leavesBody(tree.cells, x, y) || leavesBody(tree.cells, y, x);
         tetrahedron.isStrong |= bruteforce::isDroppedByGap(tree.cells, x, y, 4.0, 3);
       }
     }
@@ -316,4 +325,39 @@ TEST(GapTetrahedra, AreAllAcrossAVoidAllAround)
   };
   EXPECT_EQ(inGaps(0.01), 0.0);
   EXPECT_GT(inGaps(0.3), 0.99);
+}
+
+/// Nothing lies behind a sheet that is one sample thick, so that the ends of edges from a body to
+/// it cannot agree on the spacing.
+TEST(GapTetrahedra, AreThoseBetweenABodyAndASheet)
+{
+  Random random(9);
+  Cloud cloud;
+  for (int i = 0; i < 8600; ++i)
+  {
+    const double x = random();
+    const double y = random();
+    const double z = i < 8000 ? 0.5 * random() : 1.0 + 0.02 * random();
+    cloud.add(x, y, z, z);
+  }
+  const auto all = static_cast<double>(triangles::fullTetrahedra(cloud, 0.75).size());
+  EXPECT_GT(static_cast<double>(foundInGaps(cloud, 0.75).size()), 0.97 * all);
+}
+
+/// The last of several slices is no farther from the next one than these are apart.
+TEST(GapTetrahedra, AreFewBetweenSlices)
+{
+  const Cloud cube = clouds::uniform(6000, 10);
+  Cloud cloud;
+  for (std::size_t i = 0; i < cube.size(); ++i)
+  {
+    const double* const p = cube.positions.data() + 3 * i;
+    const double z = std::floor(5.0 * p[2]) / 5.0;
+    cloud.add(p[0], p[1], z, z + 0.2 * p[0]);
+  }
+  for (const double isovalue : { 0.1, 0.5, 0.9 })
+  {
+    const auto all = static_cast<double>(triangles::fullTetrahedra(cloud, isovalue).size());
+    EXPECT_LT(static_cast<double>(foundInGaps(cloud, isovalue).size()), 0.05 * all) << isovalue;
+  }
 }
