@@ -46,6 +46,108 @@ bool hasDirection(const Vector& vector)
   return std::isfinite(length) && length > 0.0;
 }
 
+/// Takes back moves that are more than twice as long as all edges of the vertex's triangles.
+void takeBackFarMoves(const std::vector<Vector>& unmoved,
+  const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
+{
+  constexpr double mostReach = 2.0; // in longest edges
+  std::vector<double> longest(fits.size(), 0.0);
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    double length = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      length = std::max(
+        length, lengthOf(difference(unmoved[triangle[(i + 1) % 3]], unmoved[triangle[i]])));
+    }
+    for (const std::size_t vertex : triangle)
+    {
+      longest[vertex] = std::max(longest[vertex], length);
+    }
+  }
+  for (std::size_t vertex = 0; vertex < fits.size(); ++vertex)
+  {
+    LocalFit& fit = fits[vertex];
+    if (fit.order && fit.order != FitOrder::Crease &&
+        lengthOf(difference(fit.position, unmoved[vertex])) > mostReach * longest[vertex])
+    {
+      fit.order.reset();
+      fit.position = unmoved[vertex];
+    }
+  }
+}
+
+/// The sum of the normals of the triangles at each vertex, weighted by area.
+std::vector<Vector> triangleNormals(
+  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<Vector> sums(positions.size());
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    const auto& [a, b, c] = triangle;
+    const Vector normal =
+      cross(difference(positions[b], positions[a]), difference(positions[c], positions[a]));
+    for (const std::size_t vertex : triangle)
+    {
+      sums[vertex] = sum(sums[vertex], 1.0, normal);
+    }
+  }
+  return sums;
+}
+
+/// The sum, at each vertex, of what the other corners of its triangles have.
+std::vector<Vector> sumsAround(
+  const std::vector<Vector>& all, const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<Vector> sums(all.size());
+  for (const auto& [a, b, c] : triangles)
+  {
+    sums[a] = sum(sums[a], 1.0, sum(all[b], 1.0, all[c]));
+    sums[b] = sum(sums[b], 1.0, sum(all[c], 1.0, all[a]));
+    sums[c] = sum(sums[c], 1.0, sum(all[a], 1.0, all[b]));
+  }
+  return sums;
+}
+
+/// The vertices whose fits have failed, as their normals show: those turned away from the triangles
+/// around, and from the triangles around the neighbors. (Of the triangles around one vertex alone,
+/// long thin ones can look anywhere beside a right normal.)
+/// @param normals of vertices, except for `others`
+/// @param ofTriangles triangleNormals()
+std::vector<std::size_t> failedNormals(const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<Vector>& normals,
+  const std::vector<std::size_t>& others, const std::vector<Vector>& ofTriangles)
+{
+  constexpr double leastCosine = 0.5; // of 60 degrees
+  const auto isTurnedFrom = [&](const std::vector<Vector>& means, std::size_t vertex)
+  {
+    return hasDirection(means[vertex]) &&
+           dot(normals[vertex], directionOf(means[vertex])) < leastCosine;
+  };
+  std::vector<bool> isOther(normals.size(), false);
+  for (const std::size_t vertex : others)
+  {
+    isOther[vertex] = true;
+  }
+  std::vector<std::size_t> failed;
+  for (std::size_t vertex = 0; vertex < normals.size(); ++vertex)
+  {
+    if (!isOther[vertex] && points.fits[vertex].order != FitOrder::Crease &&
+        isTurnedFrom(ofTriangles, vertex))
+    {
+      failed.push_back(vertex);
+    }
+  }
+  if (!failed.empty())
+  {
+    const std::vector<Vector> around = sumsAround(ofTriangles, triangles);
+    failed.erase(std::remove_if(failed.begin(), failed.end(),
+                   [&](std::size_t vertex) { return !isTurnedFrom(around, vertex); }),
+      failed.end());
+  }
+  return failed;
+}
+
 } // namespace
 
 std::vector<std::size_t> verticesOf(
@@ -84,6 +186,7 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
+  takeBackFarMoves(unmoved, triangles, fits);
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
   const auto fallingAt = [&fits](std::size_t vertex)
   { return scaled(-1.0, directionOf(fits[vertex].gradient)); };
@@ -147,38 +250,19 @@ std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoint
   const std::vector<SurfaceTriangle>& triangles, bool areOfField)
 {
   std::vector<Vector> normals(points.positions.size());
-  const std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
+  std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
     [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
-  if (others.empty())
+  const std::vector<Vector> ofTriangles = triangleNormals(points.positions, triangles);
+  if (others.size() < normals.size())
   {
-    return normals;
-  }
-  std::vector<char> isOther(normals.size(), 0);
-  for (const std::size_t vertex : others)
-  {
-    isOther[vertex] = 1;
-  }
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    const auto& [a, b, c] = triangle;
-    if (!isOther[a] && !isOther[b] && !isOther[c])
-    {
-      continue;
-    }
-    const Vector normal = cross(difference(points.positions[b], points.positions[a]),
-      difference(points.positions[c], points.positions[a]));
-    for (const std::size_t vertex : triangle)
-    {
-      if (isOther[vertex])
-      {
-        normals[vertex] = sum(normals[vertex], 1.0, normal);
-      }
-    }
+    const std::vector<std::size_t> failed =
+      failedNormals(points, triangles, normals, others, ofTriangles);
+    others.insert(others.end(), failed.begin(), failed.end());
   }
   for (const std::size_t vertex : others)
   {
-    Vector& normal = normals[vertex];
-    normal = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
+    const Vector& normal = ofTriangles[vertex];
+    normals[vertex] = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
   }
   return normals;
 }

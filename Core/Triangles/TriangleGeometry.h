@@ -31,12 +31,13 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount);
 
-/// Takes back those moves of vertices by fits that would turn triangles over. A triangle is turned
-/// over if the right-hand normal of its unmoved vertices has a positive product with the sum of the
+/// Takes back those moves of vertices by fits that are more than twice as long as all edges of the
+/// vertex's triangles, and then those that would turn triangles over. A triangle is turned over if
+/// the right-hand normal of its unmoved vertices has a positive product with the sum of the
 /// directions against the three gradients, and that of the moved ones has not: then the three
 /// vertices stay, as if no fit held; until no triangle is turned over. (Linear interpolation alone
 /// leaves some that look the wrong way in flat tetrahedra.)
-/// Triangles with a vertex of a fit with creases are left to meshCreases().
+/// Vertices of fits with creases, and their triangles, are left to meshCreases().
 /// @param unmoved positions of the vertices
 /// @param fits of the vertices; those whose vertices stay have no order and that position
 /// @throws std::bad_alloc, Aborted
@@ -46,7 +47,9 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits);
 
 /// The normals of vertices: against the fits' gradients, if wanted and where there are such; else
-/// the mean of the normals of their triangles, weighted by area.
+/// the mean of the normals of their triangles, weighted by area. So it is where a fit has failed:
+/// where its normal is more than 60 degrees off this mean and that of the neighbors' means. Fits
+/// with creases do not fail.
 /// @throws std::bad_alloc
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, bool areOfField);

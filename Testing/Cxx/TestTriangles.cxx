@@ -153,6 +153,78 @@ double largestDistance(const ExtractedIsosurface& extracted, double (*distance)(
   return largest;
 }
 
+/// A grid around a post, with cells that are stretched up to 30 times.
+Cloud gridAroundAPost()
+{
+  constexpr int layers = 16;
+  constexpr int spokes = 48;
+  constexpr int rings = 40;
+  const double growth = std::pow(30.0, 1.0 / (rings - 2));
+  Cloud cloud;
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    double radiusOfRing = 1.0;
+    double width = 0.02;
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      for (int spoke = 0; spoke < spokes; ++spoke)
+      {
+        const double angle = 2.0 * 3.14159265358979 / spokes * spoke;
+        cloud.add(radiusOfRing * std::cos(angle), radiusOfRing * std::sin(angle),
+          4.0 / (layers - 1) * layer, 0.0);
+      }
+      radiusOfRing += width;
+      width *= growth;
+    }
+  }
+  return cloud;
+}
+
+/// A flat sheet of unit squares, each cut into two triangles, with values that fall upwards.
+struct FlatSheet
+{
+  static constexpr int size = 7; // vertices along each side
+
+  static std::size_t vertexAt(int x, int y) { return static_cast<std::size_t>(size * y + x); }
+
+  FlatSheet()
+    : fits(size * size)
+  {
+    for (int y = 0; y < size; ++y)
+    {
+      for (int x = 0; x < size; ++x)
+      {
+        this->positions.push_back({ double(x), double(y), 0.0 });
+        isopoint::LocalFit& fit = this->fits[vertexAt(x, y)];
+        fit.position = this->positions.back();
+        fit.gradient = { 0.0, 0.0, -1.0 };
+        fit.isGradientFitted = true;
+        fit.order = isopoint::FitOrder::Cubic;
+        if (x > 0 && y > 0)
+        {
+          this->triangles.push_back({ vertexAt(x - 1, y - 1), vertexAt(x, y - 1), vertexAt(x, y) });
+          this->triangles.push_back({ vertexAt(x - 1, y - 1), vertexAt(x, y), vertexAt(x - 1, y) });
+        }
+      }
+    }
+  }
+
+  std::vector<Vector> normals() const { return this->normals(true); }
+  Vector trianglesNormalAt(std::size_t vertex) const { return this->normals(false)[vertex]; }
+
+  std::vector<Vector> positions;
+  std::vector<SurfaceTriangle> triangles;
+  std::vector<isopoint::LocalFit> fits;
+
+private:
+  std::vector<Vector> normals(bool areOfField) const
+  {
+    const std::vector<Vector> decreasing(this->positions.size(), Vector{ 0.0, 0.0, 1.0 });
+    return isopoint::vertexNormals(
+      {}, { this->positions, decreasing, this->fits }, this->triangles, areOfField);
+  }
+};
+
 } // namespace
 
 TEST(Triangles, OfASphereAreClosed)
@@ -233,6 +305,102 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
   }
   EXPECT_TRUE(fits[3].order.has_value());
   EXPECT_EQ(fits[3].position, before[3].position);
+}
+
+/// A vertex that a fit would move far from its triangles stays, and its neighbors move.
+TEST(Triangles, StayNearTheirTriangles)
+{
+  FlatSheet sheet;
+  for (isopoint::LocalFit& fit : sheet.fits)
+  {
+    fit.position[2] = 0.5;
+  }
+  const std::size_t far = FlatSheet::vertexAt(3, 3);
+  const std::size_t crease = FlatSheet::vertexAt(1, 5);
+  sheet.fits[far].position[2] = 2.9;
+  sheet.fits[FlatSheet::vertexAt(5, 1)].position[2] = 2.8; // shorter than two diagonals
+  sheet.fits[crease].position[2] = 2.9;
+  sheet.fits[crease].order = isopoint::FitOrder::Crease;
+  const std::vector<isopoint::LocalFit> before = sheet.fits;
+  isopoint::keepTrianglesUpright({}, sheet.positions, sheet.triangles, sheet.fits);
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_EQ(sheet.fits[i].order.has_value(), i != far) << i;
+    EXPECT_EQ(sheet.fits[i].position, i == far ? sheet.positions[i] : before[i].position) << i;
+  }
+}
+
+/// Where the normal of a fit is turned away from all around, the vertex has that of its triangles.
+TEST(Triangles, HaveTheirOwnNormalsWhereAFitFailed)
+{
+  FlatSheet sheet;
+  const Vector slanted = isopoint::directionOf({ 0.1, 0.2, -1.0 });
+  for (isopoint::LocalFit& fit : sheet.fits)
+  {
+    fit.gradient = slanted;
+  }
+  const std::vector<std::size_t> turned{ FlatSheet::vertexAt(0, 0), FlatSheet::vertexAt(3, 3),
+    FlatSheet::vertexAt(3, 4) };
+  for (const std::size_t vertex : turned)
+  {
+    sheet.fits[vertex].gradient = { 2.0, 0.0, -1.0 }; // by 63 degrees
+  }
+  const std::size_t crease = FlatSheet::vertexAt(1, 5);
+  sheet.fits[crease].gradient = { 2.0, 0.0, -1.0 };
+  sheet.fits[crease].order = isopoint::FitOrder::Crease;
+  sheet.fits[FlatSheet::vertexAt(6, 3)].gradient = { 1.5, 0.0, -1.0 }; // by 56 degrees
+  const std::vector<Vector> normals = sheet.normals();
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    const bool isTurned = std::count(turned.begin(), turned.end(), i) > 0;
+    EXPECT_EQ(normals[i], isTurned
+                            ? Vector({ 0.0, 0.0, 1.0 })
+                            : isopoint::scaled(-1.0, isopoint::directionOf(sheet.fits[i].gradient)))
+      << i;
+  }
+}
+
+/// Triangles that look away from the surface around, as long thin ones may, say nothing of a fit.
+TEST(Triangles, HaveNormalsAgainstTheGradientWhereTheyAreFolded)
+{
+  FlatSheet sheet;
+  for (int y = 0; y < FlatSheet::size; ++y) // a step up, on which the vertices of x = 3 are
+  {
+    sheet.positions[FlatSheet::vertexAt(3, y)] = { 2.05, double(y), 0.15 };
+    sheet.positions[FlatSheet::vertexAt(4, y)] = { 2.1, double(y), 0.3 };
+    sheet.positions[FlatSheet::vertexAt(5, y)][2] = 0.3;
+    sheet.positions[FlatSheet::vertexAt(6, y)][2] = 0.3;
+  }
+  const std::size_t folded = FlatSheet::vertexAt(3, 3);
+  EXPECT_LT(sheet.trianglesNormalAt(folded)[2], 0.5);
+  EXPECT_EQ(sheet.normals()[folded], Vector({ 0.0, 0.0, 1.0 }));
+}
+
+/// At the rim of an unevenly sampled cloud fits extrapolate, and some fail.
+TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
+{
+  const auto wave = [](const Vector& p)
+  { return 1.5 + std::sin(3.0 * p[0]) * std::cos(2.3 * p[1]); };
+  const auto plane = [&](const Vector& p)
+  { return wave(p) * (0.3 * p[0] + 0.2 * p[1] + p[2] - 2.03); };
+  const auto curved = [&](const Vector& p)
+  { return wave(p) * (p[2] - 2.03 + 0.4 * std::sin(1.1 * p[0]) * std::cos(0.7 * p[1])); };
+  for (const Cloud& cloud :
+    { withField(gridAroundAPost(), plane), withField(gridAroundAPost(), curved) })
+  {
+    isopoint::ExtractionRequest request = requestOf(0.0, isopoint::FitOrder::Cubic, true);
+    const std::vector<Vector> ofFits = trianglesOf(cloud, request).normals;
+    request.splats->fieldNormals = false;
+    const std::vector<Vector> ofTriangles = trianglesOf(cloud, request).normals;
+    ASSERT_EQ(ofFits.size(), ofTriangles.size());
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < ofFits.size(); ++i)
+    {
+      EXPECT_GT(isopoint::dot(ofFits[i], ofTriangles[i]), 0.25); // of 76 degrees
+      same += ofFits[i] == ofTriangles[i] ? 1 : 0;
+    }
+    EXPECT_LT(same, ofFits.size() / 100);
+  }
 }
 
 TEST(Triangles, HaveNormalsAgainstTheGradient)
