@@ -103,8 +103,9 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
   const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
 {
   std::vector<std::size_t> vertexRanks;
-  for (const EdgeLeaves& leaves : all.surface.leaves)
+  for (std::size_t vertex = 0; vertex < all.surface.size(); ++vertex)
   {
+    const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
     vertexRanks.push_back(ranks.ownerOf(firstPlaceOf(tree, leaves)));
   }
   const auto rank = static_cast<std::size_t>(ranks.team().rank());

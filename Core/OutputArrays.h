@@ -107,9 +107,14 @@ void interpolateComponents(const Execution& execution, const Isosurface& surface
     forEachIndex(execution, surface.size(),
       [&](std::size_t i)
       {
-        const IsopointEdge& edge = surface.edges[i];
-        write(
-          i, component, interpolate(attribute(edge.first), attribute(edge.second), edge.parameter));
+        const std::size_t begin = surface.edgeBegin(i);
+        const std::size_t count = surface.edgeBegin(i + 1) - begin;
+        const auto valueAt = [&](const IsopointEdge& edge)
+        { return interpolate(attribute(edge.first), attribute(edge.second), edge.parameter); };
+        const double value = count == 1 ? valueAt(surface.edges[begin])
+                                        : meanOf(count, [&](std::size_t k)
+                                            { return valueAt(surface.edges[begin + k]); });
+        write(i, component, value);
       });
   }
 }

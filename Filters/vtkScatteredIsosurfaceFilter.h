@@ -17,7 +17,9 @@
  * 1. with RegularizeOff(), each edge of the tetrahedralization that crosses the isovalue has one
  *    point. Points are ordered by isovalue, then by the lower and the higher sample id of their
  *    edge. Where samples have the isovalue, the edges that end at one of them share one point
- *    there, in the place of the first of them, and triangles without area are left out.
+ *    there, in the place of the first of them, and triangles without area are left out. With
+ *    RegularizeOn(), a point stands for several of these edges: it is ordered by the one that is
+ *    crossed nearest to it, and its arrays are means over all of them.
  * 2. triangles are ordered by isovalue, then by their points, the lowest first. Their right-hand
  *    normals point to decreasing values, as those of vtkContourFilter do. All coordinates and
  *    triangles depend on the input and the options alone, to the last bit.

@@ -136,7 +136,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
     isopoint::forEachIndex(execution, part.surface.size(),
       [&](std::size_t i)
       {
-        const isopoint::IsopointEdge& edge = part.surface.edges[i];
+        const isopoint::IsopointEdge& edge = part.surface.edgeOf(i);
         this->Isovalues[first + i] = part.surface.isovalue;
         this->Edges[2 * (first + i)] = static_cast<std::int64_t>(edge.first);
         this->Edges[2 * (first + i) + 1] = static_cast<std::int64_t>(edge.second);
@@ -147,6 +147,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
     // What is kept serves interpolation.
     isopoint::ExtractedIsosurface kept;
     kept.surface.edges = std::move(part.surface.edges);
+    kept.surface.edgeBegins = std::move(part.surface.edgeBegins);
     kept.surface.coincident = std::move(part.surface.coincident);
     part = std::move(kept);
   }

@@ -251,6 +251,7 @@ typedef enum isopoint_array_id
   ISOPOINT_NORMALS = 2,           /* three float, of length 1, to decreasing values */
   ISOPOINT_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
   ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved each point */
+  /* Of a regularized vertex, which several crossings have become, the edge of the nearest one: */
   ISOPOINT_EDGES = 5,             /* two int64: the samples at its ends, the lower number first */
   ISOPOINT_EDGE_PARAMETERS = 6,   /* double: where on its edge a point is, from 0 to 1 */
   ISOPOINT_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */

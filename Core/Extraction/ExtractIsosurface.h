@@ -126,44 +126,65 @@ std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& 
   return count;
 }
 
-/// The isosurface of edges: positions where the fits put them, or else where linear interpolation
-/// does.
-/// @param edges ordered, each once
-/// @param fits one for each edge, or empty
+/// Crossing edges of isopoints, ordered, each once.
+template <class TSample>
+struct IsopointEdges
+{
+  const std::vector<CrossingEdge<TSample>>& edges;
+  const std::vector<std::size_t>& begins; // see Isosurface::edgeBegins
+  const std::vector<Vector>& starts; // where isopoints are before they are moved; empty if that is
+                                     // where linear interpolation puts them
+};
+
+/// The isosurface of edges: positions where the fits put them, or else where they start.
+/// @param fits one for each isopoint, or empty
 template <class TSample>
 Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>& context,
-  const std::vector<CrossingEdge<TSample>>& edges, std::vector<LocalFit> fits, bool isMoved)
+  const IsopointEdges<TSample>& isopoints, std::vector<LocalFit> fits, bool isMoved)
 {
   Isosurface surface;
   surface.isovalue = context.isovalue;
-  surface.edges.resize(edges.size());
-  surface.positions.resize(edges.size());
-  surface.decreasingEdges.resize(edges.size());
-  surface.leaves.resize(edges.size());
+  surface.edges.resize(isopoints.edges.size());
+  surface.leaves.resize(isopoints.edges.size());
+  surface.edgeBegins = isopoints.begins;
+  surface.positions.resize(surface.size());
+  surface.decreasingEdges.resize(surface.size());
   surface.fits = std::move(fits);
+  const auto positionAt = [&context](typename TSample::Id leaf)
+  { return positionOf(context.tree.sampleOf(leaf)); };
   constexpr std::size_t grain = 4096;
   forBatches(
-    execution, edges.size(), 8 * grain, grain,
+    execution, surface.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
       LeafValueCache<TSample> values(context.tree, context.leafMeans);
-      const auto positionAt = [&context](typename TSample::Id leaf)
-      { return positionOf(context.tree.sampleOf(leaf)); };
       for (std::size_t i = begin; i < end; ++i)
       {
-        const CrossingEdge<TSample>& edge = edges[i];
-        const Vector first = positionAt(edge.firstLeaf);
-        const Vector second = positionAt(edge.secondLeaf);
+        const std::size_t first = surface.edgeBegin(i);
+        const CrossingEdge<TSample>& own = isopoints.edges[first];
+        const Vector along = difference(positionAt(own.secondLeaf), positionAt(own.firstLeaf));
+        const bool isDecreasing = !(values.at(own.firstLeaf) < context.isovalue);
+        surface.decreasingEdges[i] = isDecreasing ? along : scaled(-1.0, along);
+        const auto crossingOf = [&](const CrossingEdge<TSample>& edge) {
+          return interpolate(
+            positionAt(edge.firstLeaf), positionAt(edge.secondLeaf), edge.crossing);
+        };
         const bool followsFit = isMoved && surface.fits[i].order;
-        surface.positions[i] =
-          followsFit ? surface.fits[i].position : interpolate(first, second, edge.crossing);
-        const double parameter =
-          followsFit ? nearestParameter(first, second, surface.positions[i]) : edge.crossing;
-        surface.edges[i] = { { edge.first, edge.second }, parameter };
-        surface.leaves[i] = { edge.firstLeaf, edge.secondLeaf };
-        const bool isDecreasing = !(values.at(edge.firstLeaf) < context.isovalue);
-        surface.decreasingEdges[i] =
-          isDecreasing ? difference(second, first) : scaled(-1.0, difference(second, first));
+        const Vector start = isopoints.starts.empty() ? crossingOf(own) : isopoints.starts[i];
+        surface.positions[i] = followsFit ? surface.fits[i].position : start;
+        const Vector move = difference(surface.positions[i], start);
+        const std::size_t last = surface.edgeBegin(i + 1);
+        for (std::size_t k = first; k < last; ++k)
+        {
+          const CrossingEdge<TSample>& edge = isopoints.edges[k];
+          const Vector place =
+            last == first + 1 ? surface.positions[i] : sum(crossingOf(edge), 1.0, move);
+          const double parameter = followsFit ? nearestParameter(positionAt(edge.firstLeaf),
+                                                  positionAt(edge.secondLeaf), place)
+                                              : edge.crossing;
+          surface.edges[k] = { { edge.first, edge.second }, parameter };
+          surface.leaves[k] = { edge.firstLeaf, edge.secondLeaf };
+        }
       }
     },
     execution.progress);
@@ -222,11 +243,11 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
   std::vector<LocalFit> fits;
   if (request.fit)
   {
-    fits =
-      fitNeighborhoods(partOf(execution, edgesEnd, fitsEnd), context, ranks, *request.fit, edges);
+    fits = fitNeighborhoods(
+      partOf(execution, edgesEnd, fitsEnd), context, ranks, *request.fit, edges, {});
   }
-  surface = placeIsopoints(partOf(execution, fitsEnd, 1.0), context, edges, std::move(fits),
-    request.fit && request.fit->move);
+  surface = placeIsopoints<TSample>(partOf(execution, fitsEnd, 1.0), context, { edges, {}, {} },
+    std::move(fits), request.fit && request.fit->move);
   surface.droppedEdges = dropped;
   return surface;
 }

@@ -109,12 +109,17 @@ struct Isosurface
 {
   double isovalue = 0.0;
 
-  // One entry for each isopoint.
+  /// One edge of each isopoint; of a vertex that several have become, all of theirs, one list after
+  /// the other. All attributes are means over these edges.
   std::vector<IsopointEdge> edges;
+  std::vector<EdgeLeaves> leaves; // of the same edges; do not leave the core
+  /// Where the edges of each isopoint begin, and the end of the last ones; empty where each has
+  /// one.
+  std::vector<std::size_t> edgeBegins;
+
+  // One entry for each isopoint.
   std::vector<Vector> positions;       // moved to the zero of the fit, where that was requested
   std::vector<Vector> decreasingEdges; // from the end not below the isovalue to the one that is
-
-  std::vector<EdgeLeaves> leaves; // for IsopointNeighbors; does not leave the core
 
   std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
 
@@ -122,7 +127,22 @@ struct Isosurface
 
   std::size_t droppedEdges = 0; // crossing ones that lie in gaps
 
-  std::size_t size() const { return this->edges.size(); }
+  std::size_t size() const
+  {
+    return this->edgeBegins.empty() ? this->edges.size() : this->edgeBegins.size() - 1;
+  }
+
+  /// Where the edges of an isopoint begin. That of the isopoint behind the last one is the end.
+  std::size_t edgeBegin(std::size_t isopoint) const
+  {
+    return this->edgeBegins.empty() ? isopoint : this->edgeBegins[isopoint];
+  }
+
+  /// The edge of an isopoint; of several, the one that is crossed nearest to it.
+  const IsopointEdge& edgeOf(std::size_t isopoint) const
+  {
+    return this->edges[this->edgeBegin(isopoint)];
+  }
 
   /// The samples that coincide with the one of this id, or null if it is alone.
   /// O(log coincident.size())
@@ -150,16 +170,42 @@ std::vector<T> chosenOf(
   return chosen;
 }
 
+/// Chooses lists that follow each other, by their indices.
+/// @param begins of all lists, and the end of the last one; if it is empty, so is the result
+/// @param elements set to the elements of the chosen lists
+/// @returns where the chosen lists begin, and the end of the last one
+inline std::vector<std::size_t> chosenLists(const std::vector<std::size_t>& begins,
+  const std::vector<std::size_t>& indices, std::vector<std::size_t>& elements)
+{
+  if (begins.empty())
+  {
+    return {};
+  }
+  std::vector<std::size_t> chosen(1, 0);
+  chosen.reserve(indices.size() + 1);
+  for (const std::size_t index : indices)
+  {
+    for (std::size_t element = begins[index]; element < begins[index + 1]; ++element)
+    {
+      elements.push_back(element);
+    }
+    chosen.push_back(elements.size());
+  }
+  return chosen;
+}
+
 /// The isopoints of some indices of a surface, in their order, without coincident samples.
 inline Isosurface chosenIsopoints(
   const Execution& execution, const Isosurface& surface, const std::vector<std::size_t>& indices)
 {
   Isosurface few;
   few.isovalue = surface.isovalue;
-  few.edges = chosenOf(execution, surface.edges, indices);
+  std::vector<std::size_t> edges;
+  few.edgeBegins = chosenLists(surface.edgeBegins, indices, edges);
+  few.edges = chosenOf(execution, surface.edges, few.edgeBegins.empty() ? indices : edges);
+  few.leaves = chosenOf(execution, surface.leaves, few.edgeBegins.empty() ? indices : edges);
   few.positions = chosenOf(execution, surface.positions, indices);
   few.decreasingEdges = chosenOf(execution, surface.decreasingEdges, indices);
-  few.leaves = chosenOf(execution, surface.leaves, indices);
   few.fits = chosenOf(execution, surface.fits, indices);
   return few;
 }

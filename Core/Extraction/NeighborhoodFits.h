@@ -34,10 +34,13 @@ public:
   {
   }
 
-  LocalFit fit(const CrossingEdge<TSample>& crossing)
+  /// @param start where the isopoint is before it is moved; null if that is where linear
+  /// interpolation puts it
+  LocalFit fit(const CrossingEdge<TSample>& crossing, const Vector* start)
   {
     this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
-    const FitEdge edge = this->edgeOf(crossing);
+    FitEdge edge = this->edgeOf(crossing);
+    edge.position = start ? *start : edge.position;
     if (!this->Request.highest)
     {
       return LocalFitter::onEdge(edge);
@@ -120,12 +123,15 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
 /// they follow each other in the tree: what is found for one edge is often that of the next. Each
 /// fit depends on its samples alone.
 /// @param ranks SingleRank, or SharedRanks
+/// @param starts where the isopoints of the edges are before they are moved; empty if that is where
+/// linear interpolation puts them
 /// @param fits one for each edge, of which those at the places are set
 /// @throws Aborted, std::bad_alloc
 template <class TSample, class TRanks>
 void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRanks& ranks,
   FitRequest request, const std::vector<CrossingEdge<TSample>>& edges,
-  const std::vector<TreePlace>& places, std::vector<LocalFit>& fits)
+  const std::vector<Vector>& starts, const std::vector<TreePlace>& places,
+  std::vector<LocalFit>& fits)
 {
   // Batches are small: where cells touch hundreds of others, a fit takes long.
   constexpr std::size_t grain = 256;
@@ -133,7 +139,10 @@ void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRan
     execution, { places.size(), 4 * grain, grain },
     [&]() { return NeighborhoodFitter<TSample>(context, request); },
     [&](NeighborhoodFitter<TSample>& fitter, std::size_t i)
-    { fits[places[i].edge] = fitter.fit(edges[places[i].edge]); },
+    {
+      const std::size_t edge = places[i].edge;
+      fits[edge] = fitter.fit(edges[edge], starts.empty() ? nullptr : &starts[edge]);
+    },
     execution.progress);
 }
 
@@ -141,10 +150,11 @@ void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRan
 template <class TSample, class TRanks>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
-  const std::vector<CrossingEdge<TSample>>& edges)
+  const std::vector<CrossingEdge<TSample>>& edges, const std::vector<Vector>& starts)
 {
   std::vector<LocalFit> fits(edges.size());
-  fitAt(execution, context, ranks, request, edges, placesOf(execution, context.tree, edges), fits);
+  fitAt(execution, context, ranks, request, edges, starts, placesOf(execution, context.tree, edges),
+    fits);
   return fits;
 }
 

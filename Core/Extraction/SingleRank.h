@@ -74,12 +74,14 @@ public:
   void unite(std::vector<std::size_t>& /*found*/) const {}
 
   /// Fits to the samples around edges, which all ranks have. @returns one fit for each
+  /// @param starts see fitAt()
   std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
-    const FitRequest& request, const Edges& edges)
+    const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
   {
     constexpr double splitEnd = 0.2; // share of the progress
     this->splitAround(partOf(execution, 0.0, splitEnd), leavesOf(edges));
-    return fitNeighborhoods(partOf(execution, splitEnd, 1.0), context, *this, request, edges);
+    return fitNeighborhoods(
+      partOf(execution, splitEnd, 1.0), context, *this, request, edges, starts);
   }
 
 private:

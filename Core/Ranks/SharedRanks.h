@@ -216,14 +216,14 @@ public:
 
   /// Each rank fits to the samples around the edges that are counted there.
   std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
-    const FitRequest& request, const Edges& edges)
+    const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
   {
     std::vector<LocalFit> fits(edges.size());
     std::vector<TreePlace> places = placesOf(execution, this->Tree, edges);
     places.erase(std::remove_if(places.begin(), places.end(),
                    [this](const TreePlace& place) { return !this->Tree.isOwn(place.lower); }),
       places.end());
-    fitAt(execution, context, *this, request, edges, places, fits);
+    fitAt(execution, context, *this, request, edges, starts, places, fits);
     this->gatherFits(places, fits);
     return fits;
   }

@@ -26,7 +26,7 @@ struct Band
   bool isSmall(std::size_t sampleCount) const
   {
     constexpr std::size_t leastRatio = 8;
-    constexpr std::size_t alwaysSmall = 50000;
+    constexpr std::size_t alwaysSmall = 500000;
     return this->triangulation.size() <= std::max(alwaysSmall, sampleCount / leastRatio);
   }
 

@@ -11,6 +11,8 @@
 #include "Core/Tetrahedra/Band.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
+#include "Core/Triangles/EdgeFlipping.h"
+#include "Core/Triangles/EdgeTriangles.h"
 #include "Core/Triangles/GapTetrahedra.h"
 #include "Core/Triangles/MarchingTetrahedra.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -68,12 +70,13 @@ public:
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double fitsBegin = this->Request.fit ? 0.6 : fitsEnd;
     EdgeTriangles<TSample> mesh = this->march(partOf(this->Run, 0.0, fitsBegin));
+    const std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Run);
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
       fits = this->Ranks.fitShared(
-        partOf(this->Run, fitsBegin, fitsEnd), context, *this->Request.fit, mesh.edges);
+        partOf(this->Run, fitsBegin, fitsEnd), context, *this->Request.fit, edges, mesh.positions);
     }
     return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
@@ -104,7 +107,7 @@ public:
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
-  /// The triangles of all tetrahedra but those across gaps.
+  /// The triangles of all tetrahedra but those across gaps, with merged vertices if wanted.
   EdgeTriangles<TSample> march(const Execution& execution)
   {
     constexpr double tetrahedraEnd = 0.8; // shares of the progress
@@ -115,9 +118,14 @@ private:
     {
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
-    return MarchingTetrahedra<TSample>(
-      partOf(execution, gapsEnd, 1.0), this->Tree, this->Means, this->Request.isovalue, found)
-      .march();
+    constexpr double marchEnd = 0.95;
+    const bool regularizes = this->Request.regularizes;
+    MarchedTriangles<TSample> marched =
+      MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, marchEnd), this->Tree, this->Means,
+        this->Request.isovalue, regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
+        .march();
+    return regularizes ? withMergedVertices(partOf(execution, marchEnd, 1.0), std::move(marched))
+                       : EdgeTriangles<TSample>(std::move(marched));
   }
 
   /// Drops tetrahedra in gaps of the cloud.
@@ -140,9 +148,16 @@ private:
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
+    if (this->Request.regularizes)
+    {
+      this->flipEdgesOf(mesh, fits);
+    }
+    const std::vector<std::size_t> order = orderOfEdges(this->Run, mesh);
+    mesh = inOrder(this->Run, mesh, order);
+    fits = chosenOf(this->Run, fits, order);
     TriangleSurface surface;
-    surface.vertices =
-      placeIsopoints(partOf(execution, 0.5, 1.0), context, mesh.edges, std::move(fits), isMoved);
+    surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
+      { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->Request.fit->highest == FitOrder::Crease)
     {
@@ -151,6 +166,20 @@ private:
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
     return surface;
+  }
+
+  /// Flips edges except around vertices of fits with creases, which are left to meshCreases().
+  void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
+  {
+    std::vector<Vector> positions = mesh.positions;
+    std::vector<char> isFixed(positions.size(), 0);
+    forEachIndex(this->Run, fits.size(),
+      [&](std::size_t vertex)
+      {
+        positions[vertex] = fits[vertex].position;
+        isFixed[vertex] = fits[vertex].order == FitOrder::Crease ? 1 : 0;
+      });
+    flipEdges(this->Run, positions, isFixed, mesh.triangles);
   }
 
   const Execution& Run;

@@ -9,6 +9,7 @@
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Tetrahedra/BandTriangulation.h"
 #include "Core/Tree/CoincidentSamples.h"
+#include "Core/Triangles/EdgeTriangles.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
@@ -23,15 +24,11 @@
 namespace isopoint
 {
 
-/// Triangles on crossing edges.
-template <class TSample>
-struct EdgeTriangles
+/// Which of several edges is the first, where crossings are one sample or diagonals are equal.
+enum class EdgeOrder
 {
-  /// One for each vertex, ordered, each once. Of edges whose crossings are one sample, since that
-  /// has the isovalue, the first.
-  std::vector<CrossingEdge<TSample>> edges;
-  std::vector<Vector> positions;          // of the crossings
-  std::vector<SurfaceTriangle> triangles; // ordered
+  Ids, // by the ids of their ends
+  Tree // by the places of their ends in the tree: however the samples are numbered
 };
 
 /// Marching tetrahedra: the isosurface of the linear interpolation in each crossing tetrahedron.
@@ -43,21 +40,23 @@ public:
 
   /// @param tetrahedra of leaves of the tree
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
-    SharedLeafMeans<TSample>& means, double isovalue,
+    SharedLeafMeans<TSample>& means, double isovalue, EdgeOrder order,
     const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
     : Run(execution)
     , Tree(tree)
     , Means(means)
     , Isovalue(isovalue)
+    , Order(order)
     , Tetrahedra(tetrahedra)
   {
   }
 
   /// @throws std::bad_alloc, Aborted
   /// Complexity: O(n log n)
-  EdgeTriangles<TSample> march()
+  MarchedTriangles<TSample> march()
   {
-    this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Tree.nodes.size(),
+    this->numberLeaves();
+    this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Leaves.size(),
       [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
     this->Run.progress(0.4);
     this->indexPairs();
@@ -65,14 +64,53 @@ public:
     this->Run.progress(0.6);
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
-    return this->ordered(triangles);
+    return this->withUsedVertices(triangles);
   }
 
 private:
-  /// An edge, by the node indices of its ends in ascending order.
+  /// An edge, by the numbers of its ends in ascending order.
   using LeafPair = std::pair<Id, Id>;
 
   static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
+
+  /// Numbers the leaves at corners in the order of the tree.
+  void numberLeaves()
+  {
+    std::vector<bool> isCorner(this->Tree.nodes.size(), false);
+    for (const CrossingTetrahedron<Id>& tetrahedron : this->Tetrahedra)
+    {
+      for (const Id corner : tetrahedron.corners)
+      {
+        isCorner[static_cast<std::size_t>(corner)] = true;
+      }
+    }
+    struct LeafPlace
+    {
+      std::uint64_t place; // in the order of the tree
+      std::size_t leaf;
+
+      bool operator<(const LeafPlace& other) const { return this->place < other.place; }
+      bool operator==(const LeafPlace& other) const { return this->place == other.place; }
+    };
+    std::vector<LeafPlace> places;
+    for (const std::size_t leaf : markedOf(isCorner))
+    {
+      places.push_back({ this->Tree.nodes[leaf].begin, leaf });
+    }
+    std::sort(places.begin(), places.end());
+    this->Leaves.reserve(places.size());
+    this->NumberOf.resize(this->Tree.nodes.size());
+    for (const LeafPlace& place : places)
+    {
+      this->NumberOf[place.leaf] = static_cast<Id>(this->Leaves.size());
+      this->Leaves.push_back(static_cast<Id>(place.leaf));
+    }
+  }
+
+  std::size_t leafOf(Id number) const
+  {
+    return static_cast<std::size_t>(this->Leaves[static_cast<std::size_t>(number)]);
+  }
 
   /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
   struct Polygon
@@ -81,9 +119,14 @@ private:
     std::size_t count;
   };
 
-  static Polygon polygonOf(const CrossingTetrahedron<Id>& tetrahedron)
+  Polygon polygonOf(const CrossingTetrahedron<Id>& tetrahedron) const
   {
-    const auto& [a, b, c, d] = tetrahedron.corners;
+    const auto numberOf = [&](std::size_t corner)
+    { return this->NumberOf[static_cast<std::size_t>(tetrahedron.corners[corner])]; };
+    const Id a = numberOf(0);
+    const Id b = numberOf(1);
+    const Id c = numberOf(2);
+    const Id d = numberOf(3);
     switch (tetrahedron.belowCount)
     {
       case 1:
@@ -123,6 +166,7 @@ private:
   {
     this->Edges.resize(this->Pairs.size());
     this->Positions.resize(this->Pairs.size());
+    this->NearerEnds.resize(this->Pairs.size());
     constexpr std::size_t grain = 4096;
     forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
@@ -130,18 +174,39 @@ private:
         LeafValueCache<TSample> values(this->Tree, this->Means);
         for (std::size_t i = begin; i < end; ++i)
         {
-          const auto [lower, upper] = this->Pairs[i];
-          const bool isLowerFirst = this->Tree.sampleOf(lower).id < this->Tree.sampleOf(upper).id;
-          const Id first = isLowerFirst ? lower : upper;
-          const Id second = isLowerFirst ? upper : lower;
-          const double parameter = edgeParameter(values.at(static_cast<std::size_t>(first)),
-            values.at(static_cast<std::size_t>(second)), this->Isovalue);
-          this->Edges[i] = { { this->Tree.sampleOf(first).id, this->Tree.sampleOf(second).id },
-            parameter, first, second };
-          this->Positions[i] = interpolate(positionOf(this->Tree.sampleOf(first)),
-            positionOf(this->Tree.sampleOf(second)), parameter);
+          this->placeVertex(i, values);
         }
       });
+  }
+
+  void placeVertex(std::size_t vertex, LeafValueCache<TSample>& values)
+  {
+    const auto [lower, upper] = this->Pairs[vertex];
+    const std::size_t lowerLeaf = this->leafOf(lower);
+    const std::size_t upperLeaf = this->leafOf(upper);
+    const TSample& lowerSample = this->Tree.sampleOf(lowerLeaf);
+    const TSample& upperSample = this->Tree.sampleOf(upperLeaf);
+    const double lowerValue = values.at(lowerLeaf);
+    const double upperValue = values.at(upperLeaf);
+    const double upwards = edgeParameter(lowerValue, upperValue, this->Isovalue);
+    this->NearerEnds[vertex] = static_cast<std::size_t>(upwards <= 0.5 ? lower : upper);
+    const bool isLowerFirst = lowerSample.id < upperSample.id;
+    const double downwards = edgeParameter(upperValue, lowerValue, this->Isovalue);
+    this->Edges[vertex] = isLowerFirst
+                            ? CrossingEdge<TSample>{ { lowerSample.id, upperSample.id }, upwards,
+                                static_cast<Id>(lowerLeaf), static_cast<Id>(upperLeaf) }
+                            : CrossingEdge<TSample>{ { upperSample.id, lowerSample.id }, downwards,
+                                static_cast<Id>(upperLeaf), static_cast<Id>(lowerLeaf) };
+    this->Positions[vertex] =
+      isLowerFirst || this->Order == EdgeOrder::Tree
+        ? interpolate(positionOf(lowerSample), positionOf(upperSample), upwards)
+        : interpolate(positionOf(upperSample), positionOf(lowerSample), downwards);
+  }
+
+  /// Whether the edge of one vertex is before that of another one.
+  bool isBefore(std::size_t a, std::size_t b) const
+  {
+    return this->Order == EdgeOrder::Tree ? a < b : this->Edges[a] < this->Edges[b];
   }
 
   /// Edges that cross at one of their ends are crossed at one vertex there.
@@ -153,7 +218,7 @@ private:
     const auto add = [&](Id leaf, std::size_t edge)
     {
       std::size_t& vertex = vertexAt.emplace(leaf, edge).first->second;
-      if (this->Edges[edge] < this->Edges[vertex])
+      if (this->isBefore(edge, vertex))
       {
         vertex = edge;
       }
@@ -179,30 +244,24 @@ private:
     }
   }
 
-  /// Notes where the pairs of each few consecutive leaves begin.
+  /// Notes where the pairs of each leaf begin.
   void indexPairs()
   {
-    this->LeavesPerPart = 4 * this->Tree.nodes.size() / (this->Pairs.size() + 1) + 1;
-    this->PartBegins.assign(this->Tree.nodes.size() / this->LeavesPerPart + 2, 0);
+    this->PairBegins.assign(this->Leaves.size() + 1, 0);
     for (const LeafPair& pair : this->Pairs)
     {
-      ++this->PartBegins[this->partOf(pair) + 1];
+      ++this->PairBegins[static_cast<std::size_t>(pair.first) + 1];
     }
-    std::partial_sum(this->PartBegins.begin(), this->PartBegins.end(), this->PartBegins.begin());
-  }
-
-  std::size_t partOf(const LeafPair& pair) const
-  {
-    return static_cast<std::size_t>(pair.first) / this->LeavesPerPart;
+    std::partial_sum(this->PairBegins.begin(), this->PairBegins.end(), this->PairBegins.begin());
   }
 
   std::size_t vertexOn(const LeafPair& pair) const
   {
-    const std::size_t part = this->partOf(pair);
     const auto placeOf = [this](std::size_t begin)
     { return this->Pairs.begin() + static_cast<std::ptrdiff_t>(begin); };
+    const auto leaf = static_cast<std::size_t>(pair.first);
     const auto found =
-      std::lower_bound(placeOf(this->PartBegins[part]), placeOf(this->PartBegins[part + 1]), pair);
+      std::lower_bound(placeOf(this->PairBegins[leaf]), placeOf(this->PairBegins[leaf + 1]), pair);
     return this->VertexOf[static_cast<std::size_t>(found - this->Pairs.begin())];
   }
 
@@ -257,63 +316,38 @@ private:
     {
       return first < second;
     }
-    const auto lower = [&](std::size_t a, std::size_t b)
-    { return std::min(this->Edges[corners[a]], this->Edges[corners[b]]); };
-    return lower(0, 2) < lower(1, 3);
+    const auto firstOf = [&](std::size_t a, std::size_t b)
+    { return this->isBefore(corners[a], corners[b]) ? corners[a] : corners[b]; };
+    return this->isBefore(firstOf(0, 2), firstOf(1, 3));
   }
 
-  /// Orders vertices and triangles, and leaves out vertices without triangles.
-  EdgeTriangles<TSample> ordered(const std::vector<SurfaceTriangle>& triangles) const
+  /// Orders the triangles, and leaves out vertices without any.
+  MarchedTriangles<TSample> withUsedVertices(const std::vector<SurfaceTriangle>& triangles) const
   {
-    const std::vector<std::size_t> order =
-      this->inOrderOfEdges(verticesOf(triangles, this->Edges.size()));
-    EdgeTriangles<TSample> result;
-    result.edges.resize(order.size());
-    result.positions.resize(order.size());
-    forEachIndex(this->Run, order.size(),
-      [&](std::size_t place)
-      {
-        result.edges[place] = this->Edges[order[place]];
-        result.positions[place] = this->Positions[order[place]];
-      });
-    result.triangles = renumbered(this->Run, triangles, order, this->Edges.size());
+    const std::vector<std::size_t> used = verticesOf(triangles, this->Edges.size());
+    MarchedTriangles<TSample> result;
+    result.edges = chosenOf(this->Run, this->Edges, used);
+    result.positions = chosenOf(this->Run, this->Positions, used);
+    result.nearerEnds = chosenOf(this->Run, this->NearerEnds, used);
+    result.endCount = this->Leaves.size();
+    result.triangles = renumbered(this->Run, triangles, used, this->Edges.size());
     return result;
-  }
-
-  /// A vertex, in the order of its edge.
-  struct EdgeVertex : SampleEdge
-  {
-    std::size_t vertex;
-  };
-
-  std::vector<std::size_t> inOrderOfEdges(std::vector<std::size_t> vertices) const
-  {
-    std::vector<EdgeVertex> keyed;
-    keyed.reserve(vertices.size());
-    std::uint64_t most = 0;
-    for (const std::size_t vertex : vertices)
-    {
-      keyed.push_back({ this->Edges[vertex], vertex });
-      most = std::max(most, keyed.back().first);
-    }
-    keyed = sortedUnique(
-      this->Run, keyed, most + 1, [](const EdgeVertex& vertex) { return vertex.first; });
-    std::transform(keyed.begin(), keyed.end(), vertices.begin(),
-      [](const EdgeVertex& vertex) { return vertex.vertex; });
-    return vertices;
   }
 
   const Execution& Run;
   const SampleTree<TSample>& Tree;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
+  const EdgeOrder Order;
   const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;
-  std::vector<LeafPair> Pairs; // of crossing edges, ordered
-  std::size_t LeavesPerPart = 1;
-  std::vector<std::size_t> PartBegins; // in the pairs, by their first leaves
+  std::vector<Id> Leaves;              // by number
+  std::vector<Id> NumberOf;            // by leaf
+  std::vector<LeafPair> Pairs;         // of crossing edges, ordered
+  std::vector<std::size_t> PairBegins; // by the number of their first leaf
   // One entry for each pair.
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<Vector> Positions;
+  std::vector<std::size_t> NearerEnds;
   std::vector<std::size_t> VertexOf; // the pair whose vertex is that of this one
 };
 

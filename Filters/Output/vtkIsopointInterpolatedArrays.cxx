@@ -72,7 +72,7 @@ void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAb
 {
   for (std::size_t i = 0; i < surface.size(); ++i)
   {
-    const IsopointEdge& edge = surface.edges[i];
+    const IsopointEdge& edge = surface.edgeOf(i);
     const std::uint64_t nearer = edge.parameter < 0.5 ? edge.first : edge.second;
     output->SetTuple(firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(nearer), input);
   }

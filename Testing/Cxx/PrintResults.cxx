@@ -105,9 +105,12 @@ std::uint64_t hashOf(const isopoint::ExtractedIsosurface& found)
   Hash hash;
   for (std::size_t i = 0; i < found.surface.size(); ++i)
   {
-    hash.add(std::uint64_t{ found.surface.edges[i].first });
-    hash.add(std::uint64_t{ found.surface.edges[i].second });
-    hash.add(found.surface.edges[i].parameter);
+    for (std::size_t k = found.surface.edgeBegin(i); k < found.surface.edgeBegin(i + 1); ++k)
+    {
+      hash.add(std::uint64_t{ found.surface.edges[k].first });
+      hash.add(std::uint64_t{ found.surface.edges[k].second });
+      hash.add(found.surface.edges[k].parameter);
+    }
     hash.addAll(found.surface.positions[i], found.surface.decreasingEdges[i]);
   }
   for (const isopoint::LocalFit& fit : found.surface.fits)
@@ -161,7 +164,8 @@ void print(const char* name, const Cloud& cloud)
          std::optional(FitOrder::Linear), std::optional(FitOrder::Quadratic),
          std::optional(FitOrder::Cubic), std::optional(FitOrder::Crease) })
   {
-    for (const bool triangles : { false, true })
+    constexpr std::array kinds{ "splats", "triangles", "regularized triangles" };
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
     {
       isopoint::ExtractionRequest request;
       request.isosurface.isovalue = 0.0;
@@ -170,12 +174,12 @@ void print(const char* name, const Cloud& cloud)
         order ? std::optional(isopoint::FitRequest{ *order, true }) : std::nullopt;
       request.isosurface.partsCreases = order == FitOrder::Crease;
       request.splats = isopoint::SplatOptions();
-      request.triangles = triangles;
+      request.triangles = kind > 0;
+      request.isosurface.regularizes = kind > 1;
       const isopoint::ExtractedIsosurface found = extractor.extract(execution, request);
       std::printf("%s %s %s: %zu points, %zu triangles, %016" PRIx64 "\n", name,
-        order ? names[static_cast<std::size_t>(*order) - 1] : "no fit",
-        triangles ? "triangles" : "splats", found.surface.size(), found.triangles.size(),
-        hashOf(found));
+        order ? names[static_cast<std::size_t>(*order) - 1] : "no fit", kinds[kind],
+        found.surface.size(), found.triangles.size(), hashOf(found));
     }
   }
 }

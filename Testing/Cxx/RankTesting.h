@@ -108,9 +108,12 @@ inline std::string described(const isopoint::ExtractedIsosurface& extracted, std
   const auto put = [&text](const auto& value)
   { text.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
   const isopoint::Isosurface& surface = extracted.surface;
-  put(surface.edges[i].first);
-  put(surface.edges[i].second);
-  put(surface.edges[i].parameter);
+  for (std::size_t edge = surface.edgeBegin(i); edge < surface.edgeBegin(i + 1); ++edge)
+  {
+    put(surface.edges[edge].first);
+    put(surface.edges[edge].second);
+    put(surface.edges[edge].parameter);
+  }
   put(surface.positions[i]);
   put(surface.decreasingEdges[i]);
   const auto putPlane = [&](const isopoint::CreasePlane& plane)
@@ -143,8 +146,10 @@ inline std::string described(const isopoint::ExtractedIsosurface& extracted, std
   {
     put(extracted.normals[i]);
   }
-  for (const std::uint64_t id : { surface.edges[i].first, surface.edges[i].second })
+  for (std::size_t end = 2 * surface.edgeBegin(i); end < 2 * surface.edgeBegin(i + 1); ++end)
   {
+    const isopoint::IsopointEdge& edge = surface.edges[end / 2];
+    const std::uint64_t id = end % 2 == 0 ? edge.first : edge.second;
     if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))
     {
       text.append("coincident");

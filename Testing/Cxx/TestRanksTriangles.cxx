@@ -43,6 +43,12 @@ ExtractionRequest creased(ExtractionRequest request, bool partsCreases)
   return request;
 }
 
+ExtractionRequest regularized(ExtractionRequest request)
+{
+  request.isosurface.regularizes = true;
+  return request;
+}
+
 /// Each triangle by all that is known of its vertices, in order.
 ranks::Description describedTriangles(const ExtractedIsosurface& extracted)
 {
@@ -117,7 +123,7 @@ void expectSameTriangles(const Cloud& cloud, std::size_t size, ranks::Deal deal,
 TEST(RanksTriangles, AreThoseOfOneProcess)
 {
   const std::vector<ExtractionRequest> requests{ requestOf(0.3), requestOf(-0.4, true),
-    fitted(requestOf(0.5)), requestOf(99.0) };
+    fitted(requestOf(0.5)), regularized(fitted(requestOf(0.5, true))), requestOf(99.0) };
   for (const Cloud& cloud : ranks::variousClouds())
   {
     for (const std::size_t size : { 2, 3, 5 })
@@ -133,8 +139,9 @@ TEST(RanksTriangles, DoNotDependOnHowSamplesAreDealtOut)
   for (const ranks::Deal deal : ranks::allDeals)
   {
     SCOPED_TRACE(static_cast<int>(deal));
-    expectSameTriangles(
-      clouds::uniform(4000, 12), 3, deal, { requestOf(0.3), fitted(requestOf(-0.2, true)) });
+    expectSameTriangles(clouds::uniform(4000, 12), 3, deal,
+      { requestOf(0.3), fitted(requestOf(-0.2, true)),
+        regularized(fitted(requestOf(-0.2, true))) });
   }
 }
 
@@ -148,7 +155,8 @@ TEST(RanksTriangles, HaveTheSameCreases)
     cloud.values[i] = std::max({ along(0), along(1), along(2) });
   }
   const std::vector<ExtractionRequest> requests{ creased(requestOf(0.3), false),
-    creased(requestOf(0.3), true), fitted(requestOf(0.3)) };
+    creased(requestOf(0.3), true), fitted(requestOf(0.3)),
+    regularized(creased(requestOf(0.3), true)) };
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>({}, cloud.size(), clouds::readerOf(cloud));
   std::vector<std::size_t> counts;
@@ -186,7 +194,8 @@ TEST(RanksTriangles, OfAnyCloud)
     const std::size_t size = 2 + dice(4);
     expectSameTriangles(cloud, size, ranks::Deal::RoundRobin,
       { fitted(requestOf(isovalue)), creased(requestOf(isovalue), seed % 2 == 0),
-        requestOf(isovalue, dice(2) == 0) });
+        requestOf(isovalue, dice(2) == 0), regularized(fitted(requestOf(isovalue))),
+        regularized(requestOf(isovalue, dice(2) == 0)) });
   }
 }
 

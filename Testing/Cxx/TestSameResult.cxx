@@ -54,9 +54,10 @@ ExtractionRequest whole(double isovalue, FitOrder order, double minimumSpacing =
   return request;
 }
 
-ExtractionRequest triangles(double isovalue)
+ExtractionRequest triangles(double isovalue, bool regularizes = false)
 {
   ExtractionRequest request = whole(isovalue, FitOrder::Cubic);
+  request.isosurface.regularizes = regularizes;
   request.isosurface.dropsGaps = true;
   request.triangles = true;
   return request;
@@ -69,7 +70,7 @@ void expectSameOfEverything(const clouds::Cloud& cloud)
   std::size_t points = 0;
   for (const ExtractionRequest& request : { whole(0.3, FitOrder::Cubic),
          whole(0.3, FitOrder::Crease, 0.5), whole(-0.1, FitOrder::Quadratic), triangles(0.3),
-         plain(0.2, 20.0), whole(0.3, FitOrder::Cubic) })
+         triangles(0.3, true), plain(0.2, 20.0), whole(0.3, FitOrder::Cubic) })
   {
     const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
     expectSame(expected, loaded(cloud, 5).extract(clouds::executionOn(5), request));
@@ -110,7 +111,8 @@ TEST(SameResult, OfEverythingInUnevenClouds)
 TEST(SameResult, OfManyPointsForAnyThreads)
 {
   const clouds::Cloud cloud = clouds::uniform(60000, 8);
-  for (const ExtractionRequest& request : { whole(0.3, FitOrder::Cubic), triangles(0.3) })
+  for (const ExtractionRequest& request :
+    { whole(0.3, FitOrder::Cubic), triangles(0.3), triangles(0.3, true) })
   {
     const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
     EXPECT_GT(expected.surface.size(), 4096u);
@@ -291,7 +293,8 @@ TEST(SameResult, ForVeryDeepTrees)
 TEST(SameResult, AfterAnAbortAtAnyTime)
 {
   const clouds::Cloud cloud = clouds::uniform(5000, 7);
-  for (const ExtractionRequest& request : { whole(0.5, FitOrder::Cubic, 0.5), triangles(0.5) })
+  for (const ExtractionRequest& request :
+    { whole(0.5, FitOrder::Cubic, 0.5), triangles(0.5), triangles(0.5, true) })
   {
     int asked = 0;
     isopoint::Execution counting;

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/EdgeFlipping.h"
+
+#include "Core/Base/SortUnique.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+namespace isopoint
+{
+namespace
+{
+
+/// A side of a triangle: three times the number of the triangle, and the corner where it begins,
+/// counterclockwise.
+using Side = std::uint32_t;
+
+/// A triangle looks about as its vertices do from this cosine between the normals on.
+constexpr double upright = 0.6;
+
+constexpr Side noSide = std::numeric_limits<Side>::max();
+
+Side nextOf(Side side)
+{
+  return side % 3 == 2 ? side - 2 : side + 1;
+}
+
+Side lastOf(Side side)
+{
+  return nextOf(nextOf(side));
+}
+
+class EdgeFlipper
+{
+public:
+  EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
+    const std::vector<char>& isFixed, std::vector<SurfaceTriangle>& triangles)
+    : Run(execution)
+    , Positions(positions)
+    , IsFixed(isFixed)
+    , Triangles(triangles)
+    , Twins(3 * triangles.size(), noSide)
+    , Normals(positions.size())
+    , Degrees(positions.size(), 0)
+  {
+    this->findTwins();
+    this->findNormals();
+  }
+
+  void flip()
+  {
+    constexpr int mostRounds = 10;
+    std::vector<char> isSuspect(this->Twins.size(), 1);
+    bool isAnyFlipped = true;
+    for (int round = 0; round < mostRounds && isAnyFlipped; ++round)
+    {
+      throwIfAborted(this->Run);
+      isAnyFlipped = false;
+      for (Side side = 0; side < this->Twins.size(); ++side)
+      {
+        const Side twin = this->Twins[side];
+        if (!isSuspect[side] || twin == noSide)
+        {
+          continue;
+        }
+        isSuspect[side] = isSuspect[twin] = 0;
+        if (this->isToFlip(side, twin))
+        {
+          this->flipAt(side, twin);
+          this->suspectAround(side, isSuspect);
+          this->suspectAround(twin, isSuspect);
+          isAnyFlipped = true;
+        }
+      }
+    }
+  }
+
+private:
+  std::size_t startOf(Side side) const { return this->Triangles[side / 3][side % 3]; }
+  std::size_t endOf(Side side) const { return this->startOf(nextOf(side)); }
+
+  /// The corner that is not on a side.
+  std::size_t oppositeOf(Side side) const { return this->startOf(lastOf(side)); }
+
+  Vector normalOf(std::size_t a, std::size_t b, std::size_t c) const
+  {
+    return cross(difference(this->Positions[b], this->Positions[a]),
+      difference(this->Positions[c], this->Positions[a]));
+  }
+
+  /// Sides of two triangles that are the same edge, if no others are.
+  void findTwins()
+  {
+    std::vector<std::uint32_t> begins(this->Positions.size() + 1, 0); // by the lower vertex
+    const auto sideCount = static_cast<Side>(this->Twins.size());
+    const auto lowerOf = [this](Side side)
+    { return std::min(this->startOf(side), this->endOf(side)); };
+    for (Side side = 0; side < sideCount; ++side)
+    {
+      ++begins[lowerOf(side) + 1];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<Side> sides(sideCount);
+    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+    for (Side side = 0; side < sideCount; ++side)
+    {
+      sides[next[lowerOf(side)]++] = side;
+    }
+    forEachIndex(this->Run, this->Positions.size(),
+      [&](std::size_t vertex)
+      {
+        const auto end = sides.begin() + begins[vertex + 1];
+        const auto begin = sides.begin() + begins[vertex];
+        const auto upperOf = [this](Side side)
+        { return std::max(this->startOf(side), this->endOf(side)); };
+        std::sort(begin, end,
+          [&](Side a, Side b)
+          { return upperOf(a) != upperOf(b) ? upperOf(a) < upperOf(b) : a < b; });
+        for (auto first = begin; first != end;)
+        {
+          const auto last =
+            std::find_if(first, end, [&](Side side) { return upperOf(side) != upperOf(*first); });
+          if (last - first == 2 && this->startOf(first[0]) == this->endOf(first[1]))
+          {
+            this->Twins[first[0]] = first[1];
+            this->Twins[first[1]] = first[0];
+          }
+          first = last;
+        }
+      });
+  }
+
+  /// The normals of vertices: of the triangles around, weighted by area. Counts these.
+  void findNormals()
+  {
+    for (const auto& [a, b, c] : this->Triangles)
+    {
+      const Vector normal = this->normalOf(a, b, c);
+      for (const std::size_t vertex : { a, b, c })
+      {
+        this->Normals[vertex] = sum(this->Normals[vertex], 1.0, normal);
+        ++this->Degrees[vertex];
+      }
+    }
+    forEachIndex(this->Run, this->Normals.size(),
+      [this](std::size_t vertex)
+      {
+        const double length = lengthOf(this->Normals[vertex]);
+        this->Normals[vertex] =
+          length > 0.0 ? scaled(1.0 / length, this->Normals[vertex]) : Vector{};
+      });
+  }
+
+  bool isToFlip(Side side, Side twin) const
+  {
+    const std::size_t a = this->startOf(side);
+    const std::size_t b = this->endOf(side);
+    const std::size_t c = this->oppositeOf(side);
+    const std::size_t d = this->oppositeOf(twin);
+    const auto isFixed = [this](std::size_t vertex)
+    { return !this->IsFixed.empty() && this->IsFixed[vertex]; };
+    return c != d && !isFixed(a) && !isFixed(b) && !isFixed(c) && !isFixed(d) &&
+           this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
+           this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
+  }
+
+  /// Whether the angles at c and d over the edge from a to b add up to more than 180 degrees.
+  bool isObtuse(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
+  {
+    const auto angleAt = [&](std::size_t corner)
+    {
+      const Vector toA = difference(this->Positions[a], this->Positions[corner]);
+      const Vector toB = difference(this->Positions[b], this->Positions[corner]);
+      return std::array{ dot(toA, toB), lengthOf(cross(toA, toB)) }; // cosine, sine
+    };
+    const auto [cosC, sinC] = angleAt(c);
+    const auto [cosD, sinD] = angleAt(d);
+    constexpr double leastSine = 0.01; // for which a flip is worthwhile
+    const double scale = std::sqrt((cosC * cosC + sinC * sinC) * (cosD * cosD + sinD * sinD));
+    return sinC * cosD + cosC * sinD < -leastSine * scale;
+  }
+
+  /// The cosine between a triangle's normal and the mean of those of its vertices.
+  double uprightness(const SurfaceTriangle& triangle) const
+  {
+    const auto& [a, b, c] = triangle;
+    const Vector normal = this->normalOf(a, b, c);
+    const Vector around = sum(sum(this->Normals[a], 1.0, this->Normals[b]), 1.0, this->Normals[c]);
+    const double lengths = lengthOf(normal) * lengthOf(around);
+    return lengths > 0.0 ? dot(normal, around) / lengths : -1.0;
+  }
+
+  double leastUprightness(const SurfaceTriangle& first, const SurfaceTriangle& second) const
+  {
+    return std::min(this->uprightness(first), this->uprightness(second));
+  }
+
+  /// Whether the surface has a crease between two triangles: it bends by more than 60 degrees, and
+  /// not since one of them is folded over.
+  bool isCrease(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
+  {
+    constexpr double leastCosine = 0.5;
+    const Vector first = this->normalOf(a, b, c);
+    const Vector second = this->normalOf(b, a, d);
+    return dot(first, second) < leastCosine * lengthOf(first) * lengthOf(second) &&
+           this->leastUprightness({ a, b, c }, { b, a, d }) >= upright;
+  }
+
+  /// Whether the triangles that a flip makes look about as their vertices do, or at least as well
+  /// as those before.
+  bool staysUpright(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
+  {
+    const double after = this->leastUprightness({ c, a, d }, { d, b, c });
+    return after >= upright ||
+           (after > 0.0 && after >= this->leastUprightness({ a, b, c }, { b, a, d }));
+  }
+
+  /// Whether the corners opposite to an edge are, or may be, connected: then it must not be
+  /// flipped.
+  bool isEdge(Side side, Side twin) const
+  {
+    const std::size_t other = this->oppositeOf(twin);
+    const Side start = lastOf(side); // from the opposite corner
+    const std::size_t corner = this->startOf(start);
+    std::size_t count = 0; // of triangles around that
+    bool isFound = false;
+    const auto look = [&](Side at)
+    {
+      ++count;
+      isFound = isFound || this->endOf(at) == other || this->oppositeOf(at) == other;
+    };
+    Side at = start;
+    do
+    {
+      look(at);
+      at = this->Twins[lastOf(at)];
+    } while (at != noSide && at != start && !isFound);
+    if (at == noSide)
+    {
+      // At a border, in the other direction as well.
+      for (at = this->Twins[start]; at != noSide && !isFound; at = this->Twins[at])
+      {
+        at = nextOf(at);
+        look(at);
+      }
+    }
+    return isFound || count != this->Degrees[corner]; // several disks may meet at the corner
+  }
+
+  /// The triangles (a, b, c) and (b, a, d) become (c, a, d) and (d, b, c).
+  void flipAt(Side side, Side twin)
+  {
+    const std::size_t a = this->startOf(side);
+    const std::size_t b = this->endOf(side);
+    const std::size_t c = this->oppositeOf(side);
+    const std::size_t d = this->oppositeOf(twin);
+    const Side bc = this->Twins[nextOf(side)];
+    const Side ca = this->Twins[lastOf(side)];
+    const Side ad = this->Twins[nextOf(twin)];
+    const Side db = this->Twins[lastOf(twin)];
+    const Side first = side / 3 * 3;
+    const Side second = twin / 3 * 3;
+    this->Triangles[first / 3] = { c, a, d };
+    this->Triangles[second / 3] = { d, b, c };
+    --this->Degrees[a];
+    --this->Degrees[b];
+    ++this->Degrees[c];
+    ++this->Degrees[d];
+    this->join(first, ca);
+    this->join(first + 1, ad);
+    this->join(second, db);
+    this->join(second + 1, bc);
+    this->join(first + 2, second + 2);
+  }
+
+  void join(Side side, Side twin)
+  {
+    this->Twins[side] = twin;
+    if (twin != noSide)
+    {
+      this->Twins[twin] = side;
+    }
+  }
+
+  /// Suspects the sides of a triangle except the one that a flip made.
+  void suspectAround(Side side, std::vector<char>& isSuspect) const
+  {
+    const Side first = side / 3 * 3;
+    for (Side each = first; each < first + 2; ++each)
+    {
+      isSuspect[each] = 1;
+      if (this->Twins[each] != noSide)
+      {
+        isSuspect[this->Twins[each]] = 1;
+      }
+    }
+  }
+
+  const Execution& Run;
+  const std::vector<Vector>& Positions;
+  const std::vector<char>& IsFixed;
+  std::vector<SurfaceTriangle>& Triangles;
+  std::vector<Side> Twins; // of sides
+  std::vector<Vector> Normals;
+  std::vector<std::size_t> Degrees; // of vertices
+};
+
+} // namespace
+
+void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<char>& isFixed, std::vector<SurfaceTriangle>& triangles)
+{
+  EdgeFlipper(execution, positions, isFixed, triangles).flip();
+  for (SurfaceTriangle& corners : triangles)
+  {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  }
+  triangles = sortedUnique(execution, triangles, positions.size(),
+    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+}
+
+} // namespace isopoint

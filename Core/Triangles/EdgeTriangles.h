@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef isopoint_EdgeTriangles_h
+#define isopoint_EdgeTriangles_h
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/VertexMerging.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Triangles on crossing edges.
+template <class TSample>
+struct EdgeTriangles
+{
+  /// One edge of each vertex; of a merged one, the edges of all crossings that it is the mean of,
+  /// the nearest first, one list after the other.
+  std::vector<CrossingEdge<TSample>> edges;
+  std::vector<std::size_t> edgeBegins;    // see Isosurface
+  std::vector<Vector> positions;          // of the crossings, or their means
+  std::vector<SurfaceTriangle> triangles; // ordered
+
+  std::size_t edgeBegin(std::size_t vertex) const
+  {
+    return this->edgeBegins.empty() ? vertex : this->edgeBegins[vertex];
+  }
+
+  /// The first edge of each vertex.
+  std::vector<CrossingEdge<TSample>> firstEdges(const Execution& execution) const
+  {
+    std::vector<CrossingEdge<TSample>> first(this->positions.size());
+    forEachIndex(execution, first.size(),
+      [&](std::size_t vertex) { first[vertex] = this->edges[this->edgeBegin(vertex)]; });
+    return first;
+  }
+};
+
+/// Triangles each vertex of which has one edge, by the places of the edges' ends in the tree.
+template <class TSample>
+struct MarchedTriangles : EdgeTriangles<TSample>
+{
+  /// The nearer end of each edge, by its number among all ends in the order of the tree.
+  std::vector<std::size_t> nearerEnds;
+  std::size_t endCount = 0; // above all of these numbers
+};
+
+/// Merges vertices; see mergeVertices(). @throws std::bad_alloc, Aborted
+template <class TSample>
+EdgeTriangles<TSample> withMergedVertices(
+  const Execution& execution, MarchedTriangles<TSample> marched)
+{
+  MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
+    marched.endCount, std::move(marched.triangles));
+  EdgeTriangles<TSample> result;
+  result.edges = chosenOf(execution, marched.edges, merged.members);
+  result.edgeBegins = std::move(merged.memberBegins);
+  result.positions = std::move(merged.positions);
+  result.triangles = std::move(merged.triangles);
+  return result;
+}
+
+/// The vertices in the order of their first edges. @throws std::bad_alloc, Aborted
+template <class TSample>
+std::vector<std::size_t> orderOfEdges(
+  const Execution& execution, const EdgeTriangles<TSample>& triangles)
+{
+  struct EdgeVertex : SampleEdge
+  {
+    std::size_t vertex;
+  };
+  std::vector<EdgeVertex> vertices;
+  vertices.reserve(triangles.positions.size());
+  std::uint64_t most = 0;
+  for (std::size_t vertex = 0; vertex < triangles.positions.size(); ++vertex)
+  {
+    vertices.push_back({ triangles.edges[triangles.edgeBegin(vertex)], vertex });
+    most = std::max(most, vertices.back().first);
+  }
+  vertices = sortedUnique(
+    execution, vertices, most + 1, [](const EdgeVertex& vertex) { return vertex.first; });
+  std::vector<std::size_t> order(vertices.size());
+  forEachIndex(execution, order.size(), [&](std::size_t i) { order[i] = vertices[i].vertex; });
+  return order;
+}
+
+/// The same triangles with their vertices in another order. @throws std::bad_alloc, Aborted
+template <class TSample>
+EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<TSample>& triangles,
+  const std::vector<std::size_t>& order)
+{
+  EdgeTriangles<TSample> result;
+  std::vector<std::size_t> edges;
+  result.edgeBegins = chosenLists(triangles.edgeBegins, order, edges);
+  result.edges = chosenOf(execution, triangles.edges, triangles.edgeBegins.empty() ? order : edges);
+  result.positions = chosenOf(execution, triangles.positions, order);
+  result.triangles = renumbered(execution, triangles.triangles, order, order.size());
+  return result;
+}
+
+} // namespace isopoint
+
+#endif

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/VertexContraction.h"
+
+#include "Core/Base/Collected.h"
+#include "Core/Base/Hash.h"
+#include "Core/Base/SortUnique.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <numeric>
+
+namespace isopoint
+{
+namespace
+{
+
+using DirectedEdge = std::pair<std::size_t, std::size_t>;
+
+} // namespace
+
+/// The triangles around a vertex that a part has become.
+struct VertexContraction::Link
+{
+  std::vector<DirectedEdge> edges;  // opposite to the vertex, counterclockwise
+  std::vector<DirectedEdge> spokes; // from vertices outside to members
+  std::vector<std::size_t> ends;    // of edges
+  std::size_t vanished = 0;         // triangles that have become edges
+
+  /// Whether the edges form one cycle of at least three, or one path.
+  bool isCycleOrPath()
+  {
+    std::sort(this->edges.begin(), this->edges.end());
+    this->ends.clear();
+    for (const DirectedEdge& edge : this->edges)
+    {
+      this->ends.push_back(edge.second);
+    }
+    std::sort(this->ends.begin(), this->ends.end());
+    const auto begin = this->edges.begin();
+    const auto end = this->edges.end();
+    const auto isSameStart = [](const DirectedEdge& a, const DirectedEdge& b)
+    { return a.first == b.first; };
+    if (this->edges.empty() || std::adjacent_find(begin, end, isSameStart) != end ||
+        std::adjacent_find(this->ends.begin(), this->ends.end()) != this->ends.end())
+    {
+      return false;
+    }
+    // Where each vertex has one successor at most, and one predecessor at most, all is one path or
+    // cycle if one of these is as long as all edges.
+    const auto start = std::find_if(begin, end,
+      [this](const DirectedEdge& edge)
+      { return !std::binary_search(this->ends.begin(), this->ends.end(), edge.first); });
+    this->isPath = start != end;
+    const std::size_t first = this->isPath ? start->first : begin->first;
+    std::size_t length = 0;
+    std::size_t at = first;
+    do
+    {
+      const auto next = std::lower_bound(begin, end, DirectedEdge(at, 0));
+      if (next == end || next->first != at)
+      {
+        break;
+      }
+      at = next->second;
+      ++length;
+    } while (at != first);
+    return length == this->edges.size() && (this->isPath || length >= 3);
+  }
+
+  bool hasVertex(std::size_t vertex) const
+  {
+    const auto edge =
+      std::lower_bound(this->edges.begin(), this->edges.end(), DirectedEdge(vertex, 0));
+    return (edge != this->edges.end() && edge->first == vertex) ||
+           std::binary_search(this->ends.begin(), this->ends.end(), vertex);
+  }
+
+  std::size_t vertexCount() const { return this->edges.size() + (this->isPath ? 1 : 0); }
+
+  bool isPath = false;
+};
+
+VertexContraction::VertexContraction(const Execution& execution, const WeightedVertices& vertices,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& groups,
+  std::size_t groupCount)
+  : Run(execution)
+  , Vertices(vertices)
+  , Triangles(triangles)
+  , Parts(execution, triangles, groups, groupCount)
+  , IsMerged(this->Parts.size(), 0)
+  , IsAtBorder(groups.size(), 0)
+  , Roots(groups.size())
+  , Positions(vertices.positions)
+{
+  std::iota(this->Roots.begin(), this->Roots.end(), std::size_t{ 0 });
+  this->findBorder();
+}
+
+void VertexContraction::findBorder()
+{
+  // Within a surface each neighbor of a vertex follows one and precedes another one.
+  std::vector<std::uint64_t> balances(this->IsAtBorder.size(), 0);
+  for (const SurfaceTriangle& triangle : this->Triangles)
+  {
+    const auto& [a, b, c] = triangle;
+    balances[a] += mixBits(b + 1) - mixBits(c + 1);
+    balances[b] += mixBits(c + 1) - mixBits(a + 1);
+    balances[c] += mixBits(a + 1) - mixBits(b + 1);
+  }
+  std::transform(balances.begin(), balances.end(), this->IsAtBorder.begin(),
+    [](std::uint64_t balance) { return balance != 0 ? 1 : 0; });
+}
+
+void VertexContraction::contract()
+{
+  for (std::size_t part = 0; part < this->Parts.size(); ++part)
+  {
+    this->IsMerged[part] = this->Parts.isSimple(part) ? 1 : 0;
+  }
+  forEachIndex(this->Run, this->Parts.size(),
+    [this](std::size_t part)
+    {
+      if (this->IsMerged[part])
+      {
+        this->merge(part);
+      }
+    });
+  std::vector<std::size_t> suspects = markedOf(this->IsMerged);
+  while (!suspects.empty())
+  {
+    constexpr std::size_t grain = 1024;
+    std::vector<std::size_t> failed =
+      collected<std::size_t>(this->Run, { suspects.size(), 16 * grain, grain },
+        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+        {
+          Link link;
+          std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
+            suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+            [&](std::size_t part) { return this->IsMerged[part] && !this->isSurface(part, link); });
+        });
+    keepUnique(failed);
+    const std::vector<std::size_t> separated = this->firstOf(failed);
+    suspects = std::move(failed);
+    for (const std::size_t part : separated)
+    {
+      this->separate(part);
+      this->forPartsAround(part, [&](std::size_t other) { suspects.push_back(other); });
+    }
+    keepUnique(suspects);
+  }
+}
+
+/// Calls visit(other) for all parts with a triangle in common with one, mostly several times.
+template <class Visit>
+void VertexContraction::forPartsAround(std::size_t part, const Visit& visit) const
+{
+  for (const std::size_t triangle : this->Parts.trianglesAround(part))
+  {
+    const auto partAt = [&](std::size_t corner)
+    { return this->Parts.partOf(this->Triangles[triangle][corner]); };
+    const std::array<std::uint32_t, 3> parts{ partAt(0), partAt(1), partAt(2) };
+    if (std::find(parts.begin(), parts.end(), part) != parts.end())
+    {
+      for (const std::uint32_t other : parts)
+      {
+        if (other != part && other != VertexParts::none)
+        {
+          visit(other);
+        }
+      }
+    }
+  }
+}
+
+/// Of parts that failed, those with the lowest hash among their neighbors that failed.
+std::vector<std::size_t> VertexContraction::firstOf(const std::vector<std::size_t>& failed) const
+{
+  const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
+  std::vector<std::size_t> first;
+  std::copy_if(failed.begin(), failed.end(), std::back_inserter(first),
+    [&](std::size_t part)
+    {
+      bool isFirst = true;
+      this->forPartsAround(part,
+        [&](std::size_t other)
+        {
+          isFirst = isFirst && (!std::binary_search(failed.begin(), failed.end(), other) ||
+                                 keyOf(part) < keyOf(other));
+        });
+      return isFirst;
+    });
+  return first;
+}
+
+void VertexContraction::merge(std::size_t part)
+{
+  const NodeList<std::size_t> vertices = this->Parts.verticesOf(part);
+  const std::size_t root = vertices[0];
+  for (const std::size_t vertex : vertices)
+  {
+    this->Roots[vertex] = root;
+  }
+  Vector weighted{};
+  double weight = 0.0;
+  for (const std::size_t vertex : this->placingMembers(part))
+  {
+    weighted = sum(weighted, this->Vertices.weights[vertex], this->Vertices.positions[vertex]);
+    weight += this->Vertices.weights[vertex];
+  }
+  this->Positions[root] = scaled(1.0 / weight, weighted);
+}
+
+void VertexContraction::separate(std::size_t part)
+{
+  this->IsMerged[part] = 0;
+  for (const std::size_t vertex : this->Parts.verticesOf(part))
+  {
+    this->Roots[vertex] = vertex;
+    this->Positions[vertex] = this->Vertices.positions[vertex];
+  }
+}
+
+/// The vertices whose mean a part becomes: at a border those on it, and at a corner of it that.
+std::vector<std::size_t> VertexContraction::placingMembers(std::size_t part) const
+{
+  const NodeList<std::size_t> vertices = this->Parts.verticesOf(part);
+  std::vector<std::size_t> atBorder;
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(atBorder),
+    [this](std::size_t vertex) { return this->IsAtBorder[vertex] != 0; });
+  if (atBorder.empty())
+  {
+    return { vertices.begin(), vertices.end() };
+  }
+  const std::size_t corner = this->cornerOf(part, atBorder);
+  return corner != VertexParts::none ? std::vector<std::size_t>(1, corner) : atBorder;
+}
+
+/// The vertex of a part at which the border has a corner, if it has one: far off the straight line
+/// between the two vertices of the border outside of the part.
+std::size_t VertexContraction::cornerOf(
+  std::size_t part, const std::vector<std::size_t>& atBorder) const
+{
+  constexpr double cornerShare = 0.25; // of the length of that line
+  std::vector<DirectedEdge> edges;
+  const auto isInside = [&](std::size_t vertex) { return this->Parts.partOf(vertex) == part; };
+  for (const std::size_t triangle : this->Parts.trianglesAround(part))
+  {
+    const SurfaceTriangle& corners = this->Triangles[triangle];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const DirectedEdge edge(corners[i], corners[(i + 1) % 3]);
+      if (isInside(edge.first) || isInside(edge.second))
+      {
+        edges.push_back(edge);
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::size_t> outside;
+  for (const auto& [from, to] : edges)
+  {
+    if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge(to, from)) &&
+        isInside(from) != isInside(to))
+    {
+      outside.push_back(isInside(from) ? to : from);
+    }
+  }
+  if (outside.size() != 2)
+  {
+    return VertexParts::none;
+  }
+  const Vector& start = this->Vertices.positions[outside[0]];
+  const Vector along = difference(this->Vertices.positions[outside[1]], start);
+  const Vector direction = directionOf(along);
+  std::size_t farthest = VertexParts::none;
+  double most = cornerShare * lengthOf(along);
+  for (const std::size_t vertex : atBorder)
+  {
+    const double offset =
+      lengthOf(cross(difference(this->Vertices.positions[vertex], start), direction));
+    if (offset > most)
+    {
+      most = offset;
+      farthest = vertex;
+    }
+  }
+  return farthest;
+}
+
+std::vector<std::size_t> VertexContraction::membersOf(std::size_t root) const
+{
+  const std::uint32_t part = this->Parts.partOf(root);
+  return part != VertexParts::none && this->IsMerged[part] ? this->placingMembers(part)
+                                                           : std::vector<std::size_t>(1, root);
+}
+
+/// Whether the triangles around what a part has become are a disk, or half of one at a border; and
+/// with them those around all vertices next to it.
+bool VertexContraction::isSurface(std::size_t part, Link& link) const
+{
+  link.edges.clear();
+  link.spokes.clear();
+  link.vanished = 0;
+  for (const std::size_t triangle : this->Parts.trianglesAround(part))
+  {
+    const SurfaceTriangle& corners = this->Triangles[triangle];
+    const auto isInside = [&](std::size_t corner)
+    { return this->Parts.partOf(corners[corner]) == part; };
+    const std::array<bool, 3> inside{ isInside(0), isInside(1), isInside(2) };
+    const auto count = std::count(inside.begin(), inside.end(), true);
+    if (count == 0 || count == 3)
+    {
+      continue;
+    }
+    const auto single = static_cast<std::size_t>(
+      std::find(inside.begin(), inside.end(), count == 1) - inside.begin());
+    const std::size_t next = corners[(single + 1) % 3];
+    const std::size_t last = corners[(single + 2) % 3];
+    if (count == 2)
+    {
+      link.spokes.emplace_back(corners[single], next);
+      link.spokes.emplace_back(corners[single], last);
+      ++link.vanished;
+      continue;
+    }
+    link.spokes.emplace_back(next, corners[single]);
+    link.spokes.emplace_back(last, corners[single]);
+    if (this->Roots[next] != this->Roots[last])
+    {
+      link.edges.emplace_back(this->Roots[next], this->Roots[last]);
+    }
+    else
+    {
+      ++link.vanished;
+    }
+  }
+  if (!link.isCycleOrPath())
+  {
+    return false;
+  }
+  // The spokes to one vertex of the link, and the triangles that have vanished between them, have
+  // to be connected: then there is one spoke more than triangles.
+  keepUnique(link.spokes);
+  return link.spokes.size() - link.vanished == link.vertexCount() &&
+         std::all_of(link.spokes.begin(), link.spokes.end(),
+           [&](const DirectedEdge& spoke) { return link.hasVertex(this->Roots[spoke.first]); });
+}
+
+} // namespace isopoint
