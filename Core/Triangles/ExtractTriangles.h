@@ -119,13 +119,20 @@ private:
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
     constexpr double marchEnd = 0.95;
-    const bool regularizes = this->Request.regularizes;
+    const bool regularizes = this->regularizes();
     MarchedTriangles<TSample> marched =
       MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, marchEnd), this->Tree, this->Means,
         this->Request.isovalue, regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
         .march();
     return regularizes ? withMergedVertices(partOf(execution, marchEnd, 1.0), std::move(marched))
                        : EdgeTriangles<TSample>(std::move(marched));
+  }
+
+  /// Merged vertices know too little of creases, which need one on each piece.
+  bool regularizes() const
+  {
+    return this->Request.regularizes &&
+           !(this->Request.fit && this->Request.fit->highest == FitOrder::Crease);
   }
 
   /// Drops tetrahedra in gaps of the cloud.
@@ -148,7 +155,7 @@ private:
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
-    if (this->Request.regularizes)
+    if (this->regularizes())
     {
       this->flipEdgesOf(mesh, fits);
     }

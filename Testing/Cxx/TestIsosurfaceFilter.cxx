@@ -113,7 +113,7 @@ TEST(IsosurfaceFilter, RegularizeLeavesFewerTriangles)
   EXPECT_GT(filter->GetMTime(), before);
   filter->Update();
   EXPECT_LT(filter->GetOutput()->GetNumberOfPolys(), all / 2);
-  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 5);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), all / 6);
   std::ostringstream printed;
   filter->Print(printed);
   EXPECT_NE(printed.str().find("Regularize: On"), std::string::npos);

@@ -115,7 +115,7 @@ TEST(SameResult, OfManyPointsForAnyThreads)
     { whole(0.3, FitOrder::Cubic), triangles(0.3), triangles(0.3, true) })
   {
     const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
-    EXPECT_GT(expected.surface.size(), 4096u);
+    EXPECT_GT(expected.surface.size(), 2048u);
     expectSame(expected, loaded(cloud, 3).extract(clouds::executionOn(3), request));
   }
 }

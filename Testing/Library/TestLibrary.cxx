@@ -143,7 +143,7 @@ TEST(Library, ExtractsASphere)
     const Surface surface = extract(extractor.get(), { 0.7 }, options);
     const auto points = numbersOf<double>(surface.get(), ISOPOINT_POINTS);
     const auto normals = numbersOf<float>(surface.get(), ISOPOINT_NORMALS);
-    ASSERT_GT(points.size(), 1500u);
+    ASSERT_GT(points.size(), 1000u);
     ASSERT_EQ(points.size(), normals.size());
     for (std::size_t i = 0; i < points.size(); i += 3)
     {

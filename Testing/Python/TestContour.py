@@ -84,7 +84,7 @@ class ContourTest(unittest.TestCase):
         self.same(result, output)
         corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         np.testing.assert_array_equal(result.triangles, corners)
-        self.assertGreater(len(corners), 1000)
+        self.assertGreater(len(corners), 500)
         self.assertIsNone(result.radii)
 
     def test_options_are_properties(self):
