@@ -108,11 +108,11 @@ private:
       }
       for (std::size_t i = 1; i < inside; ++i)
       {
-        this->Edges.push_back(std::minmax(places[i - 1], places[i]));
+        this->Edges.emplace_back(std::minmax(places[i - 1], places[i]));
       }
       if (inside == 3)
       {
-        this->Edges.push_back(std::minmax(places[0], places[2]));
+        this->Edges.emplace_back(std::minmax(places[0], places[2]));
         this->Inner.push_back(places[0]);
       }
     }
