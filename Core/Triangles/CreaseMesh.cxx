@@ -47,7 +47,7 @@ std::size_t CreaseSurface::addVertex(
 std::size_t CreaseSurface::addVertex(
   std::size_t like, const Vector& place, const Vector& normal, double slope)
 {
-  const std::size_t vertex = this->surface.positions.size();
+  const std::size_t vertex = this->surface.size();
   LocalFit fit = this->surface.fits[like];
   fit.position = place;
   fit.gradient = scaled(-slope, normal);
@@ -55,18 +55,10 @@ std::size_t CreaseSurface::addVertex(
   fit.isSmooth = false;
   fit.order = FitOrder::Crease;
   fit.creases.clear();
-  for (std::size_t edge = this->surface.edgeBegin(like); edge < this->surface.edgeBegin(like + 1);
-       ++edge)
-  {
-    this->surface.edges.emplace_back(this->surface.edges[edge]);
-    this->surface.leaves.emplace_back(this->surface.leaves[edge]);
-  }
-  if (!this->surface.edgeBegins.empty())
-  {
-    this->surface.edgeBegins.push_back(this->surface.edges.size());
-  }
+  this->surface.edges.emplace_back(this->surface.edges[like]);
   this->surface.positions.push_back(place);
   this->surface.decreasingEdges.emplace_back(this->surface.decreasingEdges[like]);
+  this->surface.leaves.emplace_back(this->surface.leaves[like]);
   this->surface.fits.push_back(std::move(fit));
   this->normals.push_back(normal);
   this->isInner.push_back(true);

@@ -38,10 +38,9 @@ class EdgeFlipper
 {
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
-    const std::vector<char>& isFixed, std::vector<SurfaceTriangle>& triangles)
+    std::vector<SurfaceTriangle>& triangles)
     : Run(execution)
     , Positions(positions)
-    , IsFixed(isFixed)
     , Triangles(triangles)
     , Twins(3 * triangles.size(), noSide)
     , Normals(positions.size())
@@ -161,10 +160,7 @@ private:
     const std::size_t b = this->endOf(side);
     const std::size_t c = this->oppositeOf(side);
     const std::size_t d = this->oppositeOf(twin);
-    const auto isFixed = [this](std::size_t vertex)
-    { return !this->IsFixed.empty() && this->IsFixed[vertex]; };
-    return c != d && !isFixed(a) && !isFixed(b) && !isFixed(c) && !isFixed(d) &&
-           this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
+    return c != d && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
            this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
   }
 
@@ -184,7 +180,7 @@ private:
     return sinC * cosD + cosC * sinD < -leastSine * scale;
   }
 
-  /// The cosine between a triangle's normal and the mean of those of its vertices.
+  /// The cosine between a triangle's normal and its vertices' mean normal.
   double uprightness(const SurfaceTriangle& triangle) const
   {
     const auto& [a, b, c] = triangle;
@@ -200,7 +196,7 @@ private:
   }
 
   /// Whether the surface has a crease between two triangles: it bends by more than 60 degrees, and
-  /// not since one of them is folded over.
+  /// neither triangle is folded over.
   bool isCrease(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
     constexpr double leastCosine = 0.5;
@@ -302,7 +298,6 @@ private:
 
   const Execution& Run;
   const std::vector<Vector>& Positions;
-  const std::vector<char>& IsFixed;
   std::vector<SurfaceTriangle>& Triangles;
   std::vector<Side> Twins; // of sides
   std::vector<Vector> Normals;
@@ -312,9 +307,9 @@ private:
 } // namespace
 
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<char>& isFixed, std::vector<SurfaceTriangle>& triangles)
+  std::vector<SurfaceTriangle>& triangles)
 {
-  EdgeFlipper(execution, positions, isFixed, triangles).flip();
+  EdgeFlipper(execution, positions, triangles).flip();
   for (SurfaceTriangle& corners : triangles)
   {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());

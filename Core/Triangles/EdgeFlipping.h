@@ -16,12 +16,11 @@ namespace isopoint
 /// triangles become more regular: docs/triangles.md, "Regularization". Edges of borders, of more
 /// than two triangles and across creases stay, and so do topology and positions. The result depends
 /// on the order of the triangles.
-/// @param isFixed whether the triangles of each vertex stay; empty if none do
 /// @param triangles ordered, before and after
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(triangles), mostly
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<char>& isFixed, std::vector<SurfaceTriangle>& triangles);
+  std::vector<SurfaceTriangle>& triangles);
 
 } // namespace isopoint
 

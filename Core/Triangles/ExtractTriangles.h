@@ -70,13 +70,12 @@ public:
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double fitsBegin = this->Request.fit ? 0.6 : fitsEnd;
     EdgeTriangles<TSample> mesh = this->march(partOf(this->Run, 0.0, fitsBegin));
-    const std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Run);
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->Ranks.fitShared(
-        partOf(this->Run, fitsBegin, fitsEnd), context, *this->Request.fit, edges, mesh.positions);
+      fits = this->Ranks.fitShared(partOf(this->Run, fitsBegin, fitsEnd), context,
+        *this->Request.fit, mesh.firstEdges(this->Run), mesh.positions);
     }
     return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
@@ -175,18 +174,13 @@ private:
     return surface;
   }
 
-  /// Flips edges except around vertices of fits with creases, which are left to meshCreases().
+  /// Flips edges between the vertices where the fits put them.
   void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
   {
     std::vector<Vector> positions = mesh.positions;
-    std::vector<char> isFixed(positions.size(), 0);
     forEachIndex(this->Run, fits.size(),
-      [&](std::size_t vertex)
-      {
-        positions[vertex] = fits[vertex].position;
-        isFixed[vertex] = fits[vertex].order == FitOrder::Crease ? 1 : 0;
-      });
-    flipEdges(this->Run, positions, isFixed, mesh.triangles);
+      [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
+    flipEdges(this->Run, positions, mesh.triangles);
   }
 
   const Execution& Run;

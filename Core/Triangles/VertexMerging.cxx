@@ -44,7 +44,7 @@ public:
     this->Run.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Run, this->Vertices.positions, {}, this->Result.triangles);
+      flipEdges(this->Run, this->Vertices.positions, this->Result.triangles);
       this->contract(this->shortEdges(), this->count());
     }
     this->Result.positions = std::move(this->Vertices.positions);
