@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/EdgeFlipping.h"
 
-#include "Core/Base/SortUnique.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace isopoint
 {
@@ -310,12 +309,7 @@ void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
   std::vector<SurfaceTriangle>& triangles)
 {
   EdgeFlipper(execution, positions, triangles).flip();
-  for (SurfaceTriangle& corners : triangles)
-  {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  }
-  triangles = sortedUnique(execution, triangles, positions.size(),
-    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+  triangles = ordered(execution, std::move(triangles), positions.size());
 }
 
 } // namespace isopoint

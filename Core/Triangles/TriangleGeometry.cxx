@@ -14,6 +14,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace isopoint
 {
@@ -164,6 +165,19 @@ std::vector<std::size_t> verticesOf(
   return markedOf(isUsed);
 }
 
+std::vector<SurfaceTriangle> ordered(
+  const Execution& execution, std::vector<SurfaceTriangle> triangles, std::size_t vertexCount)
+{
+  forEachIndex(execution, triangles.size(),
+    [&triangles](std::size_t i)
+    {
+      SurfaceTriangle& corners = triangles[i];
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    });
+  return sortedUnique(execution, triangles, vertexCount,
+    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+}
+
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)
@@ -175,12 +189,9 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
     [&](std::size_t i)
     {
       const auto& [a, b, c] = triangles[i];
-      SurfaceTriangle& corners = result[i];
-      corners = { number[a], number[b], number[c] };
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      result[i] = { number[a], number[b], number[c] };
     });
-  return sortedUnique(execution, result, order.size(),
-    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+  return ordered(execution, std::move(result), order.size());
 }
 
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,

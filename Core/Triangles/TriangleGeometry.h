@@ -23,7 +23,13 @@ using SurfaceTriangle = std::array<std::size_t, 3>;
 std::vector<std::size_t> verticesOf(
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
 
-/// Triangles whose vertices are numbered by their places in an order: ordered, each once.
+/// Triangles from their lowest vertices on: ordered, each once.
+/// @param vertexCount above every vertex
+/// @throws std::bad_alloc, Aborted
+std::vector<SurfaceTriangle> ordered(
+  const Execution& execution, std::vector<SurfaceTriangle> triangles, std::size_t vertexCount);
+
+/// Triangles whose vertices are numbered by their places in an order, and then ordered().
 /// @param order of all their vertices
 /// @param vertexCount above every vertex
 /// @throws std::bad_alloc, Aborted

@@ -328,6 +328,18 @@ inline void turn(double* p)
   p[2] = 0.96 * y + 0.28 * z;
 }
 
+/// The same samples with the values of a field of the position, an isopoint::Vector.
+template <class Field>
+Cloud withValuesOf(Cloud cloud, const Field& field)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const double* const p = cloud.positions.data() + 3 * i;
+    cloud.values[i] = field({ p[0], p[1], p[2] });
+  }
+  return cloud;
+}
+
 } // namespace clouds
 
 #endif

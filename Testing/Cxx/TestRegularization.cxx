@@ -22,6 +22,7 @@ namespace
 {
 
 using clouds::Cloud;
+using clouds::withValuesOf;
 using isopoint::ExtractedIsosurface;
 using isopoint::FitOrder;
 using isopoint::SurfaceTriangle;
@@ -178,17 +179,6 @@ std::vector<double> smallestAngles(const ExtractedIsosurface& extracted)
   return angles;
 }
 
-template <class Field>
-Cloud withField(Cloud cloud, const Field& field)
-{
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    cloud.values[i] = field({ p[0], p[1], p[2] });
-  }
-  return cloud;
-}
-
 double distanceFromSphere(const Vector& p)
 {
   return isopoint::lengthOf({ p[0] - 0.5, p[1] - 0.5, p[2] - 0.5 }) - 0.35;
@@ -240,7 +230,7 @@ std::vector<Vector> bipyramidPositions(std::size_t count)
 
 TEST(Regularization, HasAboutOneWellShapedTriangleFanForEachSample)
 {
-  const Cloud cloud = withField(clouds::uniform(100000, 1), distanceFromSphere);
+  const Cloud cloud = withValuesOf(clouds::uniform(100000, 1), distanceFromSphere);
   const ExtractedIsosurface exact = trianglesOf(cloud, requestOf(0.0, false, FitOrder::Cubic));
   const ExtractedIsosurface found = trianglesOf(cloud, requestOf(0.0, true, FitOrder::Cubic));
   EXPECT_LT(found.triangles.size(), exact.triangles.size() * 3 / 10);
@@ -289,7 +279,7 @@ TEST(Regularization, KeepsTheTopologyOfAnyCloud)
 
 TEST(Regularization, DoesNotDependOnThreadsOrTheOrderOfSamples)
 {
-  const Cloud cloud = withField(clouds::uniform(20000, 2),
+  const Cloud cloud = withValuesOf(clouds::uniform(20000, 2),
     [](const Vector& p) { return std::sin(9.0 * p[0]) + std::cos(8.0 * p[1]) + p[2]; });
   std::vector<std::size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
@@ -328,7 +318,7 @@ TEST(Regularization, DoesNotDependOnThreadsOrTheOrderOfSamples)
 /// A vertex has the mean of its crossings' attributes: exact where these are linear.
 TEST(Regularization, AttributesAreMeansOverCrossings)
 {
-  const Cloud cloud = withField(clouds::uniform(5000, 4), distanceFromSphere);
+  const Cloud cloud = withValuesOf(clouds::uniform(5000, 4), distanceFromSphere);
   const ExtractedIsosurface found = trianglesOf(cloud, requestOf(0.0, true));
   ASSERT_GT(found.surface.size(), 100u);
   std::vector<Vector> places(found.surface.size());

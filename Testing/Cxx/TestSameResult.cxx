@@ -110,12 +110,12 @@ TEST(SameResult, OfEverythingInUnevenClouds)
 // Large enough for several ranges of its points and vertices.
 TEST(SameResult, OfManyPointsForAnyThreads)
 {
-  const clouds::Cloud cloud = clouds::uniform(60000, 8);
+  const clouds::Cloud cloud = clouds::uniform(70000, 8);
   for (const ExtractionRequest& request :
     { whole(0.3, FitOrder::Cubic), triangles(0.3), triangles(0.3, true) })
   {
     const ExtractedIsosurface expected = loaded(cloud).extract({}, request);
-    EXPECT_GT(expected.surface.size(), 2048u);
+    EXPECT_GT(expected.surface.size(), 4096u);
     expectSame(expected, loaded(cloud, 3).extract(clouds::executionOn(3), request));
   }
 }

@@ -13,6 +13,7 @@ namespace
 
 using clouds::Cloud;
 using clouds::Random;
+using clouds::withValuesOf;
 using isopoint::ExtractedIsosurface;
 using isopoint::SurfaceTriangle;
 using isopoint::Vector;
@@ -132,17 +133,6 @@ double distanceFromTorus(const Vector& p)
   return std::hypot(std::hypot(p[0] - 0.5, p[1] - 0.5) - 0.28, p[2] - 0.5) - 0.13;
 }
 
-template <class Field>
-Cloud withField(Cloud cloud, const Field& field)
-{
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    cloud.values[i] = field({ p[0], p[1], p[2] });
-  }
-  return cloud;
-}
-
 double largestDistance(const ExtractedIsosurface& extracted, double (*distance)(const Vector&))
 {
   double largest = 0.0;
@@ -229,7 +219,7 @@ private:
 
 TEST(Triangles, OfASphereAreClosed)
 {
-  const Cloud cloud = withField(clouds::uniform(30000, 1), distanceFromSphere);
+  const Cloud cloud = withValuesOf(clouds::uniform(30000, 1), distanceFromSphere);
   const ExtractedIsosurface onEdges = trianglesOf(cloud, requestOf(0.0));
   expectClosedManifold(onEdges, 2);
   const ExtractedIsosurface fitted = trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic));
@@ -243,14 +233,14 @@ TEST(Triangles, OfASphereAreClosed)
 
 TEST(Triangles, OfATorusAreClosed)
 {
-  const Cloud cloud = withField(clouds::uniform(60000, 2), distanceFromTorus);
+  const Cloud cloud = withValuesOf(clouds::uniform(60000, 2), distanceFromTorus);
   expectClosedManifold(trianglesOf(cloud, requestOf(0.0)), 0);
   expectClosedManifold(trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic)), 0);
 }
 
 TEST(Triangles, FollowTheFitsAndAreNotTurnedOver)
 {
-  const Cloud cloud = withField(clouds::uniform(100000, 3), distanceFromTorus);
+  const Cloud cloud = withValuesOf(clouds::uniform(100000, 3), distanceFromTorus);
   const ExtractedIsosurface onEdges = trianglesOf(cloud, requestOf(0.0));
   const ExtractedIsosurface fitted = trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic));
   ASSERT_EQ(onEdges.surface.size(), fitted.surface.size());
@@ -386,7 +376,7 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
   const auto curved = [&](const Vector& p)
   { return wave(p) * (p[2] - 2.03 + 0.4 * std::sin(1.1 * p[0]) * std::cos(0.7 * p[1])); };
   for (const Cloud& cloud :
-    { withField(gridAroundAPost(), plane), withField(gridAroundAPost(), curved) })
+    { withValuesOf(gridAroundAPost(), plane), withValuesOf(gridAroundAPost(), curved) })
   {
     isopoint::ExtractionRequest request = requestOf(0.0, isopoint::FitOrder::Cubic, true);
     const std::vector<Vector> ofFits = trianglesOf(cloud, request).normals;
@@ -405,7 +395,7 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
 
 TEST(Triangles, HaveNormalsAgainstTheGradient)
 {
-  const Cloud cloud = withField(clouds::uniform(30000, 4), distanceFromSphere);
+  const Cloud cloud = withValuesOf(clouds::uniform(30000, 4), distanceFromSphere);
   const auto expectInward = [](const ExtractedIsosurface& extracted, double leastCosine)
   {
     ASSERT_EQ(extracted.normals.size(), extracted.surface.size());

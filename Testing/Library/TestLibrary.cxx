@@ -136,14 +136,14 @@ void expectContains(const std::string& text, const std::string& part)
 TEST(Library, ExtractsASphere)
 {
   const Extractor extractor = makeExtractor();
-  ASSERT_EQ(Cloud().load(extractor.get()), ISOPOINT_OK);
-  EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 5000);
+  ASSERT_EQ(Cloud(6000).load(extractor.get()), ISOPOINT_OK);
+  EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 6000);
   for (const isopoint_options& options : { defaults(), withTriangles() })
   {
     const Surface surface = extract(extractor.get(), { 0.7 }, options);
     const auto points = numbersOf<double>(surface.get(), ISOPOINT_POINTS);
     const auto normals = numbersOf<float>(surface.get(), ISOPOINT_NORMALS);
-    ASSERT_GT(points.size(), 1000u);
+    ASSERT_GT(points.size(), 1500u);
     ASSERT_EQ(points.size(), normals.size());
     for (std::size_t i = 0; i < points.size(); i += 3)
     {

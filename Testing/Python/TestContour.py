@@ -78,13 +78,13 @@ class ContourTest(unittest.TestCase):
             self.assertIsNone(result.triangles)
 
     def test_triangles_are_those_of_the_filter(self):
-        positions, values = samples()
+        positions, values = samples(7000)
         result = contour(positions, values, (0.2, 0.3), triangles=True)
         output = filtered(as_data(positions, values), [0.2, 0.3], vtkScatteredIsosurfaceFilter)
         self.same(result, output)
         corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         np.testing.assert_array_equal(result.triangles, corners)
-        self.assertGreater(len(corners), 500)
+        self.assertGreater(len(corners), 1000)
         self.assertIsNone(result.radii)
 
     def test_options_are_properties(self):
