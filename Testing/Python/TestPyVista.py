@@ -21,7 +21,7 @@ def cloud(count=20000):
 
 
 def grid():
-    data = pv.ImageData(dimensions=(20, 21, 22), spacing=(0.1, 0.2, 0.3), origin=(1, 2, 3))
+    data = pv.ImageData(dimensions=(30, 31, 32), spacing=(0.07, 0.14, 0.21), origin=(1, 2, 3))
     data["distance"] = np.linalg.norm(data.points - data.center, axis=1)
     data.cell_data["of cells"] = np.linalg.norm(data.cell_centers().points - data.center, axis=1)
     return data
