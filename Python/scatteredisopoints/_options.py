@@ -38,10 +38,13 @@ def option_names(triangles: bool) -> list[str]:
 
 
 def constant(name: str, value: Any) -> Any:
-    """The number of a constant that is named by a string, other values as they are.
+    """The number of a constant that is named by a string, other values as they are. The projection None
+    is NO_PROJECTION.
 
     Raises ValueError if the option has no such constant.
     """
+    if name == "projection" and value is None:
+        value = "NO_PROJECTION"
     if not isinstance(value, str):
         return value
     number = CONSTANTS.get(name, {}).get(value.upper())

@@ -28,6 +28,9 @@ class Benchmarks(unittest.TestCase):
     def test_defaults(self):
         self.check("defaults.py", "--samples", "0.02", "--runs", "1")
 
+    def test_triangle_quality(self):
+        self.check("triangle_quality.py", "--samples", "0.02")
+
     def test_smoothing(self):
         self.check("smoothing.py", "--samples", "2000")
 

@@ -94,6 +94,8 @@ class ContourTest(unittest.TestCase):
         self.same(result, filtered(as_data(positions, values), [0.3], Projection=2, DropGaps=True,
                                    ComputeGradients=1, ComputeNormals=0))
         self.assertIsNone(result.normals)
+        self.same(contour(positions, values, 0.3, projection=None),
+                  filtered(as_data(positions, values), [0.3], Projection=0))
         result = contour(positions, values, 0.3, triangles=True, regularize=False)
         self.same(result, filtered(
             as_data(positions, values), [0.3], vtkScatteredIsosurfaceFilter, Regularize=0))

@@ -284,7 +284,7 @@ class DataSetsTest(unittest.TestCase):
 
         with self.assertRaises(InterruptedError):
             contour(data, "distance", isovalue, progress=fail)
-        for options in (dict(projection=None), dict(triangles="no"), dict(drop_gaps="maybe"),
+        for options in (dict(angle=None), dict(triangles="no"), dict(drop_gaps="maybe"),
                         dict(triangles=True, regularize="maybe")):
             with self.assertRaisesRegex(ValueError, "cannot be"):
                 contour(data, "distance", isovalue, **options)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Number, shape, topology and accuracy of triangles, without and with Regularize.
+
+    PYTHONPATH=build/release/lib/python3.11/dist-packages /usr/bin/python3 Testing/Benchmark/triangle_quality.py \\
+        --file FILE ARRAY ISOVALUE
+
+Prints two rows of a Markdown table for each cloud: random samples of the distance to the center of a cube, without
+and with noise; the plane and a wave on a curvilinear grid around a post; and the points of files of VTK. A triangle
+is turned if its normal looks against the sum of its corners' directions against the gradient. Borders are edges of
+one triangle, branches those of more than two. Errors are distances from the sphere, at random places of all
+triangles, in mean spacings. Processor seconds are those of one extraction.
+"""
+
+import argparse
+import os
+import time
+
+import numpy as np
+import speed
+from scatteredisopoints import contour
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLGenericDataObjectReader
+
+RADIUS = 60.0
+NOISE = 0.05  # standard deviation, in spacings
+
+
+def sphere(count, noise):
+    random = np.random.default_rng(1)
+    positions = speed.uniform(count, random)
+    spacing = speed.SIDE / count ** (1 / 3)
+    return positions, np.linalg.norm(positions, axis=1) + noise * spacing * random.standard_normal(count)
+
+
+def grid_around_a_post(rings=40, spokes=48, layers=16, growth=30.0):
+    """Positions of a curvilinear grid; the last ring is growth times as wide as the first one."""
+    widths = 0.02 * growth ** (np.arange(rings - 1) / (rings - 2))
+    radii = 1 + np.concatenate([[0], np.cumsum(widths)])
+    angles = 2 * np.pi / spokes * np.arange(spokes)
+    height, angle, radius = np.meshgrid(np.linspace(0, 4, layers), angles, radii, indexing="ij")
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], -1).reshape(-1, 3)
+
+
+def blocks_of(data):
+    if not data.IsA("vtkCompositeDataSet"):
+        return [data]
+    blocks, iterator = [], data.NewIterator()
+    while not iterator.IsDoneWithTraversal():
+        blocks.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return blocks
+
+
+def read(path, array):
+    """The points of all blocks, and their values."""
+    reader = vtkXMLGenericDataObjectReader()
+    reader.SetFileName(path)
+    reader.Update()
+    blocks = blocks_of(reader.GetOutput())
+    positions = [[block.GetPoint(i) for i in range(block.GetNumberOfPoints())] for block in blocks]
+    values = [vtk_to_numpy(block.GetPointData().GetArray(array)) for block in blocks]
+    return np.concatenate(positions), np.concatenate(values)
+
+
+def clouds(options):
+    """Yields name, positions, values, isovalue, and the mean spacing where the surface is the sphere."""
+    for millions in options.samples:
+        count = int(1e6 * millions)
+        for noise, name in (0, "sphere"), (NOISE, "sphere, noise of 5 %"):
+            yield f"{name}, {millions:g} M", *sphere(count, noise), RADIUS, speed.SIDE / count ** (1 / 3)
+    x, y, z = grid_around_a_post().T
+    around = np.stack([x, y, z], -1)
+    yield "grid around a post: plane", around, 0.3 * x + 0.2 * y + z, 2.03, None
+    yield "grid around a post: wave", around, z + 0.4 * np.sin(1.1 * x) * np.cos(0.7 * y), 2.03, None
+    for path, array, isovalue in options.file:
+        yield os.path.basename(path), *read(path, array), float(isovalue), None
+
+
+def smallest_angles(corners):
+    """Of each triangle, in degrees."""
+    angles = []
+    for corner in range(3):
+        a, b = (corners[:, (corner + step) % 3] - corners[:, corner] for step in (1, 2))
+        angles.append(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)))
+    return np.degrees(np.min(angles, axis=0))
+
+
+def turned(corners, gradients):
+    """The number of triangles that look along the gradients at their corners, shape (triangles, 3, 3)."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(gradients, axis=2, keepdims=True)
+    directions = -(gradients / np.where(lengths > 0, lengths, 1)).sum(axis=1)
+    return np.count_nonzero((normals * directions).sum(axis=1) <= 0)
+
+
+def topology(triangles, vertices):
+    """Euler number, components, edges of one triangle, and edges of more than two."""
+    edges = np.sort(np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    ends = (unique[:, 0], unique[:, 1])
+    components, _ = connected_components(coo_matrix((np.ones(len(unique)), ends), shape=(vertices, vertices)))
+    euler = vertices - len(unique) + len(triangles)
+    return euler, components, np.count_nonzero(counts == 1), np.count_nonzero(counts > 2)
+
+
+def errors(corners):
+    """The distances from the sphere of one random place on each triangle."""
+    weights = np.random.default_rng(1).dirichlet((1, 1, 1), len(corners))
+    places = (corners * weights[:, :, None]).sum(axis=1)
+    return np.abs(np.linalg.norm(places, axis=1) - RADIUS)
+
+
+def row_of(positions, values, isovalue, spacing, regularize):
+    begin = time.process_time()
+    surface = contour(positions, values, isovalue, triangles=True, compute_gradients=True, regularize=regularize)
+    seconds = time.process_time() - begin
+    triangles = np.asarray(surface.triangles)
+    corners = np.asarray(surface.points, dtype=float)[triangles]
+    angles = smallest_angles(corners)
+    error = errors(corners) / spacing if spacing else np.full(1, np.nan)
+    cells = [f"{len(surface.points):,}", f"{np.percentile(angles, 5):.1f} / {np.median(angles):.1f}",
+             f"{100 * (angles < 10).mean():.2f}", turned(corners, np.asarray(surface.arrays["Gradients"])[triangles]),
+             *topology(triangles, len(surface.points)),
+             f"{error.mean():.4f} / {error.max():.3f}" if spacing else "", f"{seconds:.2f}"]
+    return " | ".join(str(cell) for cell in cells)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--samples", type=float, nargs="*", default=[1], metavar="MILLIONS",
+                        help="of spheres; default: 1")
+    parser.add_argument("--file", nargs=3, action="append", default=[], metavar=("FILE", "ARRAY", "ISOVALUE"),
+                        help="also the points of a file")
+    options = parser.parse_args()
+    print("| cloud | isopoints | Regularize | vertices | smallest angle, 5 % / median | below 10 degrees, % | turned |"
+          " Euler number | components | borders | branches | mean / largest error | processor s |")
+    print("|---" * 13 + "|")
+    for name, positions, values, isovalue, spacing in clouds(options):
+        isopoints = len(contour(positions, values, isovalue).points)
+        for regularize in False, True:
+            row = row_of(positions, values, isovalue, spacing, regularize)
+            print(f"| {name} | {isopoints:,} | {'on' if regularize else 'off'} | {row} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
