@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -16,7 +16,7 @@ namespace
 
 /// A side of a triangle: three times the number of the triangle, and the corner where it begins,
 /// counterclockwise.
-using Side = std::uint32_t;
+using Side = std::size_t;
 
 /// A triangle looks about as its vertices do from this cosine between the normals on.
 constexpr double upright = 0.6;
@@ -93,8 +93,8 @@ private:
   /// Sides of two triangles that are the same edge, if no others are.
   void findTwins()
   {
-    std::vector<std::uint32_t> begins(this->Positions.size() + 1, 0); // by the lower vertex
-    const auto sideCount = static_cast<Side>(this->Twins.size());
+    std::vector<Side> begins(this->Positions.size() + 1, 0); // by the lower vertex
+    const Side sideCount = this->Twins.size();
     const auto lowerOf = [this](Side side)
     { return std::min(this->startOf(side), this->endOf(side)); };
     for (Side side = 0; side < sideCount; ++side)
@@ -103,7 +103,7 @@ private:
     }
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     std::vector<Side> sides(sideCount);
-    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+    std::vector<Side> next(begins.begin(), begins.end() - 1);
     for (Side side = 0; side < sideCount; ++side)
     {
       sides[next[lowerOf(side)]++] = side;
@@ -111,8 +111,10 @@ private:
     forEachIndex(this->Run, this->Positions.size(),
       [&](std::size_t vertex)
       {
-        const auto end = sides.begin() + begins[vertex + 1];
-        const auto begin = sides.begin() + begins[vertex];
+        const auto placeOf = [&](std::size_t of)
+        { return sides.begin() + static_cast<std::ptrdiff_t>(begins[of]); };
+        const auto begin = placeOf(vertex);
+        const auto end = placeOf(vertex + 1);
         const auto upperOf = [this](Side side)
         { return std::max(this->startOf(side), this->endOf(side)); };
         std::sort(begin, end,
@@ -175,7 +177,8 @@ private:
     const auto [cosC, sinC] = angleAt(c);
     const auto [cosD, sinD] = angleAt(d);
     constexpr double leastSine = 0.01; // for which a flip is worthwhile
-    const double scale = std::sqrt((cosC * cosC + sinC * sinC) * (cosD * cosD + sinD * sinD));
+    const double scale =
+      std::sqrt(cosC * cosC + sinC * sinC) * std::sqrt(cosD * cosD + sinD * sinD);
     return sinC * cosD + cosC * sinD < -leastSine * scale;
   }
 
@@ -218,6 +221,10 @@ private:
   /// flipped.
   bool isEdge(Side side, Side twin) const
   {
+    if (this->Degrees[this->oppositeOf(side)] > this->Degrees[this->oppositeOf(twin)])
+    {
+      std::swap(side, twin); // fewer triangles are looked at
+    }
     const std::size_t other = this->oppositeOf(twin);
     const Side start = lastOf(side); // from the opposite corner
     const std::size_t corner = this->startOf(start);

@@ -73,6 +73,15 @@ private:
 
   static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
 
+  /// The end at which an edge crosses, if it does so at one: from either end seen, since rounding
+  /// depends on that.
+  enum class End : char
+  {
+    Neither,
+    Lower,
+    Upper
+  };
+
   /// Numbers the leaves at corners in the order of the tree.
   void numberLeaves()
   {
@@ -167,6 +176,7 @@ private:
     this->Edges.resize(this->Pairs.size());
     this->Positions.resize(this->Pairs.size());
     this->NearerEnds.resize(this->Pairs.size());
+    this->Ends.resize(this->Pairs.size());
     constexpr std::size_t grain = 4096;
     forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
@@ -197,10 +207,15 @@ private:
                                 static_cast<Id>(lowerLeaf), static_cast<Id>(upperLeaf) }
                             : CrossingEdge<TSample>{ { upperSample.id, lowerSample.id }, downwards,
                                 static_cast<Id>(upperLeaf), static_cast<Id>(lowerLeaf) };
-    this->Positions[vertex] =
-      isLowerFirst || this->Order == EdgeOrder::Tree
-        ? interpolate(positionOf(lowerSample), positionOf(upperSample), upwards)
-        : interpolate(positionOf(upperSample), positionOf(lowerSample), downwards);
+    const Vector atLower = positionOf(lowerSample);
+    const Vector atUpper = positionOf(upperSample);
+    const std::array<Vector, 2> places{ interpolate(atLower, atUpper, upwards),
+      interpolate(atUpper, atLower, downwards) };
+    this->Positions[vertex] = places[isLowerFirst || this->Order == EdgeOrder::Tree ? 0 : 1];
+    const auto isOneOf = [&](const Vector& end) { return places[0] == end || places[1] == end; };
+    this->Ends[vertex] = upwards == 0.0 || downwards == 1.0 || isOneOf(atLower)   ? End::Lower
+                         : upwards == 1.0 || downwards == 0.0 || isOneOf(atUpper) ? End::Upper
+                                                                                  : End::Neither;
   }
 
   /// Whether the edge of one vertex is before that of another one.
@@ -214,10 +229,10 @@ private:
   {
     this->VertexOf.resize(this->Edges.size());
     std::iota(this->VertexOf.begin(), this->VertexOf.end(), std::size_t{ 0 });
-    std::unordered_map<Id, std::size_t> vertexAt; // by leaf
-    const auto add = [&](Id leaf, std::size_t edge)
+    std::unordered_map<Id, std::size_t> vertexAt; // by end
+    const auto add = [&](Id end, std::size_t edge)
     {
-      std::size_t& vertex = vertexAt.emplace(leaf, edge).first->second;
+      std::size_t& vertex = vertexAt.emplace(end, edge).first->second;
       if (this->isBefore(edge, vertex))
       {
         vertex = edge;
@@ -226,21 +241,17 @@ private:
     std::vector<std::pair<std::size_t, Id>> merged;
     for (std::size_t i = 0; i < this->Edges.size(); ++i)
     {
-      const CrossingEdge<TSample>& edge = this->Edges[i];
-      for (const Id end : { edge.firstLeaf, edge.secondLeaf })
+      if (this->Ends[i] != End::Neither)
       {
-        if (edge.crossing == (end == edge.firstLeaf ? 0.0 : 1.0) ||
-            this->Positions[i] == positionOf(this->Tree.sampleOf(end)))
-        {
-          add(end, i);
-          merged.emplace_back(i, end);
-          break;
-        }
+        const auto& [lower, upper] = this->Pairs[i];
+        const Id end = this->Ends[i] == End::Lower ? lower : upper;
+        add(end, i);
+        merged.emplace_back(i, end);
       }
     }
-    for (const auto& [edge, leaf] : merged)
+    for (const auto& [edge, end] : merged)
     {
-      this->VertexOf[edge] = vertexAt.at(leaf);
+      this->VertexOf[edge] = vertexAt.at(end);
     }
   }
 
@@ -348,6 +359,7 @@ private:
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<Vector> Positions;
   std::vector<std::size_t> NearerEnds;
+  std::vector<End> Ends;             // where it crosses at one
   std::vector<std::size_t> VertexOf; // the pair whose vertex is that of this one
 };
 

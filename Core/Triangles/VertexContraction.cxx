@@ -9,76 +9,68 @@
 #include <array>
 #include <iterator>
 #include <numeric>
+#include <tuple>
 
 namespace isopoint
 {
 namespace
 {
 
-using DirectedEdge = std::pair<std::size_t, std::size_t>;
+/// An edge from a vertex outside of a part to one of its members, by what the former has become.
+struct Spoke
+{
+  std::size_t root;
+  std::size_t from;
+  std::size_t to;
+
+  bool operator<(const Spoke& other) const
+  {
+    return std::tie(this->root, this->from, this->to) < std::tie(other.root, other.from, other.to);
+  }
+  bool operator==(const Spoke& other) const
+  {
+    return this->from == other.from && this->to == other.to;
+  }
+};
 
 } // namespace
 
-/// The triangles around a vertex that a part has become.
-struct VertexContraction::Link
+/// The triangles around a vertex that a part has become. Memory is kept.
+struct VertexContraction::Surroundings
 {
-  std::vector<DirectedEdge> edges;  // opposite to the vertex, counterclockwise
-  std::vector<DirectedEdge> spokes; // from vertices outside to members
-  std::vector<std::size_t> ends;    // of edges
-  std::size_t vanished = 0;         // triangles that have become edges
+  VertexLink link;
+  std::vector<Spoke> spokes;
+  std::vector<std::size_t> vanished; // of triangles that have become edges, the outer ends
 
-  /// Whether the edges form one cycle of at least three, or one path.
-  bool isCycleOrPath()
+  void clear()
   {
-    std::sort(this->edges.begin(), this->edges.end());
-    this->ends.clear();
-    for (const DirectedEdge& edge : this->edges)
+    this->link.clear();
+    this->spokes.clear();
+    this->vanished.clear();
+  }
+
+  /// Whether all spokes are to vertices of the link, those to each of them are connected by
+  /// triangles that have vanished, and these form no loops: then there is one spoke more.
+  bool haveTrees()
+  {
+    keepUnique(this->spokes);
+    std::sort(this->vanished.begin(), this->vanished.end());
+    std::size_t count = 0;
+    for (auto first = this->spokes.begin(); first != this->spokes.end(); ++count)
     {
-      this->ends.push_back(edge.second);
-    }
-    std::sort(this->ends.begin(), this->ends.end());
-    const auto begin = this->edges.begin();
-    const auto end = this->edges.end();
-    const auto isSameStart = [](const DirectedEdge& a, const DirectedEdge& b)
-    { return a.first == b.first; };
-    if (this->edges.empty() || std::adjacent_find(begin, end, isSameStart) != end ||
-        std::adjacent_find(this->ends.begin(), this->ends.end()) != this->ends.end())
-    {
-      return false;
-    }
-    // Where each vertex has one successor at most, and one predecessor at most, all is one path or
-    // cycle if one of these is as long as all edges.
-    const auto start = std::find_if(begin, end,
-      [this](const DirectedEdge& edge)
-      { return !std::binary_search(this->ends.begin(), this->ends.end(), edge.first); });
-    this->isPath = start != end;
-    const std::size_t first = this->isPath ? start->first : begin->first;
-    std::size_t length = 0;
-    std::size_t at = first;
-    do
-    {
-      const auto next = std::lower_bound(begin, end, DirectedEdge(at, 0));
-      if (next == end || next->first != at)
+      const std::size_t root = first->root;
+      const auto last = std::find_if(
+        first, this->spokes.end(), [root](const Spoke& spoke) { return spoke.root != root; });
+      const auto [begin, end] =
+        std::equal_range(this->vanished.begin(), this->vanished.end(), root);
+      if (!this->link.hasVertex(root) || last - first != end - begin + 1)
       {
-        break;
+        return false;
       }
-      at = next->second;
-      ++length;
-    } while (at != first);
-    return length == this->edges.size() && (this->isPath || length >= 3);
+      first = last;
+    }
+    return count == this->link.vertexCount();
   }
-
-  bool hasVertex(std::size_t vertex) const
-  {
-    const auto edge =
-      std::lower_bound(this->edges.begin(), this->edges.end(), DirectedEdge(vertex, 0));
-    return (edge != this->edges.end() && edge->first == vertex) ||
-           std::binary_search(this->ends.begin(), this->ends.end(), vertex);
-  }
-
-  std::size_t vertexCount() const { return this->edges.size() + (this->isPath ? 1 : 0); }
-
-  bool isPath = false;
 };
 
 VertexContraction::VertexContraction(const Execution& execution, const WeightedVertices& vertices,
@@ -130,17 +122,17 @@ void VertexContraction::contract()
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 1024;
-    std::vector<std::size_t> failed =
-      collected<std::size_t>(this->Run, { suspects.size(), 16 * grain, grain },
-        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-        {
-          Link link;
-          std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
-            suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
-            [&](std::size_t part) { return this->IsMerged[part] && !this->isSurface(part, link); });
-        });
+    std::vector<std::size_t> failed = collected<std::size_t>(this->Run,
+      { suspects.size(), 16 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+      {
+        Surroundings around;
+        std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
+          suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+          [&](std::size_t part) { return this->IsMerged[part] && !this->isSurface(part, around); });
+      });
     keepUnique(failed);
-    const std::vector<std::size_t> separated = this->firstOf(failed);
+    const std::vector<std::size_t> separated = this->lowestAmongNeighbors(failed);
     suspects = std::move(failed);
     for (const std::size_t part : separated)
     {
@@ -159,22 +151,19 @@ void VertexContraction::forPartsAround(std::size_t part, const Visit& visit) con
   {
     const auto partAt = [&](std::size_t corner)
     { return this->Parts.partOf(this->Triangles[triangle][corner]); };
-    const std::array<std::uint32_t, 3> parts{ partAt(0), partAt(1), partAt(2) };
-    if (std::find(parts.begin(), parts.end(), part) != parts.end())
+    for (const std::size_t other : { partAt(0), partAt(1), partAt(2) })
     {
-      for (const std::uint32_t other : parts)
+      if (other != part && other != VertexParts::none)
       {
-        if (other != part && other != VertexParts::none)
-        {
-          visit(other);
-        }
+        visit(other);
       }
     }
   }
 }
 
 /// Of parts that failed, those with the lowest hash among their neighbors that failed.
-std::vector<std::size_t> VertexContraction::firstOf(const std::vector<std::size_t>& failed) const
+std::vector<std::size_t> VertexContraction::lowestAmongNeighbors(
+  const std::vector<std::size_t>& failed) const
 {
   const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
   std::vector<std::size_t> first;
@@ -201,14 +190,38 @@ void VertexContraction::merge(std::size_t part)
   {
     this->Roots[vertex] = root;
   }
-  Vector weighted{};
+  this->Positions[root] = this->meanOf(this->placingMembers(part));
+}
+
+/// The mean of some vertices, within their bounds.
+Vector VertexContraction::meanOf(const std::vector<std::size_t>& vertices) const
+{
+  const auto positionOf = [this](std::size_t vertex) -> const Vector&
+  { return this->Vertices.positions[vertex]; };
   double weight = 0.0;
-  for (const std::size_t vertex : this->placingMembers(part))
+  for (const std::size_t vertex : vertices)
   {
-    weighted = sum(weighted, this->Vertices.weights[vertex], this->Vertices.positions[vertex]);
     weight += this->Vertices.weights[vertex];
   }
-  this->Positions[root] = scaled(1.0 / weight, weighted);
+  const Vector& origin = positionOf(vertices.front());
+  Vector mean = origin;
+  Vector least = origin;
+  Vector most = origin;
+  for (const std::size_t vertex : vertices)
+  {
+    const Vector& position = positionOf(vertex);
+    mean = sum(mean, this->Vertices.weights[vertex] / weight, difference(position, origin));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least[axis] = std::min(least[axis], position[axis]);
+      most[axis] = std::max(most[axis], position[axis]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    mean[axis] = std::clamp(mean[axis], least[axis], most[axis]);
+  }
+  return mean;
 }
 
 void VertexContraction::separate(std::size_t part)
@@ -290,18 +303,19 @@ std::size_t VertexContraction::cornerOf(
 
 std::vector<std::size_t> VertexContraction::membersOf(std::size_t root) const
 {
-  const std::uint32_t part = this->Parts.partOf(root);
+  const std::size_t part = this->Parts.partOf(root);
   return part != VertexParts::none && this->IsMerged[part] ? this->placingMembers(part)
                                                            : std::vector<std::size_t>(1, root);
 }
 
 /// Whether the triangles around what a part has become are a disk, or half of one at a border; and
 /// with them those around all vertices next to it.
-bool VertexContraction::isSurface(std::size_t part, Link& link) const
+bool VertexContraction::isSurface(std::size_t part, Surroundings& around) const
 {
-  link.edges.clear();
-  link.spokes.clear();
-  link.vanished = 0;
+  around.clear();
+  const auto addSpoke = [&](std::size_t from, std::size_t to) {
+    around.spokes.push_back({ this->Roots[from], from, to });
+  };
   for (const std::size_t triangle : this->Parts.trianglesAround(part))
   {
     const SurfaceTriangle& corners = this->Triangles[triangle];
@@ -309,7 +323,7 @@ bool VertexContraction::isSurface(std::size_t part, Link& link) const
     { return this->Parts.partOf(corners[corner]) == part; };
     const std::array<bool, 3> inside{ isInside(0), isInside(1), isInside(2) };
     const auto count = std::count(inside.begin(), inside.end(), true);
-    if (count == 0 || count == 3)
+    if (count == 3)
     {
       continue;
     }
@@ -319,32 +333,23 @@ bool VertexContraction::isSurface(std::size_t part, Link& link) const
     const std::size_t last = corners[(single + 2) % 3];
     if (count == 2)
     {
-      link.spokes.emplace_back(corners[single], next);
-      link.spokes.emplace_back(corners[single], last);
-      ++link.vanished;
+      addSpoke(corners[single], next);
+      addSpoke(corners[single], last);
+      around.vanished.push_back(this->Roots[corners[single]]);
       continue;
     }
-    link.spokes.emplace_back(next, corners[single]);
-    link.spokes.emplace_back(last, corners[single]);
+    addSpoke(next, corners[single]);
+    addSpoke(last, corners[single]);
     if (this->Roots[next] != this->Roots[last])
     {
-      link.edges.emplace_back(this->Roots[next], this->Roots[last]);
+      around.link.add(this->Roots[next], this->Roots[last]);
     }
     else
     {
-      ++link.vanished;
+      around.vanished.push_back(this->Roots[next]);
     }
   }
-  if (!link.isCycleOrPath())
-  {
-    return false;
-  }
-  // The spokes to one vertex of the link, and the triangles that have vanished between them, have
-  // to be connected: then there is one spoke more than triangles.
-  keepUnique(link.spokes);
-  return link.spokes.size() - link.vanished == link.vertexCount() &&
-         std::all_of(link.spokes.begin(), link.spokes.end(),
-           [&](const DirectedEdge& spoke) { return link.hasVertex(this->Roots[spoke.first]); });
+  return around.link.isCycleOrPath() && around.haveTrees();
 }
 
 } // namespace isopoint

@@ -5,6 +5,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/VertexLink.h"
 #include "Core/Triangles/VertexParts.h"
 
 #include <cstddef>
@@ -27,7 +28,8 @@ struct WeightedVertices
 class VertexContraction
 {
 public:
-  /// All kept by the caller.
+  /// All kept by the caller. Around vertices that have others in their group, triangles are a disk
+  /// or half of one.
   /// @param groups of the vertices, below groupCount: those of one group may become one
   /// @throws std::bad_alloc, Aborted
   VertexContraction(const Execution& execution, const WeightedVertices& vertices,
@@ -48,15 +50,16 @@ public:
   std::vector<std::size_t> membersOf(std::size_t root) const;
 
 private:
-  struct Link;
+  struct Surroundings;
 
   void findBorder();
   std::vector<std::size_t> placingMembers(std::size_t part) const;
   std::size_t cornerOf(std::size_t part, const std::vector<std::size_t>& atBorder) const;
   void merge(std::size_t part);
+  Vector meanOf(const std::vector<std::size_t>& vertices) const;
   void separate(std::size_t part);
-  bool isSurface(std::size_t part, Link& link) const;
-  std::vector<std::size_t> firstOf(const std::vector<std::size_t>& failed) const;
+  bool isSurface(std::size_t part, Surroundings& around) const;
+  std::vector<std::size_t> lowestAmongNeighbors(const std::vector<std::size_t>& failed) const;
 
   template <class Visit>
   void forPartsAround(std::size_t part, const Visit& visit) const;

@@ -4,6 +4,7 @@
 #include "Core/Base/SortUnique.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/VertexContraction.h"
+#include "Core/Triangles/VertexLink.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace
 {
 
 /// An edge is short if it is shorter than this share of the side of an equilateral triangle that is
-/// as large as the mean of those at its ends.
+/// as large as the mean of those around its ends, each counted at both.
 constexpr double shortEdge = 0.55;
 
 /// How often edges are flipped and then short ones merged.
@@ -38,9 +39,10 @@ public:
     std::iota(this->Result.memberBegins.begin(), this->Result.memberBegins.end(), std::size_t{ 0 });
   }
 
-  MergedTriangles merge(const std::vector<std::size_t>& nearerEnds, std::size_t endCount)
+  MergedTriangles merge(std::vector<std::size_t> nearerEnds, std::size_t endCount)
   {
-    this->contract(nearerEnds, endCount);
+    this->Branched = branchedVertices(this->Run, this->Result.triangles, this->count());
+    this->contract(std::move(nearerEnds), endCount);
     this->Run.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
@@ -58,8 +60,12 @@ private:
   std::size_t count() const { return this->Vertices.weights.size(); }
 
   /// Merges those vertices of each group that can be, and numbers what is left.
-  void contract(const std::vector<std::size_t>& groups, std::size_t groupCount)
+  void contract(std::vector<std::size_t> groups, std::size_t groupCount)
   {
+    for (const std::size_t vertex : this->Branched)
+    {
+      groups[vertex] = groupCount++; // alone
+    }
     VertexContraction contraction(
       this->Run, this->Vertices, this->Result.triangles, groups, groupCount);
     contraction.contract();
@@ -70,6 +76,11 @@ private:
       {
         roots.push_back(vertex);
       }
+    }
+    for (std::size_t& vertex : this->Branched)
+    {
+      vertex = static_cast<std::size_t>(
+        std::lower_bound(roots.begin(), roots.end(), vertex) - roots.begin());
     }
     std::vector<SurfaceTriangle> triangles = this->trianglesOf(contraction, roots);
     this->keepVertices(contraction, roots);
@@ -199,7 +210,8 @@ private:
   const Execution& Run;
   const std::vector<Vector>& Crossings;
   WeightedVertices Vertices;
-  MergedTriangles Result; // of these vertices
+  std::vector<std::size_t> Branched; // of these, see branchedVertices()
+  MergedTriangles Result;            // of these vertices
 };
 
 } // namespace

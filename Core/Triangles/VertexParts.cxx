@@ -14,27 +14,27 @@ namespace isopoint
 namespace
 {
 
-/// The different groups of a triangle's vertices.
-class GroupsOfTriangle
+/// The different groups, or parts, of a triangle's vertices.
+class LabelsOfTriangle
 {
 public:
-  GroupsOfTriangle(const std::vector<std::size_t>& groups, const SurfaceTriangle& triangle)
+  LabelsOfTriangle(const std::vector<std::size_t>& labels, const SurfaceTriangle& triangle)
   {
     for (const std::size_t vertex : triangle)
     {
-      const std::size_t group = groups[vertex];
-      if (std::find(this->begin(), this->end(), group) == this->end())
+      const std::size_t label = labels[vertex];
+      if (label != VertexParts::none && std::find(this->begin(), this->end(), label) == this->end())
       {
-        this->Groups[this->Count++] = group;
+        this->Labels[this->Count++] = label;
       }
     }
   }
 
-  const std::size_t* begin() const { return this->Groups.data(); }
-  const std::size_t* end() const { return this->Groups.data() + this->Count; }
+  const std::size_t* begin() const { return this->Labels.data(); }
+  const std::size_t* end() const { return this->Labels.data() + this->Count; }
 
 private:
-  std::array<std::size_t, 3> Groups{};
+  std::array<std::size_t, 3> Labels{};
   std::size_t Count = 0;
 };
 
@@ -161,11 +161,10 @@ private:
 
 VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
   const std::vector<std::size_t>& groups, std::size_t groupCount)
-  : Groups(groups)
-  , Triangles(groupCount, triangles.size(),
-      [&](std::size_t triangle) { return GroupsOfTriangle(groups, triangles[triangle]); })
-  , PartOf(groups.size(), none)
+  : PartOf(groups.size(), none)
 {
+  const ItemLists trianglesOfGroups(groupCount, triangles.size(),
+    [&](std::size_t triangle) { return LabelsOfTriangle(groups, triangles[triangle]); });
   ItemLists members(
     groupCount, groups.size(), [&](std::size_t vertex) { return std::array{ groups[vertex] }; });
   std::vector<std::size_t> begins(groupCount + 1, groups.size());
@@ -185,7 +184,7 @@ VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTr
         if (count > 1)
         {
           labeling.label(this->Vertices.data() + begins[group], count, begins[group],
-            this->Triangles.at(group), found);
+            trianglesOfGroups.at(group), found);
         }
       }
     });
@@ -196,9 +195,11 @@ VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTr
     {
       for (const std::size_t vertex : this->verticesOf(part))
       {
-        this->PartOf[vertex] = static_cast<std::uint32_t>(part);
+        this->PartOf[vertex] = part;
       }
     });
+  this->Triangles.emplace(this->Parts.size(), triangles.size(),
+    [&](std::size_t triangle) { return LabelsOfTriangle(this->PartOf, triangles[triangle]); });
 }
 
 } // namespace isopoint

@@ -8,8 +8,8 @@
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace isopoint
@@ -20,10 +20,9 @@ namespace isopoint
 class VertexParts
 {
 public:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// @param triangles kept by the caller
-  /// @param groups of the vertices, below groupCount; kept by the caller
+  /// @param groups of the vertices, below groupCount
   /// @throws std::bad_alloc, Aborted
   /// Complexity: O(triangles + groups), and O(n log n) of those within one group
   VertexParts(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
@@ -32,7 +31,7 @@ public:
   std::size_t size() const { return this->Parts.size(); }
 
   /// The part of a vertex, or none if it is alone. Parts are numbered by group and first vertex.
-  std::uint32_t partOf(std::size_t vertex) const { return this->PartOf[vertex]; }
+  std::size_t partOf(std::size_t vertex) const { return this->PartOf[vertex]; }
 
   /// The vertices of a part, ascending.
   NodeList<std::size_t> verticesOf(std::size_t part) const
@@ -44,10 +43,10 @@ public:
   /// Whether a part is simply connected: vertices - edges + triangles = 1.
   bool isSimple(std::size_t part) const { return this->Parts[part].isSimple; }
 
-  /// The triangles with a vertex in the group of a part, ascending.
+  /// The triangles with a vertex in a part, ascending.
   NodeList<std::size_t> trianglesAround(std::size_t part) const
   {
-    return this->Triangles.at(this->Groups[this->Vertices[this->Parts[part].begin]]);
+    return this->Triangles->at(part);
   }
 
 private:
@@ -60,11 +59,10 @@ private:
 
   class Labeling;
 
-  const std::vector<std::size_t>& Groups;
-  ItemLists Triangles;               // by group
   std::vector<std::size_t> Vertices; // by group, and by part within
   std::vector<Part> Parts;
-  std::vector<std::uint32_t> PartOf;
+  std::vector<std::size_t> PartOf;
+  std::optional<ItemLists> Triangles; // by part
 };
 
 } // namespace isopoint

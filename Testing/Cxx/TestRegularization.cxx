@@ -277,6 +277,81 @@ TEST(Regularization, KeepsTheTopologyOfAnyCloud)
   EXPECT_GT(manifolds, last / 4);
 }
 
+/// Few samples, many of them of the isovalue: sheets that touch in a vertex or share an edge.
+TEST(Regularization, KeepsTheTopologyWhereSheetsMeet)
+{
+  std::size_t branched = 0;
+  for (std::uint64_t seed = 1; seed <= 4000; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    clouds::Dice dice(seed);
+    Cloud cloud;
+    const std::size_t count = 6 + dice(6);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto coordinate = [&]() { return static_cast<double>(dice(6)); };
+      const double x = coordinate();
+      const double y = coordinate();
+      const double z = coordinate();
+      cloud.add(x, y, z, static_cast<double>(dice(3)) - 1.0);
+    }
+    const Topology exact = topologyOf(trianglesOf(cloud, requestOf(0.0, false)).triangles);
+    EXPECT_EQ(topologyOf(trianglesOf(cloud, requestOf(0.0, true)).triangles), exact);
+    branched += exact.isManifold ? 0 : 1;
+  }
+  EXPECT_GT(branched, 10u);
+}
+
+/// Values that are tiny beside their neighbors': from one end of an edge the crossing is at the
+/// other end, seen from there it is not.
+TEST(Regularization, CrossingsAtSamplesDoNotDependOnTheOrderOfSamples)
+{
+  Cloud cloud;
+  cloud.add(-1, -1, 0, 0.0);
+  cloud.add(0, -1, 1, -1.0);
+  cloud.add(0, 1, -2, -1e-20);
+  cloud.add(2, 0, -2, 1.0);
+  cloud.add(2, 2, 1, 1.0);
+  for (const bool regularizes : { false, true })
+  {
+    EXPECT_EQ(trianglesOf(cloud, requestOf(0.0, regularizes)).triangles.size(),
+      trianglesOf(permuted(cloud, { 4, 3, 2, 1, 0 }), requestOf(0.0, regularizes))
+        .triangles.size());
+  }
+}
+
+TEST(Regularization, HugeCoordinatesHaveMeans)
+{
+  Cloud cloud = withValuesOf(clouds::uniform(2000, 5), distanceFromSphere);
+  for (double& coordinate : cloud.positions)
+  {
+    coordinate = std::ldexp(coordinate, 1022);
+  }
+  const ExtractedIsosurface found = trianglesOf(cloud, requestOf(0.0, true));
+  ASSERT_GT(found.surface.size(), 100u);
+  for (const Vector& position : found.surface.positions)
+  {
+    EXPECT_TRUE(isopoint::isFinite(position));
+  }
+}
+
+/// The mean of equal coordinates is not off by rounding.
+TEST(Regularization, APlaneStaysFlat)
+{
+  std::vector<Vector> positions = bipyramidPositions(9);
+  for (Vector& position : positions)
+  {
+    position[2] = 0.7;
+  }
+  const isopoint::MergedTriangles merged =
+    isopoint::mergeVertices({}, positions, { 0, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4 }, 5, bipyramid(9));
+  ASSERT_EQ(merged.positions.size(), 5u);
+  for (const Vector& position : merged.positions)
+  {
+    EXPECT_EQ(position[2], 0.7);
+  }
+}
+
 TEST(Regularization, DoesNotDependOnThreadsOrTheOrderOfSamples)
 {
   const Cloud cloud = withValuesOf(clouds::uniform(20000, 2),
