@@ -17,7 +17,7 @@ namespace
 {
 
 /// An edge is short if it is shorter than this share of the side of an equilateral triangle that is
-/// as large as the mean of those around its ends, each counted at both.
+/// as large as the mean of those around its first end and of those around its second one.
 constexpr double shortEdge = 0.55;
 
 /// How often edges are flipped and then short ones merged.

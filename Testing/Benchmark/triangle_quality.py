@@ -70,10 +70,10 @@ def clouds(options):
         count = int(1e6 * millions)
         for noise, name in (0, "sphere"), (NOISE, "sphere, noise of 5 %"):
             yield f"{name}, {millions:g} M", *sphere(count, noise), RADIUS, speed.SIDE / count ** (1 / 3)
-    x, y, z = grid_around_a_post().T
-    around = np.stack([x, y, z], -1)
-    yield "grid around a post: plane", around, 0.3 * x + 0.2 * y + z, 2.03, None
-    yield "grid around a post: wave", around, z + 0.4 * np.sin(1.1 * x) * np.cos(0.7 * y), 2.03, None
+    grid = grid_around_a_post()
+    x, y, z = grid.T
+    yield "grid around a post: plane", grid, 0.3 * x + 0.2 * y + z, 2.03, None
+    yield "grid around a post: wave", grid, z + 0.4 * np.sin(1.1 * x) * np.cos(0.7 * y), 2.03, None
     for path, array, isovalue in options.file:
         yield os.path.basename(path), *read(path, array), float(isovalue), None
 
@@ -119,11 +119,14 @@ def row_of(positions, values, isovalue, spacing, regularize):
     triangles = np.asarray(surface.triangles)
     corners = np.asarray(surface.points, dtype=float)[triangles]
     angles = smallest_angles(corners)
-    error = errors(corners) / spacing if spacing else np.full(1, np.nan)
+    distances = ""
+    if spacing:
+        error = errors(corners) / spacing
+        distances = f"{error.mean():.4f} / {error.max():.3f}"
     cells = [f"{len(surface.points):,}", f"{np.percentile(angles, 5):.1f} / {np.median(angles):.1f}",
              f"{100 * (angles < 10).mean():.2f}", turned(corners, np.asarray(surface.arrays["Gradients"])[triangles]),
              *topology(triangles, len(surface.points)),
-             f"{error.mean():.4f} / {error.max():.3f}" if spacing else "", f"{seconds:.2f}"]
+             distances, f"{seconds:.2f}"]
     return " | ".join(str(cell) for cell in cells)
 
 
