@@ -76,8 +76,8 @@ public:
    * points that are nearest to one sample become one point at their mean, short edges are merged
    * likewise, both where that keeps the topology, and edges are flipped to be Delaunay. That leaves
    * about a third of the points and triangles, and takes less time. Off: the exact isosurface of
-   * the Delaunay tetrahedralization (marching tetrahedra). With CREASE_FIT it has no effect.
-   * docs/triangles.md has the rule. Default: on.
+   * the Delaunay tetrahedralization (marching tetrahedra). docs/triangles.md has the rule.
+   * Default: on.
    */
   virtual void SetRegularize(vtkTypeBool regularize);
   virtual vtkTypeBool GetRegularize();

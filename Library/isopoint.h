@@ -148,8 +148,8 @@ typedef struct isopoint_options
   /* Of triangles: whether the tetrahedra near the surface are kept for the next isovalue, which is
    * faster then, unless they are many. The result is the same. */
   int32_t keep_tetrahedra; /* Default: 1 */
-  /* Of triangles: whether vertices are merged, and edges flipped, to fewer and well-shaped ones. 0,
-   * and with ISOPOINT_PROJECTION_CREASE: the exact isosurface of the Delaunay tetrahedralization. */
+  /* Of triangles: whether vertices are merged, and edges flipped, to fewer and well-shaped ones. 0:
+   * the exact isosurface of the Delaunay tetrahedralization. */
   int32_t regularize; /* Default: 1 */
 } isopoint_options;
 

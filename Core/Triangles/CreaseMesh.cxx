@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/CreaseMesh.h"
 
+#include "Core/Base/SortUnique.h"
 #include "Core/Triangles/FacetMesh.h"
+#include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
@@ -55,10 +57,15 @@ std::size_t CreaseSurface::addVertex(
   fit.isSmooth = false;
   fit.order = FitOrder::Crease;
   fit.creases.clear();
-  this->surface.edges.emplace_back(this->surface.edges[like]);
+  const std::size_t edge = this->surface.edgeBegin(like);
+  this->surface.edges.emplace_back(this->surface.edges[edge]);
+  this->surface.leaves.emplace_back(this->surface.leaves[edge]);
+  if (!this->surface.edgeBegins.empty())
+  {
+    this->surface.edgeBegins.push_back(this->surface.edges.size());
+  }
   this->surface.positions.push_back(place);
   this->surface.decreasingEdges.emplace_back(this->surface.decreasingEdges[like]);
-  this->surface.leaves.emplace_back(this->surface.leaves[like]);
   this->surface.fits.push_back(std::move(fit));
   this->normals.push_back(normal);
   this->isInner.push_back(true);
@@ -152,6 +159,59 @@ std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& who
   return mesh.facets();
 }
 
+/// Whether a vertex is on all pieces that another one is on.
+bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
+{
+  const auto isOnPieceOf = [&](std::size_t otherFacet)
+  {
+    const std::vector<std::size_t>& facets = mesh.facetsAround(vertex);
+    return std::any_of(facets.begin(), facets.end(),
+      [&](std::size_t facet)
+      { return dot(mesh.facet(facet).normal, mesh.facet(otherFacet).normal) >= mostCreaseCosine; });
+  };
+  const std::vector<std::size_t>& facets = mesh.facetsAround(other);
+  return std::all_of(facets.begin(), facets.end(), isOnPieceOf);
+}
+
+/// Merges the ends of short edges, the shortest first, where facets stay on their pieces.
+/// @throws std::bad_alloc, Aborted
+std::vector<Facet> withoutShortEdges(
+  const Execution& execution, const CreaseSurface& whole, std::vector<Facet> facets)
+{
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round)
+  {
+    throwIfAborted(execution);
+    std::vector<SurfaceTriangle> triangles;
+    std::transform(facets.begin(), facets.end(), std::back_inserter(triangles),
+      [](const Facet& facet) { return facet.corners; });
+    FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
+    const auto staysOnPiece = [&](const Facet& moved)
+    {
+      constexpr double leastCosine = 0.95;
+      const auto& [a, b, c] = moved.corners;
+      const std::vector<Vector>& positions = whole.surface.positions;
+      const double area = lengthOf(
+        cross(difference(positions[b], positions[a]), difference(positions[c], positions[a])));
+      return mesh.signedArea(moved) >= leastCosine * area;
+    };
+    for (const ShortEdge& edge : shortEdges(whole.surface.positions, triangles))
+    {
+      for (const auto& [from, to] :
+        { std::pair(edge.second, edge.first), std::pair(edge.first, edge.second) })
+      {
+        if (mesh.facetAt(from, to) && isOnPiecesOf(mesh, to, from) &&
+            mesh.collapse(from, to, staysOnPiece))
+        {
+          break;
+        }
+      }
+    }
+    facets = mesh.facets();
+  }
+  return facets;
+}
+
 class CreaseMesher
 {
 public:
@@ -163,7 +223,7 @@ public:
   {
   }
 
-  void mesh(bool parts)
+  void mesh(const IsosurfaceRequest& request)
   {
     std::vector<Facet> facets = this->takeFacets();
     if (facets.empty())
@@ -173,7 +233,11 @@ public:
     const std::size_t firstOnCrease = this->Whole.surface.size();
     facets = splitAtCreases(this->Run, this->Whole, std::move(facets));
     facets = untangleFacets(this->Run, this->Whole, std::move(facets), firstOnCrease);
-    if (parts)
+    if (request.regularizes)
+    {
+      facets = withoutShortEdges(this->Run, this->Whole, std::move(facets));
+    }
+    if (request.partsCreases)
     {
       this->partCreases(facets);
     }
@@ -272,10 +336,28 @@ private:
 
 } // namespace
 
-void meshCreases(const Execution& execution, Isosurface& surface,
-  std::vector<SurfaceTriangle>& triangles, bool parts)
+std::vector<std::size_t> verticesAtCreases(
+  const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles)
 {
-  CreaseMesher(execution, surface, triangles).mesh(parts);
+  std::vector<char> isAtCrease(fits.size(), 0);
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    if (std::any_of(triangle.begin(), triangle.end(),
+          [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; }))
+    {
+      for (const std::size_t corner : triangle)
+      {
+        isAtCrease[corner] = 1;
+      }
+    }
+  }
+  return markedOf(isAtCrease);
+}
+
+void meshCreases(const Execution& execution, Isosurface& surface,
+  std::vector<SurfaceTriangle>& triangles, const IsosurfaceRequest& request)
+{
+  CreaseMesher(execution, surface, triangles).mesh(request);
 }
 
 } // namespace isopoint

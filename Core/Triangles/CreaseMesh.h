@@ -52,6 +52,13 @@ struct CreaseSurface
   std::vector<bool> isInner;   // whether all triangles around a vertex are facets
 };
 
+/// The vertices of triangles beside which fits have found a crease, ascending.
+/// @param fits of all vertices
+/// @throws std::bad_alloc
+/// Complexity: O(triangles)
+std::vector<std::size_t> verticesAtCreases(
+  const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles);
+
 /// Gives a surface the sharp edges and corners that fits with creases have found, in the way of
 /// extended marching cubes [KBSS01]: edges between vertices on different pieces get a vertex on the
 /// crease, triangles on three pieces one at the corner. Vertices beside creases at which no fit
@@ -60,11 +67,12 @@ struct CreaseSurface
 /// @param surface with fits; new vertices are appended, and take over the edge of the first vertex
 /// of theirs; vertices without triangles are dropped
 /// @param triangles of its vertices, ordered
-/// @param parts whether vertices are repeated for each piece that they are on
+/// @param request whether vertices are repeated for each piece that they are on, and whether those
+/// of short edges are merged
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(triangles), and O(n log n) of those beside creases
 void meshCreases(const Execution& execution, Isosurface& surface,
-  std::vector<SurfaceTriangle>& triangles, bool parts);
+  std::vector<SurfaceTriangle>& triangles, const IsosurfaceRequest& request);
 
 /// Gives facets vertices on the creases and at the corners between the pieces that fits have found;
 /// vertices of which no piece is known are merged with neighbors. See docs/triangles.md.

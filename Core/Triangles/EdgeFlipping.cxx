@@ -37,9 +37,10 @@ class EdgeFlipper
 {
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
-    std::vector<SurfaceTriangle>& triangles)
+    const std::vector<char>& isKept, std::vector<SurfaceTriangle>& triangles)
     : Run(execution)
     , Positions(positions)
+    , IsKept(isKept)
     , Triangles(triangles)
     , Twins(3 * triangles.size(), noSide)
     , Normals(positions.size())
@@ -161,7 +162,9 @@ private:
     const std::size_t b = this->endOf(side);
     const std::size_t c = this->oppositeOf(side);
     const std::size_t d = this->oppositeOf(twin);
-    return c != d && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
+    const bool isOfKept =
+      this->IsKept[a] && this->IsKept[b] && (this->IsKept[c] || this->IsKept[d]);
+    return c != d && !isOfKept && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
            this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
   }
 
@@ -304,6 +307,7 @@ private:
 
   const Execution& Run;
   const std::vector<Vector>& Positions;
+  const std::vector<char>& IsKept; // each vertex
   std::vector<SurfaceTriangle>& Triangles;
   std::vector<Side> Twins; // of sides
   std::vector<Vector> Normals;
@@ -313,9 +317,9 @@ private:
 } // namespace
 
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  std::vector<SurfaceTriangle>& triangles)
+  const std::vector<char>& isKept, std::vector<SurfaceTriangle>& triangles)
 {
-  EdgeFlipper(execution, positions, triangles).flip();
+  EdgeFlipper(execution, positions, isKept, triangles).flip();
   triangles = ordered(execution, std::move(triangles), positions.size());
 }
 

@@ -55,11 +55,11 @@ struct MarchedTriangles : EdgeTriangles<TSample>
 
 /// Merges vertices; see mergeVertices(). @throws std::bad_alloc, Aborted
 template <class TSample>
-EdgeTriangles<TSample> withMergedVertices(
-  const Execution& execution, MarchedTriangles<TSample> marched)
+EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
+  MarchedTriangles<TSample> marched, const std::vector<std::size_t>& kept)
 {
   MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
-    marched.endCount, std::move(marched.triangles));
+    marched.endCount, std::move(marched.triangles), kept);
   EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);

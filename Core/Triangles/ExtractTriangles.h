@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -68,14 +69,19 @@ public:
       return {};
     }
     constexpr double fitsEnd = 0.9; // shares of the progress
-    const double fitsBegin = this->Request.fit ? 0.6 : fitsEnd;
-    EdgeTriangles<TSample> mesh = this->march(partOf(this->Run, 0.0, fitsBegin));
+    const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
+    const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
+    MarchedTriangles<TSample> marched = this->march(partOf(this->Run, 0.0, mergingBegin));
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
+    FitsAtEdges known;
+    EdgeTriangles<TSample> mesh = this->Request.regularizes
+                                    ? this->merge(partOf(this->Run, mergingBegin, fitsBegin),
+                                        context, std::move(marched), known)
+                                    : EdgeTriangles<TSample>(std::move(marched));
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->Ranks.fitShared(partOf(this->Run, fitsBegin, fitsEnd), context,
-        *this->Request.fit, mesh.firstEdges(this->Run), mesh.positions);
+      fits = this->fitTo(partOf(this->Run, fitsBegin, fitsEnd), context, mesh, known);
     }
     return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
@@ -106,8 +112,8 @@ public:
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
-  /// The triangles of all tetrahedra but those across gaps, with merged vertices if wanted.
-  EdgeTriangles<TSample> march(const Execution& execution)
+  /// The triangles of all tetrahedra but those across gaps.
+  MarchedTriangles<TSample> march(const Execution& execution)
   {
     constexpr double tetrahedraEnd = 0.8; // shares of the progress
     constexpr double gapsEnd = 0.9;
@@ -117,21 +123,70 @@ private:
     {
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
-    constexpr double marchEnd = 0.95;
-    const bool regularizes = this->regularizes();
-    MarchedTriangles<TSample> marched =
-      MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, marchEnd), this->Tree, this->Means,
-        this->Request.isovalue, regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
-        .march();
-    return regularizes ? withMergedVertices(partOf(execution, marchEnd, 1.0), std::move(marched))
-                       : EdgeTriangles<TSample>(std::move(marched));
+    return MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Means,
+      this->Request.isovalue, this->Request.regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
+      .march();
   }
 
-  /// Merged vertices know too little of creases, which need one on each piece.
-  bool regularizes() const
+  bool hasCreases() const
   {
-    return this->Request.regularizes &&
-           !(this->Request.fit && this->Request.fit->highest == FitOrder::Crease);
+    return this->Request.fit && this->Request.fit->highest == FitOrder::Crease;
+  }
+
+  /// Of vertices with one edge, by that.
+  using FitsAtEdges = std::map<SampleEdge, LocalFit>;
+
+  /// Merges vertices except beside creases, which fits at all vertices find.
+  /// @param kept set to the fits of vertices beside creases
+  EdgeTriangles<TSample> merge(const Execution& execution, ExtractionContext<TSample>& context,
+    MarchedTriangles<TSample> marched, FitsAtEdges& kept)
+  {
+    constexpr double fitsEnd = 0.8; // share of the progress
+    std::vector<std::size_t> vertices;
+    if (this->hasCreases())
+    {
+      std::vector<LocalFit> fits =
+        this->fitTo(partOf(execution, 0.0, fitsEnd), context, marched, {});
+      vertices = verticesAtCreases(fits, marched.triangles);
+      for (const std::size_t vertex : vertices)
+      {
+        kept.emplace(marched.edges[vertex], std::move(fits[vertex]));
+      }
+    }
+    return withMergedVertices(partOf(execution, fitsEnd, 1.0), std::move(marched), vertices);
+  }
+
+  /// @param known fits that need not be found again
+  std::vector<LocalFit> fitTo(const Execution& execution, ExtractionContext<TSample>& context,
+    const EdgeTriangles<TSample>& mesh, const FitsAtEdges& known)
+  {
+    std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Run);
+    if (known.empty())
+    {
+      return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
+    }
+    std::vector<LocalFit> fits(edges.size());
+    std::vector<std::size_t> unknown;
+    for (std::size_t vertex = 0; vertex < edges.size(); ++vertex)
+    {
+      const auto found = known.find(edges[vertex]);
+      if (found != known.end())
+      {
+        fits[vertex] = found->second;
+      }
+      else
+      {
+        unknown.push_back(vertex);
+      }
+    }
+    const std::vector<LocalFit> others =
+      this->Ranks.fitShared(execution, context, *this->Request.fit,
+        chosenOf(this->Run, edges, unknown), chosenOf(this->Run, mesh.positions, unknown));
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+    {
+      fits[unknown[i]] = others[i];
+    }
+    return fits;
   }
 
   /// Drops tetrahedra in gaps of the cloud.
@@ -154,7 +209,7 @@ private:
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
-    if (this->regularizes())
+    if (this->Request.regularizes)
     {
       this->flipEdgesOf(mesh, fits);
     }
@@ -165,9 +220,9 @@ private:
     surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
       { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
-    if (isMoved && this->Request.fit->highest == FitOrder::Crease)
+    if (isMoved && this->hasCreases())
     {
-      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request.partsCreases);
+      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request);
     }
     surface.droppedTetrahedra = this->Dropped;
     surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
@@ -180,7 +235,15 @@ private:
     std::vector<Vector> positions = mesh.positions;
     forEachIndex(this->Run, fits.size(),
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
-    flipEdges(this->Run, positions, mesh.triangles);
+    std::vector<char> isKept(positions.size(), 0);
+    if (this->hasCreases())
+    {
+      for (const std::size_t vertex : verticesAtCreases(fits, mesh.triangles))
+      {
+        isKept[vertex] = 1;
+      }
+    }
+    flipEdges(this->Run, positions, isKept, mesh.triangles);
   }
 
   const Execution& Run;

@@ -68,6 +68,15 @@ public:
   /// Facets that look the wrong way.
   std::vector<std::size_t> invertedFacets() const;
 
+  /// The facet with an edge, if there is one alone.
+  std::optional<std::size_t> facetAt(std::size_t a, std::size_t b) const;
+
+  /// Facets with a vertex.
+  const std::vector<std::size_t>& facetsAround(std::size_t vertex) const
+  {
+    return this->FacetsAround.at(vertex);
+  }
+
   const Facet& facet(std::size_t index) const { return this->Facets[index]; }
 
   /// Whether a facet is left, and looks the wrong way.
@@ -108,8 +117,6 @@ private:
   void connect(std::size_t facet);
   void disconnect(std::size_t facet);
 
-  /// The facet with an edge, if there is one alone.
-  std::optional<std::size_t> facetAt(std::size_t a, std::size_t b) const;
   bool hasEdge(std::size_t a, std::size_t b) const;
 
   /// Flips the edge of a facet that leaves the least looking the wrong way, if that is less.

@@ -3,11 +3,11 @@
 
 #include "Core/Base/SortUnique.h"
 #include "Core/Triangles/EdgeFlipping.h"
+#include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/VertexContraction.h"
 #include "Core/Triangles/VertexLink.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -16,10 +16,6 @@ namespace isopoint
 namespace
 {
 
-/// An edge is short if it is shorter than this share of the side of an equilateral triangle that is
-/// as large as the mean of those around its first end and of those around its second one.
-constexpr double shortEdge = 0.55;
-
 /// How often edges are flipped and then short ones merged.
 constexpr int shortEdgeRounds = 3;
 
@@ -27,11 +23,21 @@ class VertexMerger
 {
 public:
   VertexMerger(const Execution& execution, const std::vector<Vector>& crossings,
-    std::vector<SurfaceTriangle> triangles)
+    std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept)
     : Run(execution)
     , Crossings(crossings)
     , Vertices{ crossings, std::vector<double>(crossings.size(), 1.0) }
+    , IsKept(crossings.size(), 0)
   {
+    const auto keep = [this](const std::vector<std::size_t>& vertices)
+    {
+      for (const std::size_t vertex : vertices)
+      {
+        this->IsKept[vertex] = 1;
+      }
+    };
+    keep(kept);
+    keep(branchedVertices(execution, triangles, crossings.size()));
     this->Result.triangles = std::move(triangles);
     this->Result.members.resize(crossings.size());
     std::iota(this->Result.members.begin(), this->Result.members.end(), std::size_t{ 0 });
@@ -41,13 +47,12 @@ public:
 
   MergedTriangles merge(std::vector<std::size_t> nearerEnds, std::size_t endCount)
   {
-    this->Branched = branchedVertices(this->Run, this->Result.triangles, this->count());
     this->contract(std::move(nearerEnds), endCount);
     this->Run.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Run, this->Vertices.positions, this->Result.triangles);
-      this->contract(this->shortEdges(), this->count());
+      flipEdges(this->Run, this->Vertices.positions, this->IsKept, this->Result.triangles);
+      this->contract(this->pairsOfShortEdges(), this->count());
     }
     this->Result.positions = std::move(this->Vertices.positions);
     forEachIndex(this->Run, this->Result.size(),
@@ -62,9 +67,12 @@ private:
   /// Merges those vertices of each group that can be, and numbers what is left.
   void contract(std::vector<std::size_t> groups, std::size_t groupCount)
   {
-    for (const std::size_t vertex : this->Branched)
+    for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
     {
-      groups[vertex] = groupCount++; // alone
+      if (this->IsKept[vertex])
+      {
+        groups[vertex] = groupCount++; // alone
+      }
     }
     VertexContraction contraction(
       this->Run, this->Vertices, this->Result.triangles, groups, groupCount);
@@ -77,11 +85,10 @@ private:
         roots.push_back(vertex);
       }
     }
-    for (std::size_t& vertex : this->Branched)
-    {
-      vertex = static_cast<std::size_t>(
-        std::lower_bound(roots.begin(), roots.end(), vertex) - roots.begin());
-    }
+    std::vector<char> isKept(roots.size());
+    std::transform(roots.begin(), roots.end(), isKept.begin(),
+      [this](std::size_t root) { return this->IsKept[root]; });
+    this->IsKept = std::move(isKept);
     std::vector<SurfaceTriangle> triangles = this->trianglesOf(contraction, roots);
     this->keepVertices(contraction, roots);
     this->Result.triangles = std::move(triangles);
@@ -128,14 +135,12 @@ private:
 
   /// The vertices in pairs that short edges connect, the shortest first: the first of each pair, or
   /// a vertex itself.
-  std::vector<std::size_t> shortEdges() const
+  std::vector<std::size_t> pairsOfShortEdges() const
   {
-    std::vector<ShortEdge> edges = this->allShortEdges();
-    std::sort(edges.begin(), edges.end());
     std::vector<std::size_t> groups(this->count());
     std::iota(groups.begin(), groups.end(), std::size_t{ 0 });
     std::vector<bool> isTaken(this->count(), false);
-    for (const ShortEdge& edge : edges)
+    for (const ShortEdge& edge : shortEdges(this->Vertices.positions, this->Result.triangles))
     {
       if (!isTaken[edge.first] && !isTaken[edge.second])
       {
@@ -144,54 +149,6 @@ private:
       }
     }
     return groups;
-  }
-
-  struct ShortEdge
-  {
-    double share; // see shortEdge
-    std::size_t first;
-    std::size_t second;
-
-    bool operator<(const ShortEdge& other) const
-    {
-      return this->share != other.share   ? this->share < other.share
-             : this->first != other.first ? this->first < other.first
-                                          : this->second < other.second;
-    }
-  };
-
-  std::vector<ShortEdge> allShortEdges() const
-  {
-    const std::vector<Vector>& positions = this->Vertices.positions;
-    const auto edgeOf = [&](std::size_t a, std::size_t b)
-    { return difference(positions[b], positions[a]); };
-    std::vector<double> areas(this->count(), 0.0); // of the triangles around
-    std::vector<double> counts(this->count(), 0.0);
-    for (const auto& [a, b, c] : this->Result.triangles)
-    {
-      const double area = 0.5 * lengthOf(cross(edgeOf(a, b), edgeOf(a, c)));
-      for (const std::size_t vertex : { a, b, c })
-      {
-        areas[vertex] += area;
-        counts[vertex] += 1.0;
-      }
-    }
-    constexpr double equilateral = 1.5196713713031851; // side over the root of the area
-    std::vector<ShortEdge> edges;
-    for (const SurfaceTriangle& triangle : this->Result.triangles)
-    {
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const auto [a, b] = std::minmax(triangle[i], triangle[(i + 1) % 3]);
-        const double area = (areas[a] + areas[b]) / (counts[a] + counts[b]);
-        const double share = lengthOf(edgeOf(a, b)) / (equilateral * std::sqrt(area));
-        if (share < shortEdge)
-        {
-          edges.push_back({ share, a, b });
-        }
-      }
-    }
-    return edges;
   }
 
   void putNearestFirst(std::size_t vertex)
@@ -210,17 +167,17 @@ private:
   const Execution& Run;
   const std::vector<Vector>& Crossings;
   WeightedVertices Vertices;
-  std::vector<std::size_t> Branched; // of these, see branchedVertices()
-  MergedTriangles Result;            // of these vertices
+  std::vector<char> IsKept; // each of these
+  MergedTriangles Result;   // of these vertices
 };
 
 } // namespace
 
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles)
+  std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept)
 {
-  return VertexMerger(execution, crossings, std::move(triangles)).merge(nearerEnds, endCount);
+  return VertexMerger(execution, crossings, std::move(triangles), kept).merge(nearerEnds, endCount);
 }
 
 } // namespace isopoint

@@ -31,11 +31,12 @@ struct MergedTriangles
 /// @param nearerEnds the number of the sample that is nearest to each crossing on its edge
 /// @param endCount above all of these numbers
 /// @param triangles ordered
+/// @param kept vertices that stay as they are, and so do triangles between three of them
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n log n)
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles);
+  std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept = {});
 
 } // namespace isopoint
 

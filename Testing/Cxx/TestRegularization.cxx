@@ -247,6 +247,24 @@ TEST(Regularization, HasAboutOneWellShapedTriangleFanForEachSample)
   EXPECT_LT(farthest, 1e-4);
 }
 
+/// Vertices beside creases are merged too, and none of them leaves its crease.
+TEST(Regularization, CreasesStaySharp)
+{
+  const auto cube = [](const Vector& p) {
+    return std::max({ std::abs(p[0] - 0.5), std::abs(p[1] - 0.5), std::abs(p[2] - 0.5) }) - 0.3;
+  };
+  const Cloud cloud = withValuesOf(clouds::uniform(60000, 1), cube);
+  const ExtractedIsosurface exact = trianglesOf(cloud, requestOf(0.0, false, FitOrder::Crease));
+  const ExtractedIsosurface found = trianglesOf(cloud, requestOf(0.0, true, FitOrder::Crease));
+  EXPECT_LT(found.triangles.size(), exact.triangles.size() * 35 / 100);
+  EXPECT_EQ(topologyOf(found.triangles), topologyOf(exact.triangles));
+  const std::vector<double> angles = smallestAngles(found);
+  EXPECT_GT(angles[angles.size() / 20], 8.0);
+  EXPECT_GT(angles[angles.size() / 2], 30.0);
+  EXPECT_NEAR(areaOf(found), areaOf(exact), 1e-3 * areaOf(exact));
+  EXPECT_NEAR(areaOf(found), 6.0 * 0.6 * 0.6, 0.005);
+}
+
 /// Of lattices, duplicates, lines, sheets, noise, with and without fits and creases.
 TEST(Regularization, KeepsTheTopologyOfAnyCloud)
 {
@@ -477,7 +495,7 @@ TEST(EdgeFlipping, TheLongDiagonalOfAQuadrilateralIsFlipped)
 {
   const std::vector<Vector> positions{ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } };
   std::vector<SurfaceTriangle> triangles{ { 0, 1, 2 }, { 0, 2, 3 } };
-  isopoint::flipEdges({}, positions, triangles);
+  isopoint::flipEdges({}, positions, std::vector<char>(positions.size(), 0), triangles);
   EXPECT_EQ(triangles, (std::vector<SurfaceTriangle>{ { 0, 1, 3 }, { 1, 2, 3 } }));
 }
 
@@ -485,7 +503,7 @@ TEST(EdgeFlipping, AnEdgeAcrossACreaseStays)
 {
   const std::vector<Vector> positions{ { -3, 0, 0 }, { 0, -1, -2 }, { 3, 0, 0 }, { 0, 1, -2 } };
   std::vector<SurfaceTriangle> triangles{ { 0, 1, 2 }, { 0, 2, 3 } };
-  isopoint::flipEdges({}, positions, triangles);
+  isopoint::flipEdges({}, positions, std::vector<char>(positions.size(), 0), triangles);
   EXPECT_EQ(triangles, (std::vector<SurfaceTriangle>{ { 0, 1, 2 }, { 0, 2, 3 } }));
 }
 
@@ -495,6 +513,6 @@ TEST(EdgeFlipping, AFlatTetrahedronStays)
   const std::vector<Vector> positions{ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0.1 } };
   const std::vector<SurfaceTriangle> expected{ { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 2 } };
   std::vector<SurfaceTriangle> triangles = expected;
-  isopoint::flipEdges({}, positions, triangles);
+  isopoint::flipEdges({}, positions, std::vector<char>(positions.size(), 0), triangles);
   EXPECT_EQ(triangles, expected);
 }
