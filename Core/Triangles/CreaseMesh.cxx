@@ -178,8 +178,7 @@ bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
 std::vector<Facet> withoutShortEdges(
   const Execution& execution, const CreaseSurface& whole, std::vector<Facet> facets)
 {
-  constexpr int rounds = 3;
-  for (int round = 0; round < rounds; ++round)
+  for (int round = 0; round < shortEdgeRounds; ++round)
   {
     throwIfAborted(execution);
     std::vector<SurfaceTriangle> triangles;

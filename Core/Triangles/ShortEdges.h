@@ -11,6 +11,9 @@
 namespace isopoint
 {
 
+/// How often short edges are merged.
+constexpr int shortEdgeRounds = 3;
+
 /// An edge that is short beside the triangles around it.
 struct ShortEdge
 {

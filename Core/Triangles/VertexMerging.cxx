@@ -16,9 +16,6 @@ namespace isopoint
 namespace
 {
 
-/// How often edges are flipped and then short ones merged.
-constexpr int shortEdgeRounds = 3;
-
 class VertexMerger
 {
 public:

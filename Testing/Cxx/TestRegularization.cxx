@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Regularized triangles: fewer and of better shape, with the topology of the exact surface.
 #include "RandomClouds.h"
+#include "Topology.h"
 
 #include "Core/IsosurfaceExtractor.h"
 #include "Core/OutputArrays.h"
@@ -27,8 +28,8 @@ using isopoint::ExtractedIsosurface;
 using isopoint::FitOrder;
 using isopoint::SurfaceTriangle;
 using isopoint::Vector;
-
-using Edge = std::pair<std::size_t, std::size_t>;
+using topology::Topology;
+using topology::topologyOf;
 
 isopoint::ExtractionRequest requestOf(
   double isovalue, bool regularizes, std::optional<FitOrder> order = std::nullopt)
@@ -50,96 +51,6 @@ ExtractedIsosurface trianglesOf(
   isopoint::IsosurfaceExtractor extractor;
   extractor.load<double, double>({}, cloud.size(), clouds::readerOf(cloud));
   return extractor.extract(clouds::executionOn(threads), request);
-}
-
-std::size_t rootOf(std::vector<std::size_t>& roots, std::size_t vertex)
-{
-  while (roots[vertex] != vertex)
-  {
-    vertex = roots[vertex] = roots[roots[vertex]];
-  }
-  return vertex;
-}
-
-/// The components that edges connect vertices to.
-std::size_t componentsOf(const std::set<Edge>& edges)
-{
-  std::map<std::size_t, std::size_t> numbers;
-  for (const auto& [a, b] : edges)
-  {
-    numbers.emplace(a, numbers.size());
-    numbers.emplace(b, numbers.size());
-  }
-  std::vector<std::size_t> roots(numbers.size());
-  std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
-  std::size_t count = roots.size();
-  for (const auto& [a, b] : edges)
-  {
-    const std::size_t first = rootOf(roots, numbers[a]);
-    const std::size_t second = rootOf(roots, numbers[b]);
-    count -= first != second ? 1 : 0;
-    roots[first] = second;
-  }
-  return count;
-}
-
-/// What stays of a surface, however its triangles are.
-struct Topology
-{
-  long eulerCharacteristic = 0;
-  std::size_t components = 0;
-  std::size_t borders = 0; // components of the border
-  bool isManifold = true;
-
-  bool operator==(const Topology& other) const
-  {
-    return this->eulerCharacteristic == other.eulerCharacteristic &&
-           this->components == other.components && this->borders == other.borders &&
-           this->isManifold == other.isManifold;
-  }
-};
-
-std::ostream& operator<<(std::ostream& out, const Topology& topology)
-{
-  return out << "Euler characteristic " << topology.eulerCharacteristic << ", components "
-             << topology.components << ", borders " << topology.borders << ", manifold "
-             << topology.isManifold;
-}
-
-Topology topologyOf(const std::vector<SurfaceTriangle>& triangles)
-{
-  std::map<Edge, int> counts;
-  std::map<std::size_t, std::set<Edge>> links; // edges opposite to each vertex
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::size_t next = triangle[(i + 1) % 3];
-      ++counts[std::minmax(triangle[i], next)];
-      links[triangle[i]].insert(std::minmax(next, triangle[(i + 2) % 3]));
-    }
-  }
-  std::set<Edge> edges;
-  std::set<Edge> border;
-  Topology topology;
-  for (const auto& [edge, count] : counts)
-  {
-    edges.insert(edge);
-    if (count == 1)
-    {
-      border.insert(edge);
-    }
-    topology.isManifold = topology.isManifold && count <= 2;
-  }
-  for (const auto& [vertex, link] : links)
-  {
-    topology.isManifold = topology.isManifold && componentsOf(link) == 1;
-  }
-  topology.eulerCharacteristic = static_cast<long>(links.size()) - static_cast<long>(edges.size()) +
-                                 static_cast<long>(triangles.size());
-  topology.components = componentsOf(edges);
-  topology.borders = componentsOf(border);
-  return topology;
 }
 
 Vector normalOf(const std::vector<Vector>& p, const SurfaceTriangle& triangle)
