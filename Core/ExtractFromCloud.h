@@ -68,8 +68,6 @@ public:
 
   Isosurface takeHome() { return std::move(this->Whole); }
 
-  void share(std::vector<Splat>& /*splats*/) const {}
-
 private:
   const Execution& Run;
   const SampleTree<TSample>& Tree;

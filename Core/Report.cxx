@@ -170,10 +170,15 @@ Message describeSkipped(const Report& report)
   return { cause, text + " The surface there is that of the samples around.", Message::Note };
 }
 
+bool areMostUnprojected(const Report& report)
+{
+  return report.areProjected && 2 * report.unprojectedPoints > report.pointCount();
+}
+
 Message describeUnprojected(const Report& report, OptionNaming naming)
 {
   const std::uint64_t points = report.pointCount();
-  if (!report.areProjected || 2 * report.unprojectedPoints <= points)
+  if (!areMostUnprojected(report))
   {
     return {};
   }
@@ -185,6 +190,24 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
       " surface, such as a plane or a shell, set " +
       naming(option::projection.name) +
       " to None. Samples along lines, such as drill holes, do not determine a surface." };
+}
+
+/// Where more than a quarter of the corners stay apart, pictures have holes.
+Message describeCornersApart(const Report& report)
+{
+  constexpr std::uint64_t leastShare = 4;
+  constexpr std::uint64_t leastCorners = 1000; // of fewer the share says little
+  if (report.innerCorners < leastCorners ||
+      leastShare * report.cornersApart <= report.innerCorners || areMostUnprojected(report))
+  {
+    return {};
+  }
+  return { "corners apart of " + report.array + ": " +
+             tenths(report.cornersApart, report.innerCorners),
+    "Splats do not meet at " + std::to_string(report.cornersApart) + " of " +
+      std::to_string(report.innerCorners) +
+      " corners: the picture may have holes, since samples are too uneven or too few for splats."
+      " Extract triangles instead: Scattered Isosurface." };
 }
 
 std::vector<Message> describeReplacedArrays(const Report& report)
@@ -241,6 +264,13 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
 {
   this->points[isovalue] += surface.countHere();
   this->droppedInGaps += surface.droppedInGaps;
+  const auto isHere = [&](std::size_t i)
+  { return surface.areElsewhere.empty() || !surface.areElsewhere[i]; };
+  for (std::size_t i = 0; i < surface.splats.size(); ++i)
+  {
+    this->innerCorners += isHere(i) ? surface.splats[i].counts.inner : 0;
+    this->cornersApart += isHere(i) ? surface.splats[i].counts.apart : 0;
+  }
   if (!this->areProjected)
   {
     this->unprojectedPoints += surface.countHere();
@@ -249,16 +279,16 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   const std::vector<LocalFit>& fits = surface.surface.fits;
   for (std::size_t i = 0; i < fits.size(); ++i)
   {
-    const bool isHere = surface.areElsewhere.empty() || !surface.areElsewhere[i];
-    this->unprojectedPoints += isHere && !fits[i].order ? 1 : 0;
+    this->unprojectedPoints += isHere(i) && !fits[i].order ? 1 : 0;
   }
 }
 
 void Report::share(Team& team)
 {
   team.sum(this->points); // of as many isovalues on all ranks
-  for (std::uint64_t* const count : { &this->unprojectedPoints, &this->droppedInGaps,
-         &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
+  for (std::uint64_t* const count :
+    { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->droppedInGaps,
+      &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
   {
     *count = team.sum(*count);
   }
@@ -277,6 +307,7 @@ std::vector<Message> describeReport(const Report& report, OptionNaming naming)
   std::vector<Message> messages = describeIsovalues(report, naming);
   messages.push_back(describeSkipped(report));
   messages.push_back(describeUnprojected(report, naming));
+  messages.push_back(describeCornersApart(report));
   messages.push_back(describePieces(report));
   const std::vector<Message> replaced = describeReplacedArrays(report);
   messages.insert(messages.end(), replaced.begin(), replaced.end());

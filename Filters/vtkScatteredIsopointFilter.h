@@ -166,7 +166,7 @@ public:
    * - "SplatPolygon" (40 floats, five for each of eight corners, counterclockwise seen from the tip
    *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
    *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
-   *   repeat the last one. All are 0 at an isopoint at whose position there is an earlier one.
+   *   repeat the last one. All are 0 at an isopoint that an earlier one close by represents.
    */
   virtual void SetComputeSplats(vtkTypeBool compute);
   virtual vtkTypeBool GetComputeSplats();

@@ -119,22 +119,6 @@ public:
     this->Ranks.forEach(execution, batches, makeWorker, work, batchDone);
   }
 
-  void shareNormals(std::vector<Splat>& splats)
-  {
-    std::vector<Vector> normals;
-    normals.reserve(splats.size());
-    for (const Splat& splat : splats)
-    {
-      normals.push_back(splat.normal);
-    }
-    this->share(normals);
-    // The ends of an edge between two ranks yield the same normal on both.
-    for (std::size_t i = 0; i < splats.size(); ++i)
-    {
-      splats[i].normal = normals[i];
-    }
-  }
-
   void shareCells(RawArray<SplatCell>& cells)
   {
     std::vector<SentCell> sent(cells.size());
@@ -162,6 +146,7 @@ public:
   }
 
   /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
+  /// The ends of an edge between two ranks yield the same on both.
   /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
   template <class T>
   void share(std::vector<T>& ofAll)

@@ -5,6 +5,7 @@
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Splat/Curvature.h"
+#include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/NearbyPoints.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatBorder.h"
@@ -27,21 +28,27 @@ template <class TNeighbors, class TExtents>
 class CellCutter
 {
 public:
-  /// @param splats of which normals are set
+  /// @param normals of the tangent planes in which cells are cut
+  /// @param areHidden see HiddenPoints
   CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
-    const std::vector<Splat>& splats)
+    const std::vector<Vector>& normals, const std::vector<char>& areHidden)
     : Neighbors(neighbors)
     , Points(points)
-    , Splats(splats)
-    , Nearby(neighbors, points)
+    , Normals(normals)
+    , AreHidden(areHidden)
+    , Nearby(neighbors, points, &areHidden)
     , Extents(extents)
   {
   }
 
   SplatCell cut(std::size_t point)
   {
-    const double unit = this->unitAt(point);
-    TangentCell cell(this->Splats[point].normal, (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
+    const double unit = unitAt(this->Points, point);
+    if (this->AreHidden[point])
+    {
+      return { {}, 0, unit, {} };
+    }
+    TangentCell cell(this->Normals[point], (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
     this->cutOut(point, unit, cell);
     PlaneForm curvature;
     if (this->isSmooth(point))
@@ -51,7 +58,7 @@ public:
       cutWhereSurfaceTurns(curvature, cell);
     }
     cell.reduceTo(mostCorners);
-    SplatCell result{ {}, 0, unit, curvature, this->Nearby.isFirstHere() };
+    SplatCell result{ {}, 0, unit, curvature };
     for (const TangentCell::Corner& corner : cell)
     {
       const bool isPoint = corner.side != TangentCell::limit && corner.side != TangentCell::plane;
@@ -67,11 +74,17 @@ private:
   /// lines.
   static constexpr double openReach = 1.1;
 
+  /// How far a cell may reach that was cut at a border, in spacings.
+  static constexpr double borderCellReach = 1.3;
+
   /// Corners up to here, in spacings, are certain; those beyond are cut off here where samples
   /// contradict them.
   static constexpr double certainReach = 0.8;
   static constexpr double contradictedReach = 0.6;
   static constexpr double contradiction = 0.35;
+
+  /// How far on either side of the surface samples are asked whether it passes between them.
+  static constexpr double sideShare = 0.6;
 
   /// Nearer points without a smooth fit, in spacings, do not bound a smooth one: their normals are
   /// estimates, and their splats may not cover what is beyond.
@@ -98,16 +111,6 @@ private:
   {
     static const std::vector<CreasePlane> none;
     return this->Points.fits.empty() ? none : this->Points.fits[point].creases;
-  }
-
-  /// The unit of length at a point: the samples' spacing or, where it is not known, half the length
-  /// of the point's edge.
-  double unitAt(std::size_t point) const
-  {
-    const double spacing = this->spacingAt(point);
-    return spacing > 0.0 && std::isfinite(spacing)
-             ? spacing
-             : 0.5 * lengthOf(this->Points.decreasingEdges[point]);
   }
 
   /// Cuts off what is farther than the surface's radius of curvature.
@@ -137,15 +140,19 @@ private:
     {
       this->cutTowardsRings(point, 3, unit, cell);
     }
+    const double squaredReach = cell.squaredReach();
     cutAtBorder(
-      this->Extents, this->Points.positions[point], this->Splats[point].normal,
-      this->spacingAt(point),
+      this->Extents, this->Points.positions[point], this->Normals[point], this->spacingAt(point),
       [&](const auto& sample, double width)
       { return this->Neighbors.isAcrossGap(point, sample, width); },
       cell);
     if (cell.isOpen() || this->HasPassed)
     {
       cell.limitTo(openReach);
+    }
+    else if (cell.squaredReach() < squaredReach)
+    {
+      cell.limitTo(borderCellReach);
     }
     if (cell.squaredReach() > certainReach * certainReach)
     {
@@ -193,8 +200,7 @@ private:
   {
     constexpr double leastCosine = 0.9;
     return side != TangentCell::limit && side != TangentCell::plane && this->isSmooth(point) &&
-           this->isSmooth(side) &&
-           dot(this->Splats[point].normal, this->Splats[side].normal) > leastCosine;
+           this->isSmooth(side) && dot(this->Normals[point], this->Normals[side]) > leastCosine;
   }
 
   /// Whether a point nearby knows a crease: values beyond that are not those of this one's fit.
@@ -233,7 +239,26 @@ private:
     const double error = static_cast<double>(sample->value) - this->Points.isovalue -
                          dot(fit.gradient, o) - (fit.isSmooth ? bend : 0.0);
     const double unit = std::max(fit.spacing, lengthOf(difference(position, place)));
-    return std::abs(error) > contradiction * unit * lengthOf(fit.gradient);
+    return std::abs(error) > contradiction * unit * lengthOf(fit.gradient) &&
+           !this->isBetweenSides(
+             place, scaled(sideShare * unit, this->Normals[point]), reach * fit.spacing);
+  }
+
+  /// Whether the samples nearest to two places on either side of one on the surface are below the
+  /// isovalue and not below, as they should be: then the surface passes there, however values
+  /// change along the normal, as in the steps of an adaptive grid.
+  /// @param down to the place on the side where values decrease
+  bool isBetweenSides(const Vector& place, const Vector& down, double reach) const
+  {
+    const auto isBelow = [&](const auto& sample)
+    { return static_cast<double>(sample.value) < this->Points.isovalue; };
+    const auto* const below = this->Extents->nearestTo(sum(place, 1.0, down), reach);
+    if (!below || !isBelow(*below))
+    {
+      return false;
+    }
+    const auto* const above = this->Extents->nearestTo(sum(place, -1.0, down), reach);
+    return above && !isBelow(*above);
   }
 
   /// Cuts a cell towards the points in rings around its own that are within twice its reach:
@@ -305,7 +330,7 @@ private:
     for (const CreasePlane& crease : this->creasesAt(other))
     {
       const double tolerance = creaseTolerance * lengthOf(offset);
-      const Vector outward = scaled(-crease.turn, this->Splats[other].normal);
+      const Vector outward = scaled(-crease.turn, this->Normals[other]);
       const double height = dot(outward, offset);
       if (this->isOnPiece(point, other, crease) && height > -tolerance &&
           crease.distance / unit - dot(crease.inward, offset) < tolerance)
@@ -321,8 +346,8 @@ private:
   /// whose crease this is.
   bool isOnPiece(std::size_t point, std::size_t own, const CreasePlane& across) const
   {
-    const Vector& normal = this->Splats[point].normal;
-    return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Splats[own].normal));
+    const Vector& normal = this->Normals[point];
+    return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Normals[own]));
   }
 
   /// Whether the surface bends from a point to another, as a sphere would, so that half the
@@ -335,8 +360,8 @@ private:
     {
       return false;
     }
-    const Vector& normal = this->Splats[point].normal;
-    const Vector& otherNormal = this->Splats[other].normal;
+    const Vector& normal = this->Normals[point];
+    const Vector& otherNormal = this->Normals[other];
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
@@ -352,7 +377,8 @@ private:
 
   const TNeighbors& Neighbors;
   const SurfacePoints& Points;
-  const std::vector<Splat>& Splats; // of which normals are set
+  const std::vector<Vector>& Normals;
+  const std::vector<char>& AreHidden;
   NearbyPoints<TNeighbors> Nearby;
   const TExtents* Extents;
   bool HasPassed = false; // points without a fit, over which the cell may reach

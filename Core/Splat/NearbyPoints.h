@@ -19,15 +19,17 @@ struct NearbyPoint
   std::size_t point;
 };
 
-/// The points around each point, nearest first. Those at one position count as one, the first. For
-/// one thread.
+/// The points around each point, nearest first, without those that are hidden. For one thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 template <class TNeighbors>
 class NearbyPoints
 {
 public:
-  NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points)
+  /// @param areHidden whether each point is left out, or null for none
+  NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points,
+    const std::vector<char>* areHidden = nullptr)
     : Points(points)
+    , AreHidden(areHidden)
     , Finder(neighbors)
   {
   }
@@ -41,15 +43,12 @@ public:
     const double scale = 1.0 / unit;
     this->All.clear();
     this->Nearby.clear();
-    this->IsFirstHere = true;
     for (const std::size_t other : this->Finder.find(point, rings))
     {
-      const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
-      const double squaredDistance = dot(offset, offset);
-      this->All.push_back({ squaredDistance, other });
-      if (squaredDistance == 0.0 && this->Points.numberOf(other) < this->Points.numberOf(point))
+      if (!this->AreHidden || !(*this->AreHidden)[other])
       {
-        this->IsFirstHere = false;
+        const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
+        this->All.push_back({ dot(offset, offset), other });
       }
     }
   }
@@ -73,42 +72,18 @@ public:
                  ? a.squaredDistance < b.squaredDistance
                  : this->Points.numberOf(a.point) < this->Points.numberOf(b.point);
       });
-    this->dropCoincident();
   }
-
-  /// Whether no earlier point found is at the same position.
-  bool isFirstHere() const { return this->IsFirstHere; }
 
   auto begin() const { return this->Nearby.begin(); }
   auto end() const { return this->Nearby.end(); }
   std::size_t size() const { return this->Nearby.size(); }
 
 private:
-  void dropCoincident()
-  {
-    std::size_t count = 0;
-    for (const NearbyPoint& nearby : this->Nearby)
-    {
-      std::size_t i = count;
-      while (
-        i > 0 && this->Nearby[i - 1].squaredDistance == nearby.squaredDistance &&
-        this->Points.positions[this->Nearby[i - 1].point] != this->Points.positions[nearby.point])
-      {
-        --i;
-      }
-      if (i == 0 || this->Nearby[i - 1].squaredDistance != nearby.squaredDistance)
-      {
-        this->Nearby[count++] = nearby;
-      }
-    }
-    this->Nearby.resize(count);
-  }
-
   const SurfacePoints& Points;
+  const std::vector<char>* AreHidden;
   typename TNeighbors::Finder Finder;
   std::vector<NearbyPoint> All; // that were found, in any order
   std::vector<NearbyPoint> Nearby;
-  bool IsFirstHere = true;
 };
 
 } // namespace isopoint

@@ -6,11 +6,21 @@
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace isopoint
 {
+
+/// Corners of splats between two sides that were cut halfway to other points: the surface goes on
+/// there.
+struct SplatCornerCounts
+{
+  std::uint32_t inner = 0;
+  std::uint32_t apart = 0; // of these, those that meet no other splats': a hole may be there
+};
 
 /// The part of the surface that is drawn for a point: the triangles between the point and each two
 /// consecutive corners.
@@ -20,9 +30,9 @@ struct Splat
   double radius; // the distance of the farthest corner
   Vector axis;   // t1, tangential and as long as the radius; t2 = normal x t1
   /// Counterclockwise seen from the tip of the normal, but for rare ones that have passed each
-  /// other where cells meet. Further corners repeat the last one; all are 0 at a point where
-  /// another one comes first.
+  /// other where cells meet. Further corners repeat the last one; all are 0 at a hidden point.
   SplatCorners corners;
+  SplatCornerCounts counts;
 };
 
 /// The points of one surface, one entry each.
@@ -43,6 +53,15 @@ struct SurfacePoints
     return this->numbers.empty() ? point : this->numbers[point];
   }
 };
+
+/// The unit of length at a point: the samples' spacing or, where it is not known, half the length
+/// of the point's edge.
+inline double unitAt(const SurfacePoints& points, std::size_t point)
+{
+  const double spacing = points.fits.empty() ? 0.0 : points.fits[point].spacing;
+  return spacing > 0.0 && std::isfinite(spacing) ? spacing
+                                                 : 0.5 * lengthOf(points.decreasingEdges[point]);
+}
 
 constexpr int defaultNeighborCount = 12;
 

@@ -13,7 +13,7 @@ namespace isopoint
 {
 
 /// How far around itself a sample represents its surroundings, in spacings.
-constexpr double sampleReach = 0.9;
+constexpr double sampleReach = 1.0;
 
 /// How far a splat may reach out of the samples, in spacings.
 constexpr double borderReach = 0.15;
@@ -46,7 +46,7 @@ double extentUpToGaps(
 /// Cuts off the parts of a point's cell that reach out of the samples: where the surface ends, a
 /// cell may be bounded only by points along its border, far outside. In each of extentDirections()
 /// it may reach `borderReach` farther than samples stand ahead of the point on this side of gaps;
-/// the new sides are limits. A closed cell is complete where it reaches no farther than
+/// the cell is bounded there. A closed cell is complete where it reaches no farther than
 /// `sampleReach`.
 /// @tparam TExtents SampleExtents, or another class with its at() and nearest()
 /// @param extents null for none: then there is no border
@@ -78,7 +78,7 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
       reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap) : extents->at(query);
     if (extent < query.enough)
     {
-      cell.cut(direction, extent / spacing + borderReach, TangentCell::limit);
+      cell.cut(direction, extent / spacing + borderReach, TangentCell::plane);
     }
   }
 }

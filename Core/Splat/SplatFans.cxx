@@ -2,6 +2,7 @@
 #include "Core/Splat/SplatFans.h"
 
 #include "Core/Base/Vector.h"
+#include "Core/Splat/MutualSides.h"
 
 #include <algorithm>
 #include <array>
@@ -14,79 +15,6 @@ namespace isopoint
 namespace
 {
 
-bool hasSideTowards(const SplatCell& cell, std::size_t point)
-{
-  return std::any_of(cell.corners.begin(),
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
-    [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
-}
-
-double squaredDistance(const SplatCell::Corner& corner)
-{
-  return corner.x * corner.x + corner.y * corner.y;
-}
-
-/// The corner that takes the place of a side: where the sides before and after it meet; nothing if
-/// that is far away.
-std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
-{
-  constexpr double mostReach = 1.1; // of the distance of the side's farther end
-  const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
-  const SplatCell::Corner& begin = cell.corners[side];
-  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
-  const SplatCell::Corner& after = cell.corners[(side + 2) % cell.count];
-  const double ax = begin.x - before.x;
-  const double ay = begin.y - before.y;
-  const double bx = after.x - end.x;
-  const double by = after.y - end.y;
-  const double turn = ax * by - ay * bx;
-  const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
-  const SplatCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond };
-  const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
-  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
-  {
-    return meeting;
-  }
-  return std::nullopt;
-}
-
-void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
-{
-  cell.corners[(side + 1) % cell.count] = corner;
-  std::copy(cell.corners.begin() + static_cast<std::ptrdiff_t>(side) + 1,
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(side));
-  --cell.count;
-}
-
-/// A point's cell with its sides towards points whose cells have none towards it replaced by the
-/// corner where the sides before and after meet or, if that is far away, marked as overlapping. See
-/// docs/algorithm.md, section 12.6. O(1)
-SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
-{
-  SplatCell cell = cells[point];
-  for (std::size_t side = 0; side < cell.count;)
-  {
-    const std::size_t beyond = cell.corners[side].beyond;
-    if (!SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point))
-    {
-      ++side;
-      continue;
-    }
-    const std::optional<SplatCell::Corner> corner =
-      cell.count > 3 ? replacementOf(cell, side) : std::nullopt;
-    if (corner)
-    {
-      replace(side, *corner, cell);
-    }
-    else
-    {
-      cell.corners[side++].beyond = SplatCell::overlapping;
-    }
-  }
-  return cell;
-}
-
 /// A SplatCell whose corners are lowered from the tangent plane onto the surface.
 struct LoweredCell
 {
@@ -96,33 +24,38 @@ struct LoweredCell
     Vector normal;      // of the surface, of length 1
     double distance;    // from the point, in its tangent plane
     std::size_t beyond; // see SplatCell
+    bool overlaps;
   };
 
   std::array<Corner, mostCorners> corners; // counterclockwise
   std::size_t count;
-  bool isFirstHere; // see SplatCell
+  double unit;
+  PlaneForm curvature; // see SplatCell
 };
 
 /// Lowers the corners of a point's cell onto its paraboloid; see docs/algorithm.md, section 12.6.
-/// @param normal of length 1
-LoweredCell loweredCell(const SplatCell& cell, const Vector& position, const Vector& normal)
+/// @param plane the normal of the cell's plane
+/// @param normal of the splat
+LoweredCell loweredCell(
+  const SplatCell& cell, const Vector& position, const Vector& plane, const Vector& normal)
 {
-  const TangentFrame frame(normal);
+  const TangentFrame frame(plane);
   LoweredCell lowered;
   lowered.count = cell.count;
-  lowered.isFirstHere = cell.isFirstHere;
+  lowered.unit = cell.unit;
+  lowered.curvature = cell.curvature;
   for (std::size_t i = 0; i < cell.count; ++i)
   {
-    const auto& [x, y, beyond] = cell.corners[i];
+    const auto& [x, y, beyond, overlaps] = cell.corners[i];
     const double slopeX = cell.curvature.xx * x + cell.curvature.xy * y;
     const double slopeY = cell.curvature.xy * x + cell.curvature.yy * y;
     const double height = 0.5 * (slopeX * x + slopeY * y);
     Vector place = sum(position, cell.unit * x, frame.first);
     place = sum(place, cell.unit * y, frame.second);
-    place = sum(place, cell.unit * height, normal);
+    place = sum(place, cell.unit * height, plane);
     const Vector upwards = sum(sum(normal, -slopeX, frame.first), -slopeY, frame.second);
     lowered.corners[i] = { place, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y),
-      beyond };
+      beyond, overlaps };
   }
   return lowered;
 }
@@ -169,16 +102,17 @@ struct Meeting
 class CornerJoiner
 {
 public:
-  CornerJoiner(const SurfacePoints& points, const std::vector<Splat>& splats,
+  CornerJoiner(const SurfacePoints& points, const std::vector<Vector>& planes,
     const RawArray<LoweredCell>& cells)
     : Points(points)
-    , Splats(splats)
+    , Planes(planes)
     , Cells(cells)
   {
   }
 
-  /// A corner where it meets others: at the mean of all, the same for each of them.
-  LoweredCell::Corner joined(const CornerOf& corner) const
+  /// A corner where it meets others: at the mean of all, the same for each of them. Counts those
+  /// between points.
+  LoweredCell::Corner joined(const CornerOf& corner, SplatCornerCounts& counts) const
   {
     Meeting meeting;
     meeting.add(corner, this->Points);
@@ -188,12 +122,19 @@ public:
     }
     LoweredCell::Corner result = this->at(corner);
     const bool isInside = this->isBetweenPoints(corner);
-    if (meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside))
+    const bool isApart =
+      meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside);
+    counts.inner += isInside ? 1 : 0;
+    counts.apart += isInside && isApart ? 1 : 0;
+    if (isApart)
     {
-      // Where cells do not agree, those around overlap, so that nothing gapes.
-      constexpr double overlap = 0.1;
-      const Vector outward = difference(result.position, this->Points.positions[corner.point]);
-      result.position = sum(result.position, isInside ? overlap : 0.0, outward);
+      // Where cells do not agree, they overlap, so that nothing gapes.
+      if (isInside)
+      {
+        const double rise = this->riseToMeanHeight(corner);
+        this->moveOutward(corner, result);
+        result.position = sum(result.position, rise, this->Planes[corner.point]);
+      }
       return result;
     }
     const Vector& origin = this->at(meeting.corners.front()).position;
@@ -211,31 +152,118 @@ public:
   }
 
 private:
+  /// How far a corner between points moves outward, as a share of its distance: farther where the
+  /// points' normals differ, and where a long side overlaps another cell.
+  double overlapAt(const CornerOf& corner) const
+  {
+    constexpr double least = 0.1;
+    constexpr double most = 0.4;
+    constexpr double turnShare = 8.0;
+    constexpr double sideShare = 0.6;
+    double leastCosine = 1.0;
+    double longest = 0.0; // of sides that overlap
+    for (const bool isOnward : { true, false })
+    {
+      const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
+      leastCosine =
+        std::min(leastCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
+      if (side.overlaps)
+      {
+        longest = std::max(longest,
+          lengthOf(difference(this->next(corner, isOnward).position, this->at(corner).position)));
+      }
+    }
+    return std::min(most,
+      least + turnShare * (1.0 - leastCosine) + sideShare * longest / this->at(corner).distance);
+  }
+
+  /// Moves a corner outward on the paraboloid of its point by overlapAt(): heights grow with the
+  /// square of the distance, and slopes with it.
+  void moveOutward(const CornerOf& corner, LoweredCell::Corner& moved) const
+  {
+    constexpr double mostSlope = 0.2;
+    const double overlap = this->overlapAt(corner);
+    const Vector& plane = this->Planes[corner.point];
+    const Vector outward = difference(moved.position, this->Points.positions[corner.point]);
+    const double most = mostSlope * moved.distance;
+    const double height = std::clamp((1.0 + overlap) * dot(outward, plane), -most, most);
+    moved.position = sum(sum(moved.position, overlap, outward), overlap * height, plane);
+    const double upwards = dot(moved.normal, plane);
+    if (upwards > 0.0)
+    {
+      moved.normal =
+        directionOf(sum(scaled((1.0 + overlap) / upwards, moved.normal), -overlap, plane));
+    }
+  }
+
+  /// How far a corner moves along its plane's normal, to the mean of the heights there of the
+  /// surfaces of the three points whose cells should meet there.
+  double riseToMeanHeight(const CornerOf& corner) const
+  {
+    constexpr double leastCosine = 0.5;
+    constexpr double mostRise = 0.5; // of the distance
+    const LoweredCell::Corner& from = this->at(corner);
+    double sumOfHeights = 0.0;
+    for (const bool isOnward : { true, false })
+    {
+      const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
+      const double cosine = dot(this->Planes[side.beyond], this->Planes[corner.point]);
+      if (cosine > leastCosine && !side.overlaps)
+      {
+        const double height = -this->heightOver(side.beyond, from.position) / cosine;
+        const double most = mostRise * from.distance;
+        sumOfHeights += std::clamp(height, -most, most);
+      }
+    }
+    return sumOfHeights / 3.0;
+  }
+
+  /// How high a place is over the paraboloid of a point.
+  double heightOver(std::size_t point, const Vector& place) const
+  {
+    constexpr double mostSlope = 0.5;
+    const LoweredCell& cell = this->Cells[point];
+    const TangentFrame frame(this->Planes[point]);
+    const Vector offset = difference(place, this->Points.positions[point]);
+    const double x = dot(offset, frame.first) / cell.unit;
+    const double y = dot(offset, frame.second) / cell.unit;
+    const double rise =
+      0.5 * (cell.curvature.xx * x * x + cell.curvature.yy * y * y) + cell.curvature.xy * x * y;
+    const double most = mostSlope * std::sqrt(x * x + y * y);
+    return dot(offset, this->Planes[point]) - cell.unit * std::clamp(rise, -most, most);
+  }
+
   const LoweredCell::Corner& at(const CornerOf& corner) const
   {
     return this->Cells[corner.point].corners[corner.corner];
   }
 
-  /// What is beyond the side that begins at a corner or, backward, the one that ends there.
-  std::size_t beyond(const CornerOf& corner, bool isOnward) const
+  /// The corner of the same cell after one or, backward, before it.
+  const LoweredCell::Corner& next(const CornerOf& corner, bool isOnward) const
   {
     const LoweredCell& cell = this->Cells[corner.point];
-    const std::size_t before = (corner.corner > 0 ? corner.corner : cell.count) - 1;
-    return cell.corners[isOnward ? corner.corner : before].beyond;
+    const std::size_t step = isOnward ? 1 : cell.count - 1;
+    return cell.corners[(corner.corner + step) % cell.count];
+  }
+
+  /// The side that begins at a corner or, backward, the one that ends there.
+  const LoweredCell::Corner& sideAt(const CornerOf& corner, bool isOnward) const
+  {
+    return isOnward ? this->at(corner) : this->next(corner, false);
   }
 
   /// Whether both sides at a corner are cuts halfway to other points: the surface goes on there.
   bool isBetweenPoints(const CornerOf& corner) const
   {
-    return this->beyond(corner, true) != SplatCell::none &&
-           this->beyond(corner, false) != SplatCell::none;
+    return SplatCell::isPoint(this->sideAt(corner, true).beyond) &&
+           SplatCell::isPoint(this->sideAt(corner, false).beyond);
   }
 
   /// The corner of the cell across a side that is at the same place.
   std::optional<CornerOf> across(const CornerOf& corner, bool isOnward) const
   {
-    const std::size_t beyond = this->beyond(corner, isOnward);
-    if (!SplatCell::isPoint(beyond))
+    const std::size_t beyond = this->sideAt(corner, isOnward).beyond;
+    if (!SplatCell::isPoint(beyond) || this->sideAt(corner, isOnward).overlaps)
     {
       return std::nullopt;
     }
@@ -257,7 +285,7 @@ private:
     constexpr double mostShare = 1.2;
     const LoweredCell::Corner& atA = this->at(a);
     const LoweredCell::Corner& atB = this->at(b);
-    return dot(this->Splats[a.point].normal, this->Splats[b.point].normal) > 0.0 &&
+    return dot(this->Planes[a.point], this->Planes[b.point]) > 0.0 &&
            lengthOf(difference(atA.position, atB.position)) <=
              mostShare * 0.5 * (atA.distance + atB.distance);
   }
@@ -273,7 +301,7 @@ private:
       const std::optional<CornerOf> next = this->across(last, isOnward);
       if (!next)
       {
-        meeting.isOverlapping |= this->beyond(last, isOnward) == SplatCell::overlapping;
+        meeting.isOverlapping |= this->sideAt(last, isOnward).overlaps;
         return false;
       }
       if (*next == first)
@@ -291,7 +319,7 @@ private:
   }
 
   const SurfacePoints& Points;
-  const std::vector<Splat>& Splats;
+  const std::vector<Vector>& Planes;
   const RawArray<LoweredCell>& Cells;
 };
 
@@ -303,16 +331,17 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   std::array<Vector, mostCorners> offsets{};
   std::array<Vector, mostCorners> normals{};
   splat.radius = 0.0;
+  splat.counts = {};
   for (std::size_t i = 0; i < cell.count; ++i)
   {
-    const LoweredCell::Corner corner = joiner.joined({ point, i });
+    const LoweredCell::Corner corner = joiner.joined({ point, i }, splat.counts);
     offsets[i] = difference(corner.position, position);
     normals[i] = corner.normal;
     splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
   }
   splat.axis = scaled(splat.radius, frame.first);
   splat.corners = {};
-  if (!cell.isFirstHere || !(splat.radius > 0.0) || !std::isfinite(splat.radius))
+  if (!(splat.radius > 0.0) || !std::isfinite(splat.radius))
   {
     return;
   }
@@ -334,7 +363,8 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
 } // namespace
 
 void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArray<SplatCell> cells,
-  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
+  const std::vector<Vector>& planes, const std::vector<std::size_t>& shaped,
+  std::vector<Splat>& splats)
 {
   constexpr std::size_t batch = 8192;
   constexpr std::size_t grain = 512;
@@ -346,12 +376,13 @@ void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArr
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        lowered[i] = loweredCell(withMutualSides(cells, i), points.positions[i], splats[i].normal);
+        lowered[i] =
+          loweredCell(withMutualSides(cells, i), points.positions[i], planes[i], splats[i].normal);
       }
     },
     [&](double share) { execution.progress(0.5 * share); });
   cells = {};
-  const CornerJoiner joiner(points, splats, lowered);
+  const CornerJoiner joiner(points, planes, lowered);
   forBatches(
     execution, shaped.size(), batch, grain,
     [&](std::size_t begin, std::size_t end)

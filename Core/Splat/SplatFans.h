@@ -19,25 +19,22 @@ namespace isopoint
 struct SplatCell
 {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  static constexpr std::size_t overlapping = static_cast<std::size_t>(-2);
 
   /// Whether what is beyond a side is a point.
-  static bool isPoint(std::size_t beyond) { return beyond < overlapping; }
+  static bool isPoint(std::size_t beyond) { return beyond != none; }
 
   struct Corner
   {
     double x;
     double y;
-    /// The point beyond the side that begins here, if this is a cut halfway to one; otherwise none,
-    /// or overlapping if the cell of that point reaches over the side.
-    std::size_t beyond;
+    std::size_t beyond;    // the side that begins here: the point halfway to which it is, or none
+    bool overlaps = false; // whether the cell of that point reaches over the side
   };
 
   std::array<Corner, mostCorners> corners; // counterclockwise
-  std::size_t count;
+  std::size_t count;                       // 0 for a hidden point
   double unit;
   PlaneForm curvature; // of the surface, in this unit; 0 where it is not known
-  bool isFirstHere;    // whether no earlier point is at the same position
 };
 
 /// How many corners of cells are brought together, at most.
@@ -50,11 +47,13 @@ constexpr int fanRings = 4 * static_cast<int>(mostMeeting);
 /// Makes splats of cells: lowers the cells' corners onto the surface, and brings those together
 /// that meet; see docs/algorithm.md, section 12.6. O(points)
 /// @param cells of all points within fanRings of those that are shaped
+/// @param planes the normals of the tangent planes of all cells
 /// @param shaped the points whose splats are made
 /// @param splats of which normals are set; all else is set here
 /// @throws std::bad_alloc, Aborted
 void shapeSplats(const Execution& execution, const SurfacePoints& points, RawArray<SplatCell> cells,
-  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats);
+  const std::vector<Vector>& planes, const std::vector<std::size_t>& shaped,
+  std::vector<Splat>& splats);
 
 } // namespace isopoint
 

@@ -5,12 +5,17 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/RawArray.h"
 #include "Core/Splat/CellCutter.h"
+#include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatFans.h"
 #include "Core/Splat/SplatNormals.h"
+#include "Core/Splat/UmbrellaNormals.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,12 +51,166 @@ public:
     forEachItem(execution, batches, makeWorker, work, batchDone);
   }
 
-  /// Sets the normals, or cells, of points that are other ranks' own.
-  void shareNormals(std::vector<Splat>& /*splats*/) const {}
+  /// Sets what was computed for points that are other ranks' own.
+  template <class T>
+  void share(std::vector<T>& /*ofAll*/) const
+  {
+  }
   void shareCells(RawArray<SplatCell>& /*cells*/) const {}
 
 private:
   std::vector<std::size_t> Indices;
+};
+
+/// See computeSplats().
+template <class TNeighbors, class TExtents, class TChosen>
+class SplatMaker
+{
+public:
+  SplatMaker(const Execution& execution, const SurfacePoints& points, const TNeighbors& neighbors,
+    const TExtents* extents, const SplatOptions& options, TChosen& chosen)
+    : Run(execution)
+    , Points(points)
+    , Neighbors(neighbors)
+    , Extents(extents)
+    , Options(options)
+    , Chosen(chosen)
+    , Splats(points.positions.size())
+  {
+  }
+
+  std::vector<Splat> make()
+  {
+    this->findNormals();
+    if (this->Options.shapes)
+    {
+      this->findHidden();
+      this->cutCells();
+      shapeSplats(partOf(this->Run, cellsEnd, 1.0), this->Points, std::move(this->Cells),
+        this->Planes, this->Chosen.shaped(), this->Splats);
+    }
+    return std::move(this->Splats);
+  }
+
+private:
+  // Shares of the progress.
+  static constexpr double normalsEnd = 0.2;
+  static constexpr double cutEnd = 0.7;
+  static constexpr double cellsEnd = 0.8;
+
+  /// See forEachItem(), for some of this rank's own points.
+  template <class MakeWorker, class Work>
+  void forPoints(const Execution& execution, const std::vector<std::size_t>& own,
+    const MakeWorker& makeWorker, const Work& work)
+  {
+    constexpr std::size_t batch = 8192;
+    constexpr std::size_t grain = 512;
+    this->Chosen.forEach(
+      execution, { own.size(), batch, grain }, makeWorker,
+      [&](auto& worker, std::size_t i) { work(worker, own[i]); },
+      [&](double share) { execution.progress(share); });
+  }
+
+  void findNormals()
+  {
+    this->Planes.resize(this->Splats.size());
+    std::vector<std::size_t> unfitted =
+      setFieldNormals(this->Run, this->Points, this->Options.fieldNormals,
+        [this](std::size_t point, const Vector& normal) { this->Planes[point] = normal; });
+    this->Chosen.keepOwn(unfitted);
+    throwIfAborted(this->Run);
+    this->forPoints(
+      partOf(this->Run, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
+      [this]() {
+        return PlaneNormals<TNeighbors>(this->Neighbors, this->Points, this->Options.neighborCount);
+      },
+      [this](PlaneNormals<TNeighbors>& normals, std::size_t point)
+      { this->Planes[point] = normals.at(point); });
+    this->Chosen.share(this->Planes);
+    for (std::size_t point = 0; point < this->Splats.size(); ++point)
+    {
+      this->Splats[point].normal = this->Planes[point];
+    }
+  }
+
+  void findHidden()
+  {
+    this->AreHidden.resize(this->Splats.size());
+    this->forPoints(
+      partOf(this->Run, normalsEnd, normalsEnd), this->Chosen.own(),
+      [this]() { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->Planes); },
+      [this](HiddenPoints<TNeighbors>& hidden, std::size_t point)
+      { this->AreHidden[point] = hidden.has(point) ? 1 : 0; });
+    this->Chosen.share(this->AreHidden);
+  }
+
+  void cutCells()
+  {
+    this->Cells.resize(this->Splats.size());
+    this->cut(partOf(this->Run, normalsEnd, cutEnd), this->Chosen.own());
+    const std::vector<std::size_t> turned = this->turnPlanes();
+    this->cut(partOf(this->Run, cutEnd, cellsEnd), turned);
+  }
+
+  /// Cuts the cells of some points, and shares all.
+  void cut(const Execution& execution, const std::vector<std::size_t>& own)
+  {
+    this->forPoints(
+      execution, own,
+      [this]()
+      {
+        return CellCutter<TNeighbors, TExtents>(
+          this->Neighbors, this->Points, this->Extents, this->Planes, this->AreHidden);
+      },
+      [this](CellCutter<TNeighbors, TExtents>& cutter, std::size_t point)
+      { this->Cells[point] = cutter.cut(point); });
+    this->Chosen.shareCells(this->Cells);
+  }
+
+  /// Turns the planes of cells whose normals do not agree with the points around.
+  /// @returns the own points whose cells are to be cut anew: those, and the ones beside them
+  std::vector<std::size_t> turnPlanes()
+  {
+    const std::vector<std::size_t>& own = this->Chosen.own();
+    std::vector<char> areTurned(this->Splats.size(), 0);
+    forEachIndex(this->Run, own.size(),
+      [&](std::size_t i)
+      {
+        const std::size_t point = own[i];
+        if (const std::optional<Vector> plane =
+              turnedNormal(this->Points, point, this->Planes[point], this->Cells[point]))
+        {
+          this->Planes[point] = *plane;
+          areTurned[point] = 1;
+        }
+      });
+    this->Chosen.share(this->Planes);
+    this->Chosen.share(areTurned);
+    std::vector<std::size_t> changed;
+    std::copy_if(own.begin(), own.end(), std::back_inserter(changed),
+      [&](std::size_t point)
+      {
+        const SplatCell& cell = this->Cells[point];
+        return areTurned[point] ||
+               std::any_of(cell.corners.begin(),
+                 cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+                 [&](const SplatCell::Corner& corner)
+                 { return SplatCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
+      });
+    return changed;
+  }
+
+  const Execution& Run;
+  const SurfacePoints& Points;
+  const TNeighbors& Neighbors;
+  const TExtents* Extents;
+  const SplatOptions& Options;
+  TChosen& Chosen;
+  std::vector<Splat> Splats;
+  // Of each point; other ranks' are set by share() and shareCells().
+  std::vector<Vector> Planes; // normals of the planes in which cells are cut
+  std::vector<char> AreHidden;
+  RawArray<SplatCell> Cells;
 };
 
 /// Normals and shapes of splats for the points of one surface; see docs/algorithm.md, section 12.
@@ -67,39 +226,9 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options,
   TChosen& chosen)
 {
-  std::vector<Splat> splats(points.positions.size());
-  std::vector<std::size_t> unfitted = setFieldNormals(execution, points, options.fieldNormals,
-    [&splats](std::size_t point, const Vector& normal) { splats[point].normal = normal; });
-  chosen.keepOwn(unfitted);
-  throwIfAborted(execution);
-  const double normalsShare = options.shapes ? 0.2 : 1.0;
-  constexpr std::size_t batch = 8192;
-  constexpr std::size_t grain = 512;
-  chosen.forEach(
-    execution, { unfitted.size(), batch, grain },
-    [&]() { return PlaneNormals<TNeighbors>(neighbors, points, options.neighborCount); },
-    [&](PlaneNormals<TNeighbors>& normals, std::size_t i)
-    { splats[unfitted[i]].normal = normals.at(unfitted[i]); },
-    [&](double share) { execution.progress(normalsShare * share); });
-  chosen.shareNormals(splats);
-  if (!options.shapes)
-  {
-    return splats;
-  }
-  constexpr double cellsShare = 0.6;
-  RawArray<SplatCell> cells; // those of other ranks' points are set by shareCells()
-  cells.resize(splats.size());
-  const std::vector<std::size_t>& own = chosen.own();
-  chosen.forEach(
-    execution, { own.size(), batch, grain },
-    [&]() { return CellCutter<TNeighbors, TExtents>(neighbors, points, extents, splats); },
-    [&](CellCutter<TNeighbors, TExtents>& cutter, std::size_t i)
-    { cells[own[i]] = cutter.cut(own[i]); },
-    [&](double share) { execution.progress(normalsShare + cellsShare * share); });
-  chosen.shareCells(cells);
-  shapeSplats(partOf(execution, normalsShare + cellsShare, 1.0), points, std::move(cells),
-    chosen.shaped(), splats);
-  return splats;
+  return SplatMaker<TNeighbors, TExtents, TChosen>(
+    execution, points, neighbors, extents, options, chosen)
+    .make();
 }
 
 } // namespace isopoint

@@ -8,6 +8,7 @@
 #include "Core/Splat/NearbyPoints.h"
 #include "Core/Splat/Splat.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -50,8 +51,8 @@ std::vector<std::size_t> setFieldNormals(
 Vector planeNormal(
   const SurfacePoints& points, std::size_t point, const std::vector<std::size_t>& around);
 
-/// The normal of the plane through a point and the nearest ones in two rings around it. Memory is
-/// kept. For one thread.
+/// The normal of the plane through a point and the nearest ones in two rings around it. Those at
+/// one position count as one. Memory is kept. For one thread.
 /// @tparam TNeighbors see NearbyPoints
 template <class TNeighbors>
 class PlaneNormals
@@ -70,17 +71,24 @@ public:
     this->Nearby.find(point, 2, lengthOf(this->Points.decreasingEdges[point]));
     this->Nearby.listWithin(std::numeric_limits<double>::max());
     this->Around.clear();
-    for (const NearbyPoint& other : this->Nearby)
+    for (auto other = this->Nearby.begin();
+         other != this->Nearby.end() && this->Around.size() < this->Count; ++other)
     {
-      if (this->Around.size() < this->Count)
+      if (!this->hasPosition(this->Points.positions[other->point]))
       {
-        this->Around.push_back(other.point);
+        this->Around.push_back(other->point);
       }
     }
     return planeNormal(this->Points, point, this->Around);
   }
 
 private:
+  bool hasPosition(const Vector& position) const
+  {
+    return std::any_of(this->Around.begin(), this->Around.end(),
+      [&](std::size_t other) { return this->Points.positions[other] == position; });
+  }
+
   const SurfacePoints& Points;
   NearbyPoints<TNeighbors> Nearby;
   std::size_t Count;

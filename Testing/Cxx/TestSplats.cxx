@@ -35,6 +35,10 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
   std::vector<Vector> corners;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
+    if (!(splats[i].radius > 0.0))
+    {
+      continue; // another one represents it
+    }
     area += areaOf(splats[i]);
     for (const isopoint::SplatCorner& corner : cornersOf(splats[i]))
     {
@@ -223,7 +227,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   }
   EXPECT_NEAR(alone, 1.0, 1e-6);
   EXPECT_GT(areaOfMiddle(), alone - 1e-6);
-  EXPECT_LT(areaOfMiddle(), 1.1 * 1.1 * alone + 1e-6); // where cells overlap
+  EXPECT_LT(areaOfMiddle(), 1.4 * 1.4 * alone + 1e-6); // where cells overlap
 }
 
 // In a lattice the planes halfway to diagonal neighbors pass through the corners that the others
@@ -319,9 +323,9 @@ TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
   const std::vector<Splat> splats = splatsOf(positions, edges);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    ASSERT_GT(splats[i].radius, 0.4 * expected[i / 30].radius);
-    ASSERT_LT(splats[i].radius, 2.0 * expected[i / 30].radius);
-    ASSERT_NEAR(areaOf(splats[i]), i % 30 == 0 ? areaOf(expected[i / 30]) : 0.0, 1e-12);
+    const bool isFirst = i % 30 == 0;
+    ASSERT_NEAR(splats[i].radius, isFirst ? expected[i / 30].radius : 0.0, 1e-12);
+    ASSERT_NEAR(areaOf(splats[i]), isFirst ? areaOf(expected[i / 30]) : 0.0, 1e-12);
     ASSERT_GT(dot(splats[i].normal, expected[i / 30].normal), 1.0 - 1e-9);
   }
 }
@@ -334,10 +338,19 @@ TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
       std::vector<Vector>{ { 0, 0, 0 }, { 1, 0, 0 } },
       std::vector<Vector>{ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 0, 0 } } })
   {
-    for (const Splat& splat : splatsOf(positions, std::vector<Vector>(positions.size(), edge)))
+    const std::vector<Splat> splats =
+      splatsOf(positions, std::vector<Vector>(positions.size(), edge));
+    for (std::size_t i = 0; i < splats.size(); ++i)
     {
-      EXPECT_EQ(splat.normal, (Vector{ 0.0, 1.0, 0.0 }));
-      EXPECT_GE(splat.radius, 0.9);
+      EXPECT_EQ(splats[i].normal, (Vector{ 0.0, 1.0, 0.0 }));
+      if (i > 0 && positions[i] == positions[0])
+      {
+        EXPECT_EQ(splats[i].radius, 0.0);
+      }
+      else
+      {
+        EXPECT_GE(splats[i].radius, 0.9);
+      }
     }
   }
   EXPECT_TRUE(splatsOf({}, {}).empty());

@@ -239,6 +239,31 @@ TEST(Warnings, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
   EXPECT_NE(warnings.front().find("Projection"), std::string::npos) << warnings.front();
   EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
   filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  filter->ComputeSplatsOff();
+  EXPECT_TRUE(warningsOf(filter).empty());
+}
+
+TEST(Warnings, TrianglesAreNamedWhereSplatsDoNotMeet)
+{
+  const auto cloud = newCloud(30000);
+  const auto filter = newFilterOf(cloud);
+  EXPECT_TRUE(warningsOf(filter).empty());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> p{};
+    cloud->GetPoint(i, p.data());
+    // Strongly clustered along each axis.
+    for (double& coordinate : p)
+    {
+      coordinate = std::pow(coordinate, 6.0);
+    }
+    cloud->GetPoints()->SetPoint(i, p.data());
+  }
+  cloud->GetPoints()->Modified();
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.front().find("Scattered Isosurface"), std::string::npos) << warnings.front();
+  filter->SetComputeSplats(false);
   EXPECT_TRUE(warningsOf(filter).empty());
 }
 

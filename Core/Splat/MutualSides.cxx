@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Splat/MutualSides.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace isopoint
+{
+namespace
+{
+
+bool hasSideTowards(const SplatCell& cell, std::size_t point)
+{
+  return std::any_of(cell.corners.begin(),
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+    [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
+}
+
+double squaredDistance(const SplatCell::Corner& corner)
+{
+  return corner.x * corner.x + corner.y * corner.y;
+}
+
+/// The corner that takes the place of a side: where the sides before and after it meet; nothing if
+/// that is far away.
+std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
+{
+  constexpr double mostReach = 1.1; // of the distance of the side's farther end
+  const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
+  const SplatCell::Corner& begin = cell.corners[side];
+  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const SplatCell::Corner& after = cell.corners[(side + 2) % cell.count];
+  const double ax = begin.x - before.x;
+  const double ay = begin.y - before.y;
+  const double bx = after.x - end.x;
+  const double by = after.y - end.y;
+  const double turn = ax * by - ay * bx;
+  const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
+  const SplatCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond, end.overlaps };
+  const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
+  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
+  {
+    return meeting;
+  }
+  return std::nullopt;
+}
+
+void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
+{
+  cell.corners[(side + 1) % cell.count] = corner;
+  std::copy(cell.corners.begin() + static_cast<std::ptrdiff_t>(side) + 1,
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+    cell.corners.begin() + static_cast<std::ptrdiff_t>(side));
+  --cell.count;
+}
+
+} // namespace
+
+SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
+{
+  SplatCell cell = cells[point];
+  for (std::size_t side = 0; side < cell.count;)
+  {
+    const std::size_t beyond = cell.corners[side].beyond;
+    if (!SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point))
+    {
+      ++side;
+      continue;
+    }
+    const std::optional<SplatCell::Corner> corner =
+      cell.count > 3 ? replacementOf(cell, side) : std::nullopt;
+    if (corner)
+    {
+      replace(side, *corner, cell);
+    }
+    else
+    {
+      cell.corners[side++].overlaps = true;
+    }
+  }
+  return cell;
+}
+
+} // namespace isopoint

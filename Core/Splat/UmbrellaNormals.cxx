@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Splat/UmbrellaNormals.h"
+
+#include <cmath>
+
+namespace isopoint
+{
+
+namespace
+{
+
+/// The normal of the umbrella of triangles between a point and each two consecutive points that
+/// bound its cell, if these are all around it; larger triangles count more, by the root of their
+/// area.
+std::optional<Vector> umbrellaNormal(
+  const std::vector<Vector>& positions, std::size_t point, const SplatCell& cell)
+{
+  Vector normal{};
+  for (std::size_t i = 0; i < cell.count; ++i)
+  {
+    const std::size_t a = cell.corners[i].beyond;
+    const std::size_t b = cell.corners[(i + 1) % cell.count].beyond;
+    if (!SplatCell::isPoint(a) || !SplatCell::isPoint(b))
+    {
+      return std::nullopt;
+    }
+    const Vector area =
+      cross(difference(positions[a], positions[point]), difference(positions[b], positions[point]));
+    const double size = lengthOf(area);
+    normal = size > 0.0 ? sum(normal, 1.0 / std::sqrt(size), area) : normal;
+  }
+  return cell.count >= 3 && std::isnormal(lengthOf(normal)) ? std::optional(directionOf(normal))
+                                                            : std::nullopt;
+}
+
+} // namespace
+
+std::optional<Vector> turnedNormal(
+  const SurfacePoints& points, std::size_t point, const Vector& normal, const SplatCell& cell)
+{
+  constexpr double leastCosine = 0.2; // others are of another sheet
+  const bool isSmooth = !points.fits.empty() && points.fits[point].isSmooth;
+  const double mostCosine = isSmooth ? 0.95 : 0.99;
+  const std::optional<Vector> umbrella = umbrellaNormal(points.positions, point, cell);
+  const double cosine = umbrella ? dot(*umbrella, normal) : 1.0;
+  return cosine < leastCosine || cosine > mostCosine
+           ? std::nullopt
+           : std::optional(directionOf(sum(normal, 1.0, *umbrella)));
+}
+
+} // namespace isopoint
