@@ -159,14 +159,15 @@ public:
    * of the vertices, of which cell i is that of point i. They are hidden from ParaView's menus
    * (vtkAbstractArray::GUI_HIDE()). Default: on.
    *
-   * - "Radius" (one float, positive, in units of the coordinates) is the distance of the farthest
+   * - "Radius" (one float, in units of the coordinates) is the distance of the farthest
    *   corner, the size of a disk for mappers that draw such.
    * - "SplatAxis" (three floats, in units of the coordinates) is a tangential vector t1 as long as
    *   the radius; t2 is normal x t1. It is the active vectors, so that transforms rotate it.
    * - "SplatPolygon" (40 floats, five for each of eight corners, counterclockwise seen from the tip
    *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
    *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
-   *   repeat the last one. All are 0 at an isopoint that an earlier one close by represents.
+   *   repeat the last one. All are 0, and so is the radius, at an isopoint that another one close
+   * by represents.
    */
   virtual void SetComputeSplats(vtkTypeBool compute);
   virtual vtkTypeBool GetComputeSplats();

@@ -46,12 +46,13 @@ inline SplatNumbers numbersOf(const SplatCorners& corners)
   return numbers;
 }
 
-/// A radius as arrays hold it: of float, clamped to its positive range.
+/// A radius as arrays hold it: of float, clamped to its positive range if it is positive.
 inline float radiusNumber(double radius)
 {
   using Limits = std::numeric_limits<float>;
-  return static_cast<float>(
-    std::clamp<double>(radius, Limits::denorm_min(), static_cast<double>(Limits::max())));
+  return radius > 0.0 ? static_cast<float>(std::clamp<double>(
+                          radius, Limits::denorm_min(), static_cast<double>(Limits::max())))
+                      : 0.0f;
 }
 
 } // namespace isopoint

@@ -9,7 +9,7 @@
 #include "Core/Splat/NearbyPoints.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatBorder.h"
-#include "Core/Splat/SplatFans.h"
+#include "Core/Splat/SplatCell.h"
 #include "Core/Splat/TangentCell.h"
 
 #include <algorithm>
@@ -29,14 +29,14 @@ class CellCutter
 {
 public:
   /// @param normals of the tangent planes in which cells are cut
-  /// @param areHidden see HiddenPoints
+  /// @param states of all points
   CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
-    const std::vector<Vector>& normals, const std::vector<char>& areHidden)
+    const std::vector<Vector>& normals, const std::vector<SplatState>& states)
     : Neighbors(neighbors)
     , Points(points)
     , Normals(normals)
-    , AreHidden(areHidden)
-    , Nearby(neighbors, points, &areHidden)
+    , States(states)
+    , Nearby(neighbors, points, &states)
     , Extents(extents)
   {
   }
@@ -44,7 +44,7 @@ public:
   SplatCell cut(std::size_t point)
   {
     const double unit = unitAt(this->Points, point);
-    if (this->AreHidden[point])
+    if (this->States[point] == SplatState::Hidden)
     {
       return { {}, 0, unit, {} };
     }
@@ -378,7 +378,7 @@ private:
   const TNeighbors& Neighbors;
   const SurfacePoints& Points;
   const std::vector<Vector>& Normals;
-  const std::vector<char>& AreHidden;
+  const std::vector<SplatState>& States;
   NearbyPoints<TNeighbors> Nearby;
   const TExtents* Extents;
   bool HasPassed = false; // points without a fit, over which the cell may reach

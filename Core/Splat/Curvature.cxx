@@ -38,13 +38,11 @@ PlaneForm curvatureOf(
   const TangentFrame& frame, const Hessian& hessian, const Vector& gradient, double unit)
 {
   const double scale = unit / lengthOf(gradient);
-  if (!std::isfinite(scale))
-  {
-    return {};
-  }
-  return { scale * second(hessian, frame.first, frame.first),
+  const PlaneForm form{ scale * second(hessian, frame.first, frame.first),
     scale * second(hessian, frame.first, frame.second),
     scale * second(hessian, frame.second, frame.second) };
+  const double size = std::abs(form.xx) + std::abs(form.xy) + std::abs(form.yy);
+  return std::isfinite(size) ? form : PlaneForm{};
 }
 
 std::array<PrincipalDirection, 2> principalDirections(const PlaneForm& form)

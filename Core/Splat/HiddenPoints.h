@@ -2,20 +2,33 @@
 #ifndef isopoint_HiddenPoints_h
 #define isopoint_HiddenPoints_h
 
+#include "Core/Base/Hash.h"
 #include "Core/Base/Vector.h"
 #include "Core/Splat/Splat.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <tuple>
 #include <vector>
 
 namespace isopoint
 {
 
-/// Finds points without a splat of their own, since another one represents them: one of a lower
-/// number in the first ring that is at the same position, or very close to it on the same sheet.
-/// Where many samples have the isovalue itself, all edges that end in one of them yield nearly the
-/// same point, and what separates these is rounding. For one thread.
+/// Whether a point has a splat of its own.
+enum class SplatState : char
+{
+  Undecided,
+  Visible,
+  Hidden // a visible point represents it
+};
+
+/// Finds points without a splat of their own: those that are at the same position as a visible
+/// point, or very close to one on the same sheet. Where many samples have the isovalue itself, all
+/// edges that end in one of them yield nearly the same point, and what separates these is rounding.
+/// For one thread.
 /// @tparam TNeighbors see NearbyPoints
 template <class TNeighbors>
 class HiddenPoints
@@ -29,15 +42,24 @@ public:
   {
   }
 
-  bool has(std::size_t point)
+  /// The next state of an undecided point: hidden beside a visible one, visible if it precedes all
+  /// undecided ones beside it.
+  /// @param states of all points
+  SplatState next(std::size_t point, const std::vector<SplatState>& states)
   {
-    const auto around = this->Finder.find(point, 1);
-    return std::any_of(around.begin(), around.end(),
-      [&](std::size_t other)
+    bool isFirst = true;
+    for (const std::size_t other : this->Finder.find(point, 1))
+    {
+      if (other != point && states[other] != SplatState::Hidden && this->areOne(point, other))
       {
-        return this->Points.numberOf(other) < this->Points.numberOf(point) &&
-               this->areOne(point, other);
-      });
+        if (states[other] == SplatState::Visible)
+        {
+          return SplatState::Hidden;
+        }
+        isFirst = isFirst && this->keyOf(point) < this->keyOf(other);
+      }
+    }
+    return isFirst ? SplatState::Visible : SplatState::Undecided;
   }
 
 private:
@@ -45,12 +67,29 @@ private:
   {
     constexpr double closeness = 0.05; // in units of length
     constexpr double leastCosine = 0.7;
-    const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
     const double reach =
       closeness * std::min(unitAt(this->Points, point), unitAt(this->Points, other));
+    const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
     return this->Points.positions[point] == this->Points.positions[other] ||
-           (dot(offset, offset) < reach * reach &&
+           (lengthOf(offset) < reach &&
              dot(this->Normals[point], this->Normals[other]) > leastCosine);
+  }
+
+  /// What decides which one of close points precedes: chance, so that a chain of them is decided
+  /// soon, but the same in any order of samples, and after scaling by a power of two.
+  std::tuple<std::uint64_t, Vector, std::size_t> keyOf(std::size_t point) const
+  {
+    const Vector& position = this->Points.positions[point];
+    std::uint64_t hash = 0;
+    for (const double coordinate : position)
+    {
+      int exponent = 0;
+      const double mantissa = std::frexp(coordinate, &exponent) + 0.0; // zeros have one sign
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &mantissa, sizeof(bits));
+      hash = extendedHash(hash, bits);
+    }
+    return { hash, position, this->Points.numberOf(point) };
   }
 
   const SurfacePoints& Points;

@@ -3,7 +3,7 @@
 #define isopoint_MutualSides_h
 
 #include "Core/Base/RawArray.h"
-#include "Core/Splat/SplatFans.h"
+#include "Core/Splat/SplatCell.h"
 
 #include <cstddef>
 

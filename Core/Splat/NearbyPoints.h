@@ -3,6 +3,7 @@
 #define isopoint_NearbyPoints_h
 
 #include "Core/Base/Vector.h"
+#include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/Splat.h"
 
 #include <algorithm>
@@ -25,11 +26,11 @@ template <class TNeighbors>
 class NearbyPoints
 {
 public:
-  /// @param areHidden whether each point is left out, or null for none
+  /// @param states of all points, or null where none is hidden
   NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points,
-    const std::vector<char>* areHidden = nullptr)
+    const std::vector<SplatState>* states = nullptr)
     : Points(points)
-    , AreHidden(areHidden)
+    , States(states)
     , Finder(neighbors)
   {
   }
@@ -45,7 +46,7 @@ public:
     this->Nearby.clear();
     for (const std::size_t other : this->Finder.find(point, rings))
     {
-      if (!this->AreHidden || !(*this->AreHidden)[other])
+      if (!this->States || (*this->States)[other] != SplatState::Hidden)
       {
         const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
         this->All.push_back({ dot(offset, offset), other });
@@ -80,7 +81,7 @@ public:
 
 private:
   const SurfacePoints& Points;
-  const std::vector<char>* AreHidden;
+  const std::vector<SplatState>* States;
   typename TNeighbors::Finder Finder;
   std::vector<NearbyPoint> All; // that were found, in any order
   std::vector<NearbyPoint> Nearby;

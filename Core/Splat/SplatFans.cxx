@@ -78,7 +78,7 @@ struct Meeting
   std::array<CornerOf, mostMeeting> corners{};
   std::size_t count = 0;
   bool isTooLarge = false;    // then they are not brought together
-  bool isOverlapping = false; // so are they not; see SplatCell::overlapping
+  bool isOverlapping = false; // nor are they then; see SplatCell::Corner::overlaps
 
   void add(const CornerOf& corner, const SurfacePoints& points)
   {
@@ -341,7 +341,9 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   }
   splat.axis = scaled(splat.radius, frame.first);
   splat.corners = {};
-  if (!(splat.radius > 0.0) || !std::isfinite(splat.radius))
+  const bool isFiniteShape = std::all_of(
+    offsets.begin(), offsets.end(), [](const Vector& offset) { return isFinite(offset); });
+  if (!(splat.radius > 0.0) || !std::isfinite(splat.radius) || !isFiniteShape)
   {
     return;
   }

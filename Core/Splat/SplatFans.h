@@ -4,38 +4,14 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/RawArray.h"
-#include "Core/Splat/Curvature.h"
 #include "Core/Splat/Splat.h"
+#include "Core/Splat/SplatCell.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The part of a point's tangent plane that a splat covers: a convex polygon around the point, in
-/// the axes of its TangentFrame and a unit of length.
-struct SplatCell
-{
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-  /// Whether what is beyond a side is a point.
-  static bool isPoint(std::size_t beyond) { return beyond != none; }
-
-  struct Corner
-  {
-    double x;
-    double y;
-    std::size_t beyond;    // the side that begins here: the point halfway to which it is, or none
-    bool overlaps = false; // whether the cell of that point reaches over the side
-  };
-
-  std::array<Corner, mostCorners> corners; // counterclockwise
-  std::size_t count;                       // 0 for a hidden point
-  double unit;
-  PlaneForm curvature; // of the surface, in this unit; 0 where it is not known
-};
 
 /// How many corners of cells are brought together, at most.
 constexpr std::size_t mostMeeting = 6;

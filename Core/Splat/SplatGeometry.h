@@ -135,13 +135,24 @@ private:
 
   void findHidden()
   {
-    this->AreHidden.resize(this->Splats.size());
-    this->forPoints(
-      partOf(this->Run, normalsEnd, normalsEnd), this->Chosen.own(),
-      [this]() { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->Planes); },
-      [this](HiddenPoints<TNeighbors>& hidden, std::size_t point)
-      { this->AreHidden[point] = hidden.has(point) ? 1 : 0; });
-    this->Chosen.share(this->AreHidden);
+    // In every second round points become visible. Few are left, and are drawn too.
+    constexpr int rounds = 6;
+    this->States.assign(this->Splats.size(), SplatState::Undecided);
+    std::vector<std::size_t> undecided = this->Chosen.own();
+    for (int round = 0; round < rounds; ++round)
+    {
+      const std::vector<SplatState> states = this->States;
+      this->forPoints(
+        partOf(this->Run, normalsEnd, normalsEnd), undecided,
+        [this]() { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->Planes); },
+        [&](HiddenPoints<TNeighbors>& hidden, std::size_t point)
+        { this->States[point] = hidden.next(point, states); });
+      this->Chosen.share(this->States);
+      undecided.erase(
+        std::remove_if(undecided.begin(), undecided.end(),
+          [this](std::size_t point) { return this->States[point] != SplatState::Undecided; }),
+        undecided.end());
+    }
   }
 
   void cutCells()
@@ -160,7 +171,7 @@ private:
       [this]()
       {
         return CellCutter<TNeighbors, TExtents>(
-          this->Neighbors, this->Points, this->Extents, this->Planes, this->AreHidden);
+          this->Neighbors, this->Points, this->Extents, this->Planes, this->States);
       },
       [this](CellCutter<TNeighbors, TExtents>& cutter, std::size_t point)
       { this->Cells[point] = cutter.cut(point); });
@@ -209,7 +220,7 @@ private:
   std::vector<Splat> Splats;
   // Of each point; other ranks' are set by share() and shareCells().
   std::vector<Vector> Planes; // normals of the planes in which cells are cut
-  std::vector<char> AreHidden;
+  std::vector<SplatState> States;
   RawArray<SplatCell> Cells;
 };
 

@@ -24,8 +24,9 @@ std::optional<Vector> umbrellaNormal(
     {
       return std::nullopt;
     }
-    const Vector area =
-      cross(difference(positions[a], positions[point]), difference(positions[b], positions[point]));
+    const auto offsetOf = [&](std::size_t other)
+    { return scaled(1.0 / cell.unit, difference(positions[other], positions[point])); };
+    const Vector area = cross(offsetOf(a), offsetOf(b));
     const double size = lengthOf(area);
     normal = size > 0.0 ? sum(normal, 1.0 / std::sqrt(size), area) : normal;
   }

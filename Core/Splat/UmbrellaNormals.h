@@ -3,7 +3,8 @@
 #define isopoint_UmbrellaNormals_h
 
 #include "Core/Base/Vector.h"
-#include "Core/Splat/SplatFans.h"
+#include "Core/Splat/Splat.h"
+#include "Core/Splat/SplatCell.h"
 
 #include <cstddef>
 #include <optional>

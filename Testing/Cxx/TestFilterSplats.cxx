@@ -70,6 +70,7 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
       EXPECT_EQ(array->GetNumberOfTuples(), filter->GetOutput()->GetNumberOfPoints());
       EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
     }
+    vtkIdType hidden = 0;
     for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
     {
       double axis[3];
@@ -88,9 +89,16 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
         farthest = std::max(farthest, std::hypot(number(k, 0), number(k, 1), number(k, 2)));
         doubleArea += number(k, 0) * number(k + 1, 1) - number(k, 1) * number(k + 1, 0);
       }
+      if (radius == 0.0)
+      {
+        ++hidden;
+        ASSERT_EQ(farthest, 0.0);
+        continue;
+      }
       ASSERT_NEAR(farthest, 1.0, 1e-6);
       ASSERT_GT(doubleArea, 0.1);
     }
+    EXPECT_LT(hidden, filter->GetOutput()->GetNumberOfPoints() / 10);
   }
   filter->ComputeSplatsOff();
   filter->Update();
@@ -242,6 +250,6 @@ TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
     filter->Update();
     vtkDataArray* const radii = filter->GetOutput()->GetPointData()->GetArray("Radius");
     ASSERT_GT(radii->GetNumberOfTuples(), 500);
-    EXPECT_LT(radii->GetRange()[1], 1.8);
+    EXPECT_LT(radii->GetRange()[1], 2.2); // 1.3 spacings at borders, and overlaps
   }
 }

@@ -135,11 +135,18 @@ TEST(SplatCreases, OfPointsOnACreaseCoverTheirOwnSide)
       negate(points);
     }
     const std::vector<Splat> splats = splatsOf(points);
+    std::size_t hidden = 0;
     for (std::size_t i = 0; i < 40; ++i)
     {
+      if (splats[i].radius == 0.0)
+      {
+        ++hidden; // behind a point close by
+        continue;
+      }
       EXPECT_GT(splats[i].radius, 0.1) << i;
       EXPECT_NEAR(reachAlong(splats[i], i % 2 == 0 ? 0 : 2), 0.0, 1e-6) << i;
     }
+    EXPECT_LE(hidden, 2u);
   }
 }
 

@@ -671,7 +671,8 @@ TEST(Library, SplatMeshesAreTheSurface)
     area += 0.5 * std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                     a[0] * b[1] - a[1] * b[0]);
   }
-  EXPECT_NEAR(area, 4.0 * 3.14159265358979 * 0.49, 0.02 * 6.16);
+  // Splats overlap where they do not meet.
+  EXPECT_NEAR(area, 4.0 * 3.14159265358979 * 0.49, 0.03 * 6.16);
 
   // A field that is the same at all points is the same at all vertices; one that differs lies
   // between those of its points.
