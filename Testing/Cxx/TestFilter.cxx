@@ -60,7 +60,7 @@ TEST(Filter, OutputFollowsTheConventions)
     }
     ASSERT_GT(outwards, 0.95);
     ASSERT_EQ(data->GetArray("x")->GetComponent(i, 0), position->GetComponent(i, 0));
-    ASSERT_GT(data->GetArray("Radius")->GetComponent(i, 0), 0.0);
+    ASSERT_GE(data->GetArray("Radius")->GetComponent(i, 0), 0.0);
   }
 }
 
