@@ -167,7 +167,7 @@ public:
    *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
    *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
    *   repeat the last one. All are 0, and so is the radius, at an isopoint that another one close
-   * by represents.
+   *   by represents.
    */
   virtual void SetComputeSplats(vtkTypeBool compute);
   virtual vtkTypeBool GetComputeSplats();

@@ -77,19 +77,20 @@ private:
 
   /// What decides which one of close points precedes: chance, so that a chain of them is decided
   /// soon, but the same in any order of samples, and after scaling by a power of two.
-  std::tuple<std::uint64_t, Vector, std::size_t> keyOf(std::size_t point) const
+  std::tuple<std::uint64_t, Vector, Vector, std::size_t> keyOf(std::size_t point) const
   {
     const Vector& position = this->Points.positions[point];
     std::uint64_t hash = 0;
     for (const double coordinate : position)
     {
       int exponent = 0;
-      const double mantissa = std::frexp(coordinate, &exponent) + 0.0; // zeros have one sign
-      std::uint64_t bits = 0;
+      // Of float, so that rounding of the coordinates hardly matters; zeros have one sign.
+      const auto mantissa = static_cast<float>(std::frexp(coordinate, &exponent)) + 0.0f;
+      std::uint32_t bits = 0;
       std::memcpy(&bits, &mantissa, sizeof(bits));
       hash = extendedHash(hash, bits);
     }
-    return { hash, position, this->Points.numberOf(point) };
+    return { hash, position, this->Points.decreasingEdges[point], this->Points.numberOf(point) };
   }
 
   const SurfacePoints& Points;

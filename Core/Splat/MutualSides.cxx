@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace isopoint
@@ -20,6 +21,15 @@ bool hasSideTowards(const SplatCell& cell, std::size_t point)
 double squaredDistance(const SplatCell::Corner& corner)
 {
   return corner.x * corner.x + corner.y * corner.y;
+}
+
+double squaredLength(const SplatCell& cell, std::size_t side)
+{
+  const SplatCell::Corner& begin = cell.corners[side];
+  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const double x = end.x - begin.x;
+  const double y = end.y - begin.y;
+  return x * x + y * y;
 }
 
 /// The corner that takes the place of a side: where the sides before and after it meet; nothing if
@@ -60,24 +70,40 @@ void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
 SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
 {
   SplatCell cell = cells[point];
-  for (std::size_t side = 0; side < cell.count;)
+  const auto isMutual = [&](std::size_t side)
   {
     const std::size_t beyond = cell.corners[side].beyond;
-    if (!SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point))
+    return !SplatCell::isPoint(beyond) || hasSideTowards(cells[beyond], point);
+  };
+  // The shortest first: the order does not depend on where the corners begin.
+  bool isAnyReplaced = true;
+  while (isAnyReplaced && cell.count > 3)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t shortest = 0;
+    std::optional<SplatCell::Corner> replacement;
+    for (std::size_t side = 0; side < cell.count; ++side)
     {
-      ++side;
-      continue;
+      const double length = squaredLength(cell, side);
+      if (length < least && !isMutual(side))
+      {
+        if (const std::optional<SplatCell::Corner> corner = replacementOf(cell, side))
+        {
+          least = length;
+          shortest = side;
+          replacement = corner;
+        }
+      }
     }
-    const std::optional<SplatCell::Corner> corner =
-      cell.count > 3 ? replacementOf(cell, side) : std::nullopt;
-    if (corner)
+    isAnyReplaced = replacement.has_value();
+    if (isAnyReplaced)
     {
-      replace(side, *corner, cell);
+      replace(shortest, *replacement, cell);
     }
-    else
-    {
-      cell.corners[side++].overlaps = true;
-    }
+  }
+  for (std::size_t side = 0; side < cell.count; ++side)
+  {
+    cell.corners[side].overlaps = !isMutual(side);
   }
   return cell;
 }

@@ -86,7 +86,7 @@ def main(plugin):
     check(isopoints.Angle == 54.7, "the default angle")
     check(list(isopoints.PointData["r"].GetRange()) == [0.5, 0.75], "the isovalues")
     check(isopoints.PointData["Normals"].GetNumberOfComponents() == 3, "normals")
-    check(isopoints.PointData["Radius"].GetRange()[0] > 0.0, "radii")
+    check(isopoints.PointData["Radius"].GetRange()[1] > 0.0, "radii")
     check(isopoints.PointData["noise"] is not None, "other arrays")
     check_counters(reader)
 

@@ -61,6 +61,12 @@ def areas(triangles):
     return 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
+def hidden_points(data):
+    """Isopoints without a shape, since others close by represent them."""
+    shapes = vtk_to_numpy(data.GetCellData().GetArray("SplatPolygon"))
+    return set(np.flatnonzero(~shapes.any(1) | np.isnan(shapes).any(1)))
+
+
 def splats_of_isopoints():
     """Close to the torus and its normals, of its area, facing outwards."""
     data = torus_splats(100_000)
@@ -76,7 +82,9 @@ def splats_of_isopoints():
     cells = array(output, "vtkOriginalCellIds", cells=True)
     corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     check((ids[corners] == cells[:, None]).all(), "each triangle is of one isopoint")
-    check(len(np.unique(cells)) == data.GetNumberOfPoints(), "each isopoint has triangles")
+    hidden = hidden_points(data)
+    check(len(hidden) < 0.1 * data.GetNumberOfPoints(), "few isopoints are hidden")
+    check(not set(range(data.GetNumberOfPoints())) - set(cells) - hidden, "each other isopoint has triangles")
     scaled, _, _ = triangles_of(data, RadiusScale=0.5)
     half = np.linalg.norm(areas(scaled), axis=1).sum() / np.linalg.norm(areas(triangles), axis=1).sum()
     check(abs(half - 0.25) < 0.01, "half the size")
@@ -111,7 +119,8 @@ def arrays_are_interpolated():
     np.minimum.at(low, group.ravel(), array(output, "of doubles"))
     np.maximum.at(high, group.ravel(), array(output, "of doubles"))
     shared = sizes >= 3
-    check(shared.sum() > 1.8 * count, "most corners are shared by three")
+    visible = count - len(hidden_points(data))
+    check(shared.sum() > 1.8 * visible, f"most corners are shared by three: {shared.sum()}, {visible}")
     different = np.count_nonzero((high - low)[shared] > 1e-6)
     check(different < 0.001 * shared.sum(), f"one value at each but {different}")
     copied = output.GetPointData().GetArray("in another layout")
@@ -180,7 +189,7 @@ def what_cannot_be_drawn_is_left_out():
     numbers[6] = 0
     _, _, output = triangles_of(torus)
     missing = set(range(torus.GetNumberOfPoints())) - set(array(output, "vtkOriginalPointIds"))
-    check(missing == {5, 6}, f"without a shape: {missing}")
+    check(missing == hidden_points(torus), f"without a shape: {missing}")
     for empty in (vtkPolyData(), vtkMultiBlockDataSet(), vtkImageData()):
         output, events = polygons_of(empty)
         check(not events and output is not None, "empty input")
@@ -197,7 +206,7 @@ def arrays_of_the_wrong_shape():
         output, events = polygons_of(damaged)
         expected = [] if removed == SHAPES else ["WarningEvent"]
         check(events == expected, f"warnings without {removed}: {events}")
-        check(output.GetNumberOfPolys() == 8 * torus.GetNumberOfPoints(), "octagons instead")
+        check(output.GetNumberOfPolys() == 8 * np.count_nonzero(array(torus, "Radius")), "octagons instead")
 
 
 def shapes_are_those_of_vertices():
@@ -242,7 +251,8 @@ def shapes_are_those_of_vertices():
             check(len(cells) == len(expected), "ids of the vertices")
     # Points without a vertex of their own.
     octagons, _, _ = triangles_of(with_vertices([], []))
-    check(len(octagons) == 8 * count, "octagons without cells")
+    visible = np.flatnonzero(array(torus, "Radius"))
+    check(len(octagons) == 8 * len(visible), "octagons without cells")
     check(np.array_equal(triangles_of(with_vertices([list(range(count))], [0]))[0], octagons),
           "octagons for a cell of several")
     some = order[: count // 2]
@@ -252,8 +262,8 @@ def shapes_are_those_of_vertices():
         points = own[vtk_to_numpy(output.GetPolys().GetConnectivityArray())[::3]]
         drawn = np.isin(points, some)
         check(np.array_equal(triangles[drawn], expected[np.isin(ids, some)]), "where there is one")
-        missing = np.setdiff1d(np.arange(count), some)
-        check(np.array_equal(triangles[~drawn], octagons.reshape(count, 8, 3, 3)[missing].reshape(-1, 3, 3)),
+        missing = ~np.isin(visible, some)
+        check(np.array_equal(triangles[~drawn], octagons.reshape(-1, 8, 3, 3)[missing].reshape(-1, 3, 3)),
               "octagons elsewhere")
     # Files may have them at the points.
     old = with_vertices(alone, [])
