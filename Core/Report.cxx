@@ -207,7 +207,7 @@ Message describeCornersApart(const Report& report)
     "Splats do not meet at " + std::to_string(report.cornersApart) + " of " +
       std::to_string(report.innerCorners) +
       " corners: the picture may have holes, since samples are too uneven or too few for splats."
-      " Extract triangles instead: Scattered Isosurface." };
+      " Extract triangles instead: with Scattered Isosurface, in Python with triangles=True." };
 }
 
 std::vector<Message> describeReplacedArrays(const Report& report)

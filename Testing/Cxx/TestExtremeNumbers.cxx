@@ -3,6 +3,7 @@
 // the defined result.
 #include "DegenerateTesting.h"
 
+#include "vtkCellData.h"
 #include "vtkLongLongArray.h"
 #include "vtkUnsignedLongLongArray.h"
 
@@ -78,6 +79,33 @@ TEST(ExtremeNumbers, SurfacesAreFiniteNearTheLimitsOfDouble)
     for (const double coordinate : pointsOf(surface.Output))
     {
       EXPECT_LE(std::abs(coordinate), scale);
+    }
+  }
+}
+
+// Coordinates whose squares underflow, and curvatures that overflow.
+TEST(ExtremeNumbers, ShapesOfTinySurfacesAreFinite)
+{
+  for (const double scale : { 1e-152, 1e-153, 1e-154, 1e-155 })
+  {
+    SCOPED_TRACE(scale);
+    std::vector<Sample> lattice;
+    for (int i = 0; i < 729; ++i)
+    {
+      const double x = i % 9 - 4;
+      const double y = i / 9 % 9 - 4;
+      const double z = i / 81 - 4;
+      lattice.push_back({ scale * x, scale * y, scale * z, std::round(2.0 * std::hypot(x, y, z)) });
+    }
+    const Surface surface = contour(lattice, 5.0);
+    EXPECT_GT(surface.count(), 100);
+    vtkDataArray* const shapes = surface.Output->GetCellData()->GetArray("SplatPolygon");
+    for (vtkIdType i = 0; i < surface.count(); ++i)
+    {
+      for (int k = 0; k < shapes->GetNumberOfComponents(); ++k)
+      {
+        ASSERT_TRUE(std::isfinite(shapes->GetComponent(i, k))) << i << ' ' << k;
+      }
     }
   }
 }

@@ -330,6 +330,39 @@ TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
   }
 }
 
+// Points in lines, each closer to the next one than points may be: a visible one is close to each.
+TEST(Splats, AreHiddenBesideVisibleOnesAlone)
+{
+  constexpr double step = 0.02;
+  constexpr double closeness = 0.05; // see HiddenPoints
+  clouds::Random random(7);
+  std::vector<Vector> positions;
+  for (int line = 0; line < 6; ++line)
+  {
+    for (int i = 0; i < 100; ++i)
+    {
+      const double along = step * (i + 0.4 * random());
+      positions.push_back({ along, static_cast<double>(line), 0.0 });
+    }
+  }
+  const std::vector<Splat> splats =
+    splatsOf(positions, std::vector<Vector>(positions.size(), { 0.0, 0.0, 2.0 }));
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    double nearest = closeness; // visible point
+    for (std::size_t k = 0; k < splats.size(); ++k)
+    {
+      const double distance = isopoint::lengthOf(isopoint::difference(positions[i], positions[k]));
+      nearest = splats[k].radius > 0.0 ? std::min(nearest, distance) : nearest;
+    }
+    EXPECT_LT(nearest, closeness) << i;
+    hidden += splats[i].radius > 0.0 ? 0 : 1;
+  }
+  EXPECT_GT(hidden, splats.size() / 3);
+  EXPECT_LT(hidden, splats.size() * 3 / 4);
+}
+
 TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
 {
   const Vector edge{ 0.0, 2.0, 0.0 };
