@@ -92,9 +92,11 @@ TEST(ExtremeNumbers, ShapesOfTinySurfacesAreFinite)
     std::vector<Sample> lattice;
     for (int i = 0; i < 729; ++i)
     {
+      const int layer = i / 81;
+      const int row = i / 9 % 9;
       const double x = i % 9 - 4;
-      const double y = i / 9 % 9 - 4;
-      const double z = i / 81 - 4;
+      const double y = row - 4;
+      const double z = layer - 4;
       lattice.push_back({ scale * x, scale * y, scale * z, std::round(2.0 * std::hypot(x, y, z)) });
     }
     const Surface surface = contour(lattice, 5.0);
