@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -41,8 +42,10 @@ public:
   {
   }
 
-  SplatCell cut(std::size_t point)
+  /// @param missed points that the cell is to be cut towards besides those around it
+  SplatCell cut(std::size_t point, std::vector<std::size_t> missed)
   {
+    this->Missed = std::move(missed);
     const double unit = unitAt(this->Points, point);
     if (this->States[point] == SplatState::Hidden)
     {
@@ -266,7 +269,7 @@ private:
   void cutTowardsRings(std::size_t point, int rings, double unit, TangentCell& cell)
   {
     constexpr double usual = 1.5; // mostly no others are so near
-    this->Nearby.find(point, rings, unit);
+    this->Nearby.find(point, rings, unit, this->Missed);
     this->Nearby.listWithin(std::min(usual * usual, 4.0 * cell.squaredReach()));
     this->cutTowardsNearby(point, unit, cell);
     if (4.0 * cell.squaredReach() > usual * usual)
@@ -380,6 +383,7 @@ private:
   const std::vector<Vector>& Normals;
   const std::vector<SplatState>& States;
   NearbyPoints<TNeighbors> Nearby;
+  std::vector<std::size_t> Missed;
   const TExtents* Extents;
   bool HasPassed = false; // points without a fit, over which the cell may reach
 };

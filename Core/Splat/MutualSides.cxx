@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Splat/MutualSides.h"
 
+#include "Core/Base/Collected.h"
+#include "Core/Base/SortUnique.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -66,6 +69,44 @@ void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
 }
 
 } // namespace
+
+std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfacePoints& points,
+  const std::vector<Vector>& planes, const RawArray<SplatCell>& cells)
+{
+  const auto reachesOver = [&](std::size_t point, std::size_t other)
+  {
+    const SplatCell& cell = cells[point];
+    const TangentFrame frame(planes[point]);
+    const Vector offset =
+      scaled(1.0 / cell.unit, difference(points.positions[other], points.positions[point]));
+    const double a = dot(offset, frame.first);
+    const double b = dot(offset, frame.second);
+    return std::any_of(cell.corners.begin(),
+      cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+      [&](const SplatCell::Corner& corner)
+      { return a * corner.x + b * corner.y > 0.5 * dot(offset, offset); });
+  };
+  constexpr std::size_t grain = 4096;
+  std::vector<MissedPoint> missed =
+    collected<MissedPoint>(execution, { cells.size(), 16 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<MissedPoint>& found)
+      {
+        for (std::size_t other = begin; other < end; ++other)
+        {
+          for (std::size_t side = 0; side < cells[other].count; ++side)
+          {
+            const std::size_t point = cells[other].corners[side].beyond;
+            if (SplatCell::isPoint(point) && !hasSideTowards(cells[point], other) &&
+                reachesOver(point, other))
+            {
+              found.emplace_back(point, other);
+            }
+          }
+        }
+      });
+  keepUnique(missed);
+  return missed;
+}
 
 SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
 {

@@ -38,20 +38,26 @@ public:
   /// Goes to a point, and finds those around it. None is listed yet.
   /// @param rings see IsopointNeighbors
   /// @param unit of length; if one over it is not finite, no point will be listed
-  void find(std::size_t point, int rings, double unit)
+  /// @param missed points that are around in any case
+  void find(std::size_t point, int rings, double unit, const std::vector<std::size_t>& missed = {})
   {
     const Vector& position = this->Points.positions[point];
     const double scale = 1.0 / unit;
     this->All.clear();
     this->Nearby.clear();
+    const auto add = [&](std::size_t other)
+    {
+      const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
+      this->All.push_back({ dot(offset, offset), other });
+    };
     for (const std::size_t other : this->Finder.find(point, rings))
     {
       if (!this->States || (*this->States)[other] != SplatState::Hidden)
       {
-        const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
-        this->All.push_back({ dot(offset, offset), other });
+        add(other);
       }
     }
+    std::for_each(missed.begin(), missed.end(), add);
   }
 
   /// Lists those at other positions within a limit, the square of a distance in the unit.

@@ -4,8 +4,10 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/RawArray.h"
+#include "Core/Base/SortUnique.h"
 #include "Core/Splat/CellCutter.h"
 #include "Core/Splat/HiddenPoints.h"
+#include "Core/Splat/MutualSides.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatFans.h"
 #include "Core/Splat/SplatNormals.h"
@@ -159,6 +161,15 @@ private:
   {
     this->Cells.resize(this->Splats.size());
     this->cut(partOf(this->Run, normalsEnd, cutEnd), this->Chosen.own());
+    this->Missed = missedPoints(this->Run, this->Points, this->Planes, this->Cells);
+    std::vector<std::size_t> missing;
+    for (const MissedPoint& missed : this->Missed)
+    {
+      missing.push_back(missed.first);
+    }
+    keepUnique(missing);
+    this->Chosen.keepOwn(missing);
+    this->cut(partOf(this->Run, cutEnd, cutEnd), missing);
     const std::vector<std::size_t> turned = this->turnPlanes();
     this->cut(partOf(this->Run, cutEnd, cellsEnd), turned);
   }
@@ -174,8 +185,20 @@ private:
           this->Neighbors, this->Points, this->Extents, this->Planes, this->States);
       },
       [this](CellCutter<TNeighbors, TExtents>& cutter, std::size_t point)
-      { this->Cells[point] = cutter.cut(point); });
+      { this->Cells[point] = cutter.cut(point, this->missedBy(point)); });
     this->Chosen.shareCells(this->Cells);
+  }
+
+  std::vector<std::size_t> missedBy(std::size_t point) const
+  {
+    std::vector<std::size_t> others;
+    for (auto next = std::lower_bound(
+           this->Missed.begin(), this->Missed.end(), MissedPoint(point, std::size_t{ 0 }));
+         next != this->Missed.end() && next->first == point; ++next)
+    {
+      others.push_back(next->second);
+    }
+    return others;
   }
 
   /// Turns the planes of cells whose normals do not agree with the points around.
@@ -222,6 +245,7 @@ private:
   std::vector<Vector> Planes; // normals of the planes in which cells are cut
   std::vector<SplatState> States;
   RawArray<SplatCell> Cells;
+  std::vector<MissedPoint> Missed;
 };
 
 /// Normals and shapes of splats for the points of one surface; see docs/algorithm.md, section 12.

@@ -2,6 +2,8 @@
 // Splats: normals, and shapes where there is no crease.
 #include "SplatTesting.h"
 
+#include "Core/Splat/MutualSides.h"
+
 using namespace splattesting;
 
 TEST(Splats, NormalsPointToDecreasingValues)
@@ -361,6 +363,37 @@ TEST(Splats, AreHiddenBesideVisibleOnesAlone)
   }
   EXPECT_GT(hidden, splats.size() / 3);
   EXPECT_LT(hidden, splats.size() * 3 / 4);
+}
+
+// The second cell reaches over the side of the first one, the third one does not.
+TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
+{
+  using isopoint::SplatCell;
+  const std::vector<Vector> positions{ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 } };
+  const std::vector<Vector> planes(3, { 0.0, 0.0, 1.0 });
+  const std::vector<isopoint::LocalFit> noFits;
+  const isopoint::TangentFrame frame(planes[0]);
+  const auto cellOf = [&](double reach, std::size_t right, std::size_t top)
+  {
+    // Counterclockwise from the corner before the side on the right.
+    SplatCell cell{ {}, 0, 1.0, {} };
+    const std::array<std::pair<Vector, std::size_t>, 4> corners{ { { { reach, -reach, 0 }, right },
+      { { reach, reach, 0 }, top }, { { -reach, reach, 0 }, SplatCell::none },
+      { { -reach, -reach, 0 }, SplatCell::none } } };
+    for (const auto& [place, beyond] : corners)
+    {
+      cell.corners[cell.count++] = { isopoint::dot(place, frame.first),
+        isopoint::dot(place, frame.second), beyond };
+    }
+    return cell;
+  };
+  isopoint::RawArray<SplatCell> cells;
+  cells.resize(3);
+  cells[0] = cellOf(1.0, 1, 2);
+  cells[1] = cellOf(1.5, SplatCell::none, SplatCell::none);
+  cells[2] = cellOf(0.9, SplatCell::none, SplatCell::none);
+  EXPECT_EQ(isopoint::missedPoints({}, { positions, positions, noFits }, planes, cells),
+    std::vector<isopoint::MissedPoint>{ isopoint::MissedPoint(1, 0) });
 }
 
 TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
