@@ -16,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -43,9 +42,9 @@ public:
   }
 
   /// @param missed points that the cell is to be cut towards besides those around it
-  SplatCell cut(std::size_t point, std::vector<std::size_t> missed)
+  SplatCell cut(std::size_t point, const std::vector<std::size_t>& missed)
   {
-    this->Missed = std::move(missed);
+    this->Missed = missed;
     const double unit = unitAt(this->Points, point);
     if (this->States[point] == SplatState::Hidden)
     {
