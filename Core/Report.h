@@ -51,7 +51,7 @@ struct Report
   bool contoursBlocks = false;                // whether each block is a cloud of its own
   std::uint64_t unprojectedPoints = 0;        // that no fit moved
   std::uint64_t innerCorners = 0;             // of splats, see SplatCornerCounts
-  std::uint64_t cornersApart = 0;             // of these, those that do not meet
+  std::uint64_t cornersApart = 0;             // of these, the ones that meet no others
   std::uint64_t droppedInGaps = 0;            // edges, or tetrahedra, that were left out
   std::uint64_t samples = 0;                  // all, including skipped ones
   std::uint64_t notFinite = 0;                // samples with such a coordinate or value

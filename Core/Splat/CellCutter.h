@@ -5,7 +5,6 @@
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Splat/Curvature.h"
-#include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/NearbyPoints.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatBorder.h"
@@ -96,11 +95,7 @@ private:
   /// share of its distance.
   static constexpr double creaseTolerance = 0.1;
 
-  /// Whether a fit held that describes a smooth surface.
-  bool isSmooth(std::size_t point) const
-  {
-    return !this->Points.fits.empty() && this->Points.fits[point].isSmooth;
-  }
+  bool isSmooth(std::size_t point) const { return isSmoothAt(this->Points, point); }
 
   /// The spacing of the samples at a point, or 0 if there are no fits.
   double spacingAt(std::size_t point) const

@@ -17,16 +17,8 @@
 namespace isopoint
 {
 
-/// Whether a point has a splat of its own.
-enum class SplatState : char
-{
-  Undecided,
-  Visible,
-  Hidden // a visible point represents it
-};
-
-/// Finds points without a splat of their own: those that are at the same position as a visible
-/// point, or very close to one on the same sheet. Where many samples have the isovalue itself, all
+/// Finds points that need no splat: each is at the position of a visible point, or very close to
+/// one on the same sheet. Where many samples have the isovalue itself, all
 /// edges that end in one of them yield nearly the same point, and what separates these is rounding.
 /// For one thread.
 /// @tparam TNeighbors see NearbyPoints

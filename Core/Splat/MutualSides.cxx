@@ -16,8 +16,7 @@ namespace
 
 bool hasSideTowards(const SplatCell& cell, std::size_t point)
 {
-  return std::any_of(cell.corners.begin(),
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+  return std::any_of(cell.begin(), cell.end(),
     [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
 }
 
@@ -50,7 +49,7 @@ std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_
   const double by = after.y - end.y;
   const double turn = ax * by - ay * bx;
   const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
-  const SplatCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond, end.overlaps };
+  const SplatCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond };
   const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
   if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
   {
@@ -62,9 +61,7 @@ std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_
 void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
 {
   cell.corners[(side + 1) % cell.count] = corner;
-  std::copy(cell.corners.begin() + static_cast<std::ptrdiff_t>(side) + 1,
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
-    cell.corners.begin() + static_cast<std::ptrdiff_t>(side));
+  std::copy(cell.begin() + side + 1, cell.end(), cell.corners.data() + side);
   --cell.count;
 }
 
@@ -81,8 +78,7 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
       scaled(1.0 / cell.unit, difference(points.positions[other], points.positions[point]));
     const double a = dot(offset, frame.first);
     const double b = dot(offset, frame.second);
-    return std::any_of(cell.corners.begin(),
-      cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+    return std::any_of(cell.begin(), cell.end(),
       [&](const SplatCell::Corner& corner)
       { return a * corner.x + b * corner.y > 0.5 * dot(offset, offset); });
   };
@@ -93,9 +89,9 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
       {
         for (std::size_t other = begin; other < end; ++other)
         {
-          for (std::size_t side = 0; side < cells[other].count; ++side)
+          for (const SplatCell::Corner& corner : cells[other])
           {
-            const std::size_t point = cells[other].corners[side].beyond;
+            const std::size_t point = corner.beyond;
             if (SplatCell::isPoint(point) && !hasSideTowards(cells[point], other) &&
                 reachesOver(point, other))
             {

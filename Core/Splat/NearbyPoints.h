@@ -3,7 +3,6 @@
 #define isopoint_NearbyPoints_h
 
 #include "Core/Base/Vector.h"
-#include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/Splat.h"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ struct NearbyPoint
   std::size_t point;
 };
 
-/// The points around each point, nearest first, without those that are hidden. For one thread.
+/// The points around each point, nearest first, without hidden ones. For one thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 template <class TNeighbors>
 class NearbyPoints

@@ -14,12 +14,20 @@
 namespace isopoint
 {
 
+/// Whether a point has a splat of its own.
+enum class SplatState : char
+{
+  Undecided,
+  Visible,
+  Hidden // a visible point represents it
+};
+
 /// Corners of splats between two sides that were cut halfway to other points: the surface goes on
 /// there.
 struct SplatCornerCounts
 {
   std::uint32_t inner = 0;
-  std::uint32_t apart = 0; // of these, those that meet no other splats': a hole may be there
+  std::uint32_t apart = 0; // of these, the ones that meet no others: a hole may be there
 };
 
 /// The part of the surface that is drawn for a point: the triangles between the point and each two
@@ -61,6 +69,12 @@ inline double unitAt(const SurfacePoints& points, std::size_t point)
   const double spacing = points.fits.empty() ? 0.0 : points.fits[point].spacing;
   return spacing > 0.0 && std::isfinite(spacing) ? spacing
                                                  : 0.5 * lengthOf(points.decreasingEdges[point]);
+}
+
+/// Whether a fit held at a point that describes a smooth surface.
+inline bool isSmoothAt(const SurfacePoints& points, std::size_t point)
+{
+  return !points.fits.empty() && points.fits[point].isSmooth;
 }
 
 constexpr int defaultNeighborCount = 12;

@@ -17,7 +17,7 @@ struct SplatCell
 {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// Whether what is beyond a side is a point.
+  /// Whether a side faces another point.
   static bool isPoint(std::size_t beyond) { return beyond != none; }
 
   struct Corner
@@ -27,6 +27,9 @@ struct SplatCell
     std::size_t beyond;    // the side that begins here: the point halfway to which it is, or none
     bool overlaps = false; // whether the cell of that point reaches over the side
   };
+
+  const Corner* begin() const { return this->corners.data(); }
+  const Corner* end() const { return this->corners.data() + this->count; }
 
   std::array<Corner, mostCorners> corners; // counterclockwise
   std::size_t count;                       // 0 for a hidden point

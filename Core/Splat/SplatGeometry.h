@@ -226,8 +226,7 @@ private:
       {
         const SplatCell& cell = this->Cells[point];
         return areTurned[point] ||
-               std::any_of(cell.corners.begin(),
-                 cell.corners.begin() + static_cast<std::ptrdiff_t>(cell.count),
+               std::any_of(cell.begin(), cell.end(),
                  [&](const SplatCell::Corner& corner)
                  { return SplatCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
       });

@@ -5,7 +5,6 @@
 
 namespace isopoint
 {
-
 namespace
 {
 
@@ -40,8 +39,7 @@ std::optional<Vector> turnedNormal(
   const SurfacePoints& points, std::size_t point, const Vector& normal, const SplatCell& cell)
 {
   constexpr double leastCosine = 0.2; // others are of another sheet
-  const bool isSmooth = !points.fits.empty() && points.fits[point].isSmooth;
-  const double mostCosine = isSmooth ? 0.95 : 0.99;
+  const double mostCosine = isSmoothAt(points, point) ? 0.95 : 0.99;
   const std::optional<Vector> umbrella = umbrellaNormal(points.positions, point, cell);
   const double cosine = umbrella ? dot(*umbrella, normal) : 1.0;
   return cosine < leastCosine || cosine > mostCosine

@@ -14,8 +14,8 @@ namespace isopoint
 {
 
 /// The normal of the plane in which the cell of a point is to be cut anew: halfway between its own
-/// and that of the umbrella of triangles between the point and those that bound its cell, if the
-/// two differ. Where these points are is then more certain than the fit. See
+/// and that of the umbrella, the triangles between the point and its neighbors across the cell's
+/// sides, if the two differ. The positions of neighbors are then more certain than the fit. See
 /// docs/algorithm.md, 12.3.
 /// @param normal of length 1
 std::optional<Vector> turnedNormal(

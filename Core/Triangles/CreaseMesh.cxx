@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/CreaseMesh.h"
 
-#include "Core/Base/SortUnique.h"
 #include "Core/Triangles/FacetMesh.h"
 #include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -251,30 +250,14 @@ private:
   /// Takes the triangles beside creases out of the surface, and those around.
   std::vector<Facet> takeFacets()
   {
-    std::vector<bool> isNear(this->Whole.surface.size(), false);
-    for (std::size_t i = 0; i < isNear.size(); ++i)
-    {
-      isNear[i] = this->Whole.isCrease(i);
-    }
-    const auto isAnyNear = [&isNear](const SurfaceTriangle& triangle)
-    {
-      return std::any_of(
-        triangle.begin(), triangle.end(), [&](std::size_t corner) { return isNear[corner]; });
-    };
-    this->Whole.isInner.assign(isNear.size(), false);
-    for (const SurfaceTriangle& triangle : this->Triangles)
-    {
-      if (isAnyNear(triangle))
-      {
-        for (const std::size_t corner : triangle)
-        {
-          this->Whole.isInner[corner] = true;
-        }
-      }
-    }
-    isNear = this->Whole.isInner;
+    const std::vector<char> areNear = areAtCreases(this->Whole.surface.fits, this->Triangles);
+    this->Whole.isInner.assign(areNear.begin(), areNear.end());
     const auto end = std::stable_partition(this->Triangles.begin(), this->Triangles.end(),
-      [&](const SurfaceTriangle& triangle) { return !isAnyNear(triangle); });
+      [&](const SurfaceTriangle& triangle)
+      {
+        return std::none_of(triangle.begin(), triangle.end(),
+          [&](std::size_t corner) { return areNear[corner] != 0; });
+      });
     std::vector<Facet> facets;
     std::transform(end, this->Triangles.end(), std::back_inserter(facets),
       [this](const SurfaceTriangle& triangle) { return this->Whole.facetOf(triangle); });
@@ -335,10 +318,10 @@ private:
 
 } // namespace
 
-std::vector<std::size_t> verticesAtCreases(
+std::vector<char> areAtCreases(
   const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles)
 {
-  std::vector<char> isAtCrease(fits.size(), 0);
+  std::vector<char> areAtCrease(fits.size(), 0);
   for (const SurfaceTriangle& triangle : triangles)
   {
     if (std::any_of(triangle.begin(), triangle.end(),
@@ -346,11 +329,11 @@ std::vector<std::size_t> verticesAtCreases(
     {
       for (const std::size_t corner : triangle)
       {
-        isAtCrease[corner] = 1;
+        areAtCrease[corner] = 1;
       }
     }
   }
-  return markedOf(isAtCrease);
+  return areAtCrease;
 }
 
 void meshCreases(const Execution& execution, Isosurface& surface,

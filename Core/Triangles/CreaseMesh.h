@@ -52,11 +52,11 @@ struct CreaseSurface
   std::vector<bool> isInner;   // whether all triangles around a vertex are facets
 };
 
-/// The vertices of triangles beside which fits have found a crease, ascending.
+/// Marks the vertices of triangles beside which fits have found a crease.
 /// @param fits of all vertices
 /// @throws std::bad_alloc
 /// Complexity: O(triangles)
-std::vector<std::size_t> verticesAtCreases(
+std::vector<char> areAtCreases(
   const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles);
 
 /// Gives a surface the sharp edges and corners that fits with creases have found, in the way of

@@ -37,10 +37,10 @@ class EdgeFlipper
 {
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
-    const std::vector<char>& isKept, std::vector<SurfaceTriangle>& triangles)
+    const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
     : Run(execution)
     , Positions(positions)
-    , IsKept(isKept)
+    , AreKept(areKept)
     , Triangles(triangles)
     , Twins(3 * triangles.size(), noSide)
     , Normals(positions.size())
@@ -163,7 +163,7 @@ private:
     const std::size_t c = this->oppositeOf(side);
     const std::size_t d = this->oppositeOf(twin);
     const bool isOfKept =
-      this->IsKept[a] && this->IsKept[b] && (this->IsKept[c] || this->IsKept[d]);
+      this->AreKept[a] && this->AreKept[b] && (this->AreKept[c] || this->AreKept[d]);
     return c != d && !isOfKept && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
            this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
   }
@@ -307,7 +307,7 @@ private:
 
   const Execution& Run;
   const std::vector<Vector>& Positions;
-  const std::vector<char>& IsKept; // each vertex
+  const std::vector<char>& AreKept; // each vertex
   std::vector<SurfaceTriangle>& Triangles;
   std::vector<Side> Twins; // of sides
   std::vector<Vector> Normals;
@@ -317,9 +317,9 @@ private:
 } // namespace
 
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<char>& isKept, std::vector<SurfaceTriangle>& triangles)
+  const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
 {
-  EdgeFlipper(execution, positions, isKept, triangles).flip();
+  EdgeFlipper(execution, positions, areKept, triangles).flip();
   triangles = ordered(execution, std::move(triangles), positions.size());
 }
 

@@ -16,12 +16,12 @@ namespace isopoint
 /// triangles become more regular: docs/triangles.md, "Regularization". Edges of borders, of more
 /// than two triangles and across creases stay, and so do topology and positions. The result depends
 /// on the order of the triangles.
-/// @param isKept of each vertex: triangles between three of these stay
+/// @param areKept of each vertex: triangles between three of these stay
 /// @param triangles ordered, before and after
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(triangles), mostly
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<char>& isKept, std::vector<SurfaceTriangle>& triangles);
+  const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles);
 
 } // namespace isopoint
 

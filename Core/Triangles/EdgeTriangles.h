@@ -55,11 +55,11 @@ struct MarchedTriangles : EdgeTriangles<TSample>
 
 /// Merges vertices; see mergeVertices(). @throws std::bad_alloc, Aborted
 template <class TSample>
-EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
-  MarchedTriangles<TSample> marched, const std::vector<std::size_t>& kept)
+EdgeTriangles<TSample> withMergedVertices(
+  const Execution& execution, MarchedTriangles<TSample> marched, std::vector<char> areKept)
 {
   MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
-    marched.endCount, std::move(marched.triangles), kept);
+    marched.endCount, std::move(marched.triangles), std::move(areKept));
   EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);

@@ -3,6 +3,7 @@
 #define isopoint_ExtractTriangles_h
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/SortUnique.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractIsosurface.h"
 #include "Core/Extraction/ExtractionContext.h"
@@ -142,18 +143,19 @@ private:
     MarchedTriangles<TSample> marched, FitsAtEdges& kept)
   {
     constexpr double fitsEnd = 0.8; // share of the progress
-    std::vector<std::size_t> vertices;
+    std::vector<char> areKept;
     if (this->hasCreases())
     {
       std::vector<LocalFit> fits =
         this->fitTo(partOf(execution, 0.0, fitsEnd), context, marched, {});
-      vertices = verticesAtCreases(fits, marched.triangles);
-      for (const std::size_t vertex : vertices)
+      areKept = areAtCreases(fits, marched.triangles);
+      for (const std::size_t vertex : markedOf(areKept))
       {
         kept.emplace(marched.edges[vertex], std::move(fits[vertex]));
       }
     }
-    return withMergedVertices(partOf(execution, fitsEnd, 1.0), std::move(marched), vertices);
+    return withMergedVertices(
+      partOf(execution, fitsEnd, 1.0), std::move(marched), std::move(areKept));
   }
 
   /// @param known fits that need not be found again
@@ -235,15 +237,9 @@ private:
     std::vector<Vector> positions = mesh.positions;
     forEachIndex(this->Run, fits.size(),
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
-    std::vector<char> isKept(positions.size(), 0);
-    if (this->hasCreases())
-    {
-      for (const std::size_t vertex : verticesAtCreases(fits, mesh.triangles))
-      {
-        isKept[vertex] = 1;
-      }
-    }
-    flipEdges(this->Run, positions, isKept, mesh.triangles);
+    const std::vector<char> areKept = this->hasCreases() ? areAtCreases(fits, mesh.triangles)
+                                                         : std::vector<char>(positions.size(), 0);
+    flipEdges(this->Run, positions, areKept, mesh.triangles);
   }
 
   const Execution& Run;

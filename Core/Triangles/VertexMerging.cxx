@@ -20,21 +20,17 @@ class VertexMerger
 {
 public:
   VertexMerger(const Execution& execution, const std::vector<Vector>& crossings,
-    std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept)
+    std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
     : Run(execution)
     , Crossings(crossings)
     , Vertices{ crossings, std::vector<double>(crossings.size(), 1.0) }
-    , IsKept(crossings.size(), 0)
+    , AreKept(std::move(areKept))
   {
-    const auto keep = [this](const std::vector<std::size_t>& vertices)
+    this->AreKept.resize(crossings.size(), 0);
+    for (const std::size_t vertex : branchedVertices(execution, triangles, crossings.size()))
     {
-      for (const std::size_t vertex : vertices)
-      {
-        this->IsKept[vertex] = 1;
-      }
-    };
-    keep(kept);
-    keep(branchedVertices(execution, triangles, crossings.size()));
+      this->AreKept[vertex] = 1;
+    }
     this->Result.triangles = std::move(triangles);
     this->Result.members.resize(crossings.size());
     std::iota(this->Result.members.begin(), this->Result.members.end(), std::size_t{ 0 });
@@ -48,7 +44,7 @@ public:
     this->Run.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Run, this->Vertices.positions, this->IsKept, this->Result.triangles);
+      flipEdges(this->Run, this->Vertices.positions, this->AreKept, this->Result.triangles);
       this->contract(this->pairsOfShortEdges(), this->count());
     }
     this->Result.positions = std::move(this->Vertices.positions);
@@ -66,7 +62,7 @@ private:
   {
     for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
     {
-      if (this->IsKept[vertex])
+      if (this->AreKept[vertex])
       {
         groups[vertex] = groupCount++; // alone
       }
@@ -82,10 +78,10 @@ private:
         roots.push_back(vertex);
       }
     }
-    std::vector<char> isKept(roots.size());
-    std::transform(roots.begin(), roots.end(), isKept.begin(),
-      [this](std::size_t root) { return this->IsKept[root]; });
-    this->IsKept = std::move(isKept);
+    std::vector<char> areKept(roots.size());
+    std::transform(roots.begin(), roots.end(), areKept.begin(),
+      [this](std::size_t root) { return this->AreKept[root]; });
+    this->AreKept = std::move(areKept);
     std::vector<SurfaceTriangle> triangles = this->trianglesOf(contraction, roots);
     this->keepVertices(contraction, roots);
     this->Result.triangles = std::move(triangles);
@@ -164,17 +160,18 @@ private:
   const Execution& Run;
   const std::vector<Vector>& Crossings;
   WeightedVertices Vertices;
-  std::vector<char> IsKept; // each of these
-  MergedTriangles Result;   // of these vertices
+  std::vector<char> AreKept; // each of these
+  MergedTriangles Result;    // of these vertices
 };
 
 } // namespace
 
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept)
+  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
 {
-  return VertexMerger(execution, crossings, std::move(triangles), kept).merge(nearerEnds, endCount);
+  return VertexMerger(execution, crossings, std::move(triangles), std::move(areKept))
+    .merge(nearerEnds, endCount);
 }
 
 } // namespace isopoint

@@ -31,12 +31,13 @@ struct MergedTriangles
 /// @param nearerEnds the number of the sample that is nearest to each crossing on its edge
 /// @param endCount above all of these numbers
 /// @param triangles ordered
-/// @param kept vertices that stay as they are, and so do triangles between three of them
+/// @param areKept whether each vertex stays as it is (so do triangles between three of these), or
+/// empty for none
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n log n)
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, const std::vector<std::size_t>& kept = {});
+  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept = {});
 
 } // namespace isopoint
 

@@ -74,7 +74,7 @@ isopoints.UpdatePipeline()
         # Splats are too coarse for this field, as a message says.
         others = [line for line in said.splitlines() if "Splats do not meet" not in line]
         check(not any(word in line for line in others for word in ("WARN", "Warning")),
-              "no message of what is no problem")
+              "no message without a problem")
 
 
 def help_is_at_labels(plugin, paraview):
