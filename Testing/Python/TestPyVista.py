@@ -62,7 +62,9 @@ class Accessor(unittest.TestCase):
         octagons = pv.PolyData(isopoints.points)
         octagons.point_data["Normals"] = isopoints.point_data["Normals"]
         octagons.point_data["Radius"] = isopoints.point_data["Radius"]
-        self.assertEqual(octagons.scattered.splats().n_cells, 6 * isopoints.n_points)
+        visible = np.count_nonzero(octagons["Radius"])
+        self.assertLess(visible, isopoints.n_points)  # some are hidden behind close ones
+        self.assertEqual(octagons.scattered.splats().n_cells, 6 * visible)
         with self.assertRaisesRegex(ValueError, "no normals"):
             cloud().scattered.splats()
 
