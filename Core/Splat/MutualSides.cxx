@@ -14,10 +14,17 @@ namespace isopoint
 namespace
 {
 
+/// The side of a cell towards a point; the number of its sides if there is none.
+std::size_t sideTowards(const SplatCell& cell, std::size_t point)
+{
+  const SplatCell::Corner* const side = std::find_if(cell.begin(), cell.end(),
+    [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
+  return static_cast<std::size_t>(side - cell.begin());
+}
+
 bool hasSideTowards(const SplatCell& cell, std::size_t point)
 {
-  return std::any_of(cell.begin(), cell.end(),
-    [point](const SplatCell::Corner& corner) { return corner.beyond == point; });
+  return sideTowards(cell, point) < cell.count;
 }
 
 double squaredDistance(const SplatCell::Corner& corner)
@@ -34,9 +41,8 @@ double squaredLength(const SplatCell& cell, std::size_t side)
   return x * x + y * y;
 }
 
-/// The corner that takes the place of a side: where the sides before and after it meet; nothing if
-/// that is far away.
-std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_t side)
+/// Where the sides before and after a side meet; nothing if that is far away.
+std::optional<SplatCell::Corner> meetingOf(const SplatCell& cell, std::size_t side)
 {
   constexpr double mostReach = 1.1; // of the distance of the side's farther end
   const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
@@ -54,6 +60,35 @@ std::optional<SplatCell::Corner> replacementOf(const SplatCell& cell, std::size_
   if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
   {
     return meeting;
+  }
+  return std::nullopt;
+}
+
+/// Whether a cell with as many corners as there can be has a corner between its sides towards two
+/// points: a side between these may have been dropped.
+bool mayHaveDropped(const SplatCell& cell, std::size_t before, std::size_t after)
+{
+  const std::size_t side = sideTowards(cell, before);
+  return cell.count == mostCorners && side < cell.count &&
+         cell.corners[(side + 1) % cell.count].beyond == after;
+}
+
+/// The corner that takes the place of a side; nothing if it stays.
+/// @param other the cell of the point beyond the side
+std::optional<SplatCell::Corner> replacementOf(
+  const SplatCell& cell, std::size_t side, const SplatCell& other)
+{
+  if (const std::optional<SplatCell::Corner> meeting = meetingOf(cell, side))
+  {
+    return meeting;
+  }
+  const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
+  const SplatCell::Corner& begin = cell.corners[side];
+  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  if (SplatCell::isPoint(before.beyond) && SplatCell::isPoint(end.beyond) &&
+      mayHaveDropped(other, end.beyond, before.beyond))
+  {
+    return SplatCell::Corner{ 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
   }
   return std::nullopt;
 }
@@ -124,7 +159,8 @@ SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
       const double length = squaredLength(cell, side);
       if (length < least && !isMutual(side))
       {
-        if (const std::optional<SplatCell::Corner> corner = replacementOf(cell, side))
+        if (const std::optional<SplatCell::Corner> corner =
+              replacementOf(cell, side, cells[cell.corners[side].beyond]))
         {
           least = length;
           shortest = side;

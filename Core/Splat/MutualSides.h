@@ -26,9 +26,8 @@ using MissedPoint = std::pair<std::size_t, std::size_t>;
 std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfacePoints& points,
   const std::vector<Vector>& planes, const RawArray<SplatCell>& cells);
 
-/// A point's cell with its sides towards points whose cells have none towards it replaced by the
-/// corner where the sides before and after meet or, if that is far away, marked as overlapping. See
-/// docs/algorithm.md, section 12.6. O(1)
+/// A point's cell with its sides towards points whose cells have none towards it replaced by a
+/// corner or, if none is close, marked as overlapping. See docs/algorithm.md, section 12.6. O(1)
 SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point);
 
 } // namespace isopoint

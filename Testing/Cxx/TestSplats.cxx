@@ -229,7 +229,7 @@ TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
   }
   EXPECT_NEAR(alone, 1.0, 1e-6);
   EXPECT_GT(areaOfMiddle(), alone - 1e-6);
-  EXPECT_LT(areaOfMiddle(), 1.4 * 1.4 * alone + 1e-6); // where cells overlap
+  EXPECT_LT(areaOfMiddle(), 1.41 * 1.41 * alone + 1e-6); // where cells overlap
 }
 
 // In a lattice the planes halfway to diagonal neighbors pass through the corners that the others
@@ -394,6 +394,42 @@ TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
   cells[2] = cellOf(0.9, SplatCell::none, SplatCell::none);
   EXPECT_EQ(isopoint::missedPoints({}, { positions, positions, noFits }, planes, cells),
     std::vector<isopoint::MissedPoint>{ isopoint::MissedPoint(1, 0) });
+}
+
+// The sides before and after it are parallel: they do not meet.
+TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
+{
+  using isopoint::SplatCell;
+  for (const std::size_t cornersOfOther : { 7, 8 })
+  {
+    isopoint::RawArray<SplatCell> cells;
+    cells.resize(4);
+    std::fill_n(cells.data(), cells.size(), SplatCell{});
+    SplatCell& cell = cells[0];
+    cell.corners = { { { -1, -1, SplatCell::none }, { 1, -1, 2 }, { 1, 1, 1 }, { -1, 1, 3 } } };
+    cell.count = 4;
+    SplatCell& other = cells[1];
+    other.count = cornersOfOther;
+    for (std::size_t i = 0; i < other.count; ++i)
+    {
+      other.corners[i].beyond = i == 4 ? 3 : i == 5 ? 2 : SplatCell::none;
+    }
+    for (const std::size_t beside : { 2, 3 })
+    {
+      cells[beside].corners[0].beyond = 0;
+      cells[beside].count = 1;
+    }
+    const SplatCell mutual = isopoint::withMutualSides(cells, 0);
+    const bool isDropped = cornersOfOther == isopoint::mostCorners;
+    EXPECT_EQ(mutual.count, isDropped ? 3 : 4);
+    EXPECT_EQ(std::count_if(mutual.begin(), mutual.end(),
+                [](const SplatCell::Corner& corner) { return corner.overlaps; }),
+      isDropped ? 0 : 1);
+    EXPECT_EQ(std::count_if(mutual.begin(), mutual.end(),
+                [](const SplatCell::Corner& corner)
+                { return corner.x == 0.0 && corner.y == 1.0 && corner.beyond == 3; }),
+      isDropped ? 1 : 0);
+  }
 }
 
 TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
