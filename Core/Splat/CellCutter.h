@@ -87,10 +87,6 @@ private:
   /// How far on either side of the surface samples are asked whether it passes between them.
   static constexpr double sideShare = 0.6;
 
-  /// Nearer points without a smooth fit, in spacings, do not bound a smooth one: their normals are
-  /// estimates, and their splats may not cover what is beyond.
-  static constexpr double unfittedReach = 0.5;
-
   /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
   /// share of its distance.
   static constexpr double creaseTolerance = 0.1;
@@ -131,7 +127,6 @@ private:
     {
       cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
     }
-    this->HasPassed = false;
     this->cutTowardsRings(point, 2, unit, cell);
     if (cell.squaredReach() > largeReach * largeReach)
     {
@@ -143,7 +138,7 @@ private:
       [&](const auto& sample, double width)
       { return this->Neighbors.isAcrossGap(point, sample, width); },
       cell);
-    if (cell.isOpen() || this->HasPassed)
+    if (cell.isOpen())
     {
       cell.limitTo(openReach);
     }
@@ -286,7 +281,7 @@ private:
   }
 
   /// Cuts a cell towards another point: halfway, but not on this side of a crease.
-  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell)
+  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell) const
   {
     const Vector offset = scaled(
       1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
@@ -295,7 +290,6 @@ private:
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
     if (!(cell.reach(a, b) > 0.5 * along) ||
         this->isBeyondCrease(point, other.point, offset, unit) ||
-        this->passesUnfitted(point, other) ||
         this->isCutAtCrease(point, other.point, offset, unit, cell))
     {
       return;
@@ -362,16 +356,6 @@ private:
     return dot(normal, otherNormal) > 0.0 && dot(offset, normal) * dot(offset, otherNormal) <= 0.0;
   }
 
-  /// Whether a smooth fit held at a point but not at another very close to it, which is kept in
-  /// mind.
-  bool passesUnfitted(std::size_t point, const NearbyPoint& other)
-  {
-    const bool passes = other.squaredDistance < unfittedReach * unfittedReach &&
-                        this->isSmooth(point) && !this->isSmooth(other.point);
-    this->HasPassed = this->HasPassed || passes;
-    return passes;
-  }
-
   const TNeighbors& Neighbors;
   const SurfacePoints& Points;
   const std::vector<Vector>& Normals;
@@ -379,7 +363,6 @@ private:
   NearbyPoints<TNeighbors> Nearby;
   std::vector<std::size_t> Missed;
   const TExtents* Extents;
-  bool HasPassed = false; // points without a fit, over which the cell may reach
 };
 
 } // namespace isopoint

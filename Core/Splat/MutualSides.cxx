@@ -73,6 +73,59 @@ bool mayHaveDropped(const SplatCell& cell, std::size_t before, std::size_t after
          cell.corners[(side + 1) % cell.count].beyond == after;
 }
 
+void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
+{
+  cell.corners[(side + 1) % cell.count] = corner;
+  std::copy(cell.begin() + side + 1, cell.end(), cell.corners.data() + side);
+  --cell.count;
+}
+
+/// The middle of a side, as the corner that takes its place.
+SplatCell::Corner middleOf(const SplatCell& cell, std::size_t side)
+{
+  const SplatCell::Corner& begin = cell.corners[side];
+  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  return { 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
+}
+
+/// Whether a cell's side for a point is between those for two other points.
+bool isBetween(const SplatCell& cell, std::size_t before, std::size_t point, std::size_t after)
+{
+  const std::size_t side = sideTowards(cell, point);
+  return side < cell.count && cell.corners[(side + cell.count - 1) % cell.count].beyond == before &&
+         cell.corners[(side + 1) % cell.count].beyond == after;
+}
+
+/// Whether the cells before and after a side share one as well, which would cross it: rounding and
+/// curvature decide which of the four cells at a common corner meet. All four find the same.
+bool isCrossed(const RawArray<SplatCell>& cells, std::size_t point, std::size_t side)
+{
+  const SplatCell& cell = cells[point];
+  const std::size_t beyond = cell.corners[side].beyond;
+  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
+  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  return SplatCell::isPoint(beyond) && SplatCell::isPoint(before) && SplatCell::isPoint(after) &&
+         isBetween(cells[beyond], after, point, before) &&
+         isBetween(cells[before], beyond, after, point) &&
+         isBetween(cells[after], point, before, beyond);
+}
+
+/// A point's cell without the sides that are crossed.
+SplatCell withoutCrossedSides(const RawArray<SplatCell>& cells, std::size_t point)
+{
+  SplatCell cell = cells[point];
+  for (std::size_t side = cell.count; side-- > 0;)
+  {
+    const std::size_t beyond = cells[point].corners[side].beyond;
+    if (cell.count > 3 && isCrossed(cells, point, side))
+    {
+      const std::size_t left = sideTowards(cell, beyond);
+      replace(left, middleOf(cell, left), cell);
+    }
+  }
+  return cell;
+}
+
 /// The corner that takes the place of a side; nothing if it stays.
 /// @param other the cell of the point beyond the side
 std::optional<SplatCell::Corner> replacementOf(
@@ -82,22 +135,14 @@ std::optional<SplatCell::Corner> replacementOf(
   {
     return meeting;
   }
-  const SplatCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
-  const SplatCell::Corner& begin = cell.corners[side];
-  const SplatCell::Corner& end = cell.corners[(side + 1) % cell.count];
-  if (SplatCell::isPoint(before.beyond) && SplatCell::isPoint(end.beyond) &&
-      mayHaveDropped(other, end.beyond, before.beyond))
+  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
+  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  if (SplatCell::isPoint(before) && SplatCell::isPoint(after) &&
+      mayHaveDropped(other, after, before))
   {
-    return SplatCell::Corner{ 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
+    return middleOf(cell, side);
   }
   return std::nullopt;
-}
-
-void replace(std::size_t side, const SplatCell::Corner& corner, SplatCell& cell)
-{
-  cell.corners[(side + 1) % cell.count] = corner;
-  std::copy(cell.begin() + side + 1, cell.end(), cell.corners.data() + side);
-  --cell.count;
 }
 
 } // namespace
@@ -141,7 +186,7 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
 
 SplatCell withMutualSides(const RawArray<SplatCell>& cells, std::size_t point)
 {
-  SplatCell cell = cells[point];
+  SplatCell cell = withoutCrossedSides(cells, point);
   const auto isMutual = [&](std::size_t side)
   {
     const std::size_t beyond = cell.corners[side].beyond;

@@ -157,9 +157,9 @@ private:
   double overlapAt(const CornerOf& corner) const
   {
     constexpr double least = 0.1;
-    constexpr double most = 0.41;
+    constexpr double most = 0.45;
     constexpr double turnShare = 8.0;
-    constexpr double sideShare = 0.6;
+    constexpr double sideShare = 0.3;
     double leastCosine = 1.0;
     double longest = 0.0; // of sides that overlap
     for (const bool isOnward : { true, false })

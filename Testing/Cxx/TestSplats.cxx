@@ -176,7 +176,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
     }
     for (const Splat& splat : splatsOf(points))
     {
-      EXPECT_LT(splat.radius, 1.8);
+      EXPECT_LT(splat.radius, 1.28 * 1.45); // corners that meet none are moved outward
     }
   }
 }
@@ -206,30 +206,37 @@ TEST(Splats, EndSoonBeyondTheSamples)
   EXPECT_LT(farthest, 1.5);
 }
 
-// The normal of a point without a fit may be wrong: its splat may not cover what lies beyond it, so
-// the splat of a fitted neighbor does.
-TEST(Splats, OfPointsBesideUnfittedOnesAreNoSmaller)
+// The splats of a plane cover it once, wherever fits held.
+TEST(Splats, OfPointsWithAndWithoutSmoothFitsDoNotOverlap)
 {
   const Vector gradient{ 0.0, 0.0, -1.0 };
+  clouds::Random random(3);
   Points points;
-  for (int i = -5; i <= 5; ++i)
+  constexpr int half = 12;
+  constexpr double distance = 0.4;
+  for (int i = -half; i <= half; ++i)
   {
-    for (int k = -5; k <= 5; ++k)
+    for (int k = -half; k <= half; ++k)
     {
-      addFitted(points, { 1.0 * i, 1.0 * k, 0.0 }, isopoint::FitOrder::Quadratic, gradient);
+      const double x = distance * (i + 0.4 * random());
+      const double y = distance * (k + 0.4 * random());
+      addFitted(points, { x, y, 0.0 },
+        random() < 0.5 ? std::optional(isopoint::FitOrder::Quadratic) : std::nullopt, gradient);
     }
   }
-  const std::size_t middle = points.positions.size() / 2;
-  const auto areaOfMiddle = [&]() { return areaOf(splatsOf(points)[middle]); };
-  const double alone = areaOfMiddle();
-  for (const Vector& beside : { Vector{ 0.02, 0.01, 0.0 }, Vector{ -0.3, 0.2, 0.0 },
-         Vector{ -0.1, -0.3, 0.0 }, Vector{ 0.2, 0.3, 0.0 } })
+  const std::vector<Splat> splats = splatsOf(points);
+  double area = 0.0;
+  double inner = 0.0; // of Voronoi cells, which are one of the lattice's on average
+  for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    addFitted(points, beside, std::nullopt, { -1.0, 0.0, -0.2 });
+    const Vector& place = points.positions[i];
+    if (std::max(std::abs(place[0]), std::abs(place[1])) < distance * (half - 2))
+    {
+      area += areaOf(splats[i]);
+      inner += distance * distance;
+    }
   }
-  EXPECT_NEAR(alone, 1.0, 1e-6);
-  EXPECT_GT(areaOfMiddle(), alone - 1e-6);
-  EXPECT_LT(areaOfMiddle(), 1.41 * 1.41 * alone + 1e-6); // where cells overlap
+  EXPECT_NEAR(area / inner, 1.0, 0.03);
 }
 
 // In a lattice the planes halfway to diagonal neighbors pass through the corners that the others
@@ -429,6 +436,30 @@ TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
                 [](const SplatCell::Corner& corner)
                 { return corner.x == 0.0 && corner.y == 1.0 && corner.beyond == 3; }),
       isDropped ? 1 : 0);
+  }
+}
+
+// Each of four cells around a corner has a short side for the one across it.
+TEST(Splats, SidesThatCrossBecomeOneCorner)
+{
+  using isopoint::SplatCell;
+  isopoint::RawArray<SplatCell> cells;
+  cells.resize(4);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    // Counterclockwise around the corner: the cells i + 1, i + 2 and i + 3.
+    cells[i] = {};
+    cells[i].corners = { { { 0.0, 0.0, (i + 1) % 4 }, { 2.0, 1.9, (i + 2) % 4 },
+      { 1.9, 2.0, (i + 3) % 4 }, { 0.0, 1.0, SplatCell::none } } };
+    cells[i].count = 4;
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const SplatCell cell = isopoint::withMutualSides(cells, i);
+    ASSERT_EQ(cell.count, 3);
+    EXPECT_EQ(cell.corners[1].beyond, (i + 3) % 4);
+    EXPECT_EQ(cell.corners[1].x, 1.95);
+    EXPECT_FALSE(cell.corners[0].overlaps || cell.corners[1].overlaps);
   }
 }
 

@@ -2,7 +2,8 @@
 """Translucent splats show the layers that a translucent mesh shows."""
 
 import numpy as np
-from scenes import Scene, actor_of, check, color_by, psnr, torus_mesh, torus_splats
+from scatteredisopoints import vtkScatteredIsopointFilter
+from scenes import Scene, actor_of, check, color_by, polydata, psnr, torus_mesh, torus_splats
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
@@ -83,6 +84,26 @@ def differing(picture, expected):
     return np.mean(np.abs(picture - expected).max(axis=-1)[body] > 8)
 
 
+def layered(values, isovalue):
+    """The share of a sphere's pixels that show more than its two layers, of samples with noise."""
+    positions = np.random.default_rng(1).uniform(-1.2, 1.2, (200_000, 3))
+    samples = polydata(positions, f=values(np.linalg.norm(positions, axis=1)))
+    samples.GetPointData().SetActiveScalars("f")
+    contour = vtkScatteredIsopointFilter()
+    contour.SetInputData(samples)
+    contour.SetValue(0, isovalue)
+    contour.Update()
+    actor = actor_of(contour.GetOutput())
+    actor.GetProperty().SetOpacity(0.5)
+    actor.GetProperty().LightingOff()
+    scene = Scene(actor)
+    peel(scene)
+    scene.renderer.SetBackground(0, 0, 0)
+    low_view(scene)
+    image = scene.image()[..., 0]
+    return np.mean(image[image > 0] > 200)  # two layers are 191
+
+
 def main():
     splats, mesh = torus_splats(), torus_mesh()
     failed = []
@@ -101,6 +122,14 @@ def main():
             share = differing(drawn, expected)
             print(f"    {100 * share:.2f} % of the pixels differ, at most 0.5 %", flush=True)
             check(share <= 0.005, "splats overlap")
+    noise = 5e-4 * np.random.default_rng(2).normal(size=200_000)
+    for name, values, isovalue in (
+        ("8 bits", lambda r: np.round(121.5 * r), 121.5),
+        ("noise", lambda r: r + noise, 1.0),
+    ):
+        share = layered(values, isovalue)
+        print(f"{name}: {100 * share:.2f} % show more than two layers, at most 2 %", flush=True)
+        check(0 < share <= 0.02, "splats of noisy samples overlap")
     check(not failed, ", ".join(failed))
 
 
