@@ -192,10 +192,10 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
       " to None. Samples along lines, such as drill holes, do not determine a surface." };
 }
 
-/// Where more than a quarter of the corners stay apart, pictures have holes.
+/// Where more than a tenth of the corners stay apart, pictures have holes.
 Message describeCornersApart(const Report& report)
 {
-  constexpr std::uint64_t leastShare = 4;
+  constexpr std::uint64_t leastShare = 10;
   constexpr std::uint64_t leastCorners = 1000; // of fewer the share says little
   if (report.innerCorners < leastCorners ||
       leastShare * report.cornersApart <= report.innerCorners || areMostUnprojected(report))

@@ -157,7 +157,7 @@ private:
   double overlapAt(const CornerOf& corner) const
   {
     constexpr double least = 0.1;
-    constexpr double most = 0.45;
+    constexpr double most = 0.43;
     constexpr double turnShare = 8.0;
     constexpr double sideShare = 0.3;
     double leastCosine = 1.0;
