@@ -1,5 +1,5 @@
-# SCATTEREDISOPOINTS_COMPILE_OPTIONS, for all sources, and SCATTEREDISOPOINTS_CGAL_OPTIONS, for those
-# that include CGAL: of the options below those that the compiler knows.
+# The options below that the compiler supports: SCATTEREDISOPOINTS_COMPILE_OPTIONS for all sources, and
+# SCATTEREDISOPOINTS_CGAL_OPTIONS for those that include CGAL.
 include(CheckCXXCompilerFlag)
 
 # known_options(variable option...)
@@ -16,8 +16,8 @@ function (known_options variable)
 endfunction ()
 
 # Results are defined to the last bit: no compiler may fuse a multiplication into an addition.
-# Nothing reads errno after a function of numbers: without that, square roots are taken side by side.
-# CGAL's predicates change the rounding mode; its own CMake files say so to GCC alone.
+# Nothing reads errno after math functions: without it, square roots are vectorized.
+# CGAL's predicates change the rounding mode; its own CMake files tell only GCC.
 if (MSVC)
   set(arithmetic /fp:strict /fp:except- /bigobj)
   set(warnings /W3)

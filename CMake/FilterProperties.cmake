@@ -1,5 +1,5 @@
-# The properties of both filters as XML, each from what Plugin/ScatteredFilter.xml.in says of it: for
-# ParaView's plugin and for the filters of the Python package. In ${FILTER_PROPERTIES_DIR}/NAME.xml.
+# Writes the properties of both filters as XML, from Plugin/ScatteredFilter.xml.in, for ParaView's plugin
+# and the Python package: ${FILTER_PROPERTIES_DIR}/NAME.xml.
 set(FILTER_PROPERTIES_DIR "${CMAKE_BINARY_DIR}/properties")
 function (configure_filter filter name label kind other_kind)
   file(READ "${PROJECT_SOURCE_DIR}/Plugin/ScatteredFilter.xml.in" text)
@@ -10,7 +10,7 @@ function (configure_filter filter name label kind other_kind)
   string(REGEX REPLACE "${begin}[^${end}]*${end}\n?" "" text "${text}")
   string(REGEX REPLACE "</?${kind}>\n?" "" text "${text}")
   string(CONFIGURE "${text}" text @ONLY)
-  # A copy of the same content keeps its time, so that nothing is built again.
+  # Copying unchanged content keeps the time stamp, so that nothing is rebuilt.
   file(WRITE "${FILTER_PROPERTIES_DIR}/${name}.xml.new" "${text}")
   configure_file("${FILTER_PROPERTIES_DIR}/${name}.xml.new" "${FILTER_PROPERTIES_DIR}/${name}.xml" COPYONLY)
 endfunction ()

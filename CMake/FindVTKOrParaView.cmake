@@ -1,8 +1,8 @@
-# ParaView, with the VTK that it brings, or VTK alone.
+# Finds ParaView with its VTK, or VTK alone.
 if (SCATTEREDISOPOINTS_USE_PARAVIEW)
   find_package(ParaView REQUIRED)
 else ()
-  # Named, since otherwise all that VTK was built with is asked for, Qt included.
+  # Without components, everything that VTK was built with is required, including Qt.
   set(vtk_components
     CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc ParallelCore
     RenderingCore RenderingOpenGL2 vtksys)

@@ -1,5 +1,5 @@
 # Packages of the installed tree, by `cmake --build --preset package --target package`: a relocatable
-# archive, and on Debian a .deb whose plugin is listed and loaded by ParaView as its own ones are.
+# archive, and on Debian a .deb whose plugin ParaView lists and loads like its own.
 set(CPACK_PACKAGE_NAME "scattered-isopoints")
 set(CPACK_PACKAGE_VENDOR "Scattered Isopoints developers")
 set(CPACK_PACKAGE_CONTACT "Scattered Isopoints developers <scattered-isopoints@localhost>")
@@ -19,10 +19,10 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
   "A ParaView plugin, VTK modules and a Python package that extract isosurfaces, as points with
  normals and radii or as triangles, from samples without a mesh.")
-# Libraries add what they are linked with, among it the version of ParaView.
+# Adds the libraries linked, including the version of ParaView.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-# python3-minimal has the py3clean that CMake/prerm calls.
+# For py3clean in CMake/prerm.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-paraview, python3-numpy, python3-minimal")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev")
 

@@ -1,6 +1,6 @@
-# The Python package `scatteredisopoints`: its sources on the C library and, with VTK, the wrapped
-# modules. It can be imported from the build folder; installed under /usr/local, it is on the search
-# path of Debian's python3, whose folder for packages has a name of its own.
+# The Python package `scatteredisopoints`: sources on the C library and, with VTK, the wrapped modules. It
+# can be imported from the build folder. Under /usr/local, it is installed in the search path of Debian's
+# python3.
 execute_process(
   COMMAND "${Python3_EXECUTABLE}" -c
     "import os, sysconfig; print(os.path.basename(sysconfig.get_path('platlib')))"
@@ -11,7 +11,7 @@ set(SCATTEREDISOPOINTS_PYTHON_DIR
   "Where the Python package is installed, relative to the prefix or absolute")
 set(package "${SCATTEREDISOPOINTS_PYTHON_DIR}/scatteredisopoints")
 
-# path_from_package(VARIABLE folder): of an installed folder, so that the tree can be moved.
+# path_from_package(VARIABLE folder): relative path to an installed folder, so that the tree can be moved.
 macro (path_from_package variable folder)
   file(RELATIVE_PATH ${variable} "/prefix/${package}" "/prefix/${folder}")
   string(REGEX REPLACE "/$" "" ${variable} "${${variable}}")

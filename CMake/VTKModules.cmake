@@ -1,6 +1,6 @@
-# All that needs VTK or ParaView, except the Python package: the modules, the ray tracer and the plugin.
+# Everything that needs VTK or ParaView, except the Python package: modules, ray tracer and plugin.
 
-# Rays are traced with Embree 4 or 3, where one of them is available.
+# Ray tracing needs Embree 4 or 3.
 find_package(embree 4 QUIET)
 if (NOT embree_FOUND)
   find_package(embree 3 QUIET)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/EndSamples.h"
 
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_EndSamples_h
-#define isopoint_EndSamples_h
+#pragma once
 
 #include "Core/ExtractionRequest.h"
 
@@ -10,19 +9,16 @@
 namespace isopoint
 {
 
-/// The ids of the samples at the ends of edges, and of samples coincident with them, in ascending
-/// order.
+/// The sorted ids of the samples at the ends of edges, and of samples coincident with them.
 std::vector<std::uint64_t> endSamples(const std::vector<ExtractedIsosurface>& surfaces);
 
-/// Replaces each id by its position among the sorted ids that endSamples() returns.
+/// Replaces each id by its index in the result of endSamples().
 void renumberEndSamples(
   std::vector<ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids);
 
-/// For each rank those of some sorted ids that its samples have, counted from its first one.
-/// @param counts the number of samples of each rank
+/// Distributes sorted ids to the ranks that have their samples; ids count from a rank's first one.
+/// @param counts number of samples by rank
 std::vector<std::vector<std::uint64_t>> idsByRank(
   const std::vector<std::uint64_t>& ids, const std::vector<std::uint64_t>& counts);
 
 } // namespace isopoint
-
-#endif

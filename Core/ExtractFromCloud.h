@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ExtractFromCloud_h
-#define isopoint_ExtractFromCloud_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Extraction/ExtractIsosurface.h"
@@ -12,12 +11,13 @@
 #include "Core/Neighbors/SampleExtent.h"
 #include "Core/Ranks/SharedRanks.h"
 #include "Core/Ranks/SurfaceHalo.h"
-#include "Core/Splat/SplatFans.h"
 #include "Core/Splat/SplatGeometry.h"
+#include "Core/Splat/SplatPolygons.h"
 #include "Core/Tree/SampleTree.h"
 #include "Core/Triangles/ExtractTriangles.h"
 #include "Core/Triangles/SurfacePart.h"
 #include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/VertexNormals.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,8 +27,16 @@
 namespace isopoint
 {
 
-/// The isopoints of the one rank, which has all: what SurfaceHalo is for several ranks, whose
-/// functions are described there.
+/// The isopoints that an extraction works on, for one rank that has all. SurfaceHalo implements the
+/// same functions, and those of AllPoints, for several ranks:
+/// - gather(rings, isShared): fetches rings of other ranks' isopoints, none or at least 3.
+///   isShared: whether share() sends all results to ranks with copies, or only normals;
+/// - surface(): all isopoints, each once, without coincident samples;
+/// - numbers(): their order among points at one position; empty for that of surface();
+/// - inner(): per isopoint, whether neighbors are needed around it; null for all;
+/// - home(), elsewhere(): indices of this rank's isopoints, and of all others;
+/// - takeHome(): moves out the surface of home();
+/// - share(ofAll): sets the entries of other ranks' isopoints, one entry per isopoint of surface().
 template <class TSample>
 class WholeSurface : public AllPoints
 {
@@ -43,7 +51,7 @@ public:
   {
   }
 
-  /// Close points come after each other, so that what lies around them is in the caches.
+  /// Consecutive points are close, so that their surroundings are in cache.
   void gather(int rings, bool /*isShared*/)
   {
     if (rings == 0)
@@ -76,12 +84,12 @@ private:
   Isosurface Ordered;
 };
 
-/// Of neighbors around a rank's isopoints that are its ghosts: where splats of the second ring are
-/// seen, so are those that they overlap (docs/ranks.md).
+/// Rings of isopoints around a rank's own that are its ghosts: if splats of the second ring are
+/// visible, so are those that they overlap (docs/ranks.md).
 inline constexpr int ghostRings = 5;
 
-/// Some isopoints of a surface, with their splats. @throws std::bad_alloc, Aborted
-/// @param splats of all of `indices`' surface, or empty
+/// Some isopoints, with their splats. @throws std::bad_alloc, Aborted
+/// @param splats of all isopoints, among which `indices` chooses; or empty
 template <class TSample>
 ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSample>& tree,
   Isosurface surface, const std::vector<Splat>& splats, const std::vector<std::size_t>& indices)
@@ -89,13 +97,13 @@ ExtractedIsosurface withSplats(const Execution& execution, const SampleTree<TSam
   ExtractedIsosurface result;
   result.surface = std::move(surface);
   result.surface.coincident = coincidentEnds(execution, tree, result.surface.leaves);
-  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
+  result.surface.leaves = std::vector<EdgeLeaves>(); // free the memory
   result.splats = chosenOf(execution, splats, indices);
   return result;
 }
 
-/// The part of a surface of triangles that is on this rank. @throws std::bad_alloc, Aborted
-/// @param all what is found on each of them
+/// The part of a surface of triangles that belongs to this rank. @throws std::bad_alloc, Aborted
+/// @param all the whole surface, the same on all ranks
 template <class TSample>
 ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
   const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
@@ -106,7 +114,7 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
     const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
     vertexRanks.push_back(ranks.ownerOf(firstPlaceOf(tree, leaves)));
   }
-  const auto rank = static_cast<std::size_t>(ranks.team().rank());
+  const auto rank = static_cast<std::size_t>(ranks.processes().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
   ExtractedIsosurface result = withSplats(execution, tree,
     chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
@@ -142,21 +150,21 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
 
 template <class TSample>
 ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSample>& cloud,
-  Team* team, const ExtractionRequest& request)
+  ProcessGroup* processes, const ExtractionRequest& request)
 {
-  if (team)
+  if (processes)
   {
-    SharedRanks<TSample> ranks(*team, cloud.tree, cloud.begins);
+    SharedRanks<TSample> ranks(*processes, cloud.tree, cloud.begins);
     return partOnRank(execution, ranks, cloud.tree, findTriangles(execution, cloud, ranks, request),
       request.ghostRings);
   }
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
-  result.surface.leaves = std::vector<EdgeLeaves>(); // with their memory
+  result.surface.leaves = std::vector<EdgeLeaves>(); // free the memory
   return result;
 }
 
-/// @tparam TSurroundings WholeSurface where there is one rank, SurfaceHalo where there are several
+/// @tparam TSurroundings WholeSurface for one rank, SurfaceHalo for several
 template <class TSurroundings, class TSample, class TRanks>
 ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>& cloud,
   TRanks& ranks, std::size_t itemCount, const ExtractionRequest& request,
@@ -177,7 +185,8 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
     part, ranks, cloud.tree, cloud.neighborhoods, std::move(found), hasFits);
   const bool hasShapes = request.splats && request.splats->shapes;
   const bool looksAround = (request.splats || ghosts) && !cloud.tree.isEmpty();
-  surroundings.gather(looksAround ? std::max(ghosts ? ghostRings : 3, hasShapes ? fanRings : 3) : 0,
+  surroundings.gather(
+    looksAround ? std::max(ghosts ? ghostRings : 3, hasShapes ? splatRings : 3) : 0,
     ghosts != nullptr);
   std::vector<Splat> splats;
   if (request.splats && looksAround)
@@ -209,7 +218,8 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
 
 template <class TSample>
 ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSample>& cloud,
-  std::size_t itemCount, Team* team, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
+  std::size_t itemCount, ProcessGroup* processes, const ExtractionRequest& request,
+  ExtractedIsosurface* ghosts)
 {
   if (request.triangles)
   {
@@ -218,11 +228,11 @@ ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSa
       *ghosts = ExtractedIsosurface();
       ghosts->surface.isovalue = request.isosurface.isovalue;
     }
-    return extractTriangles(execution, cloud, team, request);
+    return extractTriangles(execution, cloud, processes, request);
   }
-  if (team)
+  if (processes)
   {
-    SharedRanks<TSample> ranks(*team, cloud.tree, cloud.begins);
+    SharedRanks<TSample> ranks(*processes, cloud.tree, cloud.begins);
     return findPoints<SurfaceHalo<TSample>>(execution, cloud, ranks, itemCount, request, ghosts);
   }
   SingleRank<TSample> rank(cloud.tree);
@@ -230,5 +240,3 @@ ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSa
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ExtractionRequest_h
-#define isopoint_ExtractionRequest_h
+#pragma once
 
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Splat/Splat.h"
@@ -18,34 +17,32 @@ namespace isopoint
 struct ExtractionRequest
 {
   IsosurfaceRequest isosurface;
-  /// How much of the isosurface thin() drops: 0, which drops nothing, up to 1. Takes effect if
-  /// something is fitted.
+  /// How much thin() drops, from 0 (nothing) to 1. Requires fits.
   double minimumSpacing = 0.0;
   std::optional<SplatOptions> splats = std::nullopt;
-  /// Whether the isopoints are to be the vertices of triangles: those of the isosurface of the
-  /// Delaunay tetrahedrization of the samples (docs/triangles.md). The angle and the minimum
-  /// spacing then have no effect, and normals take the place of splats.
+  /// Whether isopoints are the vertices of triangles: the isosurface of the Delaunay
+  /// tetrahedralization of the samples (docs/triangles.md). Then angle and minimum spacing have no
+  /// effect, and normals replace splats.
   bool triangles = false;
-  /// Of a cloud on ranks: how many rings of triangles of other ranks, all with a vertex in the part
-  /// within, are added around those of this one. The same on all ranks.
+  /// On ranks: how many rings of other ranks' triangles to add; each has the triangles with a
+  /// vertex in the part within. The same on all ranks.
   int ghostRings = 0;
 };
 
-/// All that is computed for one isovalue.
+/// Results for one isovalue.
 struct ExtractedIsosurface
 {
   Isosurface surface;
-  std::vector<Splat> splats;              // one for each isopoint, or empty if none were requested
-  std::vector<Vector> normals;            // one for each vertex of triangles, or empty likewise
-  std::vector<SurfaceTriangle> triangles; // numbers of isopoints; empty unless requested
-  std::size_t ghostTriangles = 0;         // of these, the last ones: those of other ranks
-  /// Crossing edges, or tetrahedra of triangles, that were left out since they lie in gaps. Of a
-  /// cloud on ranks each is counted on one of them.
+  std::vector<Splat> splats;              // one per isopoint, or empty if not requested
+  std::vector<Vector> normals;            // one per vertex of triangles, or empty
+  std::vector<SurfaceTriangle> triangles; // indices of isopoints; empty if not requested
+  std::size_t ghostTriangles = 0;         // the last triangles, of other ranks
+  /// Crossing edges, or tetrahedra, dropped in gaps. On ranks, each counts once.
   std::size_t droppedInGaps = 0;
-  /// Whether each isopoint is counted on another rank; empty if none is.
+  /// Per isopoint, whether it belongs to another rank; empty if none does.
   std::vector<bool> areElsewhere;
 
-  /// The number of isopoints that are counted on this rank.
+  /// The number of isopoints that belong to this rank.
   std::size_t countHere() const
   {
     return this->surface.size() - static_cast<std::size_t>(std::count(
@@ -54,5 +51,3 @@ struct ExtractedIsosurface
 };
 
 } // namespace isopoint
-
-#endif

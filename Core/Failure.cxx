@@ -2,8 +2,7 @@
 #include "Core/Failure.h"
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Team.h"
-#include "Core/Base/UsageError.h"
+#include "Core/Base/ProcessGroup.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -69,7 +68,7 @@ Failure describeException() noexcept
   }
   catch (const std::bad_alloc&)
   {
-    return { Failure::OutOfMemory, "Out of memory." }; // short enough to take none
+    return { Failure::OutOfMemory, "Out of memory." }; // fits in the string without an allocation
   }
   catch (...)
   {
@@ -77,15 +76,15 @@ Failure describeException() noexcept
   }
 }
 
-std::string firstText(Team& team, const Failure& failure)
+std::string firstText(ProcessGroup& processes, const Failure& failure)
 {
-  if (team.size() == 1)
+  if (processes.size() == 1)
   {
     return failure.text;
   }
-  const auto size = static_cast<std::uint64_t>(team.size());
-  const auto own = static_cast<std::uint64_t>(team.rank());
-  const std::uint64_t lowest = size - team.maximum(failure.text.empty() ? 0 : size - own);
+  const auto size = static_cast<std::uint64_t>(processes.size());
+  const auto own = static_cast<std::uint64_t>(processes.rank());
+  const std::uint64_t lowest = size - processes.maximum(failure.text.empty() ? 0 : size - own);
   if (lowest == size)
   {
     return {};
@@ -95,7 +94,7 @@ std::string firstText(Team& team, const Failure& failure)
   {
     outgoing.front().assign(failure.text.begin(), failure.text.end());
   }
-  const std::vector<std::vector<char>> arrived = team.exchange(outgoing);
+  const std::vector<std::vector<char>> arrived = processes.exchange(outgoing);
   const std::vector<char>& text = arrived[static_cast<std::size_t>(lowest)];
   return text.empty()
            ? std::string()

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Failure_h
-#define isopoint_Failure_h
+#pragma once
 
+#include <stdexcept>
 #include <string>
 
 namespace isopoint
 {
 
-class Team;
+class ProcessGroup;
+
+/// Invalid input or options. what() tells the user the cause, then the remedy, in a sentence each.
+struct UsageError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
 
 /// Why an extraction ended without a result.
 struct Failure
@@ -16,26 +22,23 @@ struct Failure
   {
     None,
     Aborted,      // by the caller
-    Elsewhere,    // on another rank alone
-    InvalidUsage, // input or options that cannot be used
+    Elsewhere,    // only on another rank
+    InvalidUsage, // of input or options
     OutOfMemory,
     Bug
   };
   Kinds kind = None;
-  std::string text; // for the user: the cause, then the remedy; empty where there is nothing to say
+  std::string text; // for the user: the cause, then the remedy; may be empty
 
-  /// Whether what was kept for further extractions is to be dropped: memory is needed, or it may be
-  /// unsound.
+  /// Whether to drop data kept for further extractions: memory is needed, or they may be invalid.
   bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }
 };
 
 /// Describes the exception that is being handled.
 Failure describeException() noexcept;
 
-/// The text of the lowest rank that has one, preceded by the number of that rank, on rank 0; empty
-/// on all others, and if none has one. Of a single rank its own text. Collective.
-std::string firstText(Team& team, const Failure& failure);
+/// On rank 0, the text of the lowest rank that has one, after its number; elsewhere, or if there is
+/// none, empty. Of a single rank, its text. Collective.
+std::string firstText(ProcessGroup& processes, const Failure& failure);
 
 } // namespace isopoint
-
-#endif

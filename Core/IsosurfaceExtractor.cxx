@@ -9,7 +9,7 @@ namespace isopoint
 void IsosurfaceExtractor::clear()
 {
   this->Held = SampleCloud<FloatSample>();
-  this->Group = nullptr;
+  this->Processes = nullptr;
   this->ItemCount = 0;
   this->ItemCounts.clear();
 }
@@ -51,7 +51,7 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
 {
   const Execution rising = withRisingProgress(execution);
   ExtractedIsosurface result = std::visit([&](auto& cloud)
-    { return extractFromCloud(rising, cloud, this->ItemCount, this->Group, request, ghosts); },
+    { return extractFromCloud(rising, cloud, this->ItemCount, this->Processes, request, ghosts); },
     this->Held);
   execution.progress(1.0);
   return result;

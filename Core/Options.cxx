@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Options.h"
 
-#include "Core/Base/UsageError.h"
+#include "Core/Failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ bool hasNormalsFromField(const Options& options)
   }
 }
 
-/// The fit that the projection or an output requires, if any: thinning and normals from the field
-/// require polynomials, other splats and fit orders at least the sample spacing.
+/// The fit that the projection or an output requires, if any: thinning and field normals require
+/// polynomials; other splats and fit orders at least the sample spacing.
 std::optional<FitRequest> fitRequestOf(const Options& options)
 {
   if (options.projection != 0)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Options_h
-#define isopoint_Options_h
+#pragma once
 
 #include "Core/ExtractionRequest.h"
 
@@ -10,10 +9,10 @@
 namespace isopoint
 {
 
-/// Where normals come from: the fits' gradients, or planes through the nearest isopoints.
+/// Source of normals: the fits' gradients, or planes through the nearest isopoints.
 enum class NormalMethod
 {
-  Automatic = -1, // the field where something is fitted anyway, planes otherwise
+  Automatic = -1, // the field if anything is fitted, else planes
   Field = 0,
   Planes = 1
 };
@@ -23,14 +22,14 @@ enum class Precision
 {
   Single = 0,
   Double = 1,
-  Default = 2 // single where the samples' positions are float
+  Default = 2 // single if the samples' positions are float
 };
 
-/// What a user chooses of an extraction, with the defaults. docs/properties.md describes each
-/// option, and option:: lists their names and ranges.
+/// A user's options of an extraction, with defaults. docs/properties.md describes them; namespace
+/// option has their names and ranges.
 struct Options
 {
-  bool triangles = false;                             // or points alone
+  bool triangles = false;                             // or only points
   int projection = static_cast<int>(FitOrder::Cubic); // a FitOrder; 0: none
   int normalMethod = static_cast<int>(NormalMethod::Automatic);
   bool dropGaps = true;
@@ -39,20 +38,20 @@ struct Options
   bool computeProjectionOrders = false;
   int outputPointsPrecision = static_cast<int>(Precision::Default);
 
-  // Of points alone:
+  // Only for points:
   double angle = defaultAngle;
   double minimumSpacing = 0.0;
   int numberOfNeighbors = defaultNeighborCount;
   bool computeSplats = true;
 
-  // Of triangles alone:
+  // Only for triangles:
   bool regularize = true; // see IsosurfaceRequest::regularizes
 
-  /// Whether triangles are kept for the next extraction; see IsosurfaceRequest::keepsBand.
+  /// See IsosurfaceRequest::keepsBand.
   bool keepBand = true;
 };
 
-/// An option's name in messages and its range, both ends included.
+/// An option's name in messages, and its range, including both ends.
 template <class T>
 struct Option
 {
@@ -115,36 +114,32 @@ void forEachOption(const Options& options, const Visitor& visit)
   }
 }
 
-/// How a host of the core calls its options: turns the names above into its own.
+/// Translates an option's name above to that in a host of the core.
 using OptionNaming = std::string (*)(const char* name);
 
-/// Names as they are.
 inline std::string sameName(const char* name)
 {
   return name;
 }
 
-/// @throws UsageError if an option is out of its range
+/// @throws UsageError if an option is out of range
 void checkOptions(const Options& options, OptionNaming naming = sameName);
 
-/// Each isovalue once, ascending. @throws UsageError if one is not a number
+/// Each isovalue once, ascending. @throws UsageError if one is NaN
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
 
-/// The options that take effect: those of triangles or of points alone are reset to their defaults
-/// for the other, and triangles have no splats.
+/// The options that take effect: options only for triangles, or only for points, are reset in the
+/// other case, and triangles have no splats.
 Options effectiveOptions(const Options& options);
 
-/// Whether the output's positions are float. @param areFloatPositions those of all samples
+/// Whether the output's positions are float. @param areFloatPositions of all samples
 inline bool isSinglePrecision(const Options& options, bool areFloatPositions)
 {
   const auto precision = static_cast<Precision>(options.outputPointsPrecision);
   return precision == Precision::Single || (precision == Precision::Default && areFloatPositions);
 }
 
-/// What the core is to do, without an isovalue.
-/// @param options effective ones
+/// The request of the core, without an isovalue. @param options effective ones
 ExtractionRequest requestOf(const Options& options);
 
 } // namespace isopoint
-
-#endif

@@ -10,7 +10,7 @@ namespace isopoint
 namespace
 {
 
-/// Writes a vector as the tuple of a number, unless there is no array.
+/// Writes a vector as a tuple, unless the array is null.
 void write(const Vector& vector, std::size_t tuple, float* array)
 {
   if (array)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_OutputArrays_h
-#define isopoint_OutputArrays_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/ExtractionRequest.h"
@@ -15,16 +14,16 @@
 namespace isopoint
 {
 
-/// The isopoints of all surfaces.
+/// The number of isopoints of all surfaces.
 std::size_t countIsopoints(const std::vector<ExtractedIsosurface>& surfaces);
 
-/// The triangles of all surfaces.
+/// The number of triangles of all surfaces.
 std::size_t countTriangles(const std::vector<ExtractedIsosurface>& surfaces);
 
-/// Where to write the computed arrays of isopoints. Null pointers skip an array.
+/// Destinations of the computed arrays of isopoints; null pointers skip an array.
 struct OutputArrays
 {
-  float* normals = nullptr; // three numbers of each isopoint
+  float* normals = nullptr; // three per isopoint
   float* radii = nullptr;
   float* splatAxes = nullptr;     // three
   float* splatPolygons = nullptr; // numbersOfSplat
@@ -34,7 +33,7 @@ struct OutputArrays
 
 /// Writes the arrays of a surface.
 /// @param isProjected whether fits moved isopoints; otherwise their orders are 0
-/// @param first the number of isopoints before, whose tuples are skipped
+/// @param first the first tuple to write
 void writeArrays(const Execution& execution, const ExtractedIsosurface& extracted, bool isProjected,
   std::size_t first, const OutputArrays& arrays);
 
@@ -52,7 +51,7 @@ void writePositions(const Execution& execution, const Isosurface& surface, T* co
     });
 }
 
-/// Writes triangles, three numbers of isopoints each.
+/// Writes triangles, three indices of isopoints each.
 /// @param firstPoint the number of isopoints before this surface
 template <class T>
 void writeTriangles(const Execution& execution, const ExtractedIsosurface& extracted,
@@ -69,8 +68,8 @@ void writeTriangles(const Execution& execution, const ExtractedIsosurface& extra
     });
 }
 
-/// Converts a number to an array's type. For integer types it is rounded to the nearest and limited
-/// to their range, which rounding of 64-bit integers to double can exceed.
+/// Converts a number to an array's type. For integers, it is rounded to nearest and clamped: a
+/// 64-bit integer can exceed its range when it is rounded to double.
 template <class T>
 T toArrayType(double value)
 {
@@ -95,7 +94,7 @@ T toArrayType(double value)
 
 /// Interpolates an attribute of the samples at all isopoints of a surface.
 /// @param componentOf(sample, component) as a double
-/// @param write(isopoint, component, value) from any thread
+/// @param write(isopoint, component, value) called from any thread
 template <class ComponentOf, class Write>
 void interpolateComponents(const Execution& execution, const Isosurface& surface,
   int componentCount, const ComponentOf& componentOf, const Write& write)
@@ -120,5 +119,3 @@ void interpolateComponents(const Execution& execution, const Isosurface& surface
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Report.h"
 
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/IsosurfaceExtractor.h"
 
 #include <algorithm>
@@ -48,14 +48,14 @@ std::string join(const std::vector<double>& numbers, int digits)
   return join(texts);
 }
 
-/// A share, so coarse that it is the same as long as nothing much changes.
+/// A share, coarse enough to stay the same under small changes.
 std::string tenths(std::uint64_t count, std::uint64_t all)
 {
   constexpr std::uint64_t parts = 10;
   return std::to_string(parts * count / std::max<std::uint64_t>(all, 1)) + " of 10";
 }
 
-/// So many digits that the isovalues and the ends of the range look different if they are.
+/// Enough digits to tell the isovalues and the ends of the range apart.
 int digitsFor(const Report& report, const std::vector<double>& isovalues)
 {
   constexpr int few = 6;
@@ -95,7 +95,7 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
       ", up to " + textOf(report.greatest, digits) + "." };
 }
 
-/// Of isovalues in the range.
+/// For isovalues in the range.
 Message describeEmptyIsovalues(
   const Report& report, const std::vector<double>& empty, OptionNaming naming)
 {
@@ -192,11 +192,11 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
       " to None. Samples along lines, such as drill holes, do not determine a surface." };
 }
 
-/// Where more than a tenth of the corners stay apart, pictures have holes.
+/// If more than a tenth of the corners stay apart, pictures have holes.
 Message describeCornersApart(const Report& report)
 {
   constexpr std::uint64_t leastShare = 10;
-  constexpr std::uint64_t leastCorners = 1000; // of fewer the share says little
+  constexpr std::uint64_t leastCorners = 1000; // the share of fewer is not significant
   if (report.innerCorners < leastCorners ||
       leastShare * report.cornersApart <= report.innerCorners || areMostUnprojected(report))
   {
@@ -283,23 +283,23 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   }
 }
 
-void Report::share(Team& team)
+void Report::share(ProcessGroup& processes)
 {
-  team.sum(this->points); // of as many isovalues on all ranks
+  processes.sum(this->points); // the number of isovalues is the same on all ranks
   for (std::uint64_t* const count :
     { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->droppedInGaps,
       &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
   {
-    *count = team.sum(*count);
+    *count = processes.sum(*count);
   }
   const std::vector<std::vector<char>> names =
-    team.gather(std::vector<char>(this->array.begin(), this->array.end()));
+    processes.gather(std::vector<char>(this->array.begin(), this->array.end()));
   for (auto name = names.begin(); name != names.end() && this->array.empty(); ++name)
   {
     this->array.assign(name->begin(), name->end()); // a rank without samples has none
   }
-  this->least = fromOrderedKey(~team.maximum(~orderedKey(this->least)));
-  this->greatest = fromOrderedKey(team.maximum(orderedKey(this->greatest)));
+  this->least = fromOrderedKey(~processes.maximum(~orderedKey(this->least)));
+  this->greatest = fromOrderedKey(processes.maximum(orderedKey(this->greatest)));
 }
 
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)

@@ -140,13 +140,13 @@ int vtkScatteredContourFilter::RequestUpdateExtent(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   vtkInformation* const info = inputVector[0]->GetInformationObject(0);
-  if (!this->LastUpdate->HasOtherRanks())
+  if (!this->LastUpdate->IsOnRanks())
   {
     // Neighbors of a piece's samples may be in any other piece.
     info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
   }
-  // Ghosts of the output are no reason to read the input with ghosts, which take no part.
+  // Ghost samples would be skipped, so ghost levels of the output need none of the input.
   info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return result;
 }
@@ -154,7 +154,7 @@ int vtkScatteredContourFilter::RequestUpdateExtent(
 int vtkScatteredContourFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // To return 0 would add an error of the executive to that of this filter.
+  // Returning 0 would add an error of the executive to that of this filter.
   this->ErrorCode = this->LastUpdate->Run(
     *this->Options, inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
   return 1;

@@ -3,14 +3,14 @@
  * @class   vtkScatteredIsopointFilter
  * @brief   extract isosurfaces as points, directly from scattered samples
  *
- * vtkScatteredIsopointFilter generates points on one or more isosurfaces of a scalar field that is
- * given at scattered samples. It neither resamples the field nor builds a tetrahedral mesh, and
- * ignores the connectivity of the input. The samples are the points of a vtkDataSet, the centers
- * of its cells if the contoured array is a cell array, or the leaves of a vtkHyperTreeGrid. By
- * default all blocks of a composite data set, or all levels of an AMR, form one cloud, so that the
- * surface continues across borders, gaps and overlaps of blocks (see SetContourBlocks()). The
- * output is a vtkPolyData of points with one vertex cell each. By default every point has a normal
- * and the radius of a splat; together the splats cover the surface.
+ * vtkScatteredIsopointFilter generates points on one or more isosurfaces of a scalar field given at
+ * scattered samples. It does not resample the field, builds no tetrahedral mesh, and ignores the
+ * connectivity of the input. Samples are the points of a vtkDataSet, the centers of its cells if
+ * the contoured array is a cell array, or the leaves of a vtkHyperTreeGrid. By default all blocks
+ * of a composite data set, or all levels of an AMR, form one cloud, so that the surface continues
+ * across borders, gaps and overlaps of blocks (see SetContourBlocks()). The output is a vtkPolyData
+ * of points with one vertex cell each. By default every point has a normal and the radius of a
+ * splat; together the splats cover the surface.
  *
  * The algorithm is that of P. Rosenthal and L. Linsen, "Direct isosurface extraction from scattered
  * volume data", EuroVis 2006 [RL06]. A kd-tree partitions the bounding box of the samples into
@@ -20,77 +20,74 @@
  * interpolation. Unlike in [RL06], a node of the tree is split along the longest side of its
  * region, and only the part of the tree around the surface is built.
  *
- * By default each isopoint is then moved to the zero of a polynomial, which is fitted by weighted
- * least squares to the samples around it, and by less than that where the samples leave doubt about
- * the zero (see SetProjection()). The gradient of the polynomial gives the normal, in noise that of
- * a simpler one. Values of an array of an integer type count as rounded: steps of 1 between them
- * are taken for no detail. What is fitted depends on samples next to the isopoint alone: in the
- * regions that touch those of its edge's ends, and in regions that touch these. This step, thinning
- * (see SetMinimumSpacing()) and the gap criterion (see SetDropGaps()) have no counterpart in
- * [RL06]. docs/algorithm.md in the source distribution defines the result exactly.
+ * By default each isopoint then moves to the zero of a polynomial fitted by weighted least squares
+ * to the samples around it, or part of the way if the zero is uncertain (see SetProjection()). The
+ * gradient of the polynomial, or in noise of a simpler one, gives the normal. Values of integer
+ * arrays are taken as rounded, so that steps of 1 are not fitted as detail. Fits only depend on
+ * samples in the regions that touch those of the edge's ends, and in regions that touch these.
+ * Projection, thinning (see SetMinimumSpacing()) and the gap criterion (see SetDropGaps()) are not
+ * part of [RL06]. docs/algorithm.md in the source distribution defines the result exactly.
  *
  * The filter guarantees:
- * 1. The output depends on the input and the options alone, to the last bit and including the order
- *    of the points: not on the number of threads, the vtkSMPTools backend, or earlier updates.
+ * 1. The output, including the order of the points, depends only on the input and the options, to
+ *    the last bit: not on the number of threads, the vtkSMPTools backend, or earlier updates.
  *    Points are ordered by isovalue (ascending), then by the lower and the higher sample id of
  *    their edge.
  * 2. A sample is below the isovalue v if its value is less than v; a value equal to v is not below.
- *    The contoured array of the output is v exactly, as far as its type holds it: an array of float
- *    or double keeps its type, others become double.
- * 3. These take no part and are counted (see GetNumberOfSkippedSamples()): samples with a
+ *    The contoured array of the output is v exactly, within the precision of its type: float and
+ *    double arrays keep their type, others become double.
+ * 3. These samples are skipped and counted (see GetNumberOfSkippedSamples()): samples with a
  *    non-finite coordinate or value; ghost and hidden points and cells; cells with a hidden point;
  *    cells covered by a finer level of an AMR, as its ghost arrays mark them (see
- *    vtkAMRUtilities::BlankCells()); points all of whose cells are hidden or covered or, if there
- *    is no ghost array of the points, hidden, covered or ghosts; empty cells; masked leaves; and
- *    blocks without the contoured array.
+ *    vtkAMRUtilities::BlankCells()); points whose cells are all hidden or covered or, without a
+ *    ghost array of the points, hidden, covered or ghosts; empty cells; masked leaves; and blocks
+ *    without the contoured array.
  * 4. Coincident samples count as one sample, with the lowest of their ids and the mean of their
  *    values and attributes.
  * 5. All attributes of the points (or cells, if the contoured array is a cell array) are
- *    interpolated with one weight, that of the place on the edge nearest to the isopoint; strings
- *    and pedigree ids are copied from the nearer end. The following are dropped: global ids, ghost
- *    arrays, arrays whose length is not the number of points (or cells), and, as by
- *    vtkAppendFilter, arrays that not all blocks have with the same type. A computed array
- *    ("Normals", "Radius", ...) replaces an input array of its name, with a warning.
- * 6. There is one warning for an update of each of these: isovalues outside the range of the array;
- *    skipped samples, unless all of them are ghosts or hidden; and more than half of the points
- *    left where linear interpolation puts them although fits were requested. On several ranks the
- *    first one reports what all of them found.
+ *    interpolated with the same weight, at the place on the edge nearest to the isopoint; strings
+ *    and pedigree ids are copied from the nearer end. Dropped are global ids, ghost arrays, arrays
+ *    whose length is not the number of points (or cells) and, as in vtkAppendFilter, arrays that
+ *    not all blocks have with the same type. A computed array ("Normals", "Radius", ...) replaces
+ *    an input array of the same name, with a warning.
+ * 6. Each update gives at most one warning for each of these: isovalues outside the range of the
+ *    array; skipped samples, unless all are ghosts or hidden; and more than half of the points not
+ *    moved although fits were requested. In a process group, the first rank reports for all.
  * 7. Invalid input, invalid options and a lack of memory give one error and an empty output; an
  *    abort gives an empty output. The filter can be updated again afterwards.
  *
- * Degenerate clouds are no special cases. An input without points or cells is an error. The output
- * has no points for a single sample, samples that all coincide, a constant field, and an isovalue
- * that is infinite or out of range. Two samples have one isopoint if the isovalue lies between
- * them, collinear samples one for each crossing along the line, coplanar samples a curve in their
- * plane. Lattices need no perturbation. -0 equals 0, as a coordinate and as a value. Coordinates
- * may be denormal, of any scale, or far from the origin: the tree uses only their order and
- * differences in double precision. Radii are clamped to the positive range of float.
+ * Degenerate clouds are valid, but an input without points or cells is an error. The output has no
+ * points for a single sample, for samples that all coincide, for a constant field, and for an
+ * isovalue that is infinite or out of range. Two samples have one isopoint if the isovalue lies
+ * between them, collinear samples one for each crossing along the line, coplanar samples a curve in
+ * their plane. Lattices need no perturbation. -0 equals 0, as a coordinate and as a value.
+ * Coordinates may be denormal, of any scale, or far from the origin: the tree uses only their order
+ * and differences in double precision. Radii are clamped to the positive range of float.
  *
- * The tree is kept between updates (see SetKeepTree()). A further isovalue extends it where
- * necessary, another angle or output option uses it as it is, and new values at the same positions
- * (a time series) keep its shape. It takes 20 bytes per sample if the points are float and float
- * holds the values exactly, and up to 40 otherwise, plus memory in proportion to the surface. The
- * centers of cells are stored as well, except for images and rectilinear grids. Input arrays are
- * not copied.
+ * The tree is kept between updates (see SetKeepTree()). A further isovalue extends it as necessary,
+ * another angle or output option uses it as is, and new values at the same positions (a time
+ * series) keep its shape. It takes 20 bytes per sample if the points are float and float holds the
+ * values exactly, otherwise up to 40, plus memory in proportion to the surface. The centers of
+ * cells are stored too, except for images and rectilinear grids. Input arrays are not copied.
  *
  * @warning
- * The regions fill the bounding box of the samples. Samples on both sides of a void are therefore
- * neighbors, as in a Delaunay tetrahedralization, and can give isopoints in the void. See
+ * The regions fill the bounding box of the samples. As in a Delaunay tetrahedralization, samples on
+ * both sides of a void are therefore neighbors, and can give isopoints in the void. See
  * SetDropGaps().
  *
  * @warning
  * 64-bit integer values beyond 2^53 are rounded to double.
  *
  * @warning
- * Squared distances between samples are computed in double precision: neighbors closer than 1e-150
- * or farther apart than 1e150 escape the angle criterion.
+ * Squared distances between samples are computed in double precision: the angle criterion never
+ * drops neighbors closer than 1e-150 or farther apart than 1e150.
  *
  * @warning
- * Time is proportional to the number of pairs of neighbors, which is about 15 per sample. Samples
- * on curves that pass each other, such as two skew lines, can have many more, in all up to the
- * square of their number; large neighborhoods are then searched through bounding boxes instead of
- * listed. Fits use at most a few hundred samples: of more than 256 neighbors, those close to each
- * other are represented by one.
+ * Time is proportional to the number of pairs of neighbors, about 15 per sample. Samples on curves
+ * that pass each other, such as two skew lines, can have many more, up to the square of their
+ * number; large neighborhoods are then searched through bounding boxes instead of listed. Fits use
+ * at most a few hundred samples: of more than 256 neighbors, one represents those close to each
+ * other.
  *
  * @sa
  * vtkScatteredIsosurfaceFilter vtkContourFilter vtkPointGaussianMapper
@@ -113,11 +110,10 @@ public:
   /**
    * The angle of the angle criterion, in degrees: a neighbor of a sample is dropped if a closer
    * neighbor lies within this angle of its direction. An edge gives an isopoint if it remains at
-   * either end. Smaller angles give more isopoints, at a slightly larger distance from the true
-   * surface. At 0 no neighbor is dropped; at 180 only the nearest remain, and those exactly
-   * opposite to closer ones. Range: 0 to 180; other values are an error in the next update.
-   * Default: 54.7, just below the angle between an edge and a diagonal of a cube (54.7356), so that
-   * diagonals of lattices remain.
+   * either end. Smaller angles give more isopoints, slightly farther from the true surface. At 0 no
+   * neighbor is dropped; at 180 only the nearest remain, and those exactly opposite to closer ones.
+   * Range: 0 to 180; other values are an error in the next update. Default: 54.7, just below the
+   * angle between an edge and a diagonal of a cube (54.7356), so that diagonals of lattices remain.
    */
   virtual void SetAngle(double degrees);
   virtual double GetAngle();
@@ -126,20 +122,20 @@ public:
   ///@{
   /**
    * The minimum spacing of isopoints on one sheet of the surface, in units of the sample spacing.
-   * Fewer isopoints with larger splats then cover the surface. Isopoints are taken in the order of
-   * the output, and one is dropped if it is close to one that was kept. Let r be MinimumSpacing
-   * times the smaller of the sample spacings around two isopoints; these are close if
-   * - around both a fit describes a smooth surface (see SetProjection(); that of CUBIC_FIT with
-   *   NO_PROJECTION): one of degree two or more, whose gradient differs beyond doubt from that of
-   * an affine function,
+   * Fewer isopoints with larger splats then cover the surface. Isopoints are visited in the order
+   * of the output, and dropped if close to one that was kept. Let r be MinimumSpacing times the
+   * smaller of the sample spacings around two isopoints; they are close if
+   * - both have a fit that describes a smooth surface (see SetProjection(); CUBIC_FIT for
+   *   NO_PROJECTION): one of degree two or more, whose gradient certainly differs from that of an
+   *   affine function,
    * - their distance is less than r,
    * - each lies within r / 4 of the tangent plane of the other, and
    * - the gradients of their fits differ by less than 25 degrees (their cosine is 0.906 or more).
    *
    * The sample spacing around an isopoint is the mean, over the ends of its edge, of the distance
-   * within which two fifths of the neighbors lie. Thus neither sheets close to each other nor the
-   * two sides of a crease thin each other out, the surface stays dense where it is strongly curved,
-   * and nothing is dropped where no fit holds, in noise, or with LINEAR_FIT.
+   * within which two fifths of the neighbors lie. Close sheets and the two sides of a crease do not
+   * thin each other out, the surface stays dense where it is strongly curved, and nothing is
+   * dropped where no fit holds, in noise, or with LINEAR_FIT.
    *
    * 0.5 is a sensible value: it keeps about half of the isopoints and opened no holes in smooth
    * surfaces in tests; larger values open some. About 70 percent remain at 0.25, 20 percent at 1.
@@ -152,22 +148,20 @@ public:
 
   ///@{
   /**
-   * Whether to compute splats, which cover the surface: the splat of an isopoint is the fan of
-   * triangles between it and each two consecutive corners of the part of the surface that is nearer
-   * to it than to others. Splats bend as the surface does, end where it ends or has a crease, and
-   * share most corners with their neighbors. "Radius" is a point array; the others are cell arrays
-   * of the vertices, of which cell i is that of point i. They are hidden from ParaView's menus
-   * (vtkAbstractArray::GUI_HIDE()). Default: on.
-   *
-   * - "Radius" (one float, in units of the coordinates) is the distance of the farthest
-   *   corner, the size of a disk for mappers that draw such.
-   * - "SplatAxis" (three floats, in units of the coordinates) is a tangential vector t1 as long as
+   * Whether to compute splats, which cover the surface. The splat of an isopoint is the fan of
+   * triangles between it and each two consecutive corners of its Voronoi cell on the surface.
+   * Splats bend with the surface, end where it ends or has a crease, and share most corners with
+   * their neighbors. "Radius" is a point array. The others are cell arrays of the vertices, where
+   * cell i belongs to point i; ParaView's menus hide them (vtkAbstractArray::GUI_HIDE()). Default:
+   * on.
+   * - "Radius" (one float, in units of the coordinates): the distance of the farthest corner, or
+   *   the size of a disk for mappers that draw disks.
+   * - "SplatAxis" (three floats, in units of the coordinates): a tangential vector t1 as long as
    *   the radius; t2 is normal x t1. It is the active vectors, so that transforms rotate it.
    * - "SplatPolygon" (40 floats, five for each of eight corners, counterclockwise seen from the tip
-   *   of the normal N): a, b, h, u, v, so that the corner is at a t1 + b t2 + h Radius N from the
-   *   isopoint and has the normal N + (u t1 + v t2) / Radius, not of length 1. Further corners
-   *   repeat the last one. All are 0, and so is the radius, at an isopoint that another one close
-   *   by represents.
+   *   of the normal N): a, b, h, u, v. The corner is at a t1 + b t2 + h Radius N from the isopoint
+   *   and has the normal N + (u t1 + v t2) / Radius, not of length 1. Unused corners repeat the
+   *   last one. All are 0, as is the radius, if another isopoint close by represents this one.
    */
   virtual void SetComputeSplats(vtkTypeBool compute);
   virtual vtkTypeBool GetComputeSplats();
@@ -176,10 +170,9 @@ public:
 
   ///@{
   /**
-   * The number of nearest isopoints to which the plane is fitted that gives a normal
-   * (NORMALS_FROM_PLANES, and where the samples yield no gradient): the nearest within two rings of
-   * touching cells. More give smoother normals and rounder
-   * edges. Range: 3 to 1000; other values are clamped. Default: 12.
+   * The number of isopoints used to fit the plane that gives a normal (NORMALS_FROM_PLANES, and
+   * where the samples yield no gradient): the nearest within two rings of touching cells. More give
+   * smoother normals and rounder edges. Range: 3 to 1000; other values are clamped. Default: 12.
    */
   virtual void SetNumberOfNeighbors(int number);
   virtual int GetNumberOfNeighbors();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_library_Arrays_h
-#define isopoint_library_Arrays_h
+#pragma once
 
 #include "Library/isopoint.h"
 
-#include "Core/Base/UsageError.h"
+#include "Core/Failure.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +14,8 @@
 namespace isopoint
 {
 
-/// Calls visit with a number of the type that an isopoint_type names.
-/// @throws UsageError if it names none
+/// Calls visit with a number of an isopoint_type.
+/// @throws UsageError if there is no such type
 template <class Visitor>
 decltype(auto) withType(std::int32_t type, const Visitor& visit)
 {
@@ -58,12 +57,12 @@ inline std::size_t sizeOfType(std::int32_t type)
   return withType(type, [](auto number) { return sizeof(number); });
 }
 
-/// The numbers of an array. Reading is thread-safe.
+/// Reads the numbers of an array. Thread-safe.
 class ArrayReader
 {
 public:
-  /// @throws UsageError if the array contradicts itself
-  /// @param name what the array is of, for messages
+  /// @param name of the contents, for messages
+  /// @throws UsageError if the array is inconsistent
   ArrayReader(const isopoint_array* array, const char* name)
     : Described(std::string("The array of ") + name)
   {
@@ -96,7 +95,7 @@ public:
   std::size_t count() const { return static_cast<std::size_t>(this->Array.count); }
   int components() const { return this->Array.components; }
 
-  /// @throws UsageError unless there are this many tuples of this many components
+  /// @throws UsageError unless there are `count` tuples of `components` numbers
   void require(std::size_t count, int components) const
   {
     if (this->count() != count || this->components() != components)
@@ -107,7 +106,7 @@ public:
     }
   }
 
-  /// A number of an array whose type is T.
+  /// A number of an array of type T.
   template <class T>
   T at(std::size_t tuple, int component) const
   {
@@ -130,11 +129,9 @@ public:
 private:
   std::string Described;
   isopoint_array Array;
-  // Modulo 2^64, since strides may be negative.
+  // Modulo 2^64: strides may be negative.
   std::uint64_t Stride;
   std::uint64_t ComponentStride;
 };
 
 } // namespace isopoint
-
-#endif

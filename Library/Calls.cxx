@@ -2,7 +2,6 @@
 #include "Library/isopoint.h"
 
 #include "Core/Base/Threads.h"
-#include "Core/Base/UsageError.h"
 #include "Core/Contour.h"
 #include "Core/Failure.h"
 #include "Library/SampleReader.h"
@@ -26,7 +25,7 @@ using isopoint::UsageError;
 namespace
 {
 
-/// Of the last call of a thread that failed; of a fixed size, for it may tell of a lack of memory.
+/// The message of this thread's last failed call, of fixed size in case memory is exhausted.
 thread_local std::array<char, 1024> lastError{};
 
 isopoint_status fail(isopoint_status status, const char* message)
@@ -35,7 +34,7 @@ isopoint_status fail(isopoint_status status, const char* message)
   return status;
 }
 
-/// Turns the exception that is being handled into a status and a message.
+/// Converts the current exception to a status and a message.
 isopoint_status failWithException()
 {
   const isopoint::Failure failure = isopoint::describeException();
@@ -52,7 +51,7 @@ isopoint_status failWithException()
   }
 }
 
-/// Runs a call: no exception leaves the library.
+/// Runs a call; no exception leaves the library.
 template <class Call>
 isopoint_status run(const Call& call)
 {
@@ -76,7 +75,7 @@ void require(const void* pointer, const char* name)
   }
 }
 
-/// Turns the name of an option, such as DropGaps, into that of its member, drop_gaps.
+/// Converts the name of an option, such as DropGaps, to that of its member, drop_gaps.
 std::string memberName(const char* name)
 {
   std::string member;
@@ -92,7 +91,7 @@ std::string memberName(const char* name)
   return member;
 }
 
-/// The counterparts of options: calls visit(member of isopoint_options, member of Options).
+/// Calls visit(member of isopoint_options, member of Options) for each option.
 template <class Visitor>
 void forEachMember(const Visitor& visit)
 {
@@ -114,7 +113,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::regularize, &Core::regularize);
 }
 
-/// @param given null, or options of this version
+/// @param given null for the defaults, or options of this version
 /// @throws UsageError if they are of another version, or out of range
 isopoint::Options optionsFrom(const isopoint_options* given)
 {
@@ -147,7 +146,7 @@ isopoint::Options optionsFrom(const isopoint_options* given)
   return options;
 }
 
-/// @param threads at most, or 0: all cores
+/// @param threads maximum number, or 0 for all cores
 isopoint::Execution executionOnThreads(std::int32_t threads)
 {
   isopoint::Execution execution;
@@ -168,7 +167,7 @@ struct isopoint_extractor
   isopoint::IsosurfaceExtractor Extractor;
   isopoint::SampleTypes Types;
   isopoint::CloudCounts Counts;
-  bool HasSamples = false;  // perhaps none of them usable
+  bool HasSamples = false;  // even if all are skipped
   std::int32_t Threads = 0; // 0: all cores
   void (*Progress)(void* user, double fraction) = nullptr;
   int (*Cancels)(void* user) = nullptr;

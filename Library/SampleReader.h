@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_library_SampleReader_h
-#define isopoint_library_SampleReader_h
+#pragma once
 
-#include "Core/Base/UsageError.h"
 #include "Core/Contour.h"
+#include "Core/Failure.h"
 #include "Library/Arrays.h"
 
 #include <cstddef>
@@ -13,12 +12,12 @@
 namespace isopoint
 {
 
-/// The samples that arrays hold, as IsosurfaceExtractor::load() reads them.
+/// Reads samples from arrays for IsosurfaceExtractor::load().
 class SampleReader
 {
 public:
-  /// @param excluded null, or bytes that are not 0 for samples that take no part
-  /// @throws UsageError if the arrays cannot be used together
+  /// @param excluded null, or bytes that are not 0 for samples to skip
+  /// @throws UsageError if the arrays do not fit together
   SampleReader(
     const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded)
     : Positions(positions, "positions")
@@ -91,5 +90,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Library/Surface.h"
 
-#include "Core/Base/UsageError.h"
 #include "Core/Base/Vector.h"
+#include "Core/Failure.h"
 #include "Core/OutputArrays.h"
 #include "Core/SplatMesh/SplatFan.h"
 #include "Library/Arrays.h"
@@ -26,7 +26,7 @@ constexpr std::int32_t typeOf()
                                            : ISOPOINT_INT64;
 }
 
-/// An array for the caller; numbers follow each other.
+/// A view of contiguous numbers for the caller.
 template <class T>
 isopoint_array asArray(const std::vector<T>& numbers, int components)
 {
@@ -39,7 +39,7 @@ isopoint_array asArray(const isopoint_surface::Coordinates& coordinates)
   return std::visit([](const auto& numbers) { return asArray(numbers, 3); }, coordinates);
 }
 
-/// Memory for some numbers of each of `count` points, if they are wanted.
+/// Allocates `components` numbers for each of `count` points, if wanted.
 template <class T>
 T* prepare(std::vector<T>& numbers, bool areWanted, std::size_t count, std::size_t components)
 {
@@ -54,8 +54,8 @@ isopoint_surface::Coordinates makeCoordinates(bool areFloat, std::size_t count)
                   : isopoint_surface::Coordinates(std::vector<double>(3 * count));
 }
 
-/// The numbers of an array of points, one after the other.
-/// @throws UsageError unless they are of type T, this many tuples of this many components
+/// Copies the numbers of an array of points.
+/// @throws UsageError unless there are `count` tuples of `components` numbers of type T
 template <class T>
 std::vector<T> numbersOf(
   const isopoint_array* array, const char* name, std::size_t count, std::size_t components)
@@ -87,7 +87,7 @@ isopoint_surface::Coordinates coordinatesOf(const isopoint_array* points)
   return numbersOf<double>(points, "the points", reader.count(), 3);
 }
 
-/// @throws UsageError if there is no memory for tuples
+/// @throws UsageError if the result is null, unless there are no tuples
 void requireMemory(const void* result, std::size_t tuples)
 {
   if (!result && tuples > 0)
@@ -144,7 +144,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
       });
     first += part.surface.size();
     corners += 3 * part.triangles.size();
-    // What is kept serves interpolation.
+    // Interpolation needs these parts.
     isopoint::ExtractedIsosurface kept;
     kept.surface.edges = std::move(part.surface.edges);
     kept.surface.edgeBegins = std::move(part.surface.edgeBegins);

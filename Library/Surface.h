@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_library_Surface_h
-#define isopoint_library_Surface_h
+#pragma once
 
 #include "Library/isopoint.h"
 
@@ -14,14 +13,14 @@
 #include <variant>
 #include <vector>
 
-/// The result of an extraction, as arrays.
+/// The result of an extraction as arrays.
 struct isopoint_surface
 {
-  /// Positions of either precision.
+  /// Single or double precision.
   using Coordinates = std::variant<std::vector<float>, std::vector<double>>;
 
-  /// Takes over the surfaces of all isovalues.
-  /// @param options effective ones
+  /// @param surfaces of all isovalues
+  /// @param options effective options
   /// @throws std::bad_alloc
   isopoint_surface(const isopoint::Execution& execution,
     std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
@@ -37,10 +36,10 @@ struct isopoint_surface
   /// See isopoint_interpolate(). @throws isopoint::UsageError, isopoint::Aborted, std::bad_alloc
   void interpolate(const isopoint_array* ofSamples, void* result) const;
 
-  /// See isopoint_make_splat_mesh(). Throws likewise.
+  /// See isopoint_make_splat_mesh(). @throws as interpolate()
   void makeSplatMesh(double scale);
 
-  /// See isopoint_average_at_splat_vertices(). Throws likewise.
+  /// See isopoint_average_at_splat_vertices(). @throws as interpolate()
   void averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const;
 
   std::vector<isopoint::Message> messages;
@@ -50,7 +49,6 @@ private:
   std::size_t pointCount() const;
   bool hasFloatPoints() const { return std::holds_alternative<std::vector<float>>(this->Points); }
 
-  /// The triangles of all splats.
   struct SplatArrays
   {
     SplatArrays(const isopoint::Execution& execution, isopoint::SplatMesh made, bool areFloat);
@@ -63,7 +61,7 @@ private:
   };
 
   isopoint::Execution Run;
-  std::size_t SampleCount = 0;                      // including those that take no part
+  std::size_t SampleCount = 0;                      // including skipped ones
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
   Coordinates Points;
   std::vector<double> Isovalues;
@@ -78,7 +76,5 @@ private:
   std::vector<float> SplatPolygons;
 
   bool HasSplatMesh = false;
-  SplatArrays Splats; // without any until then
+  SplatArrays Splats; // empty until makeSplatMesh()
 };
-
-#endif

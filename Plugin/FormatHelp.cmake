@@ -1,8 +1,8 @@
-# Gives the pages that ParaView makes of the filters' documentation headings and a picture:
+# Adds headings and a picture to the pages that ParaView makes of the filters' documentation:
 #
 #   cmake -DPAGES_DIR=... -DPICTURE=... -P FormatHelp.cmake
 #
-# ParaView starts paragraphs at blank lines; those that are bold are headings.
+# ParaView starts paragraphs at blank lines; bold paragraphs become headings.
 file(COPY "${PICTURE}" DESTINATION "${PAGES_DIR}")
 get_filename_component(picture "${PICTURE}" NAME)
 file(GLOB pages "${PAGES_DIR}/filters.*.html")

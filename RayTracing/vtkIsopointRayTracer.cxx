@@ -42,7 +42,7 @@ vtkStandardNewMacro(vtkIsopointRayTracer);
 namespace
 {
 
-/// The pass within that of the camera: a function.
+/// A pass within the camera's pass that calls a function.
 class vtkIsopointFunctionPass : public vtkRenderPass
 {
 public:
@@ -54,7 +54,7 @@ public:
 };
 vtkStandardNewMacro(vtkIsopointFunctionPass);
 
-/// Part of a picture: where it begins, in pixels from the lower left.
+/// The offset of a part of a picture, in pixels from the lower left.
 struct Tile
 {
   std::size_t column = 0;
@@ -63,7 +63,7 @@ struct Tile
   std::size_t height = 0;
 };
 
-/// How far along a direction an offset reaches, as a share of the direction's length.
+/// The length of an offset along a direction, as a share of the direction's length.
 double shareOf(
   const isopoint::Vector& from, const isopoint::Vector& to, const isopoint::Vector& direction)
 {
@@ -71,9 +71,9 @@ double shareOf(
          isopoint::dot(direction, direction);
 }
 
-/// Whether a window is a part of another one, but for a small part of a pixel. What grabs the
-/// picture of a window sets the camera's angle to another value, and back.
-/// @param x, y, width, height shares of the other one's
+/// Whether a window is part of another one, up to a small part of a pixel. Grabbing the picture of
+/// a window changes the camera's angle and restores it inexactly.
+/// @param x, y, width, height as shares of the other window
 bool isPart(const raytracing::Window& part, const raytracing::Window& whole, double x, double y,
   double width, double height)
 {
@@ -92,8 +92,7 @@ bool isPart(const raytracing::Window& part, const raytracing::Window& whole, dou
   return difference <= most * size;
 }
 
-/// Whether a camera with a window of so many pixels sees a part of a picture, or all of it: large
-/// pictures of a window are grabbed in tiles.
+/// Whether a camera with a window of this size sees a picture, or a tile of it.
 bool isPart(const raytracing::Camera& camera, const int* size, const raytracing::Picture& picture,
   const raytracing::Camera& whole, Tile& tile)
 {
@@ -130,7 +129,7 @@ std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
   return actors;
 }
 
-/// Differs where another picture is seen by the same camera.
+/// Describes everything except the camera that changes the picture.
 std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
 {
   vtkIsopointTracedState state;
@@ -158,7 +157,6 @@ std::string stateOf(const vtkIsopointTracedView& view, vtkRenderer* renderer)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 class vtkIsopointRayTracer::Internals
 {
 public:
@@ -179,19 +177,19 @@ public:
     this->OtherPasses->SetPasses(passes);
   }
 
-  /// Brings the picture up to date with a renderer.
-  /// @param samples that are added at most
-  /// @returns whether it has as many samples as it is to have
+  /// Updates the picture for a renderer.
+  /// @param samples maximum number to add
+  /// @returns whether the picture is complete
   bool Trace(vtkIsopointRayTracer* self, vtkRenderer* renderer,
     const std::vector<vtkActor*>& actors, const int* size, int samples);
 
   /// Traces and draws the props of a state.
   void RenderTraced(vtkIsopointRayTracer* self, const vtkRenderState* state);
   void Draw(vtkOpenGLRenderWindow* window);
-  /// Writes what is shown, before the background.
+  /// Writes the visible pixels in front of the background.
   void Write(const int* size, vtkImageData* image) const;
 
-  /// The picture's pixel at a place of what is shown of it.
+  /// The index in the picture of a visible pixel.
   std::size_t IndexOf(std::size_t column, std::size_t row) const
   {
     return (this->Shown.row + row) * this->Picture->getWidth() + this->Shown.column + column;
@@ -199,17 +197,16 @@ public:
 
   vtkNew<vtkCameraPass> CameraPass;
   vtkNew<vtkIsopointFunctionPass> InnerPass;
-  vtkNew<vtkSequencePass> OtherPasses; // of what is not traced
+  vtkNew<vtkSequencePass> OtherPasses; // of props that are not traced
   vtkIsopointTracedDisplay Display;
   vtkIsopointTracedScene Scene;
   std::unique_ptr<vtkIsopointTracedView> View;
   std::unique_ptr<raytracing::Picture> Picture;
   std::string PictureState;
   raytracing::Camera PictureCamera;
-  Tile Shown; // of the picture
+  Tile Shown; // part of the picture
 };
 
-//------------------------------------------------------------------------------
 bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRenderer* renderer,
   const std::vector<vtkActor*>& actors, const int* size, int samples)
 {
@@ -258,12 +255,11 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   return isDone;
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Internals::RenderTraced(
   vtkIsopointRayTracer* self, const vtkRenderState* state)
 {
   vtkRenderer* const renderer = state->GetRenderer();
-  // What is out of view casts shadows and is reflected.
+  // Actors out of view also cast shadows and are reflected.
   const std::vector<vtkActor*> traced = tracedActorsOf(renderer);
   std::vector<vtkProp*> others;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
@@ -290,7 +286,6 @@ void vtkIsopointRayTracer::Internals::RenderTraced(
   this->OtherPasses->Render(&rest);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
 {
   const std::size_t width = this->Shown.width;
@@ -315,7 +310,6 @@ void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
   this->Display.Draw(window, static_cast<int>(width), static_cast<int>(height), colors, depths);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Internals::Write(const int* size, vtkImageData* image) const
 {
   image->SetDimensions(size[0], size[1], 1);
@@ -341,7 +335,6 @@ void vtkIsopointRayTracer::Internals::Write(const int* size, vtkImageData* image
   }
 }
 
-//------------------------------------------------------------------------------
 vtkIsopointRayTracer::vtkIsopointRayTracer()
   : Internal(std::make_unique<Internals>())
 {
@@ -349,7 +342,6 @@ vtkIsopointRayTracer::vtkIsopointRayTracer()
 
 vtkIsopointRayTracer::~vtkIsopointRayTracer() = default;
 
-//------------------------------------------------------------------------------
 bool vtkIsopointRayTracer::Safely(const std::function<void()>& work)
 {
   try
@@ -371,14 +363,12 @@ bool vtkIsopointRayTracer::Safely(const std::function<void()>& work)
   return false;
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::Render(const vtkRenderState* state)
 {
   vtkRenderer* const renderer = state->GetRenderer();
   if (renderer->GetSelector())
   {
-    // VTK's own passes do not say to a selector which prop they draw; a renderer without a pass
-    // does.
+    // VTK's own passes do not tell a selector which prop they draw; a renderer without a pass does.
     const vtkSmartPointer<vtkIsopointRayTracer> self = this;
     renderer->SetPass(nullptr);
     renderer->DeviceRender();
@@ -391,7 +381,6 @@ void vtkIsopointRayTracer::Render(const vtkRenderState* state)
   this->NumberOfRenderedProps = this->Internal->CameraPass->GetNumberOfRenderedProps();
 }
 
-//------------------------------------------------------------------------------
 bool vtkIsopointRayTracer::RenderToImage(
   vtkRenderer* renderer, int width, int height, vtkImageData* image)
 {
@@ -426,7 +415,6 @@ bool vtkIsopointRayTracer::RenderToImage(
   return this->Safely(trace) && isDone;
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Internal->Display.ReleaseGraphicsResources(window);
@@ -435,7 +423,6 @@ void vtkIsopointRayTracer::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkIsopointRayTracer
- * @brief   traces rays to surfaces
+ * @brief   renders surfaces by ray tracing
  *
- * A render pass (vtkRenderer::SetPass) that traces what the renderer's actors show, and a picture
- * without a window (RenderToImage). Actors with polygons or triangle strips that are shown as
- * surfaces are traced, those with a vtkIsopointSplatMapper among them, with interpolated normals,
- * scalar colors, blocks and transforms as the mapper draws them. What else the renderer shows
- * (lines, points, text, volumes, annotations) is drawn by VTK over the picture, hidden where traced
- * surfaces are in front of it; RenderToImage() leaves it out. All actors are drawn by VTK for a
- * hardware selection. A window that shows a part of the last picture, as where a large picture is
- * grabbed in tiles, is not traced again.
+ * A render pass (vtkRenderer::SetPass) that traces the actors of a renderer; RenderToImage() needs
+ * no window. It traces actors with polygons or triangle strips shown as surfaces, including those
+ * with a vtkIsopointSplatMapper, with interpolated normals, scalar colors, blocks and transforms as
+ * their mapper draws them. VTK draws everything else (lines, points, text, volumes, annotations)
+ * over the picture, hidden behind traced surfaces; RenderToImage() omits it. For a hardware
+ * selection VTK draws all actors. A window that shows part of the last picture is not traced again,
+ * for example when a large picture is grabbed in tiles.
  *
- * Lights are the renderer's, with shadows. The background is the renderer's color, gradient
- * or texture; what is reflected and refracted sees it as a panorama around the camera, or the
+ * Lights are the renderer's, with shadows. The background is the renderer's color, gradient or
+ * texture. Reflections and refractions show it as a panorama around the camera, or show the
  * renderer's environment texture, if it has one in longitudes and latitudes.
  *
  * Materials are those of vtkProperty:
- * - Flat, Gouraud and Phong interpolation: ambient, diffuse and specular light as in VTK. What is
- *   not opaque lets light pass straight.
- * - Physically based interpolation (SetInterpolationToPBR): a surface that reflects what is around
- *   it, sharply or, with Roughness, blurred. With Metallic 1 it reflects in its Color: a mirror.
- *   With Metallic 0 it reflects as Fresnel's equations say for BaseIOR, and where Opacity is
- *   below 1 it refracts what it does not reflect: with Opacity 0 it is glass, which takes on its
- *   Color over AbsorptionDistance. Its normals may point to either side; the surface is to be
- *   closed.
+ * - Flat, Gouraud and Phong interpolation: ambient, diffuse and specular light as in VTK. Light
+ *   passes straight through translucent surfaces.
+ * - Physically based interpolation (SetInterpolationToPBR): a surface that reflects its
+ *   surroundings, sharply or, with Roughness, blurred. With Metallic 1 it is a mirror that reflects
+ *   in its Color. With Metallic 0 it reflects by Fresnel's equations for BaseIOR and, with Opacity
+ *   below 1, refracts the rest: with Opacity 0 it is glass, which tints light with its Color over
+ *   AbsorptionDistance. The surface must be closed; its normals may point to either side.
  *
- * Colors are those of the display throughout, as in VTK without physically based rendering. A
- * picture is the same to the last bit for any number of threads.
+ * Colors are display colors throughout, as in VTK without physically based rendering. Pictures are
+ * the same to the last bit for any number of threads.
  *
- * @warning Textures of actors, interpolation of scalars before mapping, mappers' clipping planes,
- * face culling, back face properties, and assemblies are not considered.
- * @warning Positions are resolved to 1e-7 of the diagonal of all that is traced: leave out a floor
- * that is many thousand times as large as the splats' surface.
+ * @warning
+ * Ignored: textures of actors, interpolation of scalars before mapping, clipping planes of mappers,
+ * face culling, back face properties, and assemblies.
+ * @warning
+ * Positions are resolved to 1e-7 of the diagonal of everything traced: avoid a floor many thousand
+ * times as large as the surface of splats.
  *
- * @sa vtkIsopointSplatMapper
+ * @sa
+ * vtkIsopointSplatMapper
  */
 #ifndef vtkIsopointRayTracer_h
 #define vtkIsopointRayTracer_h
@@ -57,8 +58,8 @@ public:
 
   ///@{
   /**
-   * Samples of each pixel, which determine how smooth outlines, soft shadows and blurred
-   * reflections are. Range: 1 to 65536. Default: 16.
+   * Samples per pixel, for smooth outlines, soft shadows and blurred reflections. Range: 1 to
+   * 65536. Default: 16.
    */
   vtkSetClampMacro(SamplesPerPixel, int, 1, 65536);
   vtkGetMacro(SamplesPerPixel, int);
@@ -66,8 +67,8 @@ public:
 
   ///@{
   /**
-   * Samples that each frame of a window adds until there are SamplesPerPixel; a change of what is
-   * shown begins again. 0: all in one frame. Range: 0 to 65536. Default: 0.
+   * Samples that each frame of a window adds until there are SamplesPerPixel. A changed scene
+   * starts again. 0: all in one frame. Range: 0 to 65536. Default: 0.
    */
   vtkSetClampMacro(SamplesPerFrame, int, 0, 65536);
   vtkGetMacro(SamplesPerFrame, int);
@@ -84,8 +85,8 @@ public:
 
   ///@{
   /**
-   * Angle under which lights are seen, in degrees, of positional lights from their focal points:
-   * the larger it is, the softer shadows are. 0: shadows are sharp. Range: 0 to 90. Default: 1.
+   * The apparent angle of lights, in degrees (for positional lights, from their focal points).
+   * Larger angles soften shadows; 0 makes them sharp. Range: 0 to 90. Default: 1.
    */
   vtkSetClampMacro(LightAngle, double, 0.0, 90.0);
   vtkGetMacro(LightAngle, double);
@@ -93,7 +94,7 @@ public:
 
   ///@{
   /**
-   * Light from all directions, as a factor on the color of surfaces that are not mirrors or glass.
+   * Light from all directions, as a factor on the color of surfaces other than mirrors and glass.
    * The ambient light of vtkProperty is added. Range: 0 or more. Default: 0.
    */
   vtkSetClampMacro(AmbientLight, double, 0.0, VTK_DOUBLE_MAX);
@@ -102,8 +103,8 @@ public:
 
   ///@{
   /**
-   * Distance within which surfaces take away ambient light from each other (ambient occlusion), as
-   * a share of the diagonal of all that is shown. 0: none do. Range: 0 or more. Default: 0.1.
+   * The distance within which surfaces block ambient light (ambient occlusion), as a share of the
+   * diagonal of everything shown. 0: none do. Range: 0 or more. Default: 0.1.
    */
   vtkSetClampMacro(AmbientDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(AmbientDistance, double);
@@ -111,8 +112,8 @@ public:
 
   ///@{
   /**
-   * Reflections and refractions along a path, after which no light arrives. Range: 0 to 64.
-   * Default: 8.
+   * The maximum number of reflections and refractions along a path; then no light arrives. Range: 0
+   * to 64. Default: 8.
    */
   vtkSetClampMacro(MaximumNumberOfBounces, int, 0, 64);
   vtkGetMacro(MaximumNumberOfBounces, int);
@@ -120,8 +121,8 @@ public:
 
   ///@{
   /**
-   * Distance within which light takes on the color of the glass that it passes, in the units of the
-   * world. 0: the diagonal of the actor's bounds. Range: 0 or more. Default: 0.
+   * The distance over which light takes on the color of glass, in world units. 0: the diagonal of
+   * the actor's bounds. Range: 0 or more. Default: 0.
    */
   vtkSetClampMacro(AbsorptionDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(AbsorptionDistance, double);
@@ -129,8 +130,7 @@ public:
 
   ///@{
   /**
-   * Threads that trace rays, at most. 0: one for each core that the process may use. Range: 0 to
-   * 1024. Default: 0.
+   * The maximum number of threads. 0: one per available core. Range: 0 to 1024. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
@@ -138,10 +138,9 @@ public:
 
   ///@{
   /**
-   * Ends the tracing that is under way within a fraction of a second; it is to be set in an
-   * observer of ProgressEvent, which has the share that is done, and is off again when the next one
-   * begins. An abort of the render window does the same. The frame shows the samples so far.
-   * Default: off.
+   * Ends tracing within a fraction of a second. Set it in an observer of ProgressEvent, which has
+   * the share done; it is reset when the next tracing begins. Aborting the render window has the
+   * same effect. The frame shows the samples so far. Default: off.
    */
   vtkSetMacro(AbortExecute, vtkTypeBool);
   vtkGetMacro(AbortExecute, vtkTypeBool);
@@ -149,16 +148,16 @@ public:
   ///@}
 
   /**
-   * Samples that each pixel of the last picture has.
+   * The number of samples per pixel of the last picture.
    */
   vtkGetMacro(NumberOfSamples, int);
 
   /**
-   * Traces a renderer's actors, as its active camera sees them, to a picture of three bytes per
-   * pixel. It needs neither window nor OpenGL. The camera's clipping range is used as it is.
+   * Traces a renderer's actors, seen by its active camera, to a picture of three bytes per pixel.
+   * Needs neither a window nor OpenGL. Uses the camera's clipping range as is.
    * @param width, height of the picture in pixels, 1 to 65536; 0 or less: those of the renderer in
    * its window
-   * @returns whether there is a picture: not after an abort nor an error, such as a lack of memory
+   * @returns whether there is a picture; false after an abort or an error, such as a lack of memory
    */
   bool RenderToImage(vtkRenderer* renderer, int width, int height, vtkImageData* image);
 
@@ -185,7 +184,7 @@ private:
   vtkIsopointRayTracer(const vtkIsopointRayTracer&) = delete;
   void operator=(const vtkIsopointRayTracer&) = delete;
 
-  /// Does work, and reports what it throws. @returns whether it was done
+  /// Does work, and reports exceptions. @returns whether it succeeded
   bool Safely(const std::function<void()>& work);
 
   class Internals;

@@ -16,7 +16,7 @@
 namespace
 {
 
-/// Applies the attributes of a data object to the blocks that it is or contains.
+/// Applies the attributes of a data object to itself or the blocks in it.
 void applyAttributes(vtkDataObject* object, vtkCompositeDataDisplayAttributes* attributes,
   std::vector<vtkIsopointTracedBlock>& blocks)
 {
@@ -55,7 +55,6 @@ void applyAttributes(vtkDataObject* object, vtkCompositeDataDisplayAttributes* a
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<vtkIsopointTracedBlock> vtkIsopointTracedBlocks(vtkMapper* mapper)
 {
   vtkDataObject* const input = mapper->GetInputDataObject(0, 0);
@@ -87,7 +86,7 @@ std::vector<vtkIsopointTracedBlock> vtkIsopointTracedBlocks(vtkMapper* mapper)
   {
     return blocks;
   }
-  // The iterator visits outer blocks before inner ones, whose attributes replace theirs.
+  // The iterator visits outer blocks before inner ones, whose attributes take precedence.
   applyAttributes(composite, attributes, blocks);
   if (const auto tree = vtkDataObjectTreeIterator::SafeDownCast(iterator))
   {

@@ -8,17 +8,17 @@
 class vtkMapper;
 class vtkPolyData;
 
-/// A polydata with points, and how a mapper of composite data displays it.
+/// A polydata with points, and its display attributes in a composite.
 struct vtkIsopointTracedBlock
 {
   vtkPolyData* Data = nullptr;
   bool Visible = true;
-  bool HasColor = false; // instead of scalar colors and the material's color
+  bool HasColor = false; // replaces scalar colors and the material's color
   std::array<double, 3> Color = { 0.0, 0.0, 0.0 };
 };
 
-/// The input of a mapper, or the leaves of its composite input. Their visibilities and colors are
-/// those of the innermost block around them that has any.
+/// The input of a mapper, or the leaves of its composite input. A leaf has the visibility and color
+/// of the innermost block around it that has any.
 std::vector<vtkIsopointTracedBlock> vtkIsopointTracedBlocks(vtkMapper* mapper);
 
 #endif

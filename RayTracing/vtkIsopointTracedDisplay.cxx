@@ -8,7 +8,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
-// VTK 9.4 replaced its loader of OpenGL's functions.
+// VTK 9.4 replaced the OpenGL loader.
 #if __has_include("vtk_glad.h")
 #include "vtk_glad.h"
 #else
@@ -42,11 +42,9 @@ void upload(vtkTextureObject* texture, vtkOpenGLRenderWindow* window, int width,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkIsopointTracedDisplay::vtkIsopointTracedDisplay() = default;
 vtkIsopointTracedDisplay::~vtkIsopointTracedDisplay() = default;
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedDisplay::Draw(vtkOpenGLRenderWindow* window, int width, int height,
   const std::vector<float>& colors, const std::vector<float>& depths)
 {
@@ -84,7 +82,6 @@ void vtkIsopointTracedDisplay::Draw(vtkOpenGLRenderWindow* window, int width, in
   this->Depths->Deactivate();
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedDisplay::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Quad.reset();

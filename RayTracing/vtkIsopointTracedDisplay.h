@@ -21,9 +21,8 @@ public:
   vtkIsopointTracedDisplay(const vtkIsopointTracedDisplay&) = delete;
   vtkIsopointTracedDisplay& operator=(const vtkIsopointTracedDisplay&) = delete;
 
-  /// @param colors four numbers for each pixel, by rows from the bottom: color times coverage, and
-  /// coverage
-  /// @param depths as OpenGL has them; 1 where nothing is drawn
+  /// @param colors four numbers per pixel, rows from the bottom: color times coverage, and coverage
+  /// @param depths as in OpenGL; 1 where nothing is drawn
   void Draw(vtkOpenGLRenderWindow* window, int width, int height, const std::vector<float>& colors,
     const std::vector<float>& depths);
 

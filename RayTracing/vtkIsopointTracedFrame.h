@@ -6,8 +6,7 @@
 
 #include <array>
 
-/// The scene's coordinates: the world's, with a point of it at the origin and a length of it as
-/// unit.
+/// The coordinates of the scene: world coordinates, shifted and scaled.
 struct vtkIsopointTracedFrame
 {
   std::array<double, 3> Center = { 0.0, 0.0, 0.0 };

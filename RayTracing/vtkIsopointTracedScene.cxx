@@ -22,11 +22,11 @@
 namespace
 {
 
-/// Differs after each change of an actor that changes its traced surfaces.
+/// Describes everything about an actor that affects its traced surfaces.
 void describe(vtkActor* actor, vtkIsopointTracedState& state)
 {
   vtkMapper* const mapper = actor->GetMapper();
-  mapper->GetLookupTable(); // the first call makes one, which modifies the mapper
+  mapper->GetLookupTable(); // the first call creates one, which modifies the mapper
   state.Add(actor, mapper, mapper->GetMTime(), actor->GetProperty()->GetMTime());
   for (const auto& row : actor->GetMatrix()->Element)
   {
@@ -65,7 +65,6 @@ vtkIsopointTracedFrame frameOf(const std::vector<vtkActor*>& actors)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool vtkIsopointIsTraced(vtkProp* prop)
 {
   const auto actor = vtkActor::SafeDownCast(prop);
@@ -94,7 +93,6 @@ bool vtkIsopointIsTraced(vtkProp* prop)
     { return block.Data->GetNumberOfPolys() + block.Data->GetNumberOfStrips() > 0; });
 }
 
-//------------------------------------------------------------------------------
 bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double absorptionDistance)
 {
   vtkIsopointTracedState state;
@@ -122,7 +120,6 @@ bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double
   return true;
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedScene::Clear()
 {
   this->Scene.reset();

@@ -12,20 +12,17 @@
 class vtkActor;
 class vtkProp;
 
-/// Whether a prop is visible and can be traced: an actor with triangles that are drawn as a
-/// surface.
+/// Whether a prop is visible and can be traced: an actor with triangles shown as a surface.
 bool vtkIsopointIsTraced(vtkProp* prop);
 
-/// The traced surfaces of a renderer's actors, kept as long as these stay the same.
+/// The traced surfaces of a renderer's actors, rebuilt only when these change.
 class vtkIsopointTracedScene
 {
 public:
-  /// Brings the surfaces up to date.
-  /// @returns whether they changed
+  /// @returns whether the surfaces changed
   /// @throws std::bad_alloc, std::runtime_error
   bool Update(const std::vector<vtkActor*>& actors, double absorptionDistance);
 
-  /// Forgets the surfaces.
   void Clear();
 
   const raytracing::Scene& Get() const { return *this->Scene; }
@@ -34,7 +31,7 @@ public:
 private:
   std::unique_ptr<raytracing::Scene> Scene;
   vtkIsopointTracedFrame Frame;
-  std::string State; // identifies the actors that the scene is made of
+  std::string State; // identifies the actors of the scene
 };
 
 #endif

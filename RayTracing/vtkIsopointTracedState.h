@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-/// A text that differs where any of its values does.
+/// A text that differs if any of its values differ.
 class vtkIsopointTracedState
 {
 public:

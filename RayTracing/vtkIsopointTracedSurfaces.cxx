@@ -29,7 +29,7 @@
 namespace
 {
 
-/// From an actor's coordinates to those of the scene.
+/// Transforms an actor's coordinates to those of the scene.
 class Placement
 {
 public:
@@ -59,7 +59,7 @@ public:
     }
   }
 
-  /// Whether the actor is flattened to nothing, and cannot be placed.
+  /// Whether the actor's transform has no inverse, so that it cannot be placed.
   bool GetIsSingular() const { return this->IsSingular; }
 
   raytracing::Vector Point(const double* point) const
@@ -70,7 +70,6 @@ public:
     return vtkIsopointTracedVector(to);
   }
 
-  /// A normal, of unit length.
   raytracing::Vector Normal(const double* normal) const
   {
     double result[3];
@@ -80,12 +79,12 @@ public:
 
 private:
   vtkNew<vtkMatrix4x4> Matrix;
-  vtkNew<vtkMatrix3x3> NormalMatrix; // the transposed inverse
+  vtkNew<vtkMatrix3x3> NormalMatrix; // inverse transpose
   bool IsSingular = false;
 };
 
-/// The material that a property stands for, see vtkIsopointRayTracer.
-/// @param absorptionDistance of the world; 0: the actor's diagonal
+/// The material for a property; see vtkIsopointRayTracer.
+/// @param absorptionDistance in world units; 0: the actor's diagonal
 raytracing::Material materialOf(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {
@@ -108,30 +107,30 @@ raytracing::Material materialOf(
   return material;
 }
 
-/// The colors that a mapper gives to a polydata's scalars.
+/// The colors of a polydata's scalars, as a mapper maps them.
 struct MappedColors
 {
-  vtkSmartPointer<vtkUnsignedCharArray> Colors; // null if it gives none
+  vtkSmartPointer<vtkUnsignedCharArray> Colors; // null if there are none
   bool OfCells = false;                         // rather than of points
-  vtkIdType Single = -1;                        // the tuple that all cells have, or -1
+  vtkIdType Single = -1;                        // the tuple for all cells, or -1
 };
 
-/// The mapper is left as it is.
+/// Does not change the mapper.
 MappedColors mappedColors(vtkMapper* mapper, vtkPolyData* data)
 {
-  // Another mapper with the same settings, since mapping keeps its result in the mapper.
+  // A copy of the mapper's settings, because mapping stores its result in the mapper.
   vtkNew<vtkOpenGLPolyDataMapper> colors;
   colors->vtkMapper::ShallowCopy(mapper);
   colors->SetInterpolateScalarsBeforeMapping(false);
   MappedColors mapped;
-  int cellFlag = 0; // 0: of points, 1: of cells, 2: of the field, which has one tuple for each cell
+  int cellFlag = 0; // 0: points, 1: cells, 2: field data with one tuple per cell
   mapped.Colors = colors->MapScalars(data, 1.0, cellFlag);
   mapped.OfCells = cellFlag != 0;
   mapped.Single = cellFlag == 2 ? colors->GetFieldDataTupleId() : -1;
   return mapped;
 }
 
-/// The cells of a polydata as triangles, and the cell that each of them is of.
+/// The cells of a polydata as triangles, with the cell of each.
 class Triangulation
 {
 public:
@@ -277,7 +276,6 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {

@@ -10,8 +10,8 @@
 
 class vtkActor;
 
-/// The visible triangles of an actor, a surface for each block.
-/// @param absorptionDistance of the world; 0: the actor's diagonal
+/// The visible triangles of an actor, one surface per block.
+/// @param absorptionDistance in world units; 0: the actor's diagonal
 std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame);
 

@@ -23,7 +23,7 @@ raytracing::Color scaledColor(double factor, const double* color)
   return static_cast<float>(factor) * vtkIsopointTracedVector(color);
 }
 
-/// The pixels of a texture; none where there is no picture.
+/// The pixels of a texture; empty if it has no image.
 raytracing::Texture textureOf(vtkTexture* texture)
 {
   raytracing::Texture result;
@@ -63,7 +63,6 @@ raytracing::Texture textureOf(vtkTexture* texture)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkIsopointTracedView::vtkIsopointTracedView(
   vtkRenderer* renderer, double aspect, double lightAngle, const vtkIsopointTracedFrame& frame)
 {
@@ -72,7 +71,6 @@ vtkIsopointTracedView::vtkIsopointTracedView(
   this->SetEnvironment(renderer, aspect);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedView::SetCamera(
   vtkRenderer* renderer, double aspect, const vtkIsopointTracedFrame& frame)
 {
@@ -103,7 +101,6 @@ void vtkIsopointTracedView::SetCamera(
   this->Camera = { windowAt(-1.0), windowAt(1.0) };
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedView::SetLights(
   vtkRenderer* renderer, double lightAngle, const vtkIsopointTracedFrame& frame)
 {
@@ -157,7 +154,6 @@ void vtkIsopointTracedView::SetLights(
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointTracedView::SetEnvironment(vtkRenderer* renderer, double aspect)
 {
   raytracing::Environment& environment = this->Environment;
@@ -183,7 +179,6 @@ void vtkIsopointTracedView::SetEnvironment(vtkRenderer* renderer, double aspect)
   environment.tangentY = static_cast<float>(isHorizontal ? tangent / aspect : tangent);
 }
 
-//------------------------------------------------------------------------------
 double vtkIsopointTracedView::GetDepth(double x, double y, double distance) const
 {
   if (!std::isfinite(distance))

@@ -10,17 +10,17 @@
 
 class vtkRenderer;
 
-/// What of a renderer is traced besides its actors, in the scene's coordinates.
+/// A renderer's camera, lights and environment, in the scene's coordinates.
 struct vtkIsopointTracedView
 {
   /// @param aspect width over height of the picture
-  /// @param lightAngle the angle under which lights are seen, in degrees
+  /// @param lightAngle apparent angle of lights, in degrees
   vtkIsopointTracedView(
     vtkRenderer* renderer, double aspect, double lightAngle, const vtkIsopointTracedFrame& frame);
 
-  /// The depth, 0 on the near plane and 1 on the far plane, as OpenGL has it, of a place.
-  /// @param x, y of the window, 0 to 1
-  /// @param distance from the near plane along the ray through them
+  /// The depth of a position as in OpenGL, 0 on the near plane and 1 on the far plane.
+  /// @param x, y window coordinates, 0 to 1
+  /// @param distance from the near plane along the ray through x, y
   double GetDepth(double x, double y, double distance) const;
 
   raytracing::Camera Camera;

@@ -4,8 +4,7 @@
 
 #include "vtkVersionMacros.h"
 
-// The mapper of composite data with attributes of blocks: vtkCompositePolyDataMapper from VTK 9.3
-// on.
+// The mapper for composite data with block attributes; since VTK 9.3 vtkCompositePolyDataMapper.
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper.h"
 #define vtkIsopointCompositeMapper vtkCompositePolyDataMapper

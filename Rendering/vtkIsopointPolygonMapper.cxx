@@ -8,18 +8,16 @@
 
 vtkStandardNewMacro(vtkIsopointPolygonMapper);
 
-//------------------------------------------------------------------------------
 vtkIsopointPolygonMapper::vtkIsopointPolygonMapper()
 {
   this->SetPointIdArrayName("vtkOriginalPointIds");
   this->SetCellIdArrayName("vtkOriginalCellIds");
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointPolygonMapper::Render(vtkRenderer* renderer, vtkActor* actor)
 {
-  // When points are selected, VTK draws vertices instead of triangles. All vertices of a splat have
-  // the id of its point, so the triangles may be drawn, as for a selection of cells.
+  // For a selection of points, VTK draws vertices instead of triangles. All vertices of a splat
+  // have the id of its point, so triangles can be drawn as for a selection of cells.
   vtkHardwareSelector* const selector = renderer->GetSelector();
   const bool selectsPoints =
     selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;

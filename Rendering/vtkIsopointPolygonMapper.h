@@ -3,12 +3,13 @@
  * @class   vtkIsopointPolygonMapper
  * @brief   draws the triangles of splats, and selects points by their splats
  *
- * VTK's mapper of vtkPolyData and composite data, with one difference: a hardware selection of
- * points finds the point whose splat is seen at a pixel. VTK's own mappers find points where their
- * vertices are drawn, through surfaces in front of them. Input is what vtkIsopointSplatPolygons
- * makes, whose ids of points and cells are those that selections hold.
+ * VTK's mapper for vtkPolyData and composite data, with one difference: a hardware selection of
+ * points finds the points whose splats are visible. VTK's own mappers find points where their
+ * vertices are drawn, even through surfaces in front of them. The input comes from
+ * vtkIsopointSplatPolygons, whose ids of points and cells are used in selections.
  *
- * @sa vtkIsopointSplatMapper
+ * @sa
+ * vtkIsopointSplatMapper
  */
 #ifndef vtkIsopointPolygonMapper_h
 #define vtkIsopointPolygonMapper_h

@@ -8,14 +8,12 @@
 
 vtkStandardNewMacro(vtkIsopointSplatMapper);
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::SetInputConnection(int port, vtkAlgorithmOutput* input)
 {
   this->Polygons->SetInputConnection(input);
   this->Superclass::SetInputConnection(port, input ? this->Polygons->GetOutputPort() : nullptr);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 {
   if (mapper == this)
@@ -28,20 +26,19 @@ void vtkIsopointSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetRadius(other->GetRadius());
     this->SetRadiusScale(other->GetRadiusScale());
-    // The superclass passes on the other mapper's polygons, of which splats would be made again.
+    // The superclass copies the other mapper's polygons as input; they must not become splats
+    // again.
     vtkIsopointSplatPolygons* const polygons = other->GetPolygons();
     this->SetInputConnection(0,
       polygons->GetNumberOfInputConnections(0) > 0 ? polygons->GetInputConnection(0, 0) : nullptr);
   }
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkIsopointSplatMapper::GetMTime()
 {
   return std::max(this->Superclass::GetMTime(), this->Polygons->GetMTime());
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -3,20 +3,21 @@
  * @class   vtkIsopointSplatMapper
  * @brief   draws isopoints as one lit surface
  *
- * Input is a data set with points, or composite data of such (SetInputDataObject or
+ * Input is a data set with points, or a composite of such (SetInputDataObject or
  * SetInputConnection). vtkIsopointSplatPolygons turns the points into triangles with normals, and
- * VTK's own mapper draws these: coloring, opacity, depth peeling, clipping planes, physically based
+ * VTK's own mapper draws these. Coloring, opacity, depth peeling, clipping planes, physically based
  * rendering, render passes, multisampling and exporters work as for a mesh. The triangles are the
- * mapper's input: GetInput() and pickers that intersect rays with it refer to them, and to their
- * points by the array "vtkOriginalPointIds".
+ * mapper's input: GetInput() and pickers that intersect rays refer to them, and to their points by
+ * the array "vtkOriginalPointIds".
  *
- * A hardware selection (vtkHardwareSelector) finds the points whose splats are seen. A selection of
- * cells finds the vertex cells of these points.
+ * A hardware selection (vtkHardwareSelector) of points finds the points whose splats are visible; a
+ * selection of cells finds the vertex cells of these points.
  *
- * Colors and visibilities of blocks are those of SetCompositeDataDisplayAttributes(), by blocks of
- * GetPolygons()->GetOutputDataObject(0).
+ * Colors and visibilities of blocks are set by SetCompositeDataDisplayAttributes(), for the blocks
+ * of GetPolygons()->GetOutputDataObject(0).
  *
- * @sa vtkIsopointSplatPolygons, vtkPointGaussianMapper
+ * @sa
+ * vtkIsopointSplatPolygons, vtkPointGaussianMapper
  */
 #ifndef vtkIsopointSplatMapper_h
 #define vtkIsopointSplatMapper_h
@@ -35,7 +36,7 @@ public:
 
   ///@{
   /**
-   * The shape of splats, see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
+   * The shape of splats; see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
    */
   void SetRadiusArrayName(const char* name) { this->Polygons->SetRadiusArrayName(name); }
   const char* GetRadiusArrayName() { return this->Polygons->GetRadiusArrayName(); }

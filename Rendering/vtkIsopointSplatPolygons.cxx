@@ -116,18 +116,18 @@ vtkSmartPointer<vtkAbstractArray> newLike(vtkAbstractArray* array, std::size_t t
   return copy;
 }
 
-/// Calls of(tuple) for the tuples of an array.
+/// Calls of(tuple) for each tuple of an array.
 template <class Function>
 void forTuples(
   const Execution& execution, vtkAbstractArray* array, std::size_t tuples, const Function& of)
 {
-  // Eight values of a bit array share a byte; strings change a state of their array.
+  // Eight values of a bit array share a byte, and string arrays change internal state.
   const bool mayShare = vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT;
   isopoint::forEachIndex(mayShare ? execution : Execution{}, tuples, of);
 }
 
-/// Sets the means of values of points at the vertices.
-/// @returns false if the values are of another type, or in another layout
+/// Averages values of points at the vertices.
+/// @returns false if the array has another type or memory layout
 template <class T>
 bool setMeans(
   const Execution& execution, const SplatMesh& mesh, vtkAbstractArray* array, vtkAbstractArray* to)
@@ -146,8 +146,8 @@ bool setMeans(
   return values && means;
 }
 
-/// An array of points at the vertices: real numbers are the mean of those of the points that meet
-/// there, others those of the first point.
+/// An array of points at the vertices. Real numbers are averaged over the points that meet there;
+/// other values are those of the first point.
 vtkSmartPointer<vtkAbstractArray> atVertices(
   const Execution& execution, vtkAbstractArray* array, const SplatMesh& mesh)
 {
@@ -175,8 +175,7 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
   return copy;
 }
 
-/// An array of ids.
-/// @param idOf(i) the id at each place
+/// @param idOf(i) the id at index i
 template <class IdOf>
 vtkSmartPointer<vtkIdTypeArray> newIds(const char* name, std::size_t count, const IdOf& idOf)
 {
@@ -190,7 +189,7 @@ vtkSmartPointer<vtkIdTypeArray> newIds(const char* name, std::size_t count, cons
   return array;
 }
 
-/// Whether an array says how a splat is drawn, and nothing about its point.
+/// Whether an array describes the shape of a splat rather than its point.
 bool isOfSplat(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
   const std::string name = array->GetName() ? array->GetName() : "";
@@ -211,7 +210,7 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
       continue;
     }
     const int added = to->AddArray(copied(array));
-    // Ids that are to be unique are no longer.
+    // These ids are no longer unique.
     const int attribute = from->IsArrayAnAttribute(i);
     if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS &&
         attribute != vtkDataSetAttributes::PEDIGREEIDS)
@@ -223,20 +222,17 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkIsopointSplatPolygons::vtkIsopointSplatPolygons()
   : RadiusArrayName(nullptr)
 {
   this->SetRadiusArrayName("Radius");
 }
 
-//------------------------------------------------------------------------------
 vtkIsopointSplatPolygons::~vtkIsopointSplatPolygons()
 {
   this->SetRadiusArrayName(nullptr);
 }
 
-//------------------------------------------------------------------------------
 int vtkIsopointSplatPolygons::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
@@ -244,13 +240,11 @@ int vtkIsopointSplatPolygons::FillInputPortInformation(int, vtkInformation* info
   return 1;
 }
 
-//------------------------------------------------------------------------------
 vtkExecutive* vtkIsopointSplatPolygons::CreateDefaultExecutive()
 {
   return vtkCompositeDataPipeline::New();
 }
 
-//------------------------------------------------------------------------------
 int vtkIsopointSplatPolygons::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -260,7 +254,7 @@ int vtkIsopointSplatPolygons::RequestDataObject(
   {
     type = VTK_MULTIBLOCK_DATA_SET;
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-    // ParaView's geometry representation takes no such collections before.
+    // Before VTK 9.3, ParaView's geometry representation does not accept such collections.
     if (input->IsA("vtkPartitionedDataSetCollection"))
     {
       type = VTK_PARTITIONED_DATA_SET_COLLECTION;
@@ -271,7 +265,6 @@ int vtkIsopointSplatPolygons::RequestDataObject(
     type, outputVector->GetInformationObject(0), /*exact=*/true);
 }
 
-//------------------------------------------------------------------------------
 int vtkIsopointSplatPolygons::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -321,7 +314,6 @@ int vtkIsopointSplatPolygons::RequestData(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
 {
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
@@ -339,9 +331,9 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
     vtkWarningMacro(<< problem);
   }
   double first[3];
-  input->GetPoint(0, first); // fills what data sets compute at the first call
+  input->GetPoint(0, first); // computes what data sets cache
   const Execution execution = executionOf(this);
-  // The shares of the time that parts take.
+  // Shares of the progress.
   constexpr double withMesh = 0.6;
   constexpr double withTriangles = 0.65;
   constexpr double withPoints = 0.95;
@@ -376,7 +368,6 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   output->GetCellData()->AddArray(cellIds);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatPolygons::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

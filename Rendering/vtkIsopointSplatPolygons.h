@@ -4,40 +4,38 @@
  * @brief   turns isopoints into the triangles of their splats
  *
  * Each point becomes a splat: a fan of triangles around it, with a normal at each vertex. Together
- * the splats of isopoints are a surface for any mapper, filter, writer or exporter.
+ * the splats of isopoints form a surface for any mapper, filter, writer or exporter.
  *
- * Input is a data set with points, or composite data of such. The shape of a splat is given by
- * arrays:
- * - the cell arrays "SplatAxis" and "SplatPolygon", as vtkScatteredIsopointFilter writes them, of
- *   the first VTK_VERTEX of the point, and the active normals of the points: up to eight corners,
- *   each with its own height and normal. The arrays may be point arrays, too;
- * - where there is none, or its axis is not orthogonal to the normal, the point array
- *   RadiusArrayName, or Radius, and the active normals: a regular octagon in the plane orthogonal
- *   to the normal, whose corners are a radius away from the point;
- * - where there is no normal, or none of a length: an octahedron of that radius.
+ * Input is a data set with points, or a composite of such. Arrays determine the shape of a splat:
+ * - with the cell arrays "SplatAxis" and "SplatPolygon" from vtkScatteredIsopointFilter, on the
+ *   first VTK_VERTEX of the point, and active point normals: up to eight corners, each with its own
+ *   height and normal. Both may also be point arrays;
+ * - without these, or if the axis is not orthogonal to the normal: a regular octagon orthogonal to
+ *   the active point normal, with the radius in the point array RadiusArrayName, or Radius;
+ * - without a normal, or if its length is 0: an octahedron of that radius.
  *
  * Output is a vtkPolyData of triangles, or a vtkMultiBlockDataSet of these with the structure of
- * the input (a vtkPartitionedDataSetCollection stays one from VTK 9.3 on). The vertices have the
- * point arrays of their isopoint except for those of its shape, "Normals", and the isopoint's id in
- * "vtkOriginalPointIds". If each drawn point has a vertex cell (VTK_VERTEX, otherwise
- * VTK_POLY_VERTEX), the triangles have the cell arrays of that cell except for those of its shape,
- * and its id in "vtkOriginalCellIds". Cells of other kinds are ignored.
+ * the input (since VTK 9.3, a vtkPartitionedDataSetCollection keeps its type). Vertices have
+ * "Normals", the id of their isopoint in "vtkOriginalPointIds", and its point arrays except those
+ * of its shape. If each drawn point has a vertex cell (VTK_VERTEX, otherwise VTK_POLY_VERTEX),
+ * triangles have the id of that cell in "vtkOriginalCellIds", and its cell arrays except those of
+ * its shape. Other cells are ignored.
  *
- * Each splat has vertices of its own. Where corners of several are one, real-valued arrays have the
- * mean of their points, so that colors are interpolated as on a mesh. Splats that are nearly flat
- * have no vertex in the middle.
+ * Splats do not share vertices. Where corners of several splats coincide, real-valued arrays are
+ * averaged, so that colors interpolate as on a mesh. Nearly flat splats have no center vertex.
  *
- * No splat is made of points that are hidden or duplicate ghosts, of points whose position or shape
- * is not finite, and of points with a radius of 0 or less. Time: O(n log n) in the number of
- * points, unless coordinates are so large that their rounding is coarse against the distances
- * between points. After an abort (SetAbortExecute()) the output is empty. A lack of memory is an
- * error with an empty output, and GetErrorCode() is ENOMEM.
+ * No splat is made for hidden or duplicate ghosts, a position or shape that is not finite, or a
+ * radius of 0 or less. Time: O(n log n) in the number of points, unless coordinates are so large
+ * that their rounding is coarse compared with the distances between points. After an abort
+ * (SetAbortExecute()), or an error, the output is empty. GetErrorCode() is ENOMEM after a lack of
+ * memory.
  *
- * @warning Filters that rotate points have to rotate the active normals and the active vectors of
- * cells ("SplatAxis") with them, as vtkTransformFilter does. Filters that mirror or stretch points
- * distort the splats: do so to the actor instead.
+ * @warning
+ * Filters that rotate points must also rotate the active normals and the active cell vectors
+ * ("SplatAxis"), as vtkTransformFilter does. To mirror or stretch splats, transform the actor.
  *
- * @sa vtkIsopointSplatMapper, vtkScatteredIsopointFilter
+ * @sa
+ * vtkIsopointSplatMapper, vtkScatteredIsopointFilter
  */
 #ifndef vtkIsopointSplatPolygons_h
 #define vtkIsopointSplatPolygons_h
@@ -57,9 +55,8 @@ public:
 
   ///@{
   /**
-   * Name of the point array of radii: one component, in the units of the points' coordinates. If
-   * the input has no such array, or the name is empty, Radius is used. Points with polygons of
-   * their own do not need it. Default: "Radius".
+   * The point array of radii: one component, in units of the coordinates. Without it, or if the
+   * name is empty, Radius is used. Points with a "SplatPolygon" do not need it. Default: "Radius".
    */
   vtkSetStringMacro(RadiusArrayName);
   vtkGetStringMacro(RadiusArrayName);
@@ -67,10 +64,9 @@ public:
 
   ///@{
   /**
-   * Radius of all splats of input without an array of radii, in the units of the points'
-   * coordinates. 0: twice the diagonal of the bounding box, divided by the square root of the
-   * number of points, which suits points spread over a surface of the diagonal's square. Range: 0
-   * or more. Default: 0.
+   * The radius of all splats if there is no array of radii, in units of the coordinates. 0: twice
+   * the diagonal of the bounding box, divided by the square root of the number of points, which
+   * suits points spread over a surface of the diagonal's square. Range: 0 or more. Default: 0.
    */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
@@ -78,7 +74,7 @@ public:
 
   ///@{
   /**
-   * Factor on the size of all splats, without unit. Range: 0 or more. Default: 1.
+   * Factor on the size of all splats. Range: 0 or more. Default: 1.
    */
   vtkSetClampMacro(RadiusScale, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(RadiusScale, double);

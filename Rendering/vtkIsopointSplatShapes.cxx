@@ -30,7 +30,6 @@ Vector tupleOf(vtkDataArray* array, vtkIdType tuple)
   return vector;
 }
 
-/// Moves a fan around the origin.
 SplatFan movedTo(const Vector& position, SplatFan fan)
 {
   for (std::size_t i = 0; i < fan.vertexCount; ++i)
@@ -103,14 +102,12 @@ double automaticRadius(vtkDataSet* data)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int vtkIsopointTypeOfPoints(vtkDataSet* data)
 {
   const auto points = vtkPointSet::SafeDownCast(data);
   return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
 }
 
-//------------------------------------------------------------------------------
 vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   const vtkIsopointVertexCells& cells, const char* radiusArrayName, double radius, double scale)
   : Data(data)
@@ -126,7 +123,7 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   this->Radii = this->Usable(
     radiusArrayName && radiusArrayName[0] ? arrays->GetArray(radiusArrayName) : nullptr, 1, count);
   vtkIdType tuples = data->GetNumberOfCells();
-  if (!this->Shapes->HasArray("SplatPolygon")) // files may have them at the points
+  if (!this->Shapes->HasArray("SplatPolygon")) // files may have it as a point array
   {
     this->Shapes = arrays;
     tuples = count;
@@ -141,7 +138,6 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   }
 }
 
-//------------------------------------------------------------------------------
 vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components, vtkIdType tuples)
 {
   return array && array->GetNumberOfComponents() == components &&
@@ -150,7 +146,6 @@ vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components
            : nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::string vtkIsopointSplatShapes::Problem() const
 {
   if (this->Shapes->HasArray("SplatPolygon") && !this->Polygons)
@@ -171,14 +166,12 @@ std::string vtkIsopointSplatShapes::Problem() const
   return "";
 }
 
-//------------------------------------------------------------------------------
 bool vtkIsopointSplatShapes::IsGhost(vtkIdType point) const
 {
   constexpr int hidden = vtkDataSetAttributes::HIDDENPOINT | vtkDataSetAttributes::DUPLICATEPOINT;
   return this->Ghosts && (this->Ghosts->GetValue(point) & hidden) != 0;
 }
 
-//------------------------------------------------------------------------------
 SplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
 {
   Vector position;
@@ -207,7 +200,6 @@ SplatFan vtkIsopointSplatShapes::Fan(vtkIdType point) const
   return hasNormal ? octagonOf(position, normal, radius) : octahedronOf(position, radius);
 }
 
-//------------------------------------------------------------------------------
 vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const Vector& normal) const
 {
   if (!this->Axes || !this->Polygons)
@@ -220,7 +212,7 @@ vtkIdType vtkIsopointSplatShapes::PolygonOf(vtkIdType point, const Vector& norma
   {
     return -1;
   }
-  // A filter may have turned the normals alone.
+  // A filter may have rotated only the normals.
   constexpr double steepest = 1e-4;
   const Vector axis = tupleOf(this->Axes, tuple);
   const double length = std::sqrt(isopoint::dot(axis, axis));

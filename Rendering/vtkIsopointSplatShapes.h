@@ -14,21 +14,19 @@ class vtkDataSetAttributes;
 class vtkIsopointVertexCells;
 class vtkUnsignedCharArray;
 
-/// The type of a data set's coordinates.
 int vtkIsopointTypeOfPoints(vtkDataSet* data);
 
-/// The shapes of the splats of a data set, from its arrays and those of its vertex cells. Reading
-/// is thread-safe.
+/// The splat shapes of a data set, from its arrays and those of its vertex cells. Thread-safe.
 class vtkIsopointSplatShapes
 {
 public:
   /// @param cells of the data; kept by reference
-  /// @param radius of points without an array of radii; 0: suits the number of points
+  /// @param radius of points without an array of radii; 0: derived from the number of points
   /// @param scale factor on all sizes
   vtkIsopointSplatShapes(vtkDataSet* data, const vtkIsopointVertexCells& cells,
     const char* radiusArrayName, double radius, double scale);
 
-  /// What is wrong with the arrays of shapes, for a warning; empty if nothing is.
+  /// A description of invalid shape arrays, for a warning; empty if they are valid.
   std::string Problem() const;
 
   isopoint::SplatFan Fan(vtkIdType point) const;
@@ -36,12 +34,12 @@ public:
 private:
   static vtkDataArray* Usable(vtkDataArray* array, int components, vtkIdType tuples);
   bool IsGhost(vtkIdType point) const;
-  /// The tuple of the point's polygon; -1: none, or one for another normal.
+  /// The tuple of the point's polygon; -1 if there is none, or only one for another normal.
   vtkIdType PolygonOf(vtkIdType point, const isopoint::Vector& normal) const;
 
   vtkDataSet* Data;
   const vtkIsopointVertexCells& Cells;
-  vtkDataSetAttributes* Shapes; // have the arrays of splats, if any do
+  vtkDataSetAttributes* Shapes; // with the arrays of splats, if any
   vtkDataArray* Normals;
   vtkDataArray* Radii;
   vtkDataArray* Axes;

@@ -11,10 +11,10 @@
 vtkIsopointVertexCells::vtkIsopointVertexCells(vtkDataSet* data)
 {
   const auto polydata = vtkPolyData::SafeDownCast(data);
-  vtkCellArray* const vertices = polydata ? polydata->GetVerts() : nullptr; // its first cells
+  vtkCellArray* const vertices = polydata ? polydata->GetVerts() : nullptr;
   const vtkIdType cells = vertices ? vertices->GetNumberOfCells() : data->GetNumberOfCells();
   vtkNew<vtkIdList> points;
-  // Whether a cell is a vertex of one point; otherwise `points` holds those of several or none.
+  // Whether a cell is a VTK_VERTEX; otherwise `points` are those of a VTK_POLY_VERTEX, or none.
   const auto readsSingle = [&](vtkIdType cell)
   {
     points->Reset();

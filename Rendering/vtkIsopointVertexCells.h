@@ -9,23 +9,22 @@
 
 class vtkDataSet;
 
-/// The vertex cell of each point of a data set. Needs no memory where the first cells are the
-/// vertices of the points, in their order. Reading is thread-safe.
+/// The vertex cell of each point of a data set. Takes no memory if cell i is the vertex of point i
+/// for all points. Reading is thread-safe.
 class vtkIsopointVertexCells
 {
 public:
   /// @throws std::bad_alloc
   explicit vtkIsopointVertexCells(vtkDataSet* data);
 
-  /// The first vertex of the point alone (VTK_VERTEX); none: -1.
+  /// The first VTK_VERTEX of the point, or -1.
   vtkIdType Single(vtkIdType point) const
   {
     const vtkIdType cell = this->Stored(point);
     return cell < 0 ? -1 : cell;
   }
 
-  /// The same, otherwise the first cell of several vertices (VTK_POLY_VERTEX) with the point; none:
-  /// -1.
+  /// As Single(), otherwise the first VTK_POLY_VERTEX with the point, or -1.
   vtkIdType Any(vtkIdType point) const
   {
     const vtkIdType cell = this->Stored(point);
@@ -43,7 +42,7 @@ private:
   }
 
   bool AreInOrder = false;
-  std::vector<vtkIdType> Cells; // a cell of several vertices as -2 less its id; none: -1
+  std::vector<vtkIdType> Cells; // -2 - id for a VTK_POLY_VERTEX; none: -1
 };
 
 #endif

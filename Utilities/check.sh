@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.sh [format|lint|documents|spelling|fix]...: whether C++ files are formatted (clang-format 14), whether the
-# sources of Core, Filters, Library, Rendering, RayTracing and Plugin are clean (clang-tidy 14, of the preset release), and
-# whether links, paths, commands and figures in the documents hold, and whether all files are in American
-# spelling (codespell). Without arguments all four. fix formats in place.
+# check.sh [format|lint|documents|spelling|fix]...: checks the format of C++ files (clang-format 14), the
+# sources of Core, Filters, Library, Rendering, RayTracing and Plugin (clang-tidy 14, preset release), links,
+# paths, commands and figures in the documents, and the spelling of all files (codespell). Default: all four.
+# fix formats in place.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cxx_files()
 {
-  # clang-format 14 indents all that is extern "C".
-  find Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
+  # clang-format 14 indents extern "C" blocks.
+  find Benchmark Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
     \( -name '*.h' -o -name '*.cxx' \) -print0
 }
 
-# The command of a tool's version 14, installed where that is possible.
+# The command of a tool's version 14; installs it if possible.
 version_14()
 {
   command -v "$1-14" > /dev/null || Utilities/prepare.sh check >&2 || true
@@ -42,7 +42,7 @@ lint()
   local tool
   tool=$(version_14 clang-tidy)
   Utilities/prepare.sh release # generated headers
-  # One entry for each file, the ones that take long first.
+  # One entry per file, slow ones first.
   mkdir -p build/release/lint
   /usr/bin/python3 - << 'END' |
 import json

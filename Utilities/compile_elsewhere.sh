@@ -26,8 +26,8 @@ fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export folder=$PWD/build/elsewhere
 
-# Headers alone, since those of this system's C library are not for others. glibc has the last one from
-# 2.32 on, but CGAL includes it wherever it finds it: this one is found before zig's.
+# Only headers, because those of this system's C library do not fit other systems. CGAL includes the last
+# one, which glibc has since 2.32, wherever it exists: this one is found before zig's.
 prepare_headers()
 {
   mkdir -p "$folder/headers" "$folder/shims/sys"
@@ -64,7 +64,7 @@ compile()
 }
 export -f zig compile
 
-# outcome COMMAND...: runs it and says how that went
+# outcome COMMAND...: runs a command and prints its outcome
 outcome()
 {
   if "$@" > "$folder/$target/link.log" 2>&1; then
@@ -74,7 +74,7 @@ outcome()
   fi
 }
 
-# What the program of a target prints, against that of GCC.
+# Compares the output of a target's program with GCC's.
 result()
 {
   local run=()

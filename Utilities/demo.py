@@ -2,11 +2,10 @@
 """Computes isopoints of samples and renders them: demo.py PLUGIN, for pvbatch. Writes isopoints.vtp and
 isosurface.png.
 
-The samples are those of the file ISOPOINTS_FILE, the array ISOPOINTS_ARRAY and the isovalue
-ISOPOINTS_ISOVALUE in the environment, in any format that ParaView reads. Without these they are random
-positions in a cube of side 200, with the distance to its center as values, so that errors are known;
-comparison.png is then written as well. If ISOPOINTS_FILTER is "triangles", triangles are computed instead of
-isopoints, and triangles.vtp and isosurface.png written.
+The environment names the file (ISOPOINTS_FILE, in any format that ParaView reads), the array
+(ISOPOINTS_ARRAY) and the isovalue (ISOPOINTS_ISOVALUE). By default the samples are random positions in a
+cube of side 200, with the distance to its center as values, so that errors are known; comparison.png is
+written too. If ISOPOINTS_FILTER is "triangles", writes triangles.vtp and isosurface.png instead.
 """
 
 import os
@@ -27,7 +26,7 @@ SAMPLE_COUNT = 1_000_000
 
 
 def say(message):
-    """Prints at once. pvbatch replaces sys.stdout by a stream that it shows at the end."""
+    """Prints at once. pvbatch's own sys.stdout is shown only at the end."""
     print(message, file=sys.__stdout__, flush=True)
 
 
@@ -91,8 +90,7 @@ def producer_of(data):
 
 
 def on_a_grid(source, array, isovalue):
-    """The alternative without isopoints: the samples resampled to a grid of 100^3 nodes, ParaView's
-    default, and contoured there."""
+    """The alternative without isopoints: resampling to a grid of 100^3 nodes, ParaView's default."""
     grid = simple.PointVolumeInterpolator(Input=source, Source="Bounded Volume")
     grid.Kernel = "LinearKernel"
     grid.Kernel.KernelFootprint = "N Closest"
@@ -118,7 +116,7 @@ def show(source, view, representation):
 
 
 def look(view, bounds):
-    """Places the camera obliquely above, with these bounds in view: the same for all that is compared."""
+    """Places the camera obliquely above, with these bounds in view: the same for all pictures compared."""
     view.ResetCamera(bounds)
     camera = view.GetActiveCamera()
     camera.Elevation(25)
@@ -141,7 +139,7 @@ def picture(source, representation, path, size, bounds):
 
 
 def compare(pictures, bounds, path):
-    """Writes pictures of pairs (source, representation), side by side, all from one camera."""
+    """Writes pictures of pairs (source, representation) side by side, from one camera."""
     parts = []
     with tempfile.TemporaryDirectory() as folder:
         for i, (source, representation) in enumerate(pictures):

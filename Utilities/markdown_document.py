@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Markdown file taken apart, for check-documents.py."""
+"""A Markdown file taken apart, for check-documents.py and TestWheel.py."""
 
 import re
+
+FENCES = re.compile(r"^ *(`{3,}|~{3,})([^`\n]*)\n(.*?)^ *\1 *$|<!--(.*?)-->", re.MULTILINE | re.DOTALL)
 
 
 def read(path):
@@ -10,60 +12,22 @@ def read(path):
 
 
 class Document:
-    """The paragraphs of a file, its headings and its fenced blocks, with their line numbers.
-
-    A paragraph is all text between blank lines, fences and comments. Fences and comments without an
-    end are in defects.
-    """
+    """Text without blocks and comments, and the blocks as (language, line, code, setup)."""
 
     def __init__(self, path):
-        self.lines = read(path).splitlines()
-        self.paragraphs, self.anchors, self.blocks, self.defects = [], set(), [], []
-        self.continues = False
-        fence, comment, language, first, setup = None, None, "", 0, ""
-        for number, line in enumerate(self.lines, 1):
-            if fence:
-                if re.fullmatch(r" *%s+ *" % fence, line):
-                    code = "\n".join(self.lines[first : number - 1]) + "\n"
-                    self.blocks.append((language, first, code, setup))
-                    fence, setup = None, ""
-                continue
-            if comment is not None or line.startswith("<!--"):
-                if comment is None:
-                    comment, first = "", number
-                comment += line + "\n"
-                if "-->" not in line:
-                    continue
-                comment, line = comment.split("-->", 1)
-                found = re.match(r"<!--\s*setup:(.*)", comment, re.DOTALL)
-                setup, comment, self.continues = found.group(1).strip() if found else "", None, False
-                if line.strip():
-                    self.add_line(number, line.strip("\n"))
-                continue
-            found = re.match(r" *(`{3,}|~{3,})([^`]*)$", line)
-            if found:
-                fence, first, self.continues = found.group(1), number, False
-                language = (found.group(2).split() or [""])[0]
-            else:
-                setup = setup if not line else ""
-                self.add_line(number, line)
-        if fence or comment is not None:
-            self.defects.append((first, "a %s without an end" % ("fence" if fence else "comment")))
+        self.blocks, setup, end = [], "", 0
 
-    def add_line(self, number, line):
-        if not line.strip():
-            self.continues = False
-            return
-        if self.continues:
-            self.paragraphs[-1][1] += "\n" + line
-        else:
-            self.paragraphs.append([number, line])
-        self.continues = True
-        if re.match(r"#+ ", line):
-            self.add_anchor(line.lstrip("#"))
+        def cut(match):
+            nonlocal setup, end
+            setup = setup if not source[end:match.start()].strip() else ""
+            end = match.end()
+            if match[1]:
+                self.blocks.append((match[2].strip(), source.count("\n", 0, match.start()) + 1, match[3], setup))
+            setup = match[4].strip()[6:].strip() if match[4] and match[4].strip().startswith("setup:") else ""
+            return "\n" * match[0].count("\n")
 
-    def add_anchor(self, heading):
-        text = re.sub(r"\]\([^)]*\)", "", heading).strip().lower()
-        anchor = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
-        count = sum(re.sub(r"-\d+$", "", known) == anchor for known in self.anchors)
-        self.anchors.add("%s-%d" % (anchor, count) if count else anchor)
+        source = read(path)
+        self.text = FENCES.sub(cut, source)
+        headings = re.findall(r"^#+ (.*)", self.text, re.MULTILINE)
+        headings = [re.sub(r"\]\([^)]*\)", "", heading).strip().lower() for heading in headings]
+        self.anchors = {re.sub(r"[^\w\- ]", "", heading).replace(" ", "-") for heading in headings}

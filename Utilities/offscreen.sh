@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs a command with a virtual display of its own: offscreen.sh COMMAND...
-# ParaView connects to the display several times. Without -noreset the server resets whenever its last
-# client disconnects, and refuses connections meanwhile.
+# Runs a command with its own virtual display: offscreen.sh COMMAND...
+# ParaView connects several times. Without -noreset the server resets when its last client disconnects, and
+# refuses connections meanwhile.
 if (($# == 0)) || [[ $1 == --help ]]; then
   echo "usage: $0 COMMAND..."
   echo "Runs a command with a virtual display of its own."

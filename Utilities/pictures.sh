@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the pictures of the README and of docs/ anew; see the usage below.
+# Renders the pictures of the README and of docs/; see the usage below.
 set -euo pipefail
 
 usage()
@@ -42,7 +42,7 @@ draw()
 }
 
 draw pvbatch "$root/Utilities/demo.py" "$plugin"
-draw pvbatch "$root/Testing/Benchmark/troubleshooting_pictures.py" "$plugin" "$root/docs/choosing"
+draw pvbatch "$root/Benchmark/troubleshooting_pictures.py" "$plugin" "$root/docs/choosing"
 export PV_PLUGIN_PATH=${plugin%/*} # those above load the plugin themselves
 for name in amr_levels csv_table in_situ_simulation sharp_solid time_series; do
   draw pvbatch "$root/Examples/$name.py"
@@ -55,8 +55,8 @@ mv comparison.png "$root/docs/"
 mv ./*.png "$root/docs/examples/"
 if [[ $data ]]; then
   unset PV_PLUGIN_PATH # these load the plugin themselves, or need none
-  draw pvbatch "$root/Testing/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
-  draw /usr/bin/python3 "$root/Testing/Benchmark/ray_traced_engine.py" "$data/volumes/engine_256x256x128_uint8.vti"
+  draw pvbatch "$root/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
+  draw /usr/bin/python3 "$root/Benchmark/ray_traced_engine.py" "$data/volumes/engine_256x256x128_uint8.vti"
   mv ray_traced_engine.png "$root/docs/examples/"
 fi
 echo "made:"

@@ -61,8 +61,8 @@ missing_packages()
   done < <(cat "${package_lists[@]}")
 }
 
-# What apt-get prints: the counts and sizes, which its versions word differently, and every five seconds
-# how far it is.
+# Filters the output of apt-get: counts and sizes, whose wording depends on the version, and the progress
+# every five seconds.
 shorten_apt_output()
 {
   awk '
@@ -94,7 +94,7 @@ if ((${#missing[@]} > 0)); then
   step "Installing ${#missing[@]} packages and what they depend on" install_packages "${missing[@]}"
 fi
 
-# Debian 13's paraview-dev looks for Python modules under other names than python3-paraview gives them.
+# Debian 13's paraview-dev expects other names of Python modules than python3-paraview has.
 if [[ ${release-} == 13 ]] && ((EUID == 0)); then
   for module in /usr/lib/python3/dist-packages/{vtkmodules,paraview/modules,paraview/incubator}/*.cpython-*.so; do
     link=${module%%.cpython-*}.so

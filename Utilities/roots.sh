@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced: bare roots of Debian releases, made by debootstrap.
 
-# make_root RELEASE ROOT: makes it unless it is there; logs to ROOT.log.
+# make_root RELEASE ROOT: makes a root unless it exists; logs to ROOT.log.
 make_root()
 {
   if [[ ! -d $2 ]]; then
@@ -14,7 +14,7 @@ make_root()
   echo 'Acquire::Check-Valid-Until "false";' > "$2/etc/apt/apt.conf.d/check-valid-until"
 }
 
-# run_in_root ROOT COMMAND: with /proc and /dev, which are unmounted with its end.
+# run_in_root ROOT COMMAND: runs it with /proc and /dev, which are unmounted at the end.
 run_in_root()
 {
   unshare --mount bash -c '

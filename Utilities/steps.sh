@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced: what scripts say of their steps.
+# Sourced: prints the steps of scripts.
 
-# step TITLE COMMAND...: runs a command between its title and the seconds that it took.
+# step TITLE COMMAND...: prints the title, runs the command, and prints its seconds.
 step()
 {
   local title=$1 start=$SECONDS

@@ -35,7 +35,7 @@ in_root()
   }
 }
 
-# Of what packages and the user see: neither what programs keep for themselves nor apt's records.
+# Files of packages and users, without programs' own data and apt's records.
 files_of()
 {
   find "$root" -xdev \( -path "$root/var" -o -path "$root/tmp" -o -path "$root/root" \

@@ -33,7 +33,7 @@ source Utilities/steps.sh
 
 root=$folder/bullseye-wheel
 step "Making $root" make_root bullseye "$root"
-# A proxy between here and PyPI may have a certificate of its own.
+# A proxy before PyPI may have its own certificate.
 cp /etc/ssl/certs/ca-certificates.crt "$root/root/certificates"
 rm -rf "$root/root/source"
 git clone --quiet . "$root/root/source"

@@ -42,7 +42,7 @@ install_packages()
       dpkg --add-architecture "$(debian_name "$architecture")"
     fi
   done
-  # Of Debian 13 nothing is installed, only downloaded.
+  # Packages of Debian 13 are only downloaded.
   mirror=$(awk '$1 == "deb" { print $2; exit }' /etc/apt/sources.list)
   printf '%s %s trixie main\n' deb "$mirror" deb-src "$mirror" > /etc/apt/sources.list.d/trixie.list
   printf '%s\n' 'Package: *' 'Pin: release n=trixie' 'Pin-Priority: -1' > /etc/apt/preferences.d/trixie
@@ -50,7 +50,7 @@ install_packages()
   apt-get install --quiet=2 --yes --no-install-recommends "${packages[@]}" > "$folder/install.log"
 }
 
-# What Debian calls an architecture.
+# Debian's name of an architecture.
 debian_name()
 {
   case $1 in
@@ -63,7 +63,7 @@ debian_name()
   esac
 }
 
-# download FOLDER PACKAGE...: extracts packages there, unless it is there, without installing them.
+# download FOLDER PACKAGE...: extracts packages without installing them, unless the folder exists.
 download()
 {
   local target=$1 package
@@ -95,13 +95,13 @@ get_libraries()
   export PATH=$folder/python/bin:$PATH
 }
 
-# The texts beside LICENSE, which pyproject.toml takes into the wheel: of all that is linked statically.
+# Licenses of everything linked statically, beside LICENSE, for pyproject.toml.
 collect_licenses()
 {
   local documents=$debian_13/usr/share/doc
   cp "$documents/libcgal-dev/copyright" LICENSE.CGAL
   cp "$documents/libeigen3-dev/copyright" LICENSE.Eigen
-  # That of all of Boost has 2 MB.
+  # The license file of all of Boost has 2 MB.
   awk -v RS= '/^License: BSL-1.0\n/' "$documents/libboost1.83-dev/copyright" > LICENSE.Boost
   cat "$folder"/oneTBB/{LICENSE.txt,third-party-programs.txt} > LICENSE.oneTBB
   cp /usr/share/doc/gcc-10-base/copyright LICENSE.GCC
@@ -131,7 +131,7 @@ set(CMAKE_CXX_COMPILER ${prefix}g++)
 END
 }
 
-# Static, and with its allocator: CGAL's cells come from it.
+# Static, including its allocator, which CGAL's cells use.
 build_onetbb()
 {
   local target=$folder/oneTBB-$1
@@ -145,7 +145,7 @@ build_onetbb()
   fi
 }
 
-# Of the platform linux_ARCHITECTURE, which no index takes.
+# For the platform linux_ARCHITECTURE, which no index accepts.
 build_wheel()
 {
   local options=(
@@ -165,8 +165,8 @@ build_wheel()
   }
 }
 
-# Fails unless glibc 2.28 is enough. No library has to be copied into the wheel, so that it only needs its
-# name, which auditwheel gives on the same architecture alone.
+# Fails unless glibc 2.28 suffices. The wheel only needs another name, because no library must be copied
+# into it; auditwheel renames only on the same architecture.
 name_wheel()
 {
   local shown
@@ -181,7 +181,7 @@ name_wheel()
   mv "$folder/wheel-$1"/*.whl dist/
 }
 
-# Prints a digest of isosurfaces, with the NumPy of Debian 11.
+# Prints a digest of isosurfaces, with Debian 11's NumPy.
 try_wheel()
 {
   local tree=$folder/tree-$1 wheel run=(/usr/bin/python3)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ConcurrentMemo_h
-#define isopoint_ConcurrentMemo_h
+#pragma once
 
 #include <cstddef>
 #include <mutex>
@@ -9,14 +8,14 @@
 namespace isopoint
 {
 
-/// Values computed on demand and shared by all threads, by an index such as a node's.
+/// Values computed on demand and shared by all threads, by index.
 template <class T>
 class ConcurrentMemo
 {
 public:
-  /// The value of an index, computed at the first request: O(1) afterwards. From any thread.
+  /// The value of an index, computed at the first request; O(1) afterwards. Thread-safe.
   /// @param compute() the value; threads that ask at the same time may each compute it
-  /// @throws std::bad_alloc, and what compute() throws
+  /// @throws std::bad_alloc, and whatever compute() throws
   template <class Compute>
   T at(std::size_t index, const Compute& compute)
   {
@@ -39,5 +38,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

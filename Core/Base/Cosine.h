@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Cosine_h
-#define isopoint_Cosine_h
+#pragma once
 
 namespace isopoint
 {
 
-/// A number of twice the digits of a double [Dek71]: an unevaluated sum.
+/// An unevaluated sum with twice the digits of a double [Dek71].
 struct TwoDoubles
 {
   double high;
   double low;
 };
 
-/// a + b, exactly, where a is not the smaller one in magnitude.
+/// a + b, exact if |a| >= |b|.
 inline TwoDoubles exactSum(double a, double b)
 {
   const double sum = a + b;
   return { sum, b - (sum - a) };
 }
 
-/// a * b, exactly, where no part overflows or underflows.
+/// a * b, exact if no part overflows or underflows.
 inline TwoDoubles exactProduct(double a, double b)
 {
   const auto upperHalf = [](double number)
@@ -49,18 +48,17 @@ inline TwoDoubles quotient(const TwoDoubles& a, double divisor)
   return exactSum(high, ((a.high - back.high) - back.low + a.low) / divisor);
 }
 
-/// The cosine of an angle from 0 to pi, rounded to the nearest double; the error before rounding is
-/// less than 2^-99. Results depend on its last bit, in which C libraries differ.
+/// The cosine of an angle in [0, pi], rounded to the nearest double; the error before rounding is
+/// below 2^-99. Results depend on its last bit, in which C libraries differ.
 inline double cosineOf(double angle)
 {
   const TwoDoubles square = exactProduct(angle, angle);
-  TwoDoubles sum{ 1.0, 0.0 }; // of the Taylor series, from its end
+  TwoDoubles sum{ 1.0, 0.0 }; // the Taylor series, summed from its end
   constexpr int terms = 22;
   for (int term = terms; term > 0; --term)
   {
     const double divisor = 2.0 * term * (2.0 * term - 1.0);
     const TwoDoubles rest = quotient(product(square, sum), divisor);
-    // The larger one first.
     const TwoDoubles high = rest.high > 1.0 ? exactSum(-rest.high, 1.0) : exactSum(1.0, -rest.high);
     sum = exactSum(high.high, high.low - rest.low);
   }
@@ -68,5 +66,3 @@ inline double cosineOf(double angle)
 }
 
 } // namespace isopoint
-
-#endif

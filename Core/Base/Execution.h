@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Execution_h
-#define isopoint_Execution_h
+#pragma once
 
 #include <algorithm>
 #include <atomic>
@@ -17,16 +16,15 @@
 namespace isopoint
 {
 
-/// Work on the items [begin, end).
+/// Processes the items [begin, end).
 using RangeTask = std::function<void(std::size_t begin, std::size_t end)>;
 
-/// Calls the task on consecutive ranges that together cover [0, count), each at least `grain`
-/// items long where that many are left, in any order and from any thread, and returns when all
-/// have returned.
+/// Calls the task, in any order and from any thread, on consecutive ranges that together cover [0,
+/// count); all but the last have at least `grain` items. Returns when all calls have returned.
 using ParallelFor =
   std::function<void(std::size_t count, std::size_t grain, const RangeTask& task)>;
 
-/// Thrown out of a computation whose `Execution::aborted` answered true.
+/// Thrown when `Execution::aborted` returns true.
 struct Aborted : std::runtime_error
 {
   Aborted()
@@ -35,25 +33,24 @@ struct Aborted : std::runtime_error
   }
 };
 
-/// How a computation runs: the threads it uses, and the caller's handlers of progress and abort.
-/// The defaults run in the calling thread and report nothing. No result depends on any of it.
+/// How a computation runs: its threads, and handlers of progress and abort. The defaults run in the
+/// calling thread and report nothing. Results do not depend on it.
 struct Execution
 {
   ParallelFor parallelFor = [](std::size_t count, std::size_t, const RangeTask& task)
   { task(0, count); };
 
-  /// How many ranges `parallelFor` works on at the same time, at least 1.
+  /// Number of ranges that `parallelFor` works on at the same time, at least 1.
   std::size_t threads = 1;
 
-  /// Called from the calling thread with the share of the work that is done, from 0 up to 1.
+  /// Called from the calling thread with the share of the work that is done, in [0, 1].
   std::function<void(double fraction)> progress = [](double) {};
 
-  /// Called from the calling thread every few tens of milliseconds: whether to stop.
+  /// Called from the calling thread every few tens of milliseconds. Returns whether to stop.
   std::function<bool()> aborted = []() { return false; };
 };
 
-/// A copy of an execution for a part of the work, whose progress from 0 to 1 is that of the whole
-/// from `begin` to `end`.
+/// A copy whose progress from 0 to 1 maps to [begin, end] of the original's.
 inline Execution partOf(const Execution& execution, double begin, double end)
 {
   Execution part = execution;
@@ -62,7 +59,7 @@ inline Execution partOf(const Execution& execution, double begin, double end)
   return part;
 }
 
-/// A copy of an execution whose progress stays where work that is done again would take it back.
+/// A copy whose progress never decreases, even if work is repeated.
 inline Execution withRisingProgress(const Execution& execution)
 {
   Execution rising = execution;
@@ -75,7 +72,6 @@ inline Execution withRisingProgress(const Execution& execution)
   return rising;
 }
 
-/// @throws Aborted if the execution is to stop.
 inline void throwIfAborted(const Execution& execution)
 {
   if (execution.aborted())
@@ -84,9 +80,8 @@ inline void throwIfAborted(const Execution& execution)
   }
 }
 
-/// Runs the task over [0, count) as `ParallelFor` promises. An exception must not cross the
-/// scheduler: that of any range prevents the ranges not yet begun from running and is thrown again
-/// here.
+/// Runs the task over [0, count); see `ParallelFor`. Exceptions must not cross the scheduler: the
+/// first one stops ranges that have not begun, and is rethrown here.
 inline void forRanges(
   const Execution& execution, std::size_t count, std::size_t grain, const RangeTask& task)
 {
@@ -121,9 +116,8 @@ inline void forRanges(
   }
 }
 
-/// Work on each of the items 0 .. count - 1, which takes next to no time for one.
-/// @param work(item) from any thread
-/// @throws what the work throws
+/// Calls work(item), which must be cheap, for the items 0 .. count - 1, from any thread.
+/// @throws whatever `work` throws
 template <class Work>
 void forEachIndex(const Execution& execution, std::size_t count, const Work& work)
 {
@@ -141,9 +135,9 @@ void forEachIndex(const Execution& execution, std::size_t count, const Work& wor
 /// Called after each batch with the share of the items that are done.
 using BatchDone = std::function<void(double share)>;
 
-/// forRanges() in batches, between which the execution may be stopped.
-/// @param batchPerThread items of a batch, for each thread
-/// @throws Aborted, and what the task throws
+/// forRanges() in batches; checks for an abort after each one.
+/// @param batchPerThread items of a batch per thread
+/// @throws Aborted, and whatever `task` throws
 inline void forBatches(
   const Execution& execution, std::size_t count, std::size_t batchPerThread, std::size_t grain,
   const RangeTask& task, const BatchDone& batchDone = [](double) {})
@@ -158,7 +152,7 @@ inline void forBatches(
   }
 }
 
-/// Items in batches of ranges; see forBatches().
+/// Parameters of forBatches().
 struct ItemBatches
 {
   std::size_t count;
@@ -166,13 +160,13 @@ struct ItemBatches
   std::size_t grain;
 };
 
-/// What threads need to work on items: made when all others are in use, and kept for later ranges.
+/// A pool of workers, such as scratch memory: one is made when all others are in use, and kept.
 template <class TWorker>
 class WorkerPool
 {
 public:
-  /// @param makeWorker called from any thread
-  /// @param work(worker) not used by another thread meanwhile; dropped if this throws
+  /// @param makeWorker() makes a worker, from any thread
+  /// @param work(worker) has the worker to itself; the worker is dropped if this throws
   template <class MakeWorker, class Work>
   void use(const MakeWorker& makeWorker, const Work& work)
   {
@@ -203,10 +197,8 @@ private:
   std::vector<std::unique_ptr<TWorker>> Free;
 };
 
-/// Works on the items 0 .. batches.count - 1.
-/// @param makeWorker() what one thread needs to work on items; used for many ranges
-/// @param work(worker, item)
-/// @throws Aborted, and what the work throws
+/// Calls work(worker, item) for the items 0 .. batches.count - 1, with a worker per thread.
+/// @throws Aborted, and whatever `makeWorker` and `work` throw
 template <class MakeWorker, class Work>
 void forEachItem(
   const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
@@ -230,5 +222,3 @@ void forEachItem(
 }
 
 } // namespace isopoint
-
-#endif

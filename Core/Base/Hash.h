@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Hash_h
-#define isopoint_Hash_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 
@@ -14,7 +13,7 @@
 namespace isopoint
 {
 
-/// A permutation of 64 bits in which every bit depends on all (the finalizer of SplitMix64).
+/// A permutation of 64 bits in which every bit depends on all others (finalizer of SplitMix64).
 inline std::uint64_t mixBits(std::uint64_t number)
 {
   number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -22,20 +21,19 @@ inline std::uint64_t mixBits(std::uint64_t number)
   return number ^ (number >> 31);
 }
 
-/// The hash of numbers that another one follows.
+/// The hash of a sequence, extended by one number.
 inline std::uint64_t extendedHash(std::uint64_t hash, std::uint64_t number)
 {
   return mixBits((hash ^ number) + 0x9e3779b97f4a7c15u);
 }
 
-/// A hash of numbers. Changing one of them always changes it; changing several does not once in
-/// 2^64 cases.
+/// A hash of numbers. It differs if one of them differs; if several do, it is equal once in 2^64.
 inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
 {
   return std::accumulate(numbers, numbers + count, std::uint64_t{ count }, extendedHash);
 }
 
-/// A hash of bytes, likewise, on all threads. O(bytes)
+/// A hash of bytes with the same properties, computed on all threads. O(bytes)
 /// @throws Aborted, std::bad_alloc
 inline std::uint64_t hashOf(
   const Execution& execution, const unsigned char* bytes, std::size_t count)
@@ -58,5 +56,3 @@ inline std::uint64_t hashOf(
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Offset_h
-#define isopoint_Offset_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -10,7 +9,7 @@
 namespace isopoint
 {
 
-/// The vector from a sample to one of its neighbors, and its length.
+/// The vector from a sample to a neighbor, and its length.
 struct Offset
 {
   Vector vector;
@@ -27,9 +26,9 @@ inline Offset offsetBetween(const Vector& from, const Vector& to)
   return offset;
 }
 
-/// Bounds on the offsets from a position to all those in a box. They hold to the last bit for what
-/// offsetBetween() computes: each operation in it is monotonic, rounding included. So are the
-/// operations in AngleCriterion, which therefore decides on all offsets within the bounds at once.
+/// Bounds on the offsets from a position to all positions in a box. They hold to the last bit for
+/// the results of offsetBetween(), since each of its operations is monotonic, rounding included.
+/// The same holds for AngleCriterion, which can therefore judge all these offsets at once.
 /// Precondition: nothing overflows.
 struct OffsetBounds
 {
@@ -58,9 +57,8 @@ OffsetBounds offsetsToBox(const Vector& from, const TBound& lower, const TBound&
   return bounds;
 }
 
-/// The least, or the greatest, of the scalar products with an offset, summed as AngleCriterion
-/// does.
-/// @param choose(a, b) the lesser or the greater of two
+/// The least or greatest scalar product with an offset, summed in AngleCriterion's order.
+/// @param choose(a, b) std::min or std::max
 template <class Choice>
 double extremeProduct(const Offset& offset, const OffsetBounds& bounds, const Choice& choose)
 {
@@ -84,5 +82,3 @@ inline double greatestProduct(const Offset& offset, const OffsetBounds& bounds)
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Region_h
-#define isopoint_Region_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -10,13 +9,13 @@ namespace isopoint
 {
 
 /// A closed axis-parallel box, the region of a node. Its bounds are coordinates of the input and
-/// splitting planes, both in double: comparing them is exact.
+/// splitting planes as doubles, so comparisons are exact.
 struct Region
 {
   Vector lower;
   Vector upper;
 
-  /// The axis of the longest side, the lowest one among equals.
+  /// The longest axis; the lowest one among equals.
   int longestSide() const
   {
     const Vector side = difference(this->upper, this->lower);
@@ -25,8 +24,8 @@ struct Region
   }
 };
 
-/// Where the region of two halves is cut: halfway between the last coordinate of the lower half
-/// and the first one of the upper half, `last` <= result <= `first`.
+/// The splitting plane halfway between the last coordinate of the lower half and the first of the
+/// upper half: last <= result <= first.
 inline double splittingPlaneBetween(double last, double first)
 {
   const double halfway = 0.5 * (last + first);
@@ -34,5 +33,3 @@ inline double splittingPlaneBetween(double last, double first)
 }
 
 } // namespace isopoint
-
-#endif

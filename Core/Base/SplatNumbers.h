@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatNumbers_h
-#define isopoint_SplatNumbers_h
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -10,8 +9,8 @@
 namespace isopoint
 {
 
-/// A corner of a splat: its offset from the point, in units of the splat's radius, and the normal
-/// of the surface there, along normal + slopeAlong * t1 + slopeAcross * t2.
+/// A corner of a splat: its offset from the point, in units of the splat's radius, and the surface
+/// normal there, along normal + slopeAlong * t1 + slopeAcross * t2.
 struct SplatCorner
 {
   float along;  // t1
@@ -21,12 +20,12 @@ struct SplatCorner
   float slopeAcross;
 };
 
-/// Cells with more corners lose their shortest sides.
+/// Splats with more corners lose their shortest sides.
 constexpr std::size_t mostCorners = 8;
 
 using SplatCorners = std::array<SplatCorner, mostCorners>;
 
-/// Corners as arrays hold them: the members of one after the other, in their order.
+/// Output layout: the members of each corner in order, corner after corner.
 constexpr std::size_t numbersOfCorner = 5;
 constexpr std::size_t numbersOfSplat = numbersOfCorner * mostCorners;
 using SplatNumbers = std::array<double, numbersOfSplat>;
@@ -46,7 +45,7 @@ inline SplatNumbers numbersOf(const SplatCorners& corners)
   return numbers;
 }
 
-/// A radius as arrays hold it: of float, clamped to its positive range if it is positive.
+/// Output form of a radius: a float; positive radii are clamped to the positive range of float.
 inline float radiusNumber(double radius)
 {
   using Limits = std::numeric_limits<float>;
@@ -56,5 +55,3 @@ inline float radiusNumber(double radius)
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Threads_h
-#define isopoint_Threads_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 
-// CGAL's way to say that oneTBB is available. The thread sanitizer does not see what its threads
-// wait for.
+// Defined by CGAL if oneTBB is available. The thread sanitizer cannot follow oneTBB.
 #if defined(CGAL_LINKED_WITH_TBB) && !defined(__SANITIZE_THREAD__)
 #define ISOPOINT_USES_TBB
 #include <tbb/global_control.h>
@@ -33,8 +31,8 @@
 namespace isopoint
 {
 
-/// The cores that a control group of Linux grants by a time of computing for each period, which
-/// version 2 states in one file and version 1 in two; without a quota any number.
+/// The cores granted by the CPU quota of a Linux control group (version 2 or 1), rounded up; the
+/// greatest size_t without a quota.
 inline std::size_t coresOfQuota(const std::string& group)
 {
   double time = 0.0;
@@ -46,7 +44,7 @@ inline std::size_t coresOfQuota(const std::string& group)
                                                 : std::numeric_limits<std::size_t>::max();
 }
 
-/// The same for the group of this process, as a container has one, and all around it.
+/// The least quota of this process's control groups and their ancestors, such as a container's.
 inline std::size_t coresOfQuota()
 {
   std::size_t cores = std::numeric_limits<std::size_t>::max();
@@ -73,8 +71,8 @@ inline std::size_t coresOfQuota()
   return cores;
 }
 
-/// How many threads of this process can compute at the same time: the cores that it is bound to,
-/// within the quota of its container, shared by this many processes that do the same.
+/// Threads of this process that can run at the same time: the cores it is bound to, within the
+/// quota of its container, divided by the number of processes that share them. At least 1.
 inline std::size_t availableThreads(std::size_t processes = 1)
 {
   std::size_t cores = std::thread::hardware_concurrency();
@@ -89,7 +87,7 @@ inline std::size_t availableThreads(std::size_t processes = 1)
   return std::max<std::size_t>(1, std::min(cores, quota) / processes);
 }
 
-/// The cores that this process is bound to: a text that is the same for all that share them.
+/// The cores that this process is bound to, as a key that is equal for processes that share them.
 inline std::string boundCores()
 {
 #ifdef __linux__
@@ -102,8 +100,8 @@ inline std::string boundCores()
   return {};
 }
 
-/// The threads of this process, without asking others: if a launcher of MPI started several on this
-/// host and bound them to no cores, its share of all cores.
+/// Threads of this process without communication: if an MPI launcher started several unbound ranks
+/// on this host, this rank's share of all cores. At least 1.
 inline std::size_t availableThreadsOfRank()
 {
   std::size_t threads = availableThreads();
@@ -125,10 +123,9 @@ inline std::size_t availableThreadsOfRank()
 
 constexpr bool hasThreads = true;
 
-/// Lets an execution run on the threads of oneTBB, this many at most, the calling one included. If
-/// the system or memory grants fewer, these do all the work; if oneTBB once failed to start, the
-/// calling one alone, since a further call would wait for ever. Tasks must not throw, which
-/// forRanges() ensures.
+/// Makes an execution run on at most `threads` threads of oneTBB, including the calling one. If the
+/// system grants fewer, these do all the work. Once oneTBB failed to start, only the calling thread
+/// works, since another call would hang. Tasks must not throw; forRanges() ensures this.
 inline void useThreads(Execution& execution, std::size_t threads)
 {
   static std::atomic<bool> hasFailed{ false };
@@ -172,7 +169,7 @@ inline void useThreads(Execution& execution, std::size_t threads)
     }
     catch (const std::exception&)
     {
-      // A thread could not be started: what is left is done here.
+      // No thread could be started: the calling thread does the rest.
     }
     work();
   };
@@ -187,5 +184,3 @@ inline void useThreads(Execution&, std::size_t) {}
 #endif
 
 } // namespace isopoint
-
-#endif

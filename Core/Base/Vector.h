@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Vector_h
-#define isopoint_Vector_h
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -10,10 +9,10 @@
 namespace isopoint
 {
 
-/// A position, direction or offset in space; the core's one vector type.
+/// A position, direction or offset in space.
 using Vector = std::array<double, 3>;
 
-/// The second derivatives xx, yy, zz, xy, xz, yz of a function of the position.
+/// Second derivatives xx, yy, zz, xy, xz, yz.
 using Hessian = std::array<double, 6>;
 
 inline bool isFinite(const Vector& vector)
@@ -47,8 +46,8 @@ inline Vector scaled(double factor, const Vector& a)
   return { factor * a[0], factor * a[1], factor * a[2] };
 }
 
-/// Neither overflows nor underflows where squares do. NaN if a component is infinite, or is NaN and
-/// another one not 0. Written out since the last bits of std::hypot differ among libraries.
+/// Does not overflow or underflow where squares do. NaN if a component is infinite, or if one is
+/// NaN and another is not 0. std::hypot is avoided: its last bits differ among libraries.
 inline double lengthOf(const Vector& a)
 {
   const double x = std::abs(a[0]);
@@ -61,7 +60,7 @@ inline double lengthOf(const Vector& a)
            : 0.0;
 }
 
-/// @returns the vector at length 1, or the x axis for one without direction
+/// @returns the vector at length 1, or the x axis for the zero vector
 inline Vector directionOf(const Vector& a)
 {
   const double length = lengthOf(a);
@@ -69,8 +68,7 @@ inline Vector directionOf(const Vector& a)
                       : Vector{ 1.0, 0.0, 0.0 };
 }
 
-/// Two unit vectors orthogonal to a normal, first x second along it. They depend on nothing but the
-/// normal.
+/// Two unit vectors orthogonal to a normal, with first x second = normal. They depend only on it.
 struct TangentFrame
 {
   Vector first;
@@ -91,10 +89,10 @@ struct TangentFrame
   }
 };
 
-/// The number of directions in which the extent of the samples around a place is measured.
+/// Number of directions in which the extent of the samples is measured.
 constexpr std::size_t extentCount = 8;
 
-/// Unit vectors orthogonal to a normal, at equal angles around it.
+/// Unit vectors orthogonal to a normal, at equal angles.
 inline std::array<Vector, extentCount> extentDirections(const Vector& normal)
 {
   constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
@@ -107,8 +105,8 @@ inline std::array<Vector, extentCount> extentDirections(const Vector& normal)
     sum(downwards, diagonal, frame.first) };
 }
 
-/// The parameter at which linear interpolation between two different values has a third one between
-/// them: 0 at `first`, 1 at `second`. The second form is for differences beyond double's range.
+/// The parameter at which linear interpolation yields `value`: 0 at `first`, 1 at `second`, which
+/// differ. The second form is for differences that overflow.
 inline double edgeParameter(double first, double second, double value)
 {
   const double difference = second - first;
@@ -116,7 +114,7 @@ inline double edgeParameter(double first, double second, double value)
                                    : (0.5 * value - 0.5 * first) / (0.5 * second - 0.5 * first);
 }
 
-/// Linear interpolation along an edge. The second form is for differences beyond double's range.
+/// Linear interpolation. The second form is for differences that overflow.
 inline double interpolate(double first, double second, double parameter)
 {
   const double difference = second - first;
@@ -130,7 +128,7 @@ inline Vector interpolate(const Vector& first, const Vector& second, double para
     interpolate(first[2], second[2], parameter) };
 }
 
-/// The parameter, within 0 and 1, of the place on an edge that is nearest to a position.
+/// The parameter, in [0, 1], of the point on an edge that is nearest to a position.
 inline double nearestParameter(const Vector& first, const Vector& second, const Vector& position)
 {
   const Vector along = difference(second, first);
@@ -139,5 +137,3 @@ inline double nearestParameter(const Vector& first, const Vector& second, const 
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_EdgeFinder_h
-#define isopoint_EdgeFinder_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractionContext.h"
@@ -20,15 +19,14 @@
 namespace isopoint
 {
 
-/// Finds the crossing edges of leaves, one leaf at a time. Memory is kept from one leaf to the
-/// next. For one thread.
+/// Finds the crossing edges of leaves, one leaf at a time. Memory is kept. For one thread.
 template <class TSample>
 class EdgeFinder
 {
 public:
   using Id = typename TSample::Id;
 
-  /// @param listsGaps whether gapEdges() are wanted
+  /// @param listsGaps whether to fill gapEdges()
   EdgeFinder(ExtractionContext<TSample>& context, const AngleCriterion& criterion, bool listsGaps)
     : Context(context)
     , Tree(context.tree)
@@ -40,8 +38,8 @@ public:
   {
   }
 
-  /// Adds the edges from the leaf's sample to the neighbors that survive the angle criterion there
-  /// and lie on the other side of the isovalue ([RL06] sections 6 and 7).
+  /// Adds the edges from the leaf's sample to the neighbors on the other side of the isovalue that
+  /// survive the angle criterion ([RL06] sections 6 and 7).
   /// @throws MissingNode, nothing added
   void find(const Path& leaf)
   {
@@ -64,10 +62,10 @@ public:
 
   const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
 
-  /// Those of them that are over the strong gap criterion.
+  /// Those that the strong gap criterion rejects.
   const std::vector<CrossingEdge<TSample>>& gapEdges() const { return this->GapEdges; }
 
-  /// The neighborhoods that were searched for, as NeighborhoodCache::add() takes them.
+  /// The neighborhoods that were searched, as input of NeighborhoodCache::add().
   std::vector<Id>& records()
   {
     this->Records.resize(this->KeptRecords);
@@ -139,7 +137,7 @@ private:
     }
   }
 
-  /// What find() does, without a list of the neighbors.
+  /// find() without a list of neighbors.
   void connectToSurvivors(const Path& leaf, double value)
   {
     const bool isBelow = value < this->Isovalue;
@@ -179,8 +177,8 @@ private:
     this->Sorted.clear();
   }
 
-  /// Of many neighbors, as of a large cell among small ones, the nearest are compared first:
-  /// comparing all pairs would take the square of their number.
+  /// Among many neighbors, as of a large cell among small ones, compares the nearest first: all
+  /// pairs would take quadratic time.
   bool survives(std::size_t neighbor)
   {
     constexpr std::size_t few = 64;
@@ -196,7 +194,7 @@ private:
     return this->Criterion.survivesAmongSorted(this->Sorted.data(), this->Offsets[neighbor]);
   }
 
-  /// Adds the edge between a leaf's sample and another one.
+  /// Adds the edge between a leaf's sample and another sample.
   void connect(const Path& leaf, double value, std::size_t otherLeaf, double otherValue)
   {
     const TSample& sample = this->Tree.sampleOf(leaf.nodeIndex());
@@ -209,8 +207,7 @@ private:
     }
   }
 
-  /// Whether the edge from a leaf's sample is over the strong gap criterion. Few are, and a quick
-  /// look shows most others.
+  /// Whether the strong gap criterion rejects the edge; mayDrop() quickly rules out most.
   bool isStrong(const Path& leaf, const TSample& own, const TSample& other) const
   {
     const GapCriterion strong = GapCriterion::strong();
@@ -241,10 +238,10 @@ private:
   const bool ListsGaps;
   ImplicitNeighborhood<TSample> Implicit;
   NodeList<Id> Neighbors;
-  std::vector<Id> Records; // the kept ones and, behind them, that of the present leaf
+  std::vector<Id> Records; // kept records, then that of the current leaf
   std::size_t KeptRecords = 0;
   std::vector<Offset> Offsets; // of the neighbors
-  std::vector<Offset> Sorted;  // the same, nearest first, where there are many
+  std::vector<Offset> Sorted;  // the same, nearest first, if there are many
   std::vector<Crossing> Crossings;
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<CrossingEdge<TSample>> GapEdges;
@@ -252,5 +249,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ExtractIsosurface_h
-#define isopoint_ExtractIsosurface_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/EdgeFinder.h"
 #include "Core/Extraction/ExtractionContext.h"
@@ -25,24 +24,24 @@
 namespace isopoint
 {
 
-/// What the leaves near an isosurface yield.
+/// Results from the leaves near an isosurface.
 template <class TSample>
 struct FoundEdges
 {
   std::vector<CrossingEdge<TSample>> edges;    // each once or twice, in any order
-  std::vector<CrossingEdge<TSample>> gapEdges; // those over the strong gap criterion, if wanted
+  std::vector<CrossingEdge<TSample>> gapEdges; // rejected by the strong gap criterion, if wanted
   std::vector<std::vector<typename TSample::Id>> neighborhoods; // for NeighborhoodCache::add()
 };
 
-/// What could not be done for lack of samples that other ranks hold.
+/// Work that waits for samples of other ranks.
 struct MissingWork
 {
-  std::vector<BinaryIndex> leaves;  // whose edges were not found
-  std::vector<MissingNode> missing; // what to fetch first
+  std::vector<BinaryIndex> leaves;  // whose edges are not found yet
+  std::vector<MissingNode> missing; // to fetch first
 };
 
-/// Finds the crossing edges of all leaves of this rank below the given nodes.
-/// @returns what was left out
+/// Finds the crossing edges of all this rank's leaves below the given nodes.
+/// @returns leaves that wait for samples
 /// @throws Aborted, std::bad_alloc
 template <class TSample>
 MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& context,
@@ -91,8 +90,8 @@ MissingWork addEdges(const Execution& execution, ExtractionContext<TSample>& con
   return left;
 }
 
-/// The crossing edges that end in at least one of this rank's leaves below the given nodes.
-/// @param ranks SingleRank, or SharedRanks, all of which call this
+/// The crossing edges with an end in this rank's leaves below the given nodes. Collective.
+/// @param ranks SingleRank or SharedRanks
 /// @throws Aborted, std::bad_alloc
 template <class TSample, class TRanks>
 FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSample>& context,
@@ -109,7 +108,7 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
   return found;
 }
 
-/// Drops the edges that lie in gaps. @returns how many of them are counted on this rank
+/// Drops the edges in gaps. @returns the number of dropped edges that belong to this rank
 /// @param gapEdges see FoundEdges
 template <class TSample, class TRanks>
 std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
@@ -126,18 +125,19 @@ std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& 
   return count;
 }
 
-/// Crossing edges of isopoints, ordered, each once.
+/// Crossing edges of isopoints, sorted, each once.
 template <class TSample>
 struct IsopointEdges
 {
   const std::vector<CrossingEdge<TSample>>& edges;
   const std::vector<std::size_t>& begins; // see Isosurface::edgeBegins
-  const std::vector<Vector>& starts; // where isopoints are before they are moved; empty if that is
-                                     // where linear interpolation puts them
+  /// Isopoints before they are moved; if empty, linear interpolation places them.
+  const std::vector<Vector>& starts;
 };
 
-/// The isosurface of edges: positions where the fits put them, or else where they start.
-/// @param fits one for each isopoint, or empty
+/// The isosurface of edges. Isopoints are at the positions of their fits, or else of `starts`.
+/// @param fits one per isopoint, or empty
+/// @param isMoved whether fits move isopoints
 template <class TSample>
 Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>& context,
   const IsopointEdges<TSample>& isopoints, std::vector<LocalFit> fits, bool isMoved)
@@ -191,8 +191,7 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   return surface;
 }
 
-/// Adds neighborhoods to those that are known, as far as memory permits: the others will be
-/// searched for again.
+/// Adds neighborhoods to the known ones, as far as memory permits; others are searched again.
 /// @throws Aborted
 template <class TId>
 void keepNeighborhoods(const Execution& execution, const std::vector<std::vector<TId>>& found,
@@ -208,14 +207,13 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
   }
 }
 
-/// The canonical isosurface (docs/algorithm.md), without coincident samples, refining the tree as
-/// far as needed. On one of several ranks, the isopoints on edges with an end in one of its leaves,
-/// those of edges between two ranks on both.
-/// @param ranks SingleRank, or SharedRanks, all of which call this
-/// @param neighborhoods of the tree's leaves that are known; those found are added
+/// The canonical isosurface (docs/algorithm.md), without coincident samples. Refines the tree as
+/// needed. Collective: a rank gets the isopoints on edges with an end in its leaves; those of edges
+/// between two ranks are on both.
+/// @param ranks SingleRank or SharedRanks
+/// @param neighborhoods known ones of the tree's leaves; those found are added
 /// @param idCount above every id
-/// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); tree and neighborhoods
-/// can be used again afterwards
+/// @throws Aborted, std::bad_alloc, std::length_error (see NarrowBand); the arguments remain usable
 template <class TSample, class TRanks>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
   NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,
@@ -223,7 +221,7 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
 {
   Isosurface surface;
   surface.isovalue = request.isovalue;
-  if (tree.isEmpty()) // that of all ranks
+  if (tree.isEmpty()) // on all ranks
   {
     return surface;
   }
@@ -253,5 +251,3 @@ Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tr
 }
 
 } // namespace isopoint
-
-#endif

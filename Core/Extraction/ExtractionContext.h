@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ExtractionContext_h
-#define isopoint_ExtractionContext_h
+#pragma once
 
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Tree/CoincidentSamples.h"
@@ -13,15 +12,14 @@
 namespace isopoint
 {
 
-/// What the threads of one extraction share. No result depends on any of it but the tree and the
-/// isovalue.
+/// Data shared by the threads of one extraction. Results depend only on the tree and the isovalue.
 template <class TSample>
 struct ExtractionContext
 {
   using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
 
   /// @param extractedTree refined around the isovalue
-  /// @param knownNeighborhoods of that tree; must not change while the context is in use
+  /// @param knownNeighborhoods of that tree; must not change meanwhile
   ExtractionContext(const SampleTree<TSample>& extractedTree,
     const Neighborhoods& knownNeighborhoods, double extractedIsovalue)
     : tree(extractedTree)
@@ -34,8 +32,7 @@ struct ExtractionContext
   {
   }
 
-  /// Boxes of all samples, which searches without lists need, are not available on one of several
-  /// ranks.
+  /// On several ranks, searches without lists are impossible: they need the boxes of all samples.
   static constexpr std::size_t unlimited = std::size_t{ 1 } << 62;
 
   const SampleTree<TSample>& tree;
@@ -44,9 +41,7 @@ struct ExtractionContext
   SampleBounds<TSample> bounds;
   SharedLeafMeans<TSample> leafMeans;
   NeighborListBudget listBudget;
-  std::atomic<std::int64_t> cacheBudget; // numbers that may still be added to the neighborhoods
+  std::atomic<std::int64_t> cacheBudget; // numbers that may still be cached
 };
 
 } // namespace isopoint
-
-#endif

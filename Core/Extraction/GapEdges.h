@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_GapEdges_h
-#define isopoint_GapEdges_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Neighbors/GapSpread.h"
 #include "Core/Tree/SampleTree.h"
@@ -16,7 +15,7 @@
 namespace isopoint
 {
 
-/// Crossing edges as parts of a surface for GapSpread: those with an end in common are connected.
+/// Crossing edges as parts of a surface for GapSpread; edges with a common end are connected.
 template <class TSample>
 class EdgeParts
 {
@@ -43,7 +42,7 @@ public:
       static_cast<std::size_t>(this->Edges[edge].secondLeaf));
   }
 
-  /// Visits the edges at both ends; those of an end that was visited once no more.
+  /// Visits the edges at both ends; skips ends that were visited before.
   template <class Visit>
   void forEachNeighbor(std::size_t edge, const Visit& visit)
   {
@@ -80,14 +79,13 @@ private:
 
   const std::vector<CrossingEdge<TSample>>& Edges;
   std::vector<std::pair<std::size_t, std::size_t>> Ends; // leaf and edge; once there is a gap
-  std::vector<char> IsVisited;                           // by the first entry of a leaf
+  std::vector<char> IsVisited;                           // by first entry of a leaf
 };
 
-/// Which crossing edges lie in gaps of the cloud: docs/algorithm.md, section 6. Where several ranks
-/// share the tree, this is collective.
-/// @param edges ordered, each once
-/// @param strong those over the strong gap criterion, in any order, with repetitions
-/// @param ranks SingleRank, or SharedRanks
+/// By edge, whether it lies in a gap of the cloud (docs/algorithm.md, section 6). Collective.
+/// @param edges sorted, each once
+/// @param strong those that the strong gap criterion rejects, in any order, with repetitions
+/// @param ranks SingleRank or SharedRanks
 /// @throws std::bad_alloc, Aborted, FailedElsewhere
 template <class TSample, class TRanks>
 std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSample>& tree,
@@ -109,5 +107,3 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
 }
 
 } // namespace isopoint
-
-#endif

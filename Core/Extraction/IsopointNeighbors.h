@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_IsopointNeighbors_h
-#define isopoint_IsopointNeighbors_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Base/ItemLists.h"
-#include "Core/Base/NodeList.h"
+#include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/LeafSet.h"
 #include "Core/Neighbors/GapCriterion.h"
@@ -24,11 +21,10 @@
 namespace isopoint
 {
 
-/// All isopoints, those first whose edges begin in the first leaf: mostly close ones after each
-/// other.
+/// The indices of all isopoints, sorted by the first leaf of their edges, so that consecutive ones
+/// are mostly close. O(nodes + isopoints)
 /// @param leaves of the isopoints' edges
 /// @param nodeCount of the tree
-/// Complexity: O(nodes + isopoints)
 inline std::vector<std::size_t> inOrderOfLeaves(
   const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
 {
@@ -37,32 +33,30 @@ inline std::vector<std::size_t> inOrderOfLeaves(
     .all();
 }
 
-/// The isopoints around each isopoint: those whose edges end in leaves around its own edge, so that
-/// around an isopoint there are others in all directions in which the surface goes on, however
-/// unevenly the samples are spread.
-///
-/// The time is bounded for leaves that touch very many others, as one that fills a void: around a
-/// leaf that touches more than 256 others no others are listed, nor are the isopoints of a leaf
-/// that has more than 256. The other end of their edges mostly lists what lies around.
+/// Finds the isopoints around an isopoint: those whose edges end in leaves around its own edge.
+/// This gives some in every direction in which the surface continues, even for uneven samples.
+/// The time is bounded for leaves with very many neighbors, such as one that fills a void: a leaf
+/// that touches more than 256 others has no listed neighbors, and the isopoints of a leaf with more
+/// than 256 are not listed. The other end of an edge mostly lists what is missing.
 template <class TSample>
 class IsopointNeighbors
 {
 public:
   using Id = typename TSample::Id;
 
-  /// @param tree in which the leaves' neighborhoods are complete
-  /// @param known neighborhoods; others are searched for
+  /// O(nodes + isopoints)
+  /// @param tree with complete neighborhoods of the leaves
+  /// @param known neighborhoods; others are searched
   /// @param leaves of the isopoints' edges
-  /// @param isInner for each isopoint, whether others will be looked for around it; null for all
+  /// @param isInner per isopoint, whether its neighbors will be requested; null for all
   /// @throws std::bad_alloc, Aborted
-  /// Complexity: O(nodes + isopoints)
   IsopointNeighbors(const Execution& execution, const SampleTree<TSample>& tree,
     const NeighborhoodCache<Id>& known, const std::vector<EdgeLeaves>& leaves,
     const std::vector<bool>* isInner = nullptr)
     : Tree(tree)
     , Bounds(tree)
   {
-    // Of the leaves that edges end in; 0 is none.
+    // Of the leaves at the ends of edges; 0: none.
     std::vector<Id> numbers(tree.nodes.size());
     this->numberLeaves(execution, leaves, numbers);
     this->Isopoints.emplace(this->Leaves.size(), this->Ends.size(),
@@ -78,9 +72,8 @@ public:
     this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
-  /// Whether a void of a width, up to a sample, is a gap as seen from an isopoint: whether it is
-  /// over the strong gap criterion, in place of the length of an edge between an end of the
-  /// isopoint's edge and the sample.
+  /// Whether a void of this width between an isopoint and a sample is a gap: whether the strong gap
+  /// criterion rejects an edge of length `width` from an end of the isopoint's edge to the sample.
   /// @throws MissingNode
   bool isAcrossGap(std::size_t isopoint, const TSample& sample, double width) const
   {
@@ -94,8 +87,7 @@ public:
       });
   }
 
-  /// Lists the isopoints around one. What was found is kept for the next ones whose edges begin in
-  /// the same leaf. For one thread.
+  /// Lists the isopoints around one. Edges that begin in one leaf share results. For one thread.
   class Finder
   {
   public:
@@ -104,13 +96,12 @@ public:
     {
     }
 
-    /// @param rings 1 or more. In the first ring are the isopoints whose edges end in or next to an
-    /// end of one of the edges that begin where this one's does; each further ring adds those whose
-    /// edges end in or next to an end of one of the ring before. All samples that determine which
-    /// these are lie in leaves that are connected to this one's edge by no more than 2 rings + 1
-    /// touching leaves.
-    /// @returns isopoints, each once, mostly this one among them; a list that holds until the next
-    /// call
+    /// Two edges are adjacent if an end of one is in, or touches, a leaf at an end of the other.
+    /// Ring 1 has the isopoints of edges adjacent to any edge that begins in the same leaf as this
+    /// one's; each further ring adds those of edges adjacent to the previous ring's. Only leaves
+    /// within 2 rings + 1 steps, each to a touching leaf, from this edge affect the result.
+    /// @param rings at least 1
+    /// @returns isopoints, each once, mostly including this one; valid until the next call
     NodeList<std::size_t> find(std::size_t isopoint, int rings)
     {
       const Id leaf = this->Neighbors.Ends[isopoint][0];
@@ -189,34 +180,34 @@ public:
     const IsopointNeighbors& Neighbors;
     Id Leaf = 0;
     std::vector<std::size_t> Isopoints;
-    std::vector<std::size_t> RingEnds; // in this list
-    LeafSet<Id> Ends;                  // whose surroundings are listed
+    std::vector<std::size_t> RingEnds; // in Isopoints
+    LeafSet<Id> Ends;                  // whose neighbors are listed
     LeafSet<Id> Visited;
     LeafSet<std::size_t> Listed;
   };
 
 private:
-  /// Leaves that touch, or have, more than that are left out.
+  /// Leaves that touch, or have, more than this are skipped.
   static constexpr std::size_t most = 256;
 
-  /// No leaf is added once this many isopoints are listed.
+  /// Once this many isopoints are listed, no leaf is added.
   static constexpr std::size_t mostIsopoints = 2048;
 
-  /// The isopoints whose edges end in a leaf; none if they are more than `most`.
+  /// The isopoints whose edges end in a leaf; none if there are more than `most`.
   NodeList<std::size_t> isopointsAt(Id leaf) const
   {
     const NodeList<std::size_t> isopoints = this->Isopoints->at(leaf);
     return isopoints.count > most ? NodeList<std::size_t>{} : isopoints;
   }
 
-  /// The leaves that touch one.
+  /// The leaves that touch a leaf.
   NodeList<Id> touching(Id leaf) const
   {
     const std::size_t begin = this->TouchingEnds[leaf - 1];
     return { this->Touching.data() + begin, this->TouchingEnds[leaf] - begin };
   }
 
-  /// Numbers the leaves from 1 on, in the order of their nodes: close ones are close in memory.
+  /// Numbers the leaves from 1 on in node order: close leaves are close in memory.
   void numberLeaves(
     const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
   {
@@ -241,7 +232,7 @@ private:
       });
   }
 
-  /// Lists for each leaf the others that touch it.
+  /// Lists the neighbors of each leaf.
   void listTouching(const Execution& execution, const SampleTree<TSample>& tree,
     const NeighborhoodCache<Id>& known, const std::vector<Id>& numbers,
     const std::vector<bool>& isSurrounded)
@@ -282,14 +273,12 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  mutable SampleBounds<TSample> Bounds;  // computed once, from any thread
-  std::vector<Id> Leaves;                // node indices of the leaves that edges end in, by number
-  std::vector<std::array<Id, 2>> Ends;   // of the isopoints' edges, numbers of leaves
-  std::optional<ItemLists> Isopoints;    // whose edges end in each leaf, by number
-  std::vector<Id> Touching;              // each leaf, numbers of leaves, one list after the other
-  std::vector<std::size_t> TouchingEnds; // of these lists; the first one is empty
+  mutable SampleBounds<TSample> Bounds;  // computed once; thread-safe
+  std::vector<Id> Leaves;                // node indices of the edges' leaves, by number
+  std::vector<std::array<Id, 2>> Ends;   // of the isopoints' edges, as leaf numbers
+  std::optional<ItemLists> Isopoints;    // with an edge that ends in the leaf, by leaf number
+  std::vector<Id> Touching;              // leaf numbers, one list per leaf
+  std::vector<std::size_t> TouchingEnds; // ends of these lists, by leaf number
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Isosurface_h
-#define isopoint_Isosurface_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Neighbors/AngleCriterion.h"
@@ -21,11 +19,11 @@
 namespace isopoint
 {
 
-/// An edge between two samples, by which edges are ordered.
+/// An edge between two samples. Edges are sorted by (first, second).
 struct SampleEdge
 {
-  std::uint64_t first;  // the id of one sample
-  std::uint64_t second; // the id of the other, first < second
+  std::uint64_t first;  // the lower id
+  std::uint64_t second; // the higher id
 
   bool operator==(const SampleEdge& other) const
   {
@@ -37,16 +35,16 @@ struct SampleEdge
   }
 };
 
-/// An edge between the samples of two leaves on either side of the isovalue.
+/// An edge between the samples of two leaves on opposite sides of the isovalue.
 template <class TSample>
 struct CrossingEdge : SampleEdge
 {
-  double crossing; // where linear interpolation has the isovalue: 0 at `first`, 1 at `second`
+  double crossing; // parameter of the isovalue by linear interpolation: 0 at `first`, 1 at `second`
   typename TSample::Id firstLeaf; // node indices
   typename TSample::Id secondLeaf;
 };
 
-/// The leaves at the ends of edges, ordered, each once.
+/// The leaves at the ends of edges, sorted, each once.
 template <class TSample>
 std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edges)
 {
@@ -61,41 +59,37 @@ std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edge
   return leaves;
 }
 
-/// The isovalue, the criteria by which edges are chosen, and what is fitted around them.
+/// The isovalue, the criteria of edges, and the fits.
 struct IsosurfaceRequest
 {
-  double isovalue;             // any; there are isopoints where samples lie on either side of it
-  double angle = defaultAngle; // of the angle criterion, in degrees, 0 up to 180
-  bool dropsGaps = false;      // whether what lies in gaps of the cloud is left out
+  double isovalue;             // any; the surface separates samples below it from the others
+  double angle = defaultAngle; // of the angle criterion, in degrees, from 0 to 180
+  bool dropsGaps = false;      // whether to drop parts in gaps of the cloud
   std::optional<FitRequest> fit = std::nullopt;
-  /// Of triangles: whether the samples near the surface stay tetrahedrized for the next extraction,
-  /// unless they are many (see Band).
+  /// Triangles only: whether to keep the tetrahedralization near the surface for the next
+  /// extraction, unless it is large (see KeptTetrahedra).
   bool keepsBand = true;
-  /// Of triangles with creases: whether vertices are repeated on each side of a crease, so that
-  /// each has one normal.
+  /// Triangles with creases only: whether vertices are repeated on each side, for separate normals.
   bool partsCreases = false;
-  /// Of triangles: whether vertices are merged, and edges flipped, to well-shaped triangles; see
-  /// docs/triangles.md.
+  /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
   bool regularizes = false;
 };
 
-/// The edge of an isopoint, between two samples on either side of the isovalue.
+/// The edge of an isopoint, between samples on opposite sides of the isovalue.
 struct IsopointEdge : SampleEdge
 {
-  /// The place on the edge that is nearest to the isopoint: 0 at `first`, 1 at `second`. All
-  /// attributes are interpolated there.
+  /// Nearest place on the edge to the isopoint, for its attributes: 0 at `first`, 1 at `second`.
   double parameter;
 };
 
-/// The node indices of the two leaves that an edge connects.
+/// The node indices of an edge's two leaves.
 struct EdgeLeaves
 {
   std::size_t first;
   std::size_t second;
 };
 
-/// The place in the order of the tree of the leaf that comes first there: the rank that has it is
-/// the one to which the isopoint of the edge belongs.
+/// The place in tree order of the edge's first leaf. The rank that owns it owns the isopoint.
 template <class TSample>
 std::size_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leaves)
 {
@@ -103,49 +97,45 @@ std::size_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leav
     std::min(tree.nodes[leaves.first].begin, tree.nodes[leaves.second].begin));
 }
 
-/// The isopoints of one isovalue, ordered by the ends (first, second) of their edges, each edge
-/// once.
+/// The isopoints of one isovalue, sorted by their edges (first, second); each edge occurs once.
 struct Isosurface
 {
   double isovalue = 0.0;
 
-  /// One edge of each isopoint; of a vertex that several have become, all of theirs, one list after
-  /// the other. All attributes are means over these edges.
+  /// One edge per isopoint; several for a merged vertex, whose attributes are means over them.
   std::vector<IsopointEdge> edges;
-  std::vector<EdgeLeaves> leaves; // of the same edges; do not leave the core
-  /// Where the edges of each isopoint begin, and the end of the last ones; empty where each has
-  /// one.
+  std::vector<EdgeLeaves> leaves; // of the same edges; only for use inside the core
+  /// The offsets of the isopoints' edges, and the end of the last ones; empty if each has one edge.
   std::vector<std::size_t> edgeBegins;
 
-  // One entry for each isopoint.
-  std::vector<Vector> positions;       // moved to the zero of the fit, where that was requested
-  std::vector<Vector> decreasingEdges; // from the end not below the isovalue to the one that is
+  // One entry per isopoint:
+  std::vector<Vector> positions;       // at the zero of the fit, if requested
+  std::vector<Vector> decreasingEdges; // from the end not below the isovalue to the other
 
-  std::vector<LocalFit> fits; // one for each isopoint, or empty if none were requested
+  std::vector<LocalFit> fits; // or empty if none were requested
 
-  std::vector<CoincidentSamples> coincident; // all at ends of the edges, and others; by lowest id
+  std::vector<CoincidentSamples> coincident; // all at ends of edges, and others; by lowest id
 
-  std::size_t droppedEdges = 0; // crossing ones that lie in gaps
+  std::size_t droppedEdges = 0; // crossing edges in gaps
 
   std::size_t size() const
   {
     return this->edgeBegins.empty() ? this->edges.size() : this->edgeBegins.size() - 1;
   }
 
-  /// Where the edges of an isopoint begin. That of the isopoint behind the last one is the end.
+  /// The offset of an isopoint's edges; for size(), the end.
   std::size_t edgeBegin(std::size_t isopoint) const
   {
     return this->edgeBegins.empty() ? isopoint : this->edgeBegins[isopoint];
   }
 
-  /// The edge of an isopoint; of several, the one that is crossed nearest to it.
+  /// The edge of an isopoint; of a merged vertex, the edge that is crossed nearest to it.
   const IsopointEdge& edgeOf(std::size_t isopoint) const
   {
     return this->edges[this->edgeBegin(isopoint)];
   }
 
-  /// The samples that coincide with the one of this id, or null if it is alone.
-  /// O(log coincident.size())
+  /// The samples that coincide with that of this id, or null. O(log coincident.size())
   const CoincidentSamples* coincidentAt(std::uint64_t id) const
   {
     const auto found = std::lower_bound(this->coincident.begin(), this->coincident.end(), id,
@@ -155,8 +145,8 @@ struct Isosurface
   }
 };
 
-/// The elements of some indices, in their order. @throws std::bad_alloc
-/// @param all if it is empty, so is the result, whatever the indices
+/// all[i] for each index i. @throws std::bad_alloc
+/// @param all if empty, so is the result
 template <class T>
 std::vector<T> chosenOf(
   const Execution& execution, const std::vector<T>& all, const std::vector<std::size_t>& indices)
@@ -170,10 +160,10 @@ std::vector<T> chosenOf(
   return chosen;
 }
 
-/// Chooses lists that follow each other, by their indices.
-/// @param begins of all lists, and the end of the last one; if it is empty, so is the result
-/// @param elements set to the elements of the chosen lists
-/// @returns where the chosen lists begin, and the end of the last one
+/// Chooses lists from concatenated ones.
+/// @param begins offsets of all lists, and the end of the last one; if empty, so is the result
+/// @param elements receives the element indices of the chosen lists
+/// @returns offsets of the chosen lists, and the end of the last one
 inline std::vector<std::size_t> chosenLists(const std::vector<std::size_t>& begins,
   const std::vector<std::size_t>& indices, std::vector<std::size_t>& elements)
 {
@@ -194,7 +184,7 @@ inline std::vector<std::size_t> chosenLists(const std::vector<std::size_t>& begi
   return chosen;
 }
 
-/// The isopoints of some indices of a surface, in their order, without coincident samples.
+/// The isopoints of some indices, in their order, without coincident samples.
 inline Isosurface chosenIsopoints(
   const Execution& execution, const Isosurface& surface, const std::vector<std::size_t>& indices)
 {
@@ -210,7 +200,7 @@ inline Isosurface chosenIsopoints(
   return few;
 }
 
-/// The coincident samples among the ends of edges, by lowest id. @throws std::bad_alloc, Aborted
+/// The coincident samples at ends of edges, by lowest id. @throws std::bad_alloc, Aborted
 template <class TSample>
 std::vector<CoincidentSamples> coincidentEnds(
   const Execution& execution, const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
@@ -248,8 +238,7 @@ std::vector<CoincidentSamples> coincidentEnds(
   return result;
 }
 
-/// An attribute of the samples at the ends of a surface's edges: their own or, of coincident
-/// samples, the mean, computed once for each surface.
+/// An attribute of samples at the ends of edges; the mean for coincident ones, computed once.
 template <class AttributeAt>
 class CoincidentAttribute
 {
@@ -282,5 +271,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

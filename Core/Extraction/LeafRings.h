@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_LeafRings_h
-#define isopoint_LeafRings_h
+#pragma once
 
-#include "Core/Base/NodeList.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/LeafSet.h"
@@ -20,21 +19,20 @@
 namespace isopoint
 {
 
-/// The rings of cells around leaves, by the definitions of docs/algorithm.md, section 10.1. Those
-/// of up to some thousands of leaves are kept: an edge shares its ends with several others close by
-/// in the tree. For one thread.
+/// The rings of cells around leaves (docs/algorithm.md, section 10.1). Up to some thousands are
+/// cached, since nearby edges share ends. For one thread.
 template <class TSample>
 class LeafRings
 {
 public:
   using Id = typename TSample::Id;
 
-  /// What is known of the rings around a leaf.
+  /// Known rings around a leaf.
   struct Rings
   {
     Id leaf;
-    bool hasTooMany;    // neighbors to take them whole
-    NodeList<Id> first; // its neighbors; if they are too many, none or their representatives
+    bool hasTooMany;    // neighbors to list them all
+    NodeList<Id> first; // neighbors; if too many, none or representatives
     std::vector<Id> representatives;
     std::optional<std::vector<Id>> second;
     std::optional<double> spacing;
@@ -51,7 +49,7 @@ public:
   LeafRings(const LeafRings&) = delete; // lists refer to others
   LeafRings& operator=(const LeafRings&) = delete;
 
-  /// Forgets all rings once there are many: memory must not grow with the surface.
+  /// Clears the cache once it is large: memory must not grow with the surface.
   void makeRoom()
   {
     constexpr std::size_t mostLists = 4096;
@@ -78,8 +76,8 @@ public:
       .first->second;
   }
 
-  /// Lists representatives of too many neighbors as the first ring, if that is not listed yet: one
-  /// for each subtree whose size over its distance is small.
+  /// If there are too many neighbors, and no first ring yet, sets it to representatives: one for
+  /// each subtree whose size over its distance is small.
   void represent(Rings& rings)
   {
     if (!rings.first.isEmpty())
@@ -96,8 +94,8 @@ public:
     this->CountListed += some.size();
   }
 
-  /// The neighbors of the first ring's leaves across the isovalue, other than the leaf and its
-  /// first ring: each once, in the order of the search. The first ring must be listed.
+  /// The neighbors of the first ring's leaves across the isovalue, without the leaf and its first
+  /// ring: each once, in search order. The first ring must be set.
   const std::vector<Id>& secondOf(Rings& rings)
   {
     if (!rings.second)
@@ -129,7 +127,7 @@ public:
     return *rings.second;
   }
 
-  /// The spacing of the samples of a leaf and its first ring, which must be listed.
+  /// The spacing of the samples of a leaf and its first ring, which must be set.
   double spacingOf(Rings& rings)
   {
     if (!rings.spacing)
@@ -148,7 +146,7 @@ public:
   double valueOf(Id leaf) { return this->Values.at(static_cast<std::size_t>(leaf)); }
 
 private:
-  /// The neighbors of a leaf; none if they are too many. Valid until the next call of makeRoom().
+  /// The neighbors of a leaf; none if there are too many. Valid until the next call of makeRoom().
   NodeList<Id> neighborsOf(Id leaf)
   {
     constexpr std::size_t mostNeighbors = 256;
@@ -163,7 +161,7 @@ private:
     if (!memory.empty())
     {
       memory.resize(neighbors.count);
-      this->Found.emplace(leaf, std::move(memory)); // the elements stay where they are
+      this->Found.emplace(leaf, std::move(memory)); // elements do not move
     }
     return neighbors;
   }
@@ -180,12 +178,10 @@ private:
   ImplicitNeighborhood<TSample> Implicit;
   LeafValueCache<TSample> Values;
   std::unordered_map<Id, Rings> Known;           // by leaf
-  std::unordered_map<Id, std::vector<Id>> Found; // neighbors that were searched for, by leaf
+  std::unordered_map<Id, std::vector<Id>> Found; // neighbors from searches, by leaf
   std::size_t CountListed = 0;                   // leaves in all second rings
   LeafSet<Id> Listed;
   SampleSpacing Spacing;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_LeafSet_h
-#define isopoint_LeafSet_h
+#pragma once
 
 #include "Core/Base/AlwaysInline.h"
 
@@ -11,12 +10,12 @@
 namespace isopoint
 {
 
-/// A set of node indices that is emptied often. Memory is kept. For one thread.
+/// A set of node indices that is cleared often. Memory is kept. For one thread.
 template <class TId>
 class LeafSet
 {
 public:
-  /// O(1), except for the first time after the present generation of entries has run out.
+  /// O(1), except when the generation counter overflows.
   void clear()
   {
     this->Count = 0;
@@ -48,11 +47,11 @@ private:
   struct Entry
   {
     TId leaf = 0;
-    std::uint32_t generation = 0; // it is in the set if that is the present one
+    std::uint32_t generation = 0; // in the set if it is the current one
   };
 
-  /// Where a leaf is or belongs. Nodes close to each other have close indices, which linear probing
-  /// leaves in the same lines of the cache.
+  /// The entry of a leaf, or where to insert it. Nearby nodes have nearby indices, which linear
+  /// probing keeps in the same cache lines.
   Entry& entryOf(TId leaf)
   {
     const std::size_t mask = this->Entries.size() - 1;
@@ -78,11 +77,9 @@ private:
     }
   }
 
-  std::vector<Entry> Entries; // a power of two of them
+  std::vector<Entry> Entries; // size is a power of two
   std::size_t Count = 0;
   std::uint32_t Generation = 1;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NarrowBand_h
-#define isopoint_NarrowBand_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Tree/NodeMarks.h"
@@ -20,8 +19,7 @@
 namespace isopoint
 {
 
-/// A node that the band needs, and whether the surface may pass between its samples and those of
-/// the nodes that touch it.
+/// A node in the band. It is crossing if the surface may pass between it and nodes that touch it.
 struct BandNode
 {
   BinaryIndex index;
@@ -29,8 +27,8 @@ struct BandNode
   bool isCrossing;
 };
 
-/// Whether the node, or the node together with one that touches it, has samples below the isovalue
-/// and others that are not: then the surface may pass here.
+/// Whether the node, or the node and one that touches it, have samples on both sides of the
+/// isovalue: then the surface may pass here.
 template <class TSample>
 bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
   const Surroundings& surroundings, int nodeDepth, double isovalue)
@@ -42,8 +40,8 @@ bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
          touchesOtherSide(tree, surroundings, nodeDepth, isovalue, hasBelow);
 }
 
-/// Refines a tree around the isosurface of one isovalue, treelet by treelet: only nodes that may
-/// hold a piece of the surface, and those that touch one, are split (docs/algorithm.md, section 9).
+/// Refines a tree around one isosurface, treelet by treelet: only nodes that may contain a piece of
+/// the surface, and those that touch one, are split (docs/algorithm.md, section 9).
 template <class TSample>
 class NarrowBand
 {
@@ -57,16 +55,13 @@ public:
   {
   }
 
-  /// On one of several ranks, nodes of which no sample is this rank's are not split; they count as
-  /// the others' ranges of values, which are fetched where they matter.
-  /// @param ranks SingleRank, or SharedRanks, all of which call this
-  /// @returns nodes below which every node is split down to leaves, and so is everything that
-  /// touches such a leaf: every leaf with a crossing edge is among those below them. On several
-  /// ranks, as far as leaves are this rank's
-  /// @throws Aborted, std::bad_alloc; the tree can be refined again afterwards
-  /// @throws std::length_error if the tree would get deeper than maximumDepth, which takes more
-  /// than 2^31 samples in nested groups of coincident ones, or has more nodes than its ids can
-  /// number
+  /// Collective. Nodes without samples of this rank are not split; their value ranges are fetched.
+  /// @param ranks SingleRank or SharedRanks
+  /// @returns nodes whose subtrees contain all (of this rank's) leaves with crossing edges; these
+  /// subtrees, and everything that touches their leaves, are split down to leaves
+  /// @throws Aborted, std::bad_alloc; the tree can be refined again
+  /// @throws std::length_error if the tree would exceed maximumDepth, which takes over 2^31 samples
+  /// in nested groups of coincident ones, or have more nodes than ids can number
   template <class TRanks>
   std::vector<BinaryIndex> refine(TRanks& ranks)
   {
@@ -112,8 +107,8 @@ public:
 private:
   using NodeType = Node<TSample>;
 
-  /// To split few samples all the way takes less time than to determine which are needed.
-  /// @returns whether that was done
+  /// Splits the front down to leaves if few samples remain: faster than deciding which are needed.
+  /// @returns whether it did
   bool finishIfFew(const std::vector<BandNode>& front, int depth, int bottom)
   {
     const std::size_t few = front.size() / 4;
@@ -135,13 +130,12 @@ private:
     return true;
   }
 
-  /// The number of nodes of the front whose subtrees are searched at a time.
   static constexpr std::size_t searchGrain = 64;
 
-  /// The number of them, for each thread, between two looks at an abort.
+  /// Nodes per thread between checks for an abort.
   static constexpr std::size_t searchBatch = 64 * searchGrain;
 
-  /// A treelet to be built below a node.
+  /// A treelet to build below a node.
   struct TreeletTask
   {
     BandNode node;
@@ -149,7 +143,6 @@ private:
     int levels;
   };
 
-  /// Splits the nodes of one depth down to another.
   void splitFront(const Execution& execution, const std::vector<BandNode>& front, int bottom)
   {
     if (this->Tree.isPartial)
@@ -162,8 +155,8 @@ private:
     }
   }
 
-  /// The nodes of a front that are not split, and those below it down to a depth: what other ranks
-  /// asked for may have been split less far. Those of other ranks alone are left out.
+  /// The unsplit nodes from a front down to a depth: requests of other ranks may have split some
+  /// partly. Nodes without samples of this rank are skipped.
   std::vector<BandNode> unsplitBelow(const std::vector<BandNode>& front, int depth)
   {
     return this->collectBelow(front, depth - 1,
@@ -187,7 +180,7 @@ private:
     {
       throwTooDeep();
     }
-    // All threads split each node together while there are too few nodes to keep every thread busy.
+    // All threads split each node together while there are too few nodes for all threads.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const std::size_t fewNodes = 4 * this->Run.threads;
     const std::size_t batchSamples = (std::size_t{ 1 } << 18) * this->Run.threads;
@@ -261,8 +254,7 @@ private:
     execution.progress(1.0);
   }
 
-  /// The number of samples in nodes this many levels below the front that are no leaves; counting
-  /// ends above a limit.
+  /// Samples in nodes `levels` levels below the front that are not leaves; counts up to a limit.
   std::size_t unfinishedSamples(
     const std::vector<BandNode>& front, int levels, std::size_t limit) const
   {
@@ -291,7 +283,7 @@ private:
   }
 
   /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
-  /// crossing. What touches nodes that are not known is put aside, until they have been fetched.
+  /// crossing. Nodes next to unknown ones wait until those are fetched.
   template <class TRanks>
   void mark(const Execution& execution, TRanks& ranks, std::vector<BandNode> front, int depth)
   {
@@ -329,7 +321,7 @@ private:
       execution.progress);
   }
 
-  /// Marks a node, if it is crossing and of this rank, and what touches it.
+  /// Marks a node, if it is crossing and this rank's, and the nodes that touch it.
   void markAt(const Path& path, int depth)
   {
     if (!this->Tree.hasOwn(this->Tree.nodes[path.nodeIndex()]))
@@ -374,8 +366,8 @@ private:
     this->ListBudget.spend(count);
   }
 
-  /// Marks the nodes of a depth in a subtree that touch the region, and a parent once all below it
-  /// are marked, so that later searches stop there: many crossing nodes may touch the same others.
+  /// Marks the nodes of a depth in a subtree that touch the region. A parent is marked once all
+  /// nodes below it are, so that later searches stop there: crossing nodes share many neighbors.
   /// @returns whether all are marked
   bool markBelow(FoundNode top, int depth, const Region& region)
   {
@@ -404,7 +396,6 @@ private:
     return areAll;
   }
 
-  /// The marked nodes of a depth below the front.
   std::vector<BandNode> neededBelow(const std::vector<BandNode>& front, int depth)
   {
     return this->collectBelow(front, depth,
@@ -418,8 +409,8 @@ private:
       });
   }
 
-  /// @param collect(path, list) adds a node of the depth, or an unsplit one above, of which samples
-  /// are this rank's own, to a list or not
+  /// @param collect(path, list) may add a node of the depth, or an unsplit one above it; called for
+  /// nodes with samples of this rank
   template <class Collect>
   std::vector<BandNode> collectBelow(
     const std::vector<BandNode>& front, int depth, const Collect& collect)
@@ -443,7 +434,6 @@ private:
       });
   }
 
-  // Marks of nodes.
   static constexpr std::uint8_t needed = 1;
   static constexpr std::uint8_t crossed = 2;
 
@@ -451,12 +441,10 @@ private:
   const double Isovalue;
   const Execution& Run;
   NeighborListBudget ListBudget;
-  NodeMarks Marks; // of nodes of the present depth and above
+  NodeMarks Marks; // of nodes down to the current depth
   std::mutex AsideMutex;
-  std::vector<BandNode> Aside;      // nodes of the present depth that wait for others
-  std::vector<MissingNode> Missing; // which these are
+  std::vector<BandNode> Aside;      // nodes that wait for missing ones
+  std::vector<MissingNode> Missing; // to fetch
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NeighborhoodFits_h
-#define isopoint_NeighborhoodFits_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
@@ -34,8 +33,7 @@ public:
   {
   }
 
-  /// @param start where the isopoint is before it is moved; null if that is where linear
-  /// interpolation puts it
+  /// @param start the isopoint before it is moved; null for linear interpolation
   LocalFit fit(const CrossingEdge<TSample>& crossing, const Vector* start)
   {
     this->Gatherer.gather(crossing.firstLeaf, crossing.secondLeaf);
@@ -82,7 +80,7 @@ private:
   LocalFitter Fitter;
 };
 
-/// The place of an edge in the order of the tree.
+/// The place of an edge in tree order.
 struct TreePlace
 {
   std::uint64_t lower; // of its ends among the tree's samples
@@ -99,8 +97,7 @@ struct TreePlace
   }
 };
 
-/// Edges in the order of the tree: consecutive ones lie close together, however samples are
-/// numbered.
+/// Edges in tree order: consecutive ones are close, whatever the samples' ids.
 template <class TSample>
 std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSample>& tree,
   const std::vector<CrossingEdge<TSample>>& edges)
@@ -119,13 +116,11 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
     execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
 }
 
-/// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter), as
-/// they follow each other in the tree: what is found for one edge is often that of the next. Each
-/// fit depends on its samples alone.
-/// @param ranks SingleRank, or SharedRanks
-/// @param starts where the isopoints of the edges are before they are moved; empty if that is where
-/// linear interpolation puts them
-/// @param fits one for each edge, of which those at the places are set
+/// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter).
+/// Fastest in tree order, since consecutive edges share samples. Collective.
+/// @param ranks SingleRank or SharedRanks
+/// @param starts the edges' isopoints before they are moved; empty for linear interpolation
+/// @param fits one per edge; those at the places are set, each from its samples alone
 /// @throws Aborted, std::bad_alloc
 template <class TSample, class TRanks>
 void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRanks& ranks,
@@ -133,7 +128,7 @@ void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRan
   const std::vector<Vector>& starts, const std::vector<TreePlace>& places,
   std::vector<LocalFit>& fits)
 {
-  // Batches are small: where cells touch hundreds of others, a fit takes long.
+  // Small batches: fits are slow where cells touch hundreds of others.
   constexpr std::size_t grain = 256;
   ranks.forEach(
     execution, { places.size(), 4 * grain, grain },
@@ -146,7 +141,7 @@ void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRan
     execution.progress);
 }
 
-/// Fits to the samples around each edge; see fitAt(). @returns one fit for each
+/// One fit for each edge; see fitAt().
 template <class TSample, class TRanks>
 std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   ExtractionContext<TSample>& context, TRanks& ranks, FitRequest request,
@@ -159,5 +154,3 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
 }
 
 } // namespace isopoint
-
-#endif

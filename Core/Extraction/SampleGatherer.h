@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SampleGatherer_h
-#define isopoint_SampleGatherer_h
+#pragma once
 
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/LeafRings.h"
@@ -15,9 +14,8 @@
 namespace isopoint
 {
 
-/// Gathers the samples around edges, one edge at a time: within one ring of touching cells
-/// around its ends, or two rings as far as the tree is refined for the isovalue. Memory is kept.
-/// For one thread.
+/// Gathers the samples around edges, one edge at a time: one ring of touching cells around the
+/// ends, or two rings where the tree is refined for the isovalue. Memory is kept. For one thread.
 template <class TSample>
 class SampleGatherer
 {
@@ -30,9 +28,9 @@ public:
   {
   }
 
-  /// Gathers the samples of both ends and of their neighbors; but if one end alone has very many,
-  /// as a cell that fills a void has, only those of the other end. If both have, a subset of theirs
-  /// that covers all directions and distances.
+  /// Gathers the samples of both ends and their neighbors. If one end has very many neighbors, like
+  /// a cell that fills a void, its neighbors are left out; if both have, a subset that covers all
+  /// directions and distances is taken.
   void gather(Id firstLeaf, Id secondLeaf)
   {
     this->Known.clear();
@@ -59,8 +57,7 @@ public:
     }
   }
 
-  /// Adds the neighbors of the ends' neighbors across the isovalue, unless there are enough
-  /// samples, as where these are in lines.
+  /// Adds the second ring across the isovalue, unless there are enough samples, as on lines.
   void widen()
   {
     constexpr std::size_t enoughSamples = 128;
@@ -78,11 +75,10 @@ public:
     }
   }
 
-  /// The samples of the present edge, each once, coincident ones as one. Their order depends on the
-  /// tree alone.
+  /// The distinct samples of the current edge, in an order that depends only on the tree.
   const std::vector<FitSample>& samples() const { return this->Samples; }
 
-  /// The mean of the spacings at those ends whose neighbors are taken.
+  /// The mean spacing at the ends whose neighbors are taken.
   double spacing()
   {
     double sum = 0.0;
@@ -98,7 +94,6 @@ public:
     return sum / count;
   }
 
-  /// A leaf's sample.
   FitSample sampleAt(Id leaf)
   {
     return { positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf))),
@@ -108,7 +103,7 @@ public:
 private:
   using EndRings = typename LeafRings<TSample>::Rings;
 
-  /// Whether the first ring of an end is, whole or by representatives.
+  /// Whether the first ring of an end is taken, whole or by representatives.
   bool isTaken(const EndRings& end) const { return this->AreMany || !end.hasTooMany; }
 
   template <class TLeaves>
@@ -128,7 +123,7 @@ private:
     }
   }
 
-  /// The place of a leaf in the order of the tree.
+  /// The place of a leaf in tree order.
   std::size_t beginOf(Id leaf) const
   {
     return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
@@ -136,7 +131,7 @@ private:
 
   const SampleTree<TSample>& Tree;
   LeafRings<TSample> AllRings;
-  std::array<EndRings*, 2> Ends{}; // of the present edge, in the order of the tree
+  std::array<EndRings*, 2> Ends{}; // of the current edge, in tree order
   bool AreMany = false;            // whether both have too many neighbors
   LeafSet<Id> Known;               // leaves whose samples are taken
   std::vector<FitSample> Samples;
@@ -144,5 +139,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

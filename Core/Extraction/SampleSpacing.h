@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SampleSpacing_h
-#define isopoint_SampleSpacing_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -14,24 +13,21 @@
 namespace isopoint
 {
 
-/// The spacing of the samples around one of them; see docs/algorithm.md, section 10.1. Memory is
-/// kept. For one thread.
+/// The spacing of samples around one of them (docs/algorithm.md, section 10.1). For one thread.
 class SampleSpacing
 {
 public:
-  /// Forgets all neighbors.
   void clear() { this->Neighbors.clear(); }
 
-  /// Adds a neighbor at another position.
+  /// @param offset to a neighbor, not zero
   void add(const Vector& offset)
   {
     this->Neighbors.push_back({ offset, lengthOf(offset), this->Neighbors.size() });
   }
 
-  /// The distance that two fifths of the neighbors and the sample itself do not exceed, or that at
-  /// which they span space, if that is well less. The farthest may be across a void, the nearest
-  /// all on one line or in one slice with the sample.
-  /// Complexity: O(n log n)
+  /// The distance within which two fifths of the sample and its neighbors are; or, if well less,
+  /// that at which the neighbors span space. The farthest may be across a void; the nearest may all
+  /// be on a line or in a slice with the sample. O(n log n)
   double spacing()
   {
     std::sort(this->Neighbors.begin(), this->Neighbors.end(),
@@ -51,8 +47,9 @@ private:
     std::size_t number;
   };
 
-  /// The distance of the nearest neighbor that is more than 30 degrees off the plane of the nearest
-  /// one and the nearest that is more than 30 degrees off the line of that; infinite without any.
+  /// The distance at which the nearest neighbors span space; infinite if they do not. The nearest
+  /// one defines a line; the next, more than 30 degrees off the line, defines a plane; the result
+  /// is the distance of the next more than 30 degrees off the plane.
   double distanceThatSpans() const
   {
     constexpr double sine = 0.5;
@@ -79,5 +76,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

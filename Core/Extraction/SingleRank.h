@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SingleRank_h
-#define isopoint_SingleRank_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Extraction/ExtractionContext.h"
@@ -16,9 +15,9 @@
 namespace isopoint
 {
 
-/// The ranks that share a tree, as extraction sees them, where there is one: it has all samples.
-/// SharedRanks has the same functions for several. There all of them are collective, except
-/// order(), and throw FailedElsewhere besides what is stated here.
+/// The process group as extraction sees it (template parameter TRanks), for one rank that has all
+/// samples. SharedRanks implements the same functions for several ranks: there all but order() are
+/// collective, and may throw FailedElsewhere in addition.
 template <class TSample>
 class SingleRank
 {
@@ -33,13 +32,13 @@ public:
   bool isAny(bool mine) const { return mine; }
   std::uint64_t sum(std::uint64_t mine) const { return mine; }
 
-  /// Fetches the nodes of a depth below the missing ones, as far as they touch their boxes, with
-  /// their ranges of values. Empties the list. @returns whether any rank missed any
+  /// Fetches the nodes at a depth below missing ones that touch their boxes, with value ranges.
+  /// Clears the list. @returns whether any rank missed any
   bool fetchNodes(std::vector<MissingNode>& /*missing*/, int /*depth*/) const { return false; }
 
-  /// Works on the items 0 .. count - 1, in parallel; see forEachItem(). An item that misses samples
-  /// of other ranks is begun anew once these have been fetched.
-  /// @param work(worker, item) must not leave anything behind where it throws MissingNode
+  /// forEachItem() over the items 0 .. count - 1; items that miss samples of other ranks are
+  /// repeated once these are fetched.
+  /// @param work(worker, item) must have no effect if it throws MissingNode
   template <class MakeWorker, class Work>
   void forEach(
     const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
@@ -48,10 +47,10 @@ public:
     forEachItem(execution, batches, makeWorker, work, batchDone);
   }
 
-  /// Adds the edges that other ranks found and that end in leaves of this one.
+  /// Adds the edges that end in leaves of this rank and were found by others.
   void shareEdges(Edges& /*edges*/) const {}
 
-  /// Adds the numbers of those of this rank's edges that other ranks found, and orders all.
+  /// Adds the indices of this rank's edges that other ranks found, and sorts all.
   void uniteEdges(const Edges& /*edges*/, std::vector<std::size_t>& /*found*/) const {}
 
   /// See thin().
@@ -60,20 +59,19 @@ public:
     thin(execution, minimumSpacing, surface);
   }
 
-  /// Adds the leaves of all other ranks to those of this one, as leaves of its tree.
+  /// Adds the leaves of all other ranks, as leaves of this rank's tree.
   void gatherLeaves(std::vector<std::size_t>& /*leaves*/) const {}
 
-  /// Brings what all ranks have, each in an order of its own, into one order.
+  /// Sorts a list that all ranks have, each in its own order, into one order.
   template <class T>
   void order(std::vector<T>& /*tetrahedra*/) const
   {
   }
 
-  /// Adds the numbers of things that all ranks have in one order and other ranks found, and orders
-  /// all.
+  /// Adds indices that other ranks found in a list that is equal on all ranks, and sorts all.
   void unite(std::vector<std::size_t>& /*found*/) const {}
 
-  /// Fits to the samples around edges, which all ranks have. @returns one fit for each
+  /// Fits to the samples around edges, the same on all ranks. @returns one fit per edge
   /// @param starts see fitAt()
   std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
     const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
@@ -85,8 +83,8 @@ public:
   }
 
 private:
-  /// Splits what touches leaves down to leaves, for fits: the band has done so around leaves that
-  /// touch the other side, and ends of Delaunay edges may not be of these.
+  /// Splits the neighbors of leaves down to leaves, for fits. The band has done so only around
+  /// leaves that touch the other side; ends of Delaunay edges may be elsewhere.
   void splitAround(const Execution& execution, const std::vector<std::size_t>& leaves) const
   {
     splitWhileUnsplit(
@@ -110,5 +108,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

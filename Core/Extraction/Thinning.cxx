@@ -20,13 +20,13 @@ namespace isopoint
 namespace
 {
 
-/// How far off the tangent plane, in reaches, a point of the same sheet stands at most.
+/// The greatest height of a close point above the tangent plane, in units of the thinning distance.
 constexpr double mostHeight = 0.25;
 
-/// Adding a reach up to this size to any coordinate gives a finite one.
+/// Coordinates plus a distance up to this limit stay finite.
 constexpr double largestSpacing = 1e290;
 
-/// Whether a fit determines the sheet of a point; otherwise it is close to none.
+/// Whether a fit determines the sheet of a point; other points are not close to any.
 bool hasSheet(const LocalFit& fit, double minimumSpacing)
 {
   const double slope = lengthOf(fit.gradient);
@@ -52,8 +52,7 @@ bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
          std::abs(dot(otherNormal, offset)) <= mostHeight * reach;
 }
 
-/// The isopoints that were kept, in hash grids: one for each power of two of the reaches, whose
-/// cells hold a few points each.
+/// The kept isopoints in hash grids, one per power of two of the thinning distance.
 class KeptPoints
 {
 public:
@@ -88,7 +87,7 @@ public:
   }
 
 private:
-  /// A cube of a grid; whole numbers, or infinite where points are far off for their grid.
+  /// A grid cell: integers, or infinite for points too far away for their grid.
   struct Cell
   {
     int exponent;
@@ -114,11 +113,10 @@ private:
     }
   };
 
-  /// Twice the largest reach: a point and its reach extend into no more than two cells of an axis.
+  /// Twice the largest distance: a point's ball touches at most two cells per axis.
   static double cellSize(int exponent) { return std::ldexp(1.0, exponent + 1); }
 
-  /// The binary exponent of an upper bound on the reach. No grid is finer than double's resolution
-  /// of the coordinates on it.
+  /// The binary exponent of an upper bound on the distance, limited by the coordinates' resolution.
   int exponentOf(const LocalFit& fit) const
   {
     const auto [lowest, highest] = std::minmax_element(fit.position.begin(), fit.position.end());
@@ -128,11 +126,11 @@ private:
     return farthest > 0.0 ? std::max(ofReach, std::ilogb(farthest) - digits) : ofReach;
   }
 
-  /// Whether a kept point on the grid of an exponent, within a reach, is close.
+  /// Whether a close point was kept in one grid.
   bool hasCloseTo(const LocalFit& fit, int exponent, double reach) const
   {
     const double size = cellSize(exponent);
-    std::array<Vector, 3> places; // by axis: of the lower, its own and the upper end
+    std::array<Vector, 3> places; // by axis: of the lower end, the point and the upper end
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const double own = fit.position[axis];

@@ -23,11 +23,11 @@ Vector placeOf(const FrameSamples& samples, std::size_t i)
   return { samples.x[i], samples.y[i], samples.z[i] };
 }
 
-/// Fits pieces to samples that are known to belong to them.
-class Alternation
+/// K-plane clustering: assigns samples to pieces and fits the pieces.
+class PlaneClustering
 {
 public:
-  Alternation(const FrameSamples& samples, const FrameWeights& weights, double sense)
+  PlaneClustering(const FrameSamples& samples, const FrameWeights& weights, double sense)
     : Samples(&samples)
     , Weights(&weights)
     , Labels(samples.count(), 0)
@@ -36,11 +36,11 @@ public:
     this->Fit.pieces.resize(1);
   }
 
-  /// Starts with a single piece, of at most a degree. @returns whether the samples determine it
+  /// Starts with one piece of at most a degree. @returns whether the samples determine it
   bool start(int degree = 1) { return this->settle(degree); }
 
-  /// Parts the piece of the largest residuals in two, `share` of its samples staying. @returns
-  /// whether the samples determine the parts
+  /// Splits the piece with the largest residuals; `share` of its samples stay.
+  /// @returns whether the samples determine the parts
   bool split(double share)
   {
     const std::size_t worst = this->worstPiece();
@@ -55,13 +55,13 @@ public:
     return this->settle(1);
   }
 
-  /// Lets pieces bend. @returns whether the samples determine them
+  /// Raises the degree of pieces to two. @returns whether the samples determine them
   bool bend() { return this->settle(2); }
 
   const CreaseFit& result() const { return this->Fit; }
 
 private:
-  /// Fits pieces of at most a degree, and alternates until no sample changes its piece.
+  /// Fits pieces of at most a degree and reassigns samples, until no sample changes its piece.
   bool settle(int degree)
   {
     constexpr int mostRounds = 7;
@@ -112,7 +112,7 @@ private:
     return true;
   }
 
-  /// Sets the residual. @returns whether there are enough samples for one
+  /// Sets the residual. @returns whether there are enough samples
   bool measure()
   {
     std::size_t coefficients = 0;
@@ -151,8 +151,8 @@ private:
     return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   }
 
-  /// The samples of a piece, by their place in the direction in which residuals increase on both
-  /// sides (decrease, for the smallest of functions).
+  /// A piece's samples by position along the direction in which `sense` times the residual grows
+  /// most toward both ends.
   std::vector<std::pair<double, std::size_t>> alongBend(std::size_t piece) const
   {
     const auto forEachOwn = [&](const auto& use)
@@ -182,7 +182,7 @@ private:
         const Eigen::Vector3d offset = place - center;
         bend += this->Fit.sense * weight * this->residualAt(i) * offset * offset.transpose();
       });
-    // Not by computeDirect(), whose sines and cosines differ among libraries and processors.
+    // Unlike computeDirect(), whose sines and cosines differ among libraries and processors.
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.compute(bend);
     const Eigen::Vector3d direction = solver.eigenvectors().col(2);
@@ -198,7 +198,7 @@ private:
   CreaseFit Fit;
 };
 
-/// The tangent planes of all pieces but one, where Newton's method leads to from a place on that.
+/// The tangent planes of the other pieces at the zeros that Newton's method reaches from `place`.
 std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, const Vector& place)
 {
   const Vector normal = directionOf(fit.pieces[piece].gradientAt(place));
@@ -219,7 +219,7 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
       }
     }
   }
-  // On lattices several creases are often at one distance: then the pieces' order counts.
+  // Stable: on lattices several creases are often at one distance, and the order of pieces decides.
   std::stable_sort(
     found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<CreasePlane> creases;
@@ -231,7 +231,7 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
   return creases;
 }
 
-/// The nearest place from the origin on both of two pieces' zero surfaces, by Newton's method.
+/// The common zero of two pieces that is nearest to the origin, by Newton's method.
 std::optional<Vector> commonZeroNear(
   const Polynomial& first, const Polynomial& second, double farthest)
 {
@@ -303,11 +303,11 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
       best = fit;
     }
   };
-  // Alternation finds local optima: from several starts.
+  // Several starts, since clustering finds local optima.
   for (const auto& [sense, share] : { std::pair(1.0, 0.5), std::pair(-1.0, 0.5),
          std::pair(1.0, 0.3), std::pair(-1.0, 0.3), std::pair(1.0, 0.7), std::pair(-1.0, 0.7) })
   {
-    Alternation parts(samples, weights, sense);
+    PlaneClustering parts(samples, weights, sense);
     bool isDetermined = parts.start();
     for (std::size_t pieces = 2; isDetermined && pieces <= mostPieces; ++pieces)
     {
@@ -315,7 +315,7 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
       if (isDetermined)
       {
         take(parts.result());
-        Alternation bent = parts;
+        PlaneClustering bent = parts;
         if (bent.bend())
         {
           take(bent.result());
@@ -328,7 +328,7 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
 
 double polynomialResidual(const FrameSamples& samples, const FrameWeights& weights)
 {
-  Alternation single(samples, weights, 1.0);
+  PlaneClustering single(samples, weights, 1.0);
   return single.start(Polynomial::highestDegree) ? single.result().residual
                                                  : std::numeric_limits<double>::infinity();
 }

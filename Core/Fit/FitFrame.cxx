@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Fit/FitFrame.h"
 
-#include "Core/Base/Selection.h"
+#include "Core/Fit/Selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace isopoint
 namespace
 {
 
-/// The power of two next below a number.
+/// The largest power of two up to a number.
 double unitOf(double size)
 {
   return std::ldexp(1.0, std::ilogb(size));
@@ -26,7 +26,7 @@ bool areFiniteWithin(double distance, const Vector& position)
     [distance](double coordinate) { return std::isfinite(std::abs(coordinate) + distance); });
 }
 
-/// Whether units can be divided by.
+/// Whether divisions by a unit are exact.
 bool isNormal(double unit)
 {
   return std::isnormal(unit) && std::isnormal(1.0 / unit);
@@ -71,8 +71,8 @@ void FitFrame::add(const FitSample* first, const FitSample* last)
   }
 }
 
-/// Adds the `nearest` nearest samples in their order, and then so the nearest others, up to `most`
-/// in all. Of those at the same distance the first ones are nearer.
+/// Adds the `nearest` nearest samples in their order, then the next nearest in their order, up to
+/// `most` in all. Among equal distances, the first ones count as nearer.
 void FitFrame::addNearest(
   const FitSample* samples, std::size_t count, std::size_t nearest, std::size_t most)
 {
@@ -106,7 +106,7 @@ void FitFrame::addNearest(
   }
 }
 
-/// The choice of the `count` least distances, the first ones of equal ones.
+/// Selects the `count` least distances; the first ones among equals.
 FitFrame::NearestChoice FitFrame::choiceOf(std::size_t count)
 {
   if (count == 0)

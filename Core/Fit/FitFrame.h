@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_FitFrame_h
-#define isopoint_FitFrame_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/FrameSamples.h"
@@ -12,26 +11,24 @@
 namespace isopoint
 {
 
-/// The frame of a fit: its origin is the isopoint on its edge, its units are powers of two near the
-/// edge's length and the increase of values along it, by which numbers are divided without
-/// rounding.
+/// The frame of a fit. Its origin is the isopoint on its edge. Its units are powers of two, so that
+/// conversion is exact, near the edge's length and the increase of values along it.
 class FitFrame
 {
 public:
-  /// Whether units are normal numbers and positions up to an edge's length away are finite;
-  /// otherwise nothing can be fitted.
+  /// Whether a fit is possible: units are normal, and positions within an edge's length are finite.
   bool isUsable() const { return this->IsUsable; }
 
-  /// Goes to an edge, without samples.
+  /// Moves to an edge; there are no samples yet.
   void enter(const FitEdge& edge, double isovalue);
 
-  /// Adds samples in their order, but of the first ones that are added the nearest come first, and
-  /// of very many the nearest alone are added. Complexity: O(last - first)
+  /// Adds samples in order. In the first call, the nearest samples come first, and of very many
+  /// only the nearest are added. O(last - first)
   void add(const FitSample* first, const FitSample* last);
 
   const FrameSamples& samples() const { return this->Samples; }
 
-  /// The edge, from the end below the isovalue to the other one.
+  /// The edge, from the end below the isovalue to the other.
   const Vector& increasing() const { return this->Increasing; }
 
   // From the frame's units to those of positions and values.
@@ -41,11 +38,11 @@ public:
   std::vector<CreasePlane> planesOf(std::vector<CreasePlane> planes) const;
 
 private:
-  /// Distances up to a limit, of those that are equal to it the first ones.
+  /// Selects distances below a limit, and the first ones equal to it.
   struct NearestChoice
   {
     double limit;
-    std::size_t equalCount; // that are still to be taken
+    std::size_t equalCount; // how many more to take
 
     bool takes(double distance)
     {
@@ -72,16 +69,14 @@ private:
   Vector Origin{};
   double Isovalue = 0.0;
   Vector Increasing{};
-  double Length = 1.0;    // the unit of lengths, a power of two
-  double Value = 1.0;     // and of values, likewise
-  double PerLength = 1.0; // their reciprocals, which are exact
+  double Length = 1.0;    // unit of lengths, a power of two
+  double Value = 1.0;     // unit of values, likewise
+  double PerLength = 1.0; // exact reciprocals
   double PerValue = 1.0;
   bool IsUsable = false;
-  std::vector<double> Distances;   // squared, of samples that are added
+  std::vector<double> Distances;   // squared, of samples to add
   std::vector<double> Ranked;      // the same in another order
-  std::vector<std::size_t> Others; // than the nearest samples
+  std::vector<std::size_t> Others; // indices of samples after the nearest
 };
 
 } // namespace isopoint
-
-#endif

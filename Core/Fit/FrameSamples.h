@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_FrameSamples_h
-#define isopoint_FrameSamples_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/Lanes.h"
@@ -14,7 +13,7 @@
 namespace isopoint
 {
 
-/// One number for each sample of a fit, in groups of four.
+/// One number per sample of a fit, in groups of four.
 class SampleNumbers
 {
 public:
@@ -29,7 +28,7 @@ public:
     lanes.store(this->Numbers.data() + laneCount * i);
   }
 
-  /// The first ones side by side.
+  /// The first `Count` numbers.
   template <std::size_t Count>
   Pack<Count> first() const
   {
@@ -37,31 +36,29 @@ public:
   }
 
 private:
-  // Processors take a read for one of what was just written if the lower 12 bits of the addresses
-  // are the same, and wait: the same sample in other arrays must not be a multiple of 4096 bytes
-  // away.
+  // Padding: processors stall a read if its address modulo 4096 equals that of a recent write, so a
+  // sample's numbers in two arrays must not be a multiple of 4096 bytes apart.
   static constexpr std::size_t unused = 24;
 
   alignas(16) std::array<double, most + unused> Numbers;
 };
 
-/// Samples in the frame of a fit: offsets from an origin and values of a size near 1. The nearest
-/// ones come first. Behind the last sample, its group of four is filled with zeros of weight 0, and
-/// so are the groups of the nearest ones if there are fewer.
+/// Samples in the frame of a fit: offsets from the origin, and values of a size near 1; the nearest
+/// ones first. The groups of the nearest and of the last samples are padded with zeros of weight 0.
 class FrameSamples
 {
 public:
   static constexpr std::size_t most = SampleNumbers::most;
-  static constexpr std::size_t nearest = 16; // that come first
+  static constexpr std::size_t nearest = 16; // number of samples that come first
 
-  // The first groupCount() groups of these are set.
+  // The first groupCount() groups are valid.
   SampleNumbers x;
   SampleNumbers y;
   SampleNumbers z;
   SampleNumbers value;
   SampleNumbers squaredDistance; // from the origin
 
-  double valueError = 0.0; // standard error that each value has at least
+  double valueError = 0.0; // least standard error of each value
 
   std::size_t count() const { return this->Count; }
   std::size_t groupCount() const
@@ -87,7 +84,7 @@ public:
     }
   }
 
-  /// Up to `most` samples can be added.
+  /// Adds a sample; `most` is the limit.
   void add(const Vector& offset, double sampleValue)
   {
     if (this->Count % laneCount == 0)
@@ -114,11 +111,10 @@ private:
     }
   }
 
-  std::uint32_t Count = 0; // not wider: groupCount() is then known not to overflow, nor to be 0
-  std::array<double, laneCount> DistanceSums{}; // from the origin, of each lane
+  std::uint32_t Count = 0; // not wider: the compiler knows that groupCount() is in range
+  std::array<double, laneCount> DistanceSums{}; // from the origin, by lane
 };
 
-/// One weight for each sample.
 using FrameWeights = SampleNumbers;
 
 inline void copyWeights(const FrameSamples& samples, const FrameWeights& from, FrameWeights& to)
@@ -130,7 +126,7 @@ inline void copyWeights(const FrameSamples& samples, const FrameWeights& from, F
   }
 }
 
-/// Sets the weights of the places behind the last sample to 0.
+/// Sets the weights of the padding to 0.
 inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
 {
   for (std::size_t i = samples.count(); i < laneCount * samples.groupCount(); ++i)
@@ -139,8 +135,7 @@ inline void endWeights(const FrameSamples& samples, FrameWeights& weights)
   }
 }
 
-/// Weights (offset + (d / s)^2)^-power, d being a sample's distance from the origin, s the mean of
-/// these.
+/// Weights (offset + (d / s)^2)^-Power for a sample's distance d from the origin, of mean s.
 template <int Power>
 void weigh(const FrameSamples& samples, double offset, FrameWeights& weights)
 {
@@ -156,5 +151,3 @@ void weigh(const FrameSamples& samples, double offset, FrameWeights& weights)
 }
 
 } // namespace isopoint
-
-#endif

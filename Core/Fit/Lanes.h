@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Lanes_h
-#define isopoint_Lanes_h
+#pragma once
 
 #include "Core/Base/AlwaysInline.h"
 
@@ -11,7 +10,7 @@
 namespace isopoint
 {
 
-/// Two numbers, for compilers that know no type of a register of two.
+/// Two numbers, for compilers without vector types.
 struct PlainPair
 {
   double first;
@@ -51,8 +50,8 @@ using RegisterPair = double __attribute__((vector_size(16)));
 using RegisterPair = PlainPair;
 #endif
 
-/// Numbers side by side, in registers of two: every processor that this runs on has these, and no
-/// result depends on wider ones. Arithmetic is that of each number alone.
+/// Numbers in registers of two, which all processors have, so that results do not depend on wider
+/// ones. Arithmetic is element-wise.
 /// @tparam Count even
 template <std::size_t Count, class Pair = RegisterPair>
 class Pack
@@ -60,7 +59,7 @@ class Pack
 public:
   Pack() = default;
 
-  /// Implicit: a number stands for as many of it.
+  /// Implicit: a number stands for `Count` copies.
   ISOPOINT_ALWAYS_INLINE Pack(double number)
   {
     for (Pair& pair : this->Pairs)
@@ -69,7 +68,6 @@ public:
     }
   }
 
-  /// The next numbers in memory.
   ISOPOINT_ALWAYS_INLINE static Pack load(const double* numbers)
   {
     Pack pack;
@@ -135,7 +133,7 @@ private:
   std::array<Pair, Count / 2> Pairs;
 };
 
-/// Numbers of four samples. A sum over samples is that of each lane and then sumOf().
+/// Numbers of four samples. A sum over samples adds up in each lane, then by sumOf().
 constexpr std::size_t laneCount = 4;
 using Lanes = Pack<laneCount>;
 
@@ -145,7 +143,7 @@ double sumOf(const Pack<laneCount, Pair>& lanes)
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// The squares are added as those of samples are.
+/// Adds squares in the order of sums over samples.
 template <std::size_t Count, class Pair>
 ISOPOINT_ALWAYS_INLINE inline double sumOfSquares(const Pack<Count, Pair>& numbers)
 {
@@ -162,5 +160,3 @@ ISOPOINT_ALWAYS_INLINE inline double sumOfSquares(const Pack<Count, Pair>& numbe
 }
 
 } // namespace isopoint
-
-#endif

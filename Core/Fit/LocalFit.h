@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_LocalFit_h
-#define isopoint_LocalFit_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -11,23 +10,23 @@
 namespace isopoint
 {
 
-/// What is fitted to the samples around an isopoint's edge.
+/// The function fitted to the samples around an isopoint's edge.
 enum class FitOrder : std::uint8_t
 {
-  Linear = 1,    // an affine function
-  Quadratic = 2, // a polynomial of degree two
-  Cubic = 3,     // and of degree three
-  Crease = 4     // the largest, or the smallest, of two to four of degree one or two
+  Linear = 1,    // affine
+  Quadratic = 2, // polynomial of degree two
+  Cubic = 3,     // polynomial of degree three
+  Crease = 4     // largest or smallest of two to four polynomials of degree one or two
 };
 
-/// The largest cosine between the normals on either side of a crease, that of 25 degrees.
+/// The greatest cosine between the normals on both sides of a crease: 25 degrees.
 constexpr double mostCreaseCosine = 0.906;
 
-/// What is computed around each isopoint: the samples' spacing in any case.
+/// What to compute around each isopoint; the samples' spacing in any case.
 struct FitRequest
 {
-  std::optional<FitOrder> highest; // the highest order that is tried, if anything is fitted
-  bool move;                       // isopoints to the zero of the fit, or leave them on their edges
+  std::optional<FitOrder> highest; // highest order to try; none: no fit
+  bool move;                       // whether isopoints move to the zero of the fit
 };
 
 /// A sample of a neighborhood; coincident samples are one.
@@ -37,43 +36,39 @@ struct FitSample
   double value;
 };
 
-/// An isopoint on its edge, before anything is fitted.
+/// An isopoint on its edge, before fits.
 struct FitEdge
 {
   Vector position;         // by linear interpolation
-  Vector increasing;       // from the end that is below the isovalue to the one that is not
+  Vector increasing;       // from the end below the isovalue to the other
   double increase;         // of the value along it, positive
   double spacing;          // of the samples around its ends
-  double valueError = 0.0; // standard error that each sample's value has at least
+  double valueError = 0.0; // least standard error of each sample's value
 };
 
-/// The tangent plane of another piece of a fit with a crease, as seen from an isopoint q on its own
-/// piece: only the places p with inward . (p - q) + distance >= 0 belong to that.
+/// The tangent plane of another piece of a crease fit, as seen from an isopoint q: only places p
+/// with inward . (p - q) + distance >= 0 belong to the isopoint's own piece.
 struct CreasePlane
 {
   Vector inward;   // normal to the plane, of length 1
-  double distance; // of q from it, not negative
-  double turn; // to which side the surface turns there: 1 to that of decreasing values, -1 to the
-               // other one
+  double distance; // of q from the plane, not negative
+  double turn;     // 1: the surface turns to decreasing values, -1: to increasing ones
 };
 
-/// What was fitted around an isopoint.
+/// Result of the fits around an isopoint.
 struct LocalFit
 {
-  Vector position; // of the isopoint, moved if a fit held and moving was requested
-  /// Of the field there, or that of the affine function through the samples, where that is better
-  /// known or no fit held; otherwise the slope along the edge alone.
+  Vector position; // of the isopoint; moved if requested and a fit holds
+  /// Of the field there; or of an affine function of the samples, if it is more certain or no fit
+  /// holds; or else the slope along the edge.
   Vector gradient;
-  bool isGradientFitted;         // to the samples; false for the slope along the edge
+  bool isGradientFitted;         // false for the slope along the edge
   Hessian hessian;               // of the field there, or all 0
-  bool isSmooth;                 // whether that of a fit, which describes a smooth surface
+  bool isSmooth;                 // whether the Hessian is that of a smooth fit
   double spacing;                // of the samples there: see SampleGatherer
-  std::optional<FitOrder> order; // of the fit that held, if one did
-  /// The tangent planes of the other pieces, that of the nearest crease first; empty unless the
-  /// order is Crease.
+  std::optional<FitOrder> order; // of the fit that holds, if any
+  /// Tangent planes of the other pieces, nearest crease first; empty unless the order is Crease.
   std::vector<CreasePlane> creases;
 };
 
 } // namespace isopoint
-
-#endif

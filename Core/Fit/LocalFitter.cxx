@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Fit/LocalFitter.h"
 
-#include "Core/Base/Selection.h"
 #include "Core/Fit/CreaseFit.h"
 #include "Core/Fit/Polynomial.h"
+#include "Core/Fit/Selection.h"
 
 #include <cmath>
 #include <cstddef>
@@ -13,17 +13,16 @@ namespace isopoint
 namespace
 {
 
-/// Up to this residual, in mean rises of the field over the mean distance of the samples, a field
-/// is smooth.
+/// A field is smooth up to this residual, over the mean rise within the mean sample distance.
 constexpr double smoothResidual = 0.0002;
 
-/// Weights so steep that a fit nearly interpolates the nearest samples.
+/// Steep weights: a fit nearly interpolates the nearest samples.
 void weighSteeply(const FitFrame& frame, FrameWeights& weights)
 {
   weigh<3>(frame.samples(), 0.1, weights);
 }
 
-/// Weights by which far samples count as well, as they have to in noise.
+/// Mild weights: far samples count as well, as needed in noise.
 void weighMildly(const FitFrame& frame, FrameWeights& weights)
 {
   weigh<1>(frame.samples(), 1.0, weights);
@@ -110,7 +109,7 @@ LocalFit LocalFitter::fit(
     {
       return fit;
     }
-    // Close to a corner, the few samples of one more piece do not determine it among many others.
+    // Try the near samples alone: close to a corner, a piece with few samples is lost among many.
     this->Frame.enter(edge, this->Isovalue);
     this->Frame.add(begin, farther);
     if (this->fitCreases(fit))
@@ -132,7 +131,7 @@ bool LocalFitter::isSmooth(const PolynomialFit& found) const
   return found.relativeResidual <= smoothResidual * this->Frame.samples().meanDistance();
 }
 
-/// The polynomial of the highest degree, down to two, that holds.
+/// The polynomial of the highest degree, at least two, that holds.
 std::optional<PolynomialFit> LocalFitter::fitHolding(const FrameWeights& weights) const
 {
   for (int degree = this->Highest == FitOrder::Quadratic ? 2 : 3; degree > 1; --degree)
@@ -147,8 +146,8 @@ std::optional<PolynomialFit> LocalFitter::fitHolding(const FrameWeights& weights
   return std::nullopt;
 }
 
-/// Reduces the steep weights of samples far off an affine function, which is fitted with these
-/// weights in turn: near a crease or step those of one side remain.
+/// Reduces the steep weights of samples far off an affine fit, iteratively: near a crease or step,
+/// the samples of one side remain.
 void LocalFitter::weighRobustly()
 {
   const FrameSamples& samples = this->Frame.samples();
@@ -189,7 +188,7 @@ void LocalFitter::weighRobustly()
   }
 }
 
-/// The polynomial with the present weights, if its gradient does not contradict the edge.
+/// The polynomial with the current weights, if its gradient agrees with the edge.
 std::optional<Polynomial> LocalFitter::mildPolynomial(int degree) const
 {
   const std::optional<Polynomial> mild = leastSquares(this->Frame.samples(), this->Weights, degree);
@@ -197,7 +196,7 @@ std::optional<Polynomial> LocalFitter::mildPolynomial(int degree) const
                                                                                 : std::nullopt;
 }
 
-/// Sets the fit to the affine function with mild weights, if it holds. @returns whether it does
+/// Sets the fit to the affine function with mild weights. @returns whether it holds
 bool LocalFitter::fitLinear(LocalFit& fit)
 {
   weighMildly(this->Frame, this->Weights);
@@ -218,12 +217,12 @@ bool LocalFitter::fitLinear(LocalFit& fit)
   return true;
 }
 
-/// Sets the fit to pieces that meet at creases, if they describe the samples well, and far better
-/// than a polynomial. @returns whether they do
+/// Sets the fit to pieces that meet at creases. @returns whether they describe the samples well,
+/// and far better than a polynomial
 bool LocalFitter::fitCreases(LocalFit& fit)
 {
   constexpr double mostResidual = 0.03; // larger ones come from noise
-  // Pieces are chosen to fit the samples: in noise they leave somewhat less than polynomials.
+  // Pieces adapt to the samples: even in noise their residuals are somewhat lower.
   constexpr double mostResidualShare = 0.5;
   const FrameSamples& samples = this->Frame.samples();
   weighMildly(this->Frame, this->Weights);
@@ -251,7 +250,7 @@ bool LocalFitter::fitCreases(LocalFit& fit)
   return true;
 }
 
-/// Moves the isopoint by less than the polynomial's zero where the error of that is as large.
+/// Moves the isopoint to the polynomial's zero, or less far if the zero's error is comparable.
 void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
 {
   constexpr double doubt = 0.1;
@@ -267,11 +266,11 @@ void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
   fit.isSmooth = true;
 }
 
-/// Takes the gradient of the polynomial of the lowest degree with mild weights that does not differ
-/// beyond doubt from what was found, which is less certain; of the affine function if nothing was.
+/// Replaces the gradient by a more certain one: that of the mild polynomial of the lowest degree
+/// that does not differ significantly, or the affine one if nothing was found.
 void LocalFitter::preferMildGradient(const std::optional<PolynomialFit>& found, LocalFit& fit)
 {
-  constexpr double mostErrors = 2.0; // standard errors between directions that may be the same
+  constexpr double mostErrors = 2.0; // standard errors between directions that may be equal
   const Vector direction = directionOf(fit.gradient);
   weighMildly(this->Frame, this->Weights);
   for (int degree = 1; degree <= (found ? 2 : 1); ++degree)

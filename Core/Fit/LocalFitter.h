@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_LocalFitter_h
-#define isopoint_LocalFitter_h
+#pragma once
 
 #include "Core/Fit/FitFrame.h"
 #include "Core/Fit/FrameSamples.h"
@@ -14,13 +13,12 @@
 namespace isopoint
 {
 
-/// Fits polynomials to the values of the samples around edges, by weighted least squares, and moves
-/// isopoints to their zeros; one edge at a time (docs/algorithm.md, section 10). Memory is kept.
-/// For one thread.
+/// Fits polynomials to the samples around edges by weighted least squares, and moves isopoints to
+/// their zeros, one edge at a time (docs/algorithm.md, section 10). Memory is kept. For one thread.
 class LocalFitter
 {
 public:
-  /// @param highest order that is tried
+  /// @param highest order to try
   LocalFitter(double isovalue, FitOrder highest)
     : Isovalue(isovalue)
     , Highest(highest)
@@ -30,18 +28,16 @@ public:
   /// The isopoint on its edge, with the slope along the edge.
   static LocalFit onEdge(const FitEdge& edge);
 
-  /// Fits a polynomial of degree two, and accepts it where it leaves next to no residuals: the
-  /// field is smooth at the scale of the samples.
-  /// @param samples those next to the edge's ends suffice; the ends are among them
-  /// @returns nothing if more samples are to be tried. Complexity: O(samples)
+  /// Fits a polynomial of degree two, and accepts it if the residuals are negligible: the field is
+  /// smooth at the scale of the samples. O(samples)
+  /// @param samples of the edge's ends and their neighbors
+  /// @returns nothing if more samples are needed
   std::optional<LocalFit> fitNear(const FitEdge& edge, const std::vector<FitSample>& samples);
 
-  /// Fits what the samples determine, up to the highest order, where fitNear() of the same edge did
-  /// not. Where no fit holds, the isopoint stays.
-  /// @param samples all around, the edge's ends among them, in an order that does not depend on how
-  /// they were found: sums are taken in this order
-  /// @param nearCount how many of them, the first ones, were those of fitNear()
-  /// Complexity: O(samples)
+  /// Fits up to the highest order, after fitNear() of the same edge returned nothing. The isopoint
+  /// stays if no fit holds. O(samples)
+  /// @param samples all around, including the edge's ends, in canonical order, which affects sums
+  /// @param nearCount how many, at the beginning, were passed to fitNear()
   LocalFit fit(const FitEdge& edge, const std::vector<FitSample>& samples, std::size_t nearCount);
 
 private:
@@ -57,11 +53,9 @@ private:
   const double Isovalue;
   const FitOrder Highest;
   FitFrame Frame;
-  FrameWeights Steep;   // of the present samples
+  FrameWeights Steep;   // of the current samples
   FrameWeights Weights; // others
   std::vector<double> Residuals;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NormalEquations_h
-#define isopoint_NormalEquations_h
+#pragma once
 
 #include "Core/Base/AlwaysInline.h"
 #include "Core/Fit/FrameSamples.h"
@@ -15,12 +14,12 @@
 namespace isopoint
 {
 
-/// A smaller share of a diagonal element left as the pivot means that the samples do not determine
-/// the coefficient: about half of the digits of a double remain.
+/// The least pivot, over its diagonal element, of a coefficient that the samples determine: about
+/// half of the digits of a double remain.
 constexpr double leastPivot = 1e-7;
 
-/// The product of coordinates that a coefficient belongs to: that of an earlier one, times a
-/// coordinate. In the order of Polynomial, the first one, 1, apart.
+/// The monomial of a coefficient: that of a former one times a coordinate. In the order of
+/// Polynomial; the first, 1, is an exception.
 struct CoordinateProduct
 {
   std::size_t former;
@@ -30,7 +29,7 @@ constexpr std::array<CoordinateProduct, 20> coordinateProducts{ { {}, { 0, 0 }, 
   { 1, 0 }, { 2, 1 }, { 3, 2 }, { 1, 1 }, { 1, 2 }, { 2, 2 }, { 4, 0 }, { 5, 1 }, { 6, 2 },
   { 4, 1 }, { 4, 2 }, { 5, 0 }, { 5, 2 }, { 6, 0 }, { 6, 1 }, { 7, 2 } } };
 
-/// The powers of x, y, z in a coefficient's product.
+/// The powers of x, y, z in a coefficient's monomial.
 constexpr std::array<std::size_t, 3> exponentsOf(std::size_t coefficient)
 {
   std::array<std::size_t, 3> exponents{};
@@ -41,13 +40,12 @@ constexpr std::array<std::size_t, 3> exponentsOf(std::size_t coefficient)
   return exponents;
 }
 
-/// The sums of x^a y^b z^c over weighted samples, for all a + b + c up to an order:
-/// coefficientCount (order) of them instead of one for each pair of coefficients.
+/// The sums of x^a y^b z^c over weighted samples for a + b + c <= Order: coefficientCount(Order)
+/// sums instead of one for each pair of coefficients.
 template <int Order>
 class Moments
 {
 public:
-  /// @param weights by which the products are multiplied
   Moments(const FrameSamples& samples, const FrameWeights& weights)
   {
     Products products;
@@ -56,7 +54,7 @@ public:
 
   double at(std::size_t a, std::size_t b, std::size_t c) const { return this->Sums[a][b][c]; }
 
-  /// The sum of the products that two coefficients belong to.
+  /// The sum of the product of two coefficients' monomials.
   template <std::size_t First, std::size_t Second>
   double product() const
   {
@@ -74,9 +72,9 @@ private:
     SampleNumbers ofRow;   // weight x^a y^b
   };
 
-  // Several sums are taken in each pass over the samples: more of them would not stay in registers.
+  // Each pass over the samples takes as many sums as fit in registers.
 
-  /// All sums with x^a, and then those with higher powers of x.
+  /// All sums with x^a, then those with higher powers of x.
   /// @param powers weight x^a
   template <int A>
   void addPlane(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
@@ -92,8 +90,8 @@ private:
     }
   }
 
-  /// All sums with x^a y^b, and then those with higher powers of y. Rows with b = 0 replace
-  /// weight x^a in products.ofPlane by weight x^(a + 1), each group after it was read.
+  /// All sums with x^a y^b, then those with higher powers of y. Rows with b = 0 replace weight x^a
+  /// in products.ofPlane by weight x^(a + 1), each group after it is read.
   /// @param powers weight x^a y^b
   template <int A, int B>
   void addRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
@@ -133,8 +131,7 @@ private:
     }
   }
 
-  /// Adds product z, product z^2 and so on to all sums but the first. Unrolled, as a loop over sums
-  /// in registers has to be.
+  /// Adds product z, product z^2 and so on to all sums but the first. Unrolled for registers.
   template <std::size_t Count, std::size_t... Indices>
   ISOPOINT_ALWAYS_INLINE static void addPowers(
     Lanes product, const Lanes& z, std::array<Lanes, Count>& sums, std::index_sequence<Indices...>)
@@ -203,15 +200,15 @@ private:
   double Sums[size][size][size];
 };
 
-/// The normal equations of the weighted least-squares polynomial of a degree through samples, and
-/// their Cholesky factors L, whose leading blocks are those of lower degrees.
+/// The normal equations of the weighted least-squares polynomial of a degree, and their Cholesky
+/// factor L, whose leading blocks are those of lower degrees.
 template <int Degree>
 class NormalEquations
 {
 public:
   static constexpr std::size_t size = coefficientCount(Degree);
 
-  /// Complexity: O(samples)
+  /// O(samples)
   NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
   {
     const Moments<2 * Degree> moments(samples, weights);
@@ -233,7 +230,7 @@ public:
   /// The highest degree whose coefficients the samples determine; 0 if none.
   int determinedDegree() const { return this->Determined; }
 
-  /// The polynomial of a degree up to determinedDegree() of least squares.
+  /// The least-squares polynomial. @param degree up to determinedDegree()
   Polynomial solution(int degree) const
   {
     const std::size_t count = coefficientCount(degree);
@@ -253,10 +250,9 @@ public:
     return polynomial;
   }
 
-  /// Replaces p by L^-1 p, p being the products of coordinates at a place (or at several side by
-  /// side) that coefficients belong to, or the unit vector of a coefficient. With two such vectors
-  /// u and v, u . v is the effect of a value of weight 1 at the place of v on the polynomial at
-  /// that of u, or on the coefficient.
+  /// Replaces p by L^-1 p. p has the monomials at a place (or several, side by side), or is the
+  /// unit vector of a coefficient. For two such vectors, u . v is the effect of a value of weight 1
+  /// at the place of v on the polynomial at the place of u, or on the coefficient.
   template <class Vectors>
   void reduce(int degree, Vectors& p) const
   {
@@ -272,7 +268,7 @@ public:
     }
   }
 
-  /// The products of coordinates that coefficients belong to.
+  /// The monomials at a place.
   template <class Number>
   static std::array<Number, size> products(const Number& x, const Number& y, const Number& z)
   {
@@ -292,7 +288,7 @@ private:
 
   double below(std::size_t column, std::size_t row) const { return this->Columns[column][row]; }
 
-  /// One column of L after the other, with zeros on and above the diagonal.
+  /// The columns of L, with zeros on and above the diagonal.
   template <std::size_t... Indices>
   void factor(const Moments<2 * Degree>& moments, std::index_sequence<Indices...>)
   {
@@ -306,7 +302,7 @@ private:
   template <std::size_t Index, std::size_t... Rows>
   bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
-    constexpr std::size_t first = Index / 2 * 2; // in whole pairs
+    constexpr std::size_t first = Index / 2 * 2; // whole pairs
     alignas(16) Column rest;
     ((rest[Rows] = Rows < first ? 0.0 : moments.template product<Index, Rows>()), ...);
     const double diagonal = rest[Index];
@@ -346,5 +342,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Polynomial_h
-#define isopoint_Polynomial_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -11,15 +10,14 @@
 namespace isopoint
 {
 
-/// How many coefficients a polynomial of three variables has: 4, 10, 20 of degree 1, 2, 3.
+/// Number of coefficients in three variables: 4, 10, 20 for degree 1, 2, 3.
 constexpr std::size_t coefficientCount(int degree)
 {
   return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
-/// A polynomial of degree one to three. Its coefficients are those of 1; x, y, z; x^2, y^2, z^2, x
-/// y, x z, y z; x^3, y^3, z^3, x^2 y, x^2 z, y^2 x, y^2 z, z^2 x, z^2 y, x y z; those of a higher
-/// degree than its own are 0.
+/// A polynomial of degree one to three. Coefficients are of 1; x, y, z; x^2, y^2, z^2, x y, x z, y
+/// z; x^3, y^3, z^3, x^2 y, x^2 z, y^2 x, y^2 z, z^2 x, z^2 y, x y z. Those above the degree are 0.
 struct Polynomial
 {
   static constexpr int highestDegree = 3;
@@ -73,12 +71,12 @@ struct Polynomial
   }
 };
 
-/// In units near the edge's length: where steps converge, the next one is of about the square.
+/// In units near the edge's length. Newton's next step would be about the square.
 constexpr double zeroAccuracy = 1e-6;
 
-/// Follows Newton's method until its steps vanish.
+/// Newton's method until steps vanish.
 /// @param stepAt(place) the next step from a place in the frame of a fit
-/// @returns where, unless that is farther from the start than a distance or takes too many steps
+/// @returns the zero, unless it is farther from the start than a distance or takes too many steps
 template <class Step>
 std::optional<Vector> followToZero(const Vector& start, double farthest, const Step& stepAt)
 {
@@ -89,7 +87,7 @@ std::optional<Vector> followToZero(const Vector& start, double farthest, const S
     const Vector step = stepAt(place);
     place = sum(place, 1.0, step);
     const Vector offset = difference(place, start);
-    if (!(dot(offset, offset) <= farthest * farthest)) // nor is it a number, where the slope is 0
+    if (!(dot(offset, offset) <= farthest * farthest)) // NaN if the slope is 0
     {
       return std::nullopt;
     }
@@ -114,5 +112,3 @@ inline std::optional<Vector> zeroNear(
 }
 
 } // namespace isopoint
-
-#endif

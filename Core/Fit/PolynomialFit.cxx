@@ -14,14 +14,12 @@ namespace isopoint
 namespace
 {
 
-/// What the samples nearest to the origin show about the error of a polynomial; the effects of the
-/// values of other ones, of far smaller weights, are neglected.
+/// The error of a polynomial, from the nearest samples to the origin: others have small weights.
 struct ErrorEstimate
 {
-  /// Root mean square, of samples that are left out of the fit one at a time, but not less than the
-  /// error of values; not a number if one of them alone determines a coefficient.
+  /// Leave-one-out RMS, at least the error of values; NaN if one sample determines a coefficient.
   double residual;
-  double valueEffect; // of such residuals on the value at the origin: the root of a sum of squares
+  double valueEffect; // of these residuals on the value at the origin: the root of a sum of squares
   double slopeEffect; // on the gradient there
 };
 
@@ -47,10 +45,10 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
     return effect;
   };
   const auto ofSamples = [&](std::size_t i) -> const Numbers& { return reduced[i]; };
-  const Numbers rest = 1.0 - weight * effectOn(ofSamples); // of the determinant without it
+  const Numbers rest = 1.0 - weight * effectOn(ofSamples); // determinant's share without the sample
   const Numbers residual =
     weight * (samples.value.first<nearest>() - polynomial.valueAt(x, y, z)) / rest;
-  // The value, and the slopes, side by side.
+  // The value and the slopes, side by side.
   std::array<Lanes, NormalEquations<Degree>::size> units;
   units.fill(0.0);
   for (std::size_t i = 0; i < laneCount; ++i)
@@ -65,7 +63,7 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   {
     effects[i] = sumOfSquares(weight * effectOn([&](std::size_t j) { return units[j][i]; }));
   }
-  // The residual of a sample without which the others determine less is rounding alone.
+  // If the other samples determine less, a residual is only rounding.
   bool isDetermined = true;
   for (std::size_t i = 0; i < nearest; ++i)
   {
@@ -73,12 +71,12 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   }
   const double meanSquare = isDetermined ? sumOfSquares(residual) / sumOfSquares(weight)
                                          : std::numeric_limits<double>::quiet_NaN();
-  // Not a number stays one.
+  // std::max() keeps NaN as its first argument.
   return { std::max(std::sqrt(meanSquare), samples.valueError), std::sqrt(effects[0]),
     std::sqrt(effects[1] + effects[2] + effects[3]) };
 }
 
-/// Where a polynomial is zero, if it holds there.
+/// The zero of a polynomial, if it holds there.
 std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& increasing)
 {
   constexpr double mostMove = 0.5; // of the edge's length

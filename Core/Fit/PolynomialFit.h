@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_PolynomialFit_h
-#define isopoint_PolynomialFit_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/FrameSamples.h"
@@ -16,37 +15,31 @@ namespace isopoint
 struct PolynomialFit
 {
   Polynomial polynomial;
-  /// The nearest zero from the origin along gradients, if the polynomial holds: it does not
-  /// contradict the edge, neither at the origin nor there, and that is no farther than half the
-  /// edge's length.
+  /// The nearest zero from the origin along gradients, if the polynomial holds: its gradients at
+  /// the origin and the zero agree with the edge, and the zero is within half the edge's length.
   std::optional<Vector> zero;
-  /// The root mean square residual of the samples that come first, each left out of the fit, over
-  /// the slope of the polynomial at the origin.
+  /// The leave-one-out RMS residual of the nearest samples, over the slope at the origin.
   double relativeResidual;
-  double zeroError;      // standard error of the zero along the gradient
+  double zeroError;      // standard error along the gradient
   double directionError; // standard error of the gradient's direction in radians, if small
 };
 
-/// Whether a gradient does not contradict an edge, which may run along a surface that bends.
-/// @param increasing the edge, from the end below the isovalue to the other one
+/// Whether a gradient agrees with an edge, with tolerance: the edge may run along a curved surface.
+/// @param increasing the edge, from the end below the isovalue to the other
 bool increasesAlong(const Vector& increasing, const Vector& gradient);
 
-/// The weighted least-squares polynomial of a degree, 2 or 3, if the samples determine it and show
-/// its error.
-/// @param increasing the edge, from the end below the isovalue to the other one
+/// The weighted least-squares polynomial of degree 2 or 3, if samples determine it and its error.
+/// @param increasing the edge, from the end below the isovalue to the other
 /// Complexity: O(samples)
 std::optional<PolynomialFit> fitPolynomial(
   const FrameSamples& samples, const FrameWeights& weights, const Vector& increasing, int degree);
 
-/// Whether this many samples determine a polynomial and leave residuals that its error can be
-/// estimated from.
+/// Whether this many samples determine a polynomial and its error.
 bool areEnough(std::size_t sampleCount, int degree);
 
-/// The polynomial of a degree from one to three of weighted least squares, if the samples are
-/// enough and determine it. Complexity: O(samples)
+/// The weighted least-squares polynomial of degree 1 to 3, if enough samples determine it.
+/// Complexity: O(samples)
 std::optional<Polynomial> leastSquares(
   const FrameSamples& samples, const FrameWeights& weights, int degree);
 
 } // namespace isopoint
-
-#endif

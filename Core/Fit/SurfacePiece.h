@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SurfacePiece_h
-#define isopoint_SurfacePiece_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
@@ -10,27 +9,24 @@
 namespace isopoint
 {
 
-/// One of the smooth pieces that meet at a crease: where a function of degree two is zero.
+/// One of the smooth pieces that meet at a crease: the zeros of a quadratic function.
 struct SurfacePiece
 {
-  Vector place; // on it
-  Vector slope; // there, of length 1
-  Hessian bend; // over the slope
+  Vector place; // on the piece
+  Vector slope; // gradient there, of length 1
+  Hessian bend; // Hessian over the gradient's length
 
-  /// The piece that a fitted isopoint is on.
+  /// The piece of a fitted isopoint.
   explicit SurfacePiece(const LocalFit& fit);
 
-  /// The tangent plane of another piece that an isopoint's fit knows.
+  /// The tangent plane of another piece, from an isopoint's fit.
   SurfacePiece(const Vector& isopoint, const CreasePlane& plane);
 
   double valueAt(const Vector& position) const;
   Vector slopeAt(const Vector& position) const;
 };
 
-/// The place near another one where two or three pieces meet: Newton's steps of least length. Not
-/// finite where they are parallel.
+/// Where two or three pieces meet near `from`, by shortest Newton steps. Not finite if parallel.
 Vector meetingOf(const std::vector<SurfacePiece>& pieces, const Vector& from);
 
 } // namespace isopoint
-
-#endif

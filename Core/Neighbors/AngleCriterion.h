@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_AngleCriterion_h
-#define isopoint_AngleCriterion_h
+#pragma once
 
 #include "Core/Base/Cosine.h"
 #include "Core/Base/Offset.h"
@@ -13,26 +12,25 @@
 namespace isopoint
 {
 
-/// Just under arccos(1 / sqrt(3)) = 54.7356 degrees, the angle between an edge and a diagonal of
-/// a cube: on a regular lattice the diagonals survive rounding.
+/// In degrees. Just under arccos(1 / sqrt 3) = 54.7356, the angle between an edge and a diagonal of
+/// a cube, so that the diagonals of a regular lattice survive rounding.
 constexpr double defaultAngle = 54.7;
 
-/// Sorts a neighborhood as AngleCriterion::survivesAmongSorted() requires, whose result does not
-/// depend on the order of equal distances.
+/// Sorts for AngleCriterion::survivesAmongSorted(). The order of equal distances does not matter.
 inline void nearestFirst(std::vector<Offset>& offsets)
 {
   std::sort(offsets.begin(), offsets.end(),
     [](const Offset& a, const Offset& b) { return a.squaredLength < b.squaredLength; });
 }
 
-/// The angle criterion ([RL06] section 6; docs/algorithm.md, section 5): a neighbor is
-/// dropped if the angle between it and any strictly closer one, dropped itself or not, is smaller
-/// than the given one. Neighbors at the same distance do not drop each other.
+/// The angle criterion ([RL06] section 6; docs/algorithm.md, section 5): drops a neighbor if its
+/// angle to any strictly closer neighbor, dropped or not, is smaller than a given angle. Neighbors
+/// at the same distance do not drop each other.
 class AngleCriterion
 {
 public:
-  /// @param degrees 0 (nothing is dropped) up to 180 (all nearest neighbors survive, and of the
-  /// others what stands exactly opposite, as far as rounding permits)
+  /// @param degrees from 0 (drops nothing) to 180 (keeps the nearest neighbors and, as far as
+  /// rounding permits, those exactly opposite)
   explicit AngleCriterion(double degrees)
     : DropsNothing(degrees <= 0.0)
     , Cosine(cosineOf(degrees * 3.14159265358979323846 / 180.0))
@@ -57,8 +55,8 @@ public:
     return true;
   }
 
-  /// The same in a neighborhood sorted by nearestFirst(). The nearest ones, seen in many
-  /// directions, mostly drop the others: far less than O(count) except for the few that survive.
+  /// The same in a neighborhood sorted by nearestFirst(). Mostly far less than O(count), since the
+  /// nearest neighbors drop most others; O(count) for survivors.
   bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
   {
     for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)
@@ -71,8 +69,7 @@ public:
     return true;
   }
 
-  /// Whether z is closer than all y within the bounds and drops them. Conservative: may be false
-  /// where z drops them all, never true where it does not.
+  /// Whether z is closer than all y within the bounds and drops them; false if uncertain.
   bool dropsAll(const Offset& z, const OffsetBounds& y) const
   {
     const double squaredLength =
@@ -81,8 +78,7 @@ public:
            leastProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
   }
 
-  /// Whether a z within the bounds might be closer than y and drop it. Conservative: may be true
-  /// where none does, never false where one does.
+  /// Whether any z within the bounds is closer than y and drops it; true if uncertain.
   bool mayDrop(const OffsetBounds& z, const Offset& y) const
   {
     const double squaredLength =
@@ -100,7 +96,6 @@ public:
   }
 
 private:
-  /// Whether the angle between z and y is smaller than the given one.
   bool drops(const Offset& z, const Offset& y) const
   {
     return dot(y.vector, z.vector) > this->Cosine * (y.length * z.length);
@@ -111,5 +106,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_GapCriterion_h
-#define isopoint_GapCriterion_h
+#pragma once
 
 #include "Core/Neighbors/AngleCriterion.h"
 #include "Core/Neighbors/NeighborSearch.h"
@@ -14,24 +13,24 @@
 namespace isopoint
 {
 
-/// Drops edges across gaps in the cloud. The spacing behind the end x of an edge {x, y} is the
-/// distance from x to the 2nd nearest position of a sample within 54.7356 degrees of the direction
-/// from y to x (the angle's cosine is 1 / sqrt 3), infinite where there are fewer. An edge is
-/// dropped if it is longer than `factor` times the larger one of the spacings behind its ends.
-/// - All samples count, in N(x) or not: the cells at the border of a void extend across it, and so
-///   do not touch those of the nearest samples.
-/// - Only samples behind x count, since on lines and in slices samples stand much closer to each
-///   other than to those of the next line or slice.
+/// Rejects edges across gaps in the cloud. The spacing behind the end x of an edge {x, y} is the
+/// distance from x to the 2nd nearest sample position within 54.7356 degrees of the direction from
+/// y to x (cosine 1 / sqrt 3), infinite if there are fewer. An end is dense if the edge is longer
+/// than `factor` times the spacing behind it. An edge is rejected if both ends are dense.
+/// - All samples count, in N(x) or not: cells at the border of a void extend across it, and so do
+///   not touch those of the nearest samples.
+/// - Only samples behind x count: on lines and in slices, samples are much closer to each other
+///   than to those of the next line or slice.
 /// - Both ends must agree, so that edges from a dense region to a sparse one stay.
 class GapCriterion
 {
 public:
-  /// The cosine of the largest angle at which samples are behind an end: 1 / sqrt 3
+  /// The cosine of the half angle of the cone behind an end: 1 / sqrt 3.
   static constexpr double coneCosine = 1.0 / 1.7320508075688772;
 
   /// @param factor positive
-  /// @param count of samples behind an end, the farthest of which has the spacing: 1 to 3
-  /// @param cosine of the largest angle, 0 for all of the half-space behind an end
+  /// @param count rank of the sample behind an end that defines the spacing: 1 to 3
+  /// @param cosine of the cone's half angle; 0 for the half-space behind an end
   GapCriterion(double factor, std::size_t count, double cosine = coneCosine)
     : Factor(factor)
     , WantedCount(count)
@@ -39,34 +38,33 @@ public:
   {
   }
 
-  /// What is connected with a gap is in it if it is over this one.
+  /// The criterion of edges connected with a gap: rejected ones are part of it.
   static GapCriterion weak() { return { 2.0, 2 }; }
 
-  /// What is over this one is in a gap. Next to no edge of random samples without a gap is.
-  /// @param ratio of the edge's length to that of its part which spans the gap, 1 or more
+  /// The criterion of edges that start a gap. It rejects almost no edges of clouds without gaps.
+  /// @param ratio of the edge's length to that of its part across the gap, at least 1
   static GapCriterion strong(double ratio = 1.0) { return { 4.0 * ratio, 3 }; }
 
-  /// Whether the edge between the positions of two samples is dropped. Symmetric in them, and the
-  /// same whatever part of the tree is built.
-  /// @param bounds of the tree's samples, computed where many nodes are looked at
+  /// Whether the edge between two samples is rejected. Symmetric. Independent of tree refinement.
+  /// @param bounds of the tree's samples; computed if a search visits many nodes
   /// @throws MissingNode at a node whose samples another rank holds
-  /// Complexity: O(depth + nodes whose samples, or of a partial tree regions, may be in the cones
-  /// behind both ends, up to the edge's length / factor)
+  /// Complexity: O(depth + nodes within length / factor of an end that may have samples in its
+  /// cone); a partial tree's nodes are judged by their regions
   template <class TSample>
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
-    return this->isCrowded(tree, bounds, own, other) && this->isCrowded(tree, bounds, other, own);
+    return this->isDense(tree, bounds, own, other) && this->isDense(tree, bounds, other, own);
   }
 
-  /// Whether the edge is longer than `factor` times the spacing behind its end. See drops().
+  /// Whether an end is dense; see drops().
   template <class TSample>
-  bool isCrowded(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
+  bool isDense(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
     const TSample& other) const
   {
     const Vector center = positionOf(end);
     Behind<TSample> behind{ tree, bounds, center, offsetBetween(center, positionOf(other)), {} };
-    // The smallest node around all that may count.
+    // Start at the smallest node around the search radius.
     const Region box = this->boxAround(center, behind.edge.length);
     std::size_t nodeIndex = SampleTree<TSample>::rootNode;
     Region region = tree.region;
@@ -83,8 +81,7 @@ public:
     }
   }
 
-  /// Whether edges at the sample of a leaf may be dropped that are no longer than this: a quick
-  /// look, whatever their direction. False without any.
+  /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.
   template <class TSample>
   bool mayDrop(
     const SampleTree<TSample>& tree, const Path& leaf, const TSample& own, double length) const
@@ -102,7 +99,7 @@ public:
 private:
   static constexpr std::size_t mostWanted = 3;
 
-  /// The positions found so far behind an end, each once.
+  /// Positions found behind an end, each once.
   template <class TSample>
   struct Found
   {
@@ -122,7 +119,7 @@ private:
     }
   };
 
-  /// The samples behind an end of an edge.
+  /// State of a search behind an end of an edge.
   template <class TSample>
   struct Behind
   {
@@ -134,7 +131,7 @@ private:
     std::size_t visited = 0; // nodes
   };
 
-  /// Adds samples behind an end. @returns whether there are enough
+  /// @returns whether enough samples are found
   template <class TSample>
   bool findBehind(std::size_t nodeIndex, const Region& region, Behind<TSample>& behind) const
   {
@@ -146,7 +143,7 @@ private:
     const Node<TSample>& node = tree.nodes[nodeIndex];
     if (node.isSplit())
     {
-      // Mostly regions suffice; those of samples on lines and sheets reach far beyond these.
+      // Regions mostly suffice, but extend far beyond samples on lines and sheets.
       constexpr std::size_t many = 256;
       if (++behind.visited > many && !tree.isPartial)
       {
@@ -184,8 +181,7 @@ private:
       behind.found);
   }
 
-  /// Whether a sample with an offset within bounds may be behind an end. Rounding is monotonic: no
-  /// number computed for a sample exceeds its bound.
+  /// Whether a sample whose offset is within bounds may be behind the end. Rounding is monotonic.
   template <class TSample>
   bool mayHoldAny(const OffsetBounds& offsets, const Behind<TSample>& behind) const
   {
@@ -194,7 +190,7 @@ private:
            -leastProduct(behind.edge, offsets) > this->Cosine * (least * behind.edge.length);
   }
 
-  /// Adds the samples of an unsplit node that are wanted. @returns whether there are enough
+  /// Adds samples of an unsplit node. @returns whether enough are found
   template <class TSample, class Kind>
   bool add(const SampleTree<TSample>& tree, std::size_t nodeIndex, const Kind& isWanted,
     Found<TSample>& found) const
@@ -211,7 +207,7 @@ private:
     return found.count == this->WantedCount;
   }
 
-  /// A box that holds all that is close enough to matter, with room for rounding.
+  /// The box around the search radius, with a margin for rounding.
   Region boxAround(const Vector& center, double length) const
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -230,13 +226,12 @@ private:
   double Cosine;
 };
 
-/// The weak gap criterion, and edges that leave the body. An edge leaves it at the end x if
-/// - nothing goes on behind x: fewer than two positions lie in the cone there within twice the
-///   edge's length. So both ends of the edge cannot agree;
-/// - samples stand close around x: the edge is over the strong criterion there, with all of the
-///   half-space for the cone;
-/// - the edge is over the weak criterion at its other end.
-/// So edges to a far sample, or to the last of slices that are evenly apart, stay.
+/// The weak gap criterion, which also rejects edges that leave the body. One leaves at its end x if
+/// - nothing continues behind x: fewer than two positions are in the cone there within twice the
+///   edge's length (so the two ends cannot agree);
+/// - x is dense by the strong criterion with the half-space as its cone;
+/// - the other end is dense by the weak criterion.
+/// Edges to a far sample, or to the last of evenly spaced slices, stay.
 class RimCriterion
 {
 public:
@@ -245,11 +240,11 @@ public:
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
-    const bool isOwnCrowded = this->Weak.isCrowded(tree, bounds, own, other);
-    const bool isOtherCrowded = this->Weak.isCrowded(tree, bounds, other, own);
-    return (isOwnCrowded && isOtherCrowded) ||
-           (isOwnCrowded && this->leavesAt(tree, bounds, other, own)) ||
-           (isOtherCrowded && this->leavesAt(tree, bounds, own, other));
+    const bool isOwnDense = this->Weak.isDense(tree, bounds, own, other);
+    const bool isOtherDense = this->Weak.isDense(tree, bounds, other, own);
+    return (isOwnDense && isOtherDense) ||
+           (isOwnDense && this->leavesAt(tree, bounds, other, own)) ||
+           (isOtherDense && this->leavesAt(tree, bounds, own, other));
   }
 
 private:
@@ -257,8 +252,8 @@ private:
   bool leavesAt(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
     const TSample& other) const
   {
-    return this->Around.isCrowded(tree, bounds, end, other) &&
-           !this->Beyond.isCrowded(tree, bounds, end, other);
+    return this->Around.isDense(tree, bounds, end, other) &&
+           !this->Beyond.isDense(tree, bounds, end, other);
   }
 
   GapCriterion Weak = GapCriterion::weak();
@@ -267,5 +262,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

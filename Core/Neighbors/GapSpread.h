@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_GapSpread_h
-#define isopoint_GapSpread_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Tree/SampleBounds.h"
 #include "Core/Tree/SampleTree.h"
@@ -16,7 +15,7 @@
 namespace isopoint
 {
 
-/// Drops what is marked.
+/// Removes the marked elements.
 template <class T>
 void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
 {
@@ -31,16 +30,16 @@ void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
   all.resize(kept);
 }
 
-/// Finds which parts of a surface, its edges or tetrahedra, lie in gaps of the cloud: those over
-/// the weak gap criterion that are connected with a seed through others over it. Where several
-/// ranks share the tree, all functions are collective.
-/// @tparam TRanks SingleRank, or SharedRanks
+/// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: those that the
+/// weak gap criterion rejects and that are connected with a seed through other such parts. If ranks
+/// share the tree, all functions are collective.
+/// @tparam TRanks SingleRank or SharedRanks
 /// @tparam TParts has
 /// - size();
-/// - anyEdge(part, test), whether test(leaf, otherLeaf) is true of any edge of a part;
-/// - isCounted(part), whether this rank is to look at it;
-/// - unite(ranks, parts), which adds those that other ranks found, and orders them;
-/// - forEachNeighbor(part, visit), the parts that are connected with it
+/// - anyEdge(part, test): whether test(leaf, otherLeaf) is true for any edge of a part;
+/// - isCounted(part): whether this rank examines the part;
+/// - unite(ranks, parts): adds parts that other ranks found, and sorts;
+/// - forEachNeighbor(part, visit): visits the parts connected with a part
 template <class TSample, class TRanks, class TParts>
 class GapSpread
 {
@@ -55,7 +54,7 @@ public:
   {
   }
 
-  /// Those of some parts that have an edge over a criterion, and those that other ranks found.
+  /// The candidates with an edge that a criterion rejects, on any rank.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so do the other functions
   template <class TCriterion>
   std::vector<std::size_t> over(
@@ -79,7 +78,7 @@ public:
     return found;
   }
 
-  /// Marks what is in gaps.
+  /// Marks the parts in gaps.
   /// @param weak the weak criterion
   /// @param front the seeds, each once
   template <class TCriterion>
@@ -97,13 +96,13 @@ public:
     }
   }
 
-  /// Of each part, whether it is in a gap.
+  /// By part, whether it is in a gap.
   const std::vector<char>& isInGap() const { return this->IsInGap; }
 
-  /// The same, which is empty from then on.
+  /// The same, moved out.
   std::vector<char> takeInGap() { return std::move(this->IsInGap); }
 
-  /// Of each part, whether it is a seed or is connected with a part in a gap.
+  /// By part, whether it is a seed or connected with a part in a gap.
   const std::vector<char>& isReached() const { return this->IsReached; }
 
 private:
@@ -118,7 +117,7 @@ private:
       });
   }
 
-  /// Puts parts into the gap. @returns their neighbors that were not reached before
+  /// Marks parts as in a gap. @returns their neighbors that were not reached before
   std::vector<std::size_t> next(const std::vector<std::size_t>& parts)
   {
     throwIfAborted(this->Run);
@@ -141,7 +140,7 @@ private:
           }
         });
     }
-    std::sort(found.begin(), found.end()); // neighbors stand in another order on each rank
+    std::sort(found.begin(), found.end()); // the order of neighbors differs among ranks
     return found;
   }
 
@@ -155,5 +154,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

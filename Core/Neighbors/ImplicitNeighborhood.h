@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ImplicitNeighborhood_h
-#define isopoint_ImplicitNeighborhood_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Neighbors/AngleCriterion.h"
@@ -15,9 +14,9 @@
 namespace isopoint
 {
 
-/// The neighborhood of a leaf, searched without listing it, by the bounding boxes of the samples
-/// of nodes. A neighborhood of n cells, as of samples on two skew lines, takes a search of about
-/// O(log n). Memory is kept from one leaf to the next. For one thread.
+/// The neighborhood of a leaf, searched by the bounding boxes of nodes' samples instead of listed.
+/// For n neighbors, as of samples on two skew lines, a search takes about O(log n). Memory is kept
+/// between leaves. For one thread.
 template <class TSample>
 class ImplicitNeighborhood
 {
@@ -30,10 +29,10 @@ public:
   {
   }
 
-  /// Whether a search is possible: the square of no offset between samples overflows.
+  /// Whether a search is possible: squared offsets between samples do not overflow.
   bool canSearch() const { return this->CanSearch; }
 
-  /// Selects the neighborhood of a leaf, around which the tree must be refined.
+  /// Selects the neighborhood of a leaf. The tree must be refined around it.
   /// @throws std::bad_alloc
   void moveTo(const Path& leaf)
   {
@@ -47,11 +46,10 @@ public:
     }
   }
 
-  /// Visits the neighbors that survive the angle criterion, in no particular order. Whole subtrees
-  /// are left out if one neighbor drops them, out of those next to the leaf and those found
-  /// before; for the remaining candidates the neighborhood is searched for any neighbor that
-  /// drops them.
-  /// @param enter(node) whether the node and its descendants are of interest
+  /// Visits the neighbors that survive the angle criterion, in any order. Skips subtrees that one
+  /// known neighbor drops: one near the leaf, or an earlier candidate. Each remaining candidate
+  /// takes a search for any neighbor that drops it.
+  /// @param enter(node) whether the node or its descendants are of interest
   /// @param isWanted(nodeIndex) whether a leaf is of interest
   /// @param visit(nodeIndex) called for each leaf of interest that survives
   template <class Filter, class Wanted, class Visitor>
@@ -99,13 +97,11 @@ public:
     }
   }
 
-  /// Visits a subset of the neighbors that covers all directions and distances: a subtree whose
-  /// samples' bounding box appears small from the leaf's sample is represented by one of its
-  /// leaves. The choice depends on the neighborhood alone, not on what else of the tree is
-  /// refined.
-  /// @param size below which a box is small: its diagonal over its distance
+  /// Visits a subset of the neighbors that covers all directions and distances: one leaf of each
+  /// subtree whose bounding box of samples appears small from the leaf's sample. The subset depends
+  /// only on the neighborhood. O(log n) for n neighbors on lines.
+  /// @param size limit of a small box: its diagonal over its distance
   /// @param visit(nodeIndex) a leaf
-  /// Complexity: O(log n) for n neighbors on lines
   template <class Visitor>
   void forEachSpread(double size, const Visitor& visit) const
   {
@@ -116,19 +112,18 @@ public:
   }
 
 private:
-  /// A node met in the search for survivors.
+  /// A node in the search for survivors.
   struct Found
   {
     double squaredLength; // least of the offsets to its samples
     std::size_t nodeIndex;
-    std::size_t checked; // droppers that do not drop all of it
+    std::size_t checked; // droppers checked so far; none drops all of the node
 
-    /// Whether it is farther: the standard library's heaps have the greatest element on top.
+    /// Reversed, since the standard heaps have the greatest element on top.
     bool operator<(const Found& other) const { return this->squaredLength > other.squaredLength; }
   };
 
-  /// Takes neighbors from the smallest subtrees: they are close to the leaf's sample, and so drop
-  /// most of what lies behind them.
+  /// Takes neighbors from the smallest subtrees: near ones drop most of those behind them.
   void addNearDroppers()
   {
     constexpr std::size_t few = 8;
@@ -147,7 +142,7 @@ private:
     std::push_heap(this->Queue.begin(), this->Queue.end());
   }
 
-  /// Removes and returns the nearest of those pushed.
+  /// Removes and returns the nearest node.
   Found pop()
   {
     std::pop_heap(this->Queue.begin(), this->Queue.end());
@@ -242,8 +237,7 @@ private:
     return offsetBetween(this->Center, positionOf(sample));
   }
 
-  /// Whether one of the droppers, from the one numbered `first` on, certainly drops all within the
-  /// bounds.
+  /// Whether a dropper, from number `first` on, certainly drops everything within the bounds.
   bool areDropped(
     const AngleCriterion& criterion, const OffsetBounds& offsets, std::size_t first) const
   {
@@ -273,9 +267,7 @@ private:
   Vector Center{};
   std::vector<std::size_t> Tops; // of the subtrees that touch the leaf's region
   std::vector<Found> Queue;      // a heap
-  std::vector<Offset> Droppers;  // neighbors known so far: near ones, and those of interest
+  std::vector<Offset> Droppers;  // known neighbors: near ones and those of interest
 };
 
 } // namespace isopoint
-
-#endif

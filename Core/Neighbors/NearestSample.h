@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NearestSample_h
-#define isopoint_NearestSample_h
+#pragma once
 
 #include "Core/Base/Region.h"
 #include "Core/Base/Vector.h"
@@ -19,18 +18,17 @@ struct AnySample
   /// Whether a sample in a region may meet the condition.
   bool mayHoldIn(const Region& /*region*/) const { return true; }
 
-  /// Whether a sample at an offset from the place, of this length, meets the condition.
+  /// Whether a sample meets the condition, given its offset from the place and its length.
   bool holdsAt(const Vector& /*offset*/, double /*length*/) const { return true; }
 };
 
-/// Searches for the sample nearest to a place of those that meet a condition, of equally distant
-/// ones that of the lowest id.
+/// Finds the nearest sample to a place that meets a condition; the lowest id among equals.
 template <class TSample, class TCondition = AnySample>
 class NearestSampleSearch
 {
 public:
-  /// @param reach of the samples that count from the place, finite
-  /// @param condition with the functions of AnySample
+  /// @param reach search radius, finite
+  /// @param condition has the functions of AnySample
   NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach,
     const TCondition& condition = {})
     : Tree(tree)
@@ -40,9 +38,9 @@ public:
   {
   }
 
-  /// @returns null if there is none. The same however much of the tree is refined.
+  /// O(log n) mostly, plus samples of unsplit nodes. Independent of tree refinement.
+  /// @returns null if there is none
   /// @throws MissingNode at a node whose samples another rank holds
-  /// Complexity: O(log n), mostly, and the samples of unsplit nodes on the way
   const TSample* search()
   {
     if (!this->Tree.isEmpty())
@@ -54,7 +52,7 @@ public:
   }
 
 private:
-  /// @param region a part of the node's that contains all samples of it that count
+  /// @param region a part of the node's that contains all its samples within the search radius
   void visit(std::size_t nodeIndex, const Region& region)
   {
     if (!this->isNear(region) || !this->Condition.mayHoldIn(region))
@@ -97,16 +95,14 @@ private:
     return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
   }
 
-  /// Whether an offset is longer than the distance of the nearest found along one axis alone, and
-  /// so is its length, which is not rounded to less than a component: lengths take far longer to
-  /// compute.
+  /// Compares components only: far faster than lengths, which are never rounded below a component.
   bool isFarther(const Vector& offset) const
   {
     return std::abs(offset[0]) > this->Distance || std::abs(offset[1]) > this->Distance ||
            std::abs(offset[2]) > this->Distance;
   }
 
-  /// The part of a region that is near enough, with room for rounding.
+  /// The part of a region within the search radius, with a margin for rounding.
   Region within(Region region) const
   {
     const double reach = 1.001 * this->Distance;
@@ -144,5 +140,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NeighborSearch_h
-#define isopoint_NeighborSearch_h
+#pragma once
 
 #include "Core/Base/Region.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
@@ -14,14 +13,14 @@
 namespace isopoint
 {
 
-/// A node met in a search.
+/// A node in a search.
 struct FoundNode
 {
   std::size_t nodeIndex;
   int depth;
 };
 
-/// @throws MissingNode if a node that is not split is no leaf
+/// @throws MissingNode if an unsplit node is not a leaf, or its samples are absent
 template <class TSample>
 void requireLeaf(const SampleTree<TSample>& tree, std::size_t nodeIndex, const Region& box)
 {
@@ -31,12 +30,10 @@ void requireLeaf(const SampleTree<TSample>& tree, std::size_t nodeIndex, const R
   }
 }
 
-/// Visits, in the subtree at `top`, the nodes of the depth `nodeDepth`, and those above it that are
-/// not split, whose regions touch the given one. That of `top` must touch it: then each splitting
-/// plane takes a single comparison.
-/// @param enter(node) whether the node and its descendants are of interest
-/// @param visit(nodeIndex) returns whether to end the search
-/// @returns whether a visit did
+/// Visits the nodes below `top` at depth `nodeDepth`, and unsplit ones above it, whose regions
+/// touch the given one. That of `top` must touch it: then each plane takes one comparison.
+/// @param enter(node) whether the node or its descendants are of interest
+/// @param visit(nodeIndex) returns true to end the search; then the function returns true
 /// @throws MissingNode at a node above that depth whose samples another rank holds
 template <class TSample, class Filter, class Visitor>
 bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int nodeDepth,
@@ -65,8 +62,7 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
       }
       continue;
     }
-    // Both children are written and the stack grows by those that touch, without a branch: which
-    // ones do is unpredictable.
+    // Write both children and count those that touch: a branch would be unpredictable.
     stack[stackSize] = { node.upperNode(), found.depth + 1 };
     stackSize += node.plane <= region.upper[node.axis] ? 1 : 0;
     stack[stackSize] = { node.lowerNode(), found.depth + 1 };
@@ -75,19 +71,17 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
   return false;
 }
 
-/// Where the nodes are that touch a node: the roots of the subtrees that hold all nodes whose
-/// closed region shares a point with the closed region of the path's node. Each lies across a plane
-/// that bounds the node's region: the splitting plane of an ancestor. The nearest ancestor that
-/// splits an axis with the node on a side bounds the region there, and so does every farther one
-/// whose plane has the same coordinate, as in lattices: the search crosses them all.
+/// The roots of the subtrees that hold all nodes whose closed regions share a point with that of
+/// the path's node. Each is across a bounding plane of the region: that of the nearest ancestor
+/// that cuts the axis on this side, and of farther ones at the same coordinate, as in lattices.
 class Surroundings
 {
 public:
-  /// Implicit: a path stands for what surrounds its node.
+  /// Implicit: a path stands for the surroundings of its node.
   Surroundings(const Path& path)
     : region(path.region)
   {
-    // Each is written, and counts if it belongs to them, without a branch: that is unpredictable.
+    // Write each root and count those across a bounding plane: a branch would be unpredictable.
     for (int depth = path.depth; depth > 0; --depth)
     {
       const bool upper = path.uppers[depth - 1];
@@ -98,7 +92,7 @@ public:
     }
   }
 
-  /// The roots, the nearest first.
+  /// The roots, nearest first.
   const FoundNode* begin() const { return this->Roots; }
   const FoundNode* end() const { return this->Roots + this->Count; }
 
@@ -109,13 +103,10 @@ private:
   int Count = 0;
 };
 
-/// Visits all nodes of the depth `nodeDepth`, and those above it that are not split, other than the
-/// surrounded one, whose closed region shares a point with its closed region (the neighborhood
-/// N(c) of [RL06] section 5).
-/// @param enter(node) whether a node and its descendants are of interest
-/// @param visit(nodeIndex) returns whether to end the search
-/// @returns whether a visit did
-/// Complexity: O(depth + nodes visited); 14.5 neighbors on average in a uniform cloud.
+/// Visits all nodes at depth `nodeDepth`, and unsplit ones above it, whose closed regions share a
+/// point with that of the surrounded node: its neighborhood N(c) without itself ([RL06] section 5).
+/// @param enter, visit see visitTouchingInSubtree()
+/// Complexity: O(depth + nodes visited); 14.5 neighbors on average in a uniform cloud
 template <class TSample, class Filter, class Visitor>
 bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
   const Filter& enter, const Visitor& visit)
@@ -125,7 +116,6 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
     { return visitTouchingInSubtree(tree, root, nodeDepth, surroundings.region, enter, visit); });
 }
 
-/// The same with every node of interest.
 template <class TSample, class Visitor>
 bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
   const Visitor& visit)
@@ -134,10 +124,9 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
   return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
 }
 
-/// Visits the neighbors of a leaf, around which the tree has to be split down to leaves.
-/// @param visit(nodeIndex) returns whether to end the search
-/// @returns whether a visit did
-/// @throws MissingNode where it is not, as may be where ranks share it
+/// Visits the neighbors of a leaf. The tree must be split down to leaves around it.
+/// @param visit see visitTouchingInSubtree()
+/// @throws MissingNode where the tree is not split, as on one of several ranks
 template <class TSample, class Visitor>
 bool visitNeighbors(
   const SampleTree<TSample>& tree, const Surroundings& surroundings, const Visitor& visit)
@@ -150,8 +139,8 @@ bool visitNeighbors(
     });
 }
 
-/// The neighbors of a leaf as far as they are known or else, in `memory`, searched for; none if
-/// they are more than `most`.
+/// The neighbors of a leaf, from `known` or from a search, which lists them in `memory`; an empty
+/// list if there are more than `most`.
 template <class TSample>
 NodeList<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
   const NeighborhoodCache<typename TSample::Id>& known, std::size_t leaf, std::size_t most,
@@ -173,11 +162,9 @@ NodeList<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
   return areMany ? List{} : List{ memory.data(), memory.size() };
 }
 
-/// Visits the nodes, other than the path's own, that are not split and touch a box that touches the
-/// path's region; a few that do not touch it may be among them. Only the planes that the box
-/// reaches are crossed.
-/// @param visit(nodeIndex) returns whether to end the search
-/// @returns whether a visit did
+/// Visits the unsplit nodes, other than the path's own, that touch a box, and perhaps a few others.
+/// The box must touch the path's region.
+/// @param visit see visitTouchingInSubtree()
 template <class TSample, class Visitor>
 bool visitAround(
   const SampleTree<TSample>& tree, const Path& path, const Region& box, const Visitor& visit)
@@ -198,8 +185,8 @@ bool visitAround(
   return false;
 }
 
-/// Whether samples of a node may lie on the other side of the isovalue.
-/// @param isBelow the side in question: below the isovalue, or not
+/// Whether samples of a node may be on the other side of the isovalue.
+/// @param isBelow this side: below the isovalue, or not
 template <class TSample>
 bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
 {
@@ -207,7 +194,7 @@ bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
 }
 
 /// Whether a node that touches the surrounded one has samples on the other side of the isovalue.
-/// Value ranges prune the search, so that it is short where there is none.
+/// Value ranges prune the search.
 /// @param isBelow the side of the surrounded node: below the isovalue, or not
 template <class TSample>
 bool touchesOtherSide(const SampleTree<TSample>& tree, const Surroundings& surroundings,
@@ -221,5 +208,3 @@ bool touchesOtherSide(const SampleTree<TSample>& tree, const Surroundings& surro
 }
 
 } // namespace isopoint
-
-#endif

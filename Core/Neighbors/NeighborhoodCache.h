@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NeighborhoodCache_h
-#define isopoint_NeighborhoodCache_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Base/NodeList.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
 
 #include <algorithm>
@@ -18,14 +16,13 @@ namespace isopoint
 {
 
 /// The neighborhoods of leaves near surfaces extracted before. They do not depend on isovalues,
-/// angles or values, and finding them is most of the work of an extraction from a tree that is
-/// refined already. Memory: one number for each neighbor, two for each neighborhood, and one for
-/// each node.
+/// angles or values, and searching them is most of the work if the tree is already refined. Memory:
+/// one number per neighbor and per node, two per neighborhood.
 template <class TId>
 class NeighborhoodCache
 {
 public:
-  /// The neighborhood of a leaf, or an empty list if it is not known. O(1)
+  /// The neighborhood of a leaf; an empty list if it is not known. O(1)
   NodeList<TId> at(std::size_t nodeIndex) const
   {
     if (nodeIndex >= this->Offsets.size() || this->Offsets[nodeIndex] == 0)
@@ -36,14 +33,14 @@ public:
     return { list + 1, static_cast<std::size_t>(list[0]) };
   }
 
-  /// How many more numbers may be added within a limit.
+  /// How many more numbers fit within a limit.
   std::size_t room(std::size_t limit) const
   {
     const std::size_t largest = std::min<std::size_t>(limit, std::numeric_limits<TId>::max());
     return largest > this->Lists.size() ? largest - this->Lists.size() : 0;
   }
 
-  /// Adds neighborhoods: lists of them, one after the other as node index, count, neighbors.
+  /// Adds neighborhoods, each stored as node index, count, neighbors.
   /// @param nodeCount above every node index
   /// @throws std::bad_alloc, after which some of them may be known
   void add(
@@ -56,7 +53,6 @@ public:
   }
 
 private:
-  /// Copies neighborhoods, and notes where they are.
   void set(std::size_t begin, const std::vector<TId>& neighborhoods)
   {
     std::copy(neighborhoods.begin(), neighborhoods.end(), this->Lists.data() + begin);
@@ -72,11 +68,10 @@ private:
   RawArray<TId> Lists;      // node, count, neighbors
 };
 
-/// A budget of listed neighbors, shared by all threads. To list a neighborhood is quicker than to
-/// search it where it is small, and for a few large ones; but the neighborhoods of n samples can
-/// add up to n^2 neighbors. With this budget, those of large neighborhoods that are listed add up
-/// to O(n); when it is spent, neighborhoods are to be searched (see ImplicitNeighborhood). No
-/// result depends on it.
+/// A budget of listed neighbors, shared by all threads. Listing is faster than searching for small
+/// neighborhoods and a few large ones, but the neighborhoods of n samples can have n^2 neighbors.
+/// The budget limits the listed large ones to O(n) neighbors; once it is spent, neighborhoods are
+/// searched (see ImplicitNeighborhood). Results do not depend on it.
 class NeighborListBudget
 {
 public:
@@ -87,7 +82,7 @@ public:
 
   bool isSpent() const { return this->Remaining.load(std::memory_order_relaxed) <= 0; }
 
-  /// Accounts for a neighborhood that was listed; small ones are free.
+  /// Accounts for a listed neighborhood; small ones are free.
   void spend(std::size_t neighborCount)
   {
     constexpr std::size_t few = 64;
@@ -103,5 +98,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SampleExtent_h
-#define isopoint_SampleExtent_h
+#pragma once
 
 #include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Region.h"
@@ -15,27 +14,25 @@
 namespace isopoint
 {
 
-/// A question for the extent of the samples ahead of a place on a surface; see SampleExtents.
+/// A query for the support of samples in a direction from a place on a surface; see SampleExtents.
 struct ExtentQuery
 {
   Vector place;
   Vector normal;    // of the surface there
-  Vector direction; // orthogonal to it, of length 1
-  double enough;    // the largest result that is of interest, positive
-  double reach;     // of the samples that count from the place, not below `enough`, finite
+  Vector direction; // orthogonal to the normal, of length 1
+  double enough;    // the largest result of interest, positive
+  double reach;     // search radius around the place, at least `enough`, finite
 };
 
-/// What an ExtentQuery asks for counts samples within 45 degrees of its direction, as far as
-/// rounding permits.
+/// Samples within 45 degrees of the direction count, as far as rounding permits.
 constexpr double leastCosineAhead = 0.7071;
 
-/// The bounding boxes of the samples of nodes that are not split, which can be far smaller than
-/// their regions, by node.
+/// Bounding boxes of unsplit nodes' samples, which can be far smaller than regions; by node.
 template <class TSample>
 using UnsplitBounds = ConcurrentMemo<SampleBox<TSample>>;
 
-/// Searches for the samples ahead of a place, the farthest of them first. Subtrees whose region
-/// shows that they make no difference are skipped.
+/// Finds the extent of samples in a query's direction, farthest samples first. Skips subtrees whose
+/// regions show that they do not extend it.
 template <class TSample>
 class SampleExtentSearch
 {
@@ -48,7 +45,7 @@ public:
   {
   }
 
-  /// Includes the samples in a box around a place ahead.
+  /// Includes the samples in a cube of side 2 * half, at the distance `ahead` along the direction.
   void search(double ahead, double half)
   {
     const Vector center = sum(this->Query.place, ahead, this->Query.direction);
@@ -65,7 +62,7 @@ public:
   bool isEnough() const { return this->extent() >= this->Query.enough; }
 
 private:
-  /// @param box the intersection of the search's box and the node's region
+  /// @param box the intersection of the search box and the node's region
   /// @throws MissingNode at a node whose samples another rank holds
   void visit(std::size_t nodeIndex, const Region& box)
   {
@@ -94,12 +91,12 @@ private:
     }
   }
 
-  /// Whether a sample in a box may stand farther ahead, on a side of the plane, than those found.
-  /// Rounding is monotonic: no value computed for a sample exceeds that for its box.
+  /// Whether a sample in a box may extend farther than those found on its side of the plane.
+  /// Rounding is monotonic, so no value computed for a sample exceeds that for its box.
   template <class TBox>
   bool mayContribute(const TBox& box) const
   {
-    double ahead = 0.0; // the largest, as all that follow
+    double ahead = 0.0; // upper bounds, as are the next two
     double height = 0.0;
     double depth = 0.0;
     Vector gap{}; // from the place to the box
@@ -123,14 +120,13 @@ private:
     {
       return false;
     }
-    // Lengths are rounded either way.
+    // Lengths may be rounded down or up.
     constexpr double slack = 0.999;
     const double least = slack * lengthOf(gap);
     return least <= this->Query.reach && ahead >= leastCosineAhead * least;
   }
 
-  /// Includes the samples of a node that is not split; of many only as long as one of the rest may
-  /// make a difference.
+  /// Includes the samples of an unsplit node; checks at times whether the rest can matter.
   void addSamples(std::size_t nodeIndex)
   {
     constexpr std::size_t many = 64;
@@ -158,7 +154,7 @@ private:
     const double ahead = dot(offset, this->Query.direction);
     if (!this->isOfUse(height, ahead))
     {
-      return; // before its length, which takes far longer to compute
+      return; // avoids the length, which takes far longer to compute
     }
     const double length = lengthOf(offset);
     if (ahead < leastCosineAhead * length || length > this->Query.reach)
@@ -175,7 +171,7 @@ private:
     }
   }
 
-  /// Whether samples ahead, at a height above the plane, are farther ahead than those found.
+  /// Whether a sample extends farther than those found on its side of the plane.
   bool isOfUse(double height, double ahead) const
   {
     return (height >= 0.0 && ahead > this->Above) || (height <= 0.0 && ahead > this->Below);
@@ -184,12 +180,11 @@ private:
   const SampleTree<TSample>& Tree;
   UnsplitBounds<TSample>& Bounds;
   const ExtentQuery& Query;
-  double Above = 0.0; // how far samples stand ahead on this side of the plane
+  double Above = 0.0; // extent of the samples on this side of the plane
   double Below = 0.0;
 };
 
-/// The condition of a NearestSampleSearch that a sample stands ahead by an ExtentQuery's `enough`
-/// or more.
+/// The NearestSampleSearch condition that a sample extends to ExtentQuery::enough or more.
 class IsAhead
 {
 public:
@@ -200,7 +195,7 @@ public:
 
   bool mayHoldIn(const Region& region) const
   {
-    double ahead = 0.0; // the largest
+    double ahead = 0.0; // upper bound
     for (int axis = 0; axis < 3; ++axis)
     {
       const double direction = this->Query.direction[axis];
@@ -222,8 +217,7 @@ private:
   const ExtentQuery& Query;
 };
 
-/// The extents of a tree's samples ahead of places on a surface. The tree must not change
-/// meanwhile.
+/// The extents of a tree's samples around places on a surface. The tree must not change meanwhile.
 template <class TSample>
 class SampleExtents
 {
@@ -233,13 +227,13 @@ public:
   {
   }
 
-  /// How far samples stand ahead of a place, on both sides of the plane through it that is tangent
-  /// to the surface: the largest component along the direction of the offsets to the samples within
-  /// 45 degrees of it and within reach, on the side where that is less; at most query.enough, and 0
-  /// where there is no sample. The same however much of the tree is refined. From any thread.
-  /// Complexity: O(log n) where samples are far enough off; else O(log n), the nodes within reach,
-  /// and the samples of unsplit nodes whose bounding box reaches farther than any sample found.
-  /// @throws std::bad_alloc
+  /// The support in direction D: how far samples extend from a place along D. On each side of the
+  /// tangent plane, this is the largest component along D of the offsets to samples within 45
+  /// degrees of D and the search radius; the result is the smaller of the two, at most
+  /// query.enough, and 0 without samples. Independent of tree refinement. Thread-safe.
+  /// Complexity: O(log n) if samples extend far enough; else O(log n + nodes within the search
+  /// radius + samples of unsplit nodes whose bounding box extends farther than the samples found)
+  /// @throws std::bad_alloc; MissingNode at a node whose samples another rank holds
   double at(const ExtentQuery& query) const
   {
     if (this->Tree.isEmpty())
@@ -247,19 +241,19 @@ public:
       return 0.0;
     }
     SampleExtentSearch<TSample> search(this->Tree, this->Bounds, query);
-    // Mostly the first few samples will do.
+    // Mostly the first few samples suffice.
     constexpr double share = 0.2;
     const double beyond = query.reach - query.enough;
     search.search(query.enough + 0.5 * beyond, share * beyond);
     if (!search.isEnough())
     {
-      // All that count lie in a ball that touches the place, of 1 / sqrt 2 of the reach.
+      // All samples that count lie in a ball of radius reach / sqrt 2 that touches the place.
       search.search(0.707 * query.reach, 0.72 * query.reach);
     }
     return search.extent();
   }
 
-  /// The nearest of the samples that stand ahead by query.enough or more; see NearestSampleSearch.
+  /// The nearest sample that extends to query.enough or more; see NearestSampleSearch.
   /// @throws MissingNode
   const TSample* nearest(const ExtentQuery& query) const
   {
@@ -268,7 +262,7 @@ public:
       .search();
   }
 
-  /// The sample nearest to a place, within reach; see NearestSampleSearch.
+  /// The nearest sample to a place, within a search radius; see NearestSampleSearch.
   /// @throws MissingNode
   const TSample* nearestTo(const Vector& place, double reach) const
   {
@@ -277,9 +271,7 @@ public:
 
 private:
   const SampleTree<TSample>& Tree;
-  mutable UnsplitBounds<TSample> Bounds; // a memo, safe for concurrent use
+  mutable UnsplitBounds<TSample> Bounds; // thread-safe
 };
 
 } // namespace isopoint
-
-#endif

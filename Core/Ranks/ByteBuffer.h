@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ByteBuffer_h
-#define isopoint_ByteBuffer_h
+#pragma once
 
 #include <cstddef>
 #include <cstring>
@@ -11,7 +10,7 @@
 namespace isopoint
 {
 
-/// A message between ranks of one machine type: trivially copyable values one after the other.
+/// A message of concatenated, trivially copyable values between ranks of one machine type.
 using ByteBuffer = std::vector<unsigned char>;
 
 template <class T>
@@ -34,7 +33,7 @@ inline void appendText(ByteBuffer& buffer, const std::string& text)
   append(buffer, text.data(), text.size());
 }
 
-/// Reads what append() and appendText() wrote, in the same order.
+/// Reads the values of append() and appendText() in the same order.
 class ByteReader
 {
 public:
@@ -78,5 +77,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_MedianSearch_h
-#define isopoint_MedianSearch_h
+#pragma once
 
+#include "Core/Base/ProcessGroup.h"
 #include "Core/Base/Region.h"
-#include "Core/Base/Team.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +14,7 @@
 namespace isopoint
 {
 
-/// A node whose samples are dealt out among the ranks, each of which has a consecutive range of
-/// them, in any order.
+/// A node whose samples are spread over the ranks; each has a consecutive range, in any order.
 struct DealtNode
 {
   std::size_t nodeIndex;
@@ -26,32 +24,31 @@ struct DealtNode
   std::uint64_t count; // on all ranks
 };
 
-/// A sample in the middle of a node: the first one of the upper half in the order of the definition
-/// (docs/algorithm.md, section 3).
+/// The first sample of a node's upper half by the definition (docs/algorithm.md, section 3).
 struct MiddleSample
 {
   int axis;                          // on which the node is halved
-  std::array<std::uint64_t, 4> keys; // its coordinates from that axis on, as ordered keys, and id
+  std::array<std::uint64_t, 4> keys; // ordered keys from that axis on, and id
 };
 
-/// Finds the middles of several nodes at once, exactly, by counting: each round counts how many
-/// samples of a node fall into each of some intervals of keys, and keeps the one that holds the
-/// middle. The next coordinate distinguishes samples of equal coordinates, in the end the id.
+/// Finds the middles of several nodes at once, exactly, by counting: each round counts a node's
+/// samples in intervals of keys, and keeps the interval with the middle. Equal coordinates are told
+/// apart by the next coordinate, finally by id.
 template <class TSample>
 class MedianSearch
 {
 public:
-  /// @param samples this rank's; they must not move meanwhile
+  /// @param samples this rank's; must not move meanwhile
   /// @param idCount above every id
-  MedianSearch(Team& team, const TSample* samples, std::uint64_t idCount)
-    : Group(team)
+  MedianSearch(ProcessGroup& processes, const TSample* samples, std::uint64_t idCount)
+    : Processes(processes)
     , Samples(samples)
     , IdCount(idCount)
   {
   }
 
-  /// Collective. Takes about two rounds for samples at different places, and no more than eleven
-  /// for each coordinate where they coincide.
+  /// Collective. Takes about two rounds for samples at distinct positions; at most eleven rounds
+  /// per coordinate where they coincide.
   /// @param nodes of at least two samples each
   /// @throws std::bad_alloc, FailedElsewhere
   std::vector<MiddleSample> find(const std::vector<DealtNode>& nodes)
@@ -73,7 +70,7 @@ public:
       {
         return this->middles();
       }
-      this->Group.sum(counts);
+      this->Processes.sum(counts);
       this->narrow(open, counts);
     }
   }
@@ -81,16 +78,16 @@ public:
 private:
   static constexpr int idStage = 3;
 
-  /// The search for the middle of one node, among its samples with keys in an interval.
+  /// The search for a node's middle among the samples with keys in an interval.
   struct Search
   {
     const DealtNode* node;
     int axis;
-    int stage;                           // which key is looked at
-    std::uint64_t low;                   // the interval of this key
-    std::uint64_t high;                  // the last one in it
+    int stage;                           // which key is compared
+    std::uint64_t low;                   // first key of the interval
+    std::uint64_t high;                  // last key of the interval
     std::uint64_t rank;                  // of the middle among the samples in it
-    std::uint64_t size;                  // how many they are, on all ranks
+    std::uint64_t size;                  // their number on all ranks
     bool isWhole;                        // whether all of the node's samples are in it
     std::vector<std::size_t> candidates; // this rank's, unless it is whole
   };
@@ -141,7 +138,7 @@ private:
     }
   }
 
-  /// The number of intervals that the present one is divided into, a power of two.
+  /// The binary logarithm of the number of intervals that each current one is divided into.
   static int bitsFor(std::size_t openCount)
   {
     constexpr int most = 14; // counters that fit into a fast cache
@@ -222,7 +219,7 @@ private:
     search.isWhole = false;
   }
 
-  /// The samples that were found, each of them on one rank.
+  /// The samples found, each of them on one rank.
   std::vector<MiddleSample> middles()
   {
     std::vector<std::uint64_t> keys;
@@ -235,7 +232,7 @@ private:
                          : keyOf(this->Samples[search.candidates.front()], search, stage));
       }
     }
-    this->Group.sum(keys);
+    this->Processes.sum(keys);
     std::vector<MiddleSample> result(this->Searches.size());
     for (std::size_t i = 0; i < result.size(); ++i)
     {
@@ -245,7 +242,7 @@ private:
     return result;
   }
 
-  Team& Group;
+  ProcessGroup& Processes;
   const TSample* Samples;
   std::uint64_t IdCount;
   int Bits = 0;
@@ -253,5 +250,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

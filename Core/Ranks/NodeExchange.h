@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NodeExchange_h
-#define isopoint_NodeExchange_h
+#pragma once
 
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/Ranks/ByteBuffer.h"
 #include "Core/Ranks/NodeWriter.h"
 #include "Core/Tree/Path.h"
@@ -16,26 +15,25 @@
 namespace isopoint
 {
 
-/// Fetches what searches in a rank's tree miss from the ranks that hold it, in rounds in which all
-/// ranks ask and answer. All functions are collective.
+/// Fetches missing nodes from the ranks that hold them, in rounds in which all ranks ask and
+/// answer. All functions are collective.
 template <class TSample>
 class NodeExchange
 {
 public:
   /// @param begins see SharedTree
-  NodeExchange(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
-    : Group(team)
+  NodeExchange(
+    ProcessGroup& processes, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
+    : Processes(processes)
     , Tree(tree)
     , Begins(begins)
   {
   }
 
-  /// Fetches the nodes of a depth below the missing ones, as far as they touch their boxes, with
-  /// their ranges of values; samples, for a depth below all leaves. What is missing of this rank's
-  /// own nodes is split. Empties the list. @returns whether any rank missed any
+  /// See SingleRank::fetchNodes(). A depth below all leaves fetches samples. Splits own nodes.
   bool fetchNodes(std::vector<MissingNode>& missing, int depth)
   {
-    if (!this->Group.isAny(!missing.empty()))
+    if (!this->Processes.isAny(!missing.empty()))
     {
       return false;
     }
@@ -45,12 +43,12 @@ public:
       boxes[node.nodeIndex].push_back(node.box);
     }
     missing.clear();
-    const auto ranks = static_cast<std::size_t>(this->Group.size());
+    const auto ranks = static_cast<std::size_t>(this->Processes.size());
     std::vector<ByteBuffer> questions(ranks);
-    std::vector<std::vector<std::size_t>> asked(ranks); // nodes, of each rank
+    std::vector<std::vector<std::size_t>> asked(ranks); // nodes, by rank
     this->ask(boxes, depth, questions, asked);
-    const std::vector<ByteBuffer> answers = this->answer(this->Group.exchange(questions));
-    const std::vector<ByteBuffer> found = this->Group.exchange(answers);
+    const std::vector<ByteBuffer> answers = this->answer(this->Processes.exchange(questions));
+    const std::vector<ByteBuffer> found = this->Processes.exchange(answers);
     NodeReader<TSample> reader(this->Tree);
     for (std::size_t rank = 0; rank < ranks; ++rank)
     {
@@ -64,8 +62,7 @@ public:
   }
 
 private:
-  /// Writes the questions for each rank: node, depth, boxes. What is missing of this rank's own
-  /// nodes is split at once.
+  /// Writes the questions for each rank: node, depth, boxes. Splits missing nodes of this rank.
   void ask(std::map<std::size_t, std::vector<Region>>& boxes, int depth,
     std::vector<ByteBuffer>& questions, std::vector<std::vector<std::size_t>>& asked)
   {
@@ -107,11 +104,9 @@ private:
     return answers;
   }
 
-  Team& Group;
+  ProcessGroup& Processes;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
 };
 
 } // namespace isopoint
-
-#endif

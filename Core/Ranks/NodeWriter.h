@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NodeWriter_h
-#define isopoint_NodeWriter_h
+#pragma once
 
 #include "Core/Base/Region.h"
 #include "Core/Ranks/ByteBuffer.h"
@@ -21,12 +20,11 @@ namespace isopoint
 enum class NodeKind : std::uint8_t
 {
   Split,   // axis, plane, number of samples of the lower child; then both children
-  Samples, // its samples, in the order of ids where they coincide
-  Absent   // its range of values alone
+  Samples, // its samples, coincident ones in the order of ids
+  Absent   // only its value range
 };
 
-/// Splits nodes of this rank down to leaves, or to a depth, in some boxes, and writes them for
-/// another rank.
+/// Splits nodes of this rank in boxes, down to leaves or a depth, and writes them for another rank.
 template <class TSample>
 class NodeWriter
 {
@@ -37,15 +35,15 @@ public:
   {
   }
 
-  /// Writes a node and what is below it as far as it touches any of the boxes: nodes of the given
-  /// depth, and what touches none, by their ranges alone, small nodes above it by their samples.
+  /// Writes a node and its descendants that touch any box. Nodes at `depth`, and those that touch
+  /// no box, are written as ranges; small nodes above `depth` as samples.
   void write(const BinaryIndex& index, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
   {
     Path path = pathTo(this->Tree, index);
     this->write(path, depth, boxes, out);
   }
 
-  /// Splits a node down to leaves wherever it touches any of the boxes.
+  /// Splits a node down to leaves wherever it touches any box.
   void refine(std::size_t nodeIndex, const std::vector<Region>& boxes)
   {
     Path path = pathToLeaf(this->Tree, nodeIndex);
@@ -53,8 +51,7 @@ public:
   }
 
 private:
-  /// Nodes of up to this many samples are sent whole: those next to one that is needed mostly are
-  /// needed as well.
+  /// Nodes of up to this many samples are sent whole: mostly all of them are needed.
   static constexpr std::size_t fewSamples = 32;
 
   void write(Path& path, int depth, const std::vector<Region>& boxes, ByteBuffer& out)
@@ -134,7 +131,7 @@ private:
     }
   }
 
-  /// Splits a node that is neither split nor a leaf, a few levels at once.
+  /// Splits a node a few levels deep, if it is neither split nor a leaf.
   void splitOnce(const Path& path)
   {
     const std::size_t nodeIndex = path.nodeIndex();
@@ -156,7 +153,7 @@ private:
   TreeletSplitter<TSample> Splitter;
 };
 
-/// Adds what a NodeWriter of another rank wrote to this rank's tree.
+/// Adds the nodes that another rank's NodeWriter wrote to this rank's tree.
 template <class TSample>
 class NodeReader
 {
@@ -168,7 +165,7 @@ public:
   }
 
   /// @param nodeIndex an absent node
-  /// @throws std::bad_alloc, std::length_error, the node as before
+  /// @throws std::bad_alloc, std::length_error, the node unchanged
   void read(std::size_t nodeIndex, ByteReader& in)
   {
     const Node<TSample> former = this->Tree.nodes[nodeIndex];
@@ -207,7 +204,7 @@ private:
     }
   }
 
-  /// Splits the samples all the way down to leaves.
+  /// Splits the samples down to leaves.
   void readSamples(const Path& path, ByteReader& in)
   {
     const std::size_t nodeIndex = path.nodeIndex();
@@ -249,5 +246,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SentIsopoint_h
-#define isopoint_SentIsopoint_h
+#pragma once
 
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Fit/LocalFit.h"
@@ -15,8 +14,7 @@
 namespace isopoint
 {
 
-/// The end of an edge, as all ranks understand it: the place of its leaf in the order of the tree,
-/// and a position inside that.
+/// An end of an edge for all ranks: the place of its leaf in tree order, and the position there.
 struct SentEnd
 {
   std::uint64_t place;
@@ -30,8 +28,8 @@ SentEnd sentEnd(const SampleTree<TSample>& tree, std::size_t leaf)
   return { begin, positionOf(tree.samples[begin]) };
 }
 
-/// The leaf of an end in this rank's tree.
-/// @throws MissingNode if this rank does not hold it as a leaf. O(depth)
+/// The leaf of an end in this rank's tree. O(depth)
+/// @throws MissingNode if this rank does not hold it as a leaf
 template <class TSample>
 std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
 {
@@ -45,7 +43,6 @@ std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
   return nodeIndex;
 }
 
-/// A crossing edge as ranks send it to each other.
 struct SentEdge
 {
   std::uint64_t first;
@@ -54,7 +51,6 @@ struct SentEdge
   SentEnd ends[2];
 };
 
-/// An isopoint of another rank.
 struct SentIsopoint
 {
   IsopointEdge edge;
@@ -62,7 +58,7 @@ struct SentIsopoint
   Vector decreasingEdge;
   std::array<SentEnd, 2> ends;
   LocalFit fit;              // if the surface has fits
-  EdgeLeaves leaves{ 0, 0 }; // in the tree of the rank that received it
+  EdgeLeaves leaves{ 0, 0 }; // in the tree of the receiving rank
 };
 
 inline void appendFit(ByteBuffer& buffer, const LocalFit& fit)
@@ -130,5 +126,3 @@ inline SentIsopoint readIsopoint(ByteReader& in, bool hasFit)
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SharedRanks_h
-#define isopoint_SharedRanks_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
-#include "Core/Base/Team.h"
+#include "Core/Base/Lists.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NeighborhoodFits.h"
@@ -13,7 +12,7 @@
 #include "Core/Ranks/ByteBuffer.h"
 #include "Core/Ranks/NodeExchange.h"
 #include "Core/Ranks/SentIsopoint.h"
-#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -28,8 +27,7 @@
 namespace isopoint
 {
 
-/// The ranks that share a tree, as extraction sees them: what SingleRank is for one, whose
-/// functions are described there.
+/// The process group of ranks that share a tree; see SingleRank for the functions' contracts.
 template <class TSample>
 class SharedRanks
 {
@@ -37,21 +35,22 @@ public:
   using Edges = std::vector<CrossingEdge<TSample>>;
 
   /// @param begins see SharedTree
-  SharedRanks(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
-    : Group(team)
+  SharedRanks(
+    ProcessGroup& processes, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
+    : Processes(processes)
     , Tree(tree)
     , Begins(begins)
-    , Exchange(team, tree, begins)
+    , Exchange(processes, tree, begins)
   {
   }
 
-  Team& team() { return this->Group; }
+  ProcessGroup& processes() { return this->Processes; }
 
-  /// The rank that holds a place in the order of the tree.
+  /// The rank that owns a place in tree order.
   std::size_t ownerOf(std::uint64_t place) const { return rankAt(this->Begins, place); }
 
-  bool isAny(bool mine) { return this->Group.isAny(mine); }
-  std::uint64_t sum(std::uint64_t mine) { return this->Group.sum(mine); }
+  bool isAny(bool mine) { return this->Processes.isAny(mine); }
+  std::uint64_t sum(std::uint64_t mine) { return this->Processes.sum(mine); }
 
   bool fetchNodes(std::vector<MissingNode>& missing, int depth)
   {
@@ -103,7 +102,7 @@ public:
             { sentEnd(this->Tree, edge.firstLeaf), sentEnd(this->Tree, edge.secondLeaf) } });
         });
     }
-    const std::vector<SentEdge> open = united(this->Group.exchange(outgoing));
+    const std::vector<SentEdge> open = united(this->Processes.exchange(outgoing));
     const std::size_t ownCount = edges.size();
     edges.resize(ownCount + open.size());
     this->forEach(
@@ -127,7 +126,7 @@ public:
           outgoing[rank].push_back({ edges[i].first, edges[i].second });
         });
     }
-    for (const SampleEdge& wanted : united(this->Group.exchange(outgoing)))
+    for (const SampleEdge& wanted : united(this->Processes.exchange(outgoing)))
     {
       const auto edge = std::lower_bound(edges.begin(), edges.end(), wanted);
       if (edge == edges.end() || wanted < *edge)
@@ -139,8 +138,7 @@ public:
     keepUnique(found);
   }
 
-  /// The order of the whole surface runs through all ranks: one rank thins for all, and takes
-  /// memory for the fits of all.
+  /// The order of the surface spans all ranks: one rank thins for all, with memory for all fits.
   void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
   {
     std::vector<ByteBuffer> questions(this->rankCount());
@@ -150,8 +148,8 @@ public:
       appendFit(questions.front(), surface.fits[i]);
     }
     std::vector<std::vector<IsopointEdge>> asked(this->rankCount());
-    std::map<IsopointEdge, LocalFit> whole; // each isopoint is on one rank or on several
-    const std::vector<ByteBuffer> arrived = this->Group.exchange(questions);
+    std::map<IsopointEdge, LocalFit> whole; // isopoints are on one rank or several
+    const std::vector<ByteBuffer> arrived = this->Processes.exchange(questions);
     for (std::size_t rank = 0; rank < arrived.size(); ++rank)
     {
       ByteReader in(arrived[rank]);
@@ -171,7 +169,8 @@ public:
           std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
       }
     }
-    surface = chosenIsopoints(execution, surface, markedOf(this->Group.exchange(answers).front()));
+    surface =
+      chosenIsopoints(execution, surface, markedOf(this->Processes.exchange(answers).front()));
   }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)
@@ -182,8 +181,8 @@ public:
     {
       own.push_back(sentEnd(this->Tree, leaf));
     }
-    std::vector<std::vector<SentEnd>> all = this->Group.gather(own);
-    all[static_cast<std::size_t>(this->Group.rank())].clear();
+    std::vector<std::vector<SentEnd>> all = this->Processes.gather(own);
+    all[static_cast<std::size_t>(this->Processes.rank())].clear();
     const std::vector<SentEnd> others = united(all);
     const std::size_t ownCount = leaves.size();
     leaves.resize(ownCount + others.size());
@@ -210,11 +209,11 @@ public:
 
   void unite(std::vector<std::size_t>& found)
   {
-    found = united(this->Group.gather(found));
+    found = united(this->Processes.gather(found));
     std::sort(found.begin(), found.end());
   }
 
-  /// Each rank fits to the samples around the edges that are counted there.
+  /// Each rank fits around the edges that it owns.
   std::vector<LocalFit> fitShared(const Execution& execution, ExtractionContext<TSample>& context,
     const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
   {
@@ -248,7 +247,7 @@ private:
     return kept;
   }
 
-  std::size_t rankCount() const { return static_cast<std::size_t>(this->Group.size()); }
+  std::size_t rankCount() const { return static_cast<std::size_t>(this->Processes.size()); }
 
   template <class T>
   static std::vector<T> united(const std::vector<std::vector<T>>& lists)
@@ -261,7 +260,7 @@ private:
     return all;
   }
 
-  /// Calls action(rank) for each other rank in whose leaves an edge ends.
+  /// Calls action(rank) for each other rank that has an end of an edge.
   template <class Action>
   void forOtherRanks(const CrossingEdge<TSample>& edge, const Action& action) const
   {
@@ -283,7 +282,7 @@ private:
       append(own, static_cast<std::uint64_t>(place.edge));
       appendFit(own, fits[place.edge]);
     }
-    for (const ByteBuffer& buffer : this->Group.gather(own))
+    for (const ByteBuffer& buffer : this->Processes.gather(own))
     {
       ByteReader in(buffer);
       while (!in.isAtEnd())
@@ -294,12 +293,10 @@ private:
     }
   }
 
-  Team& Group;
+  ProcessGroup& Processes;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
   NodeExchange<TSample> Exchange;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SharedTree_h
-#define isopoint_SharedTree_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/Ranks/MedianSearch.h"
 #include "Core/Tree/BinaryIndex.h"
 #include "Core/Tree/SampleTree.h"
@@ -18,42 +17,40 @@
 namespace isopoint
 {
 
-/// One rank's view of the tree of all ranks' samples: the top of the canonical tree, its own
-/// subtrees with their samples, and the others as absent nodes.
+/// One rank's view of the tree of all ranks: the top of the canonical tree, this rank's subtrees
+/// with their samples, and the other subtrees as absent nodes.
 template <class TSample>
 struct SharedTree
 {
   SampleTree<TSample> tree;
-  std::vector<std::uint64_t> begins; // of each rank's own samples in the tree's order, and the end
+  std::vector<std::uint64_t> begins; // of the ranks' own samples in tree order, and the end
 };
 
-/// Builds it: the top level by level, by exact medians over all ranks, then one exchange brings the
-/// samples to the ranks whose subtrees they belong to. Each rank has consecutive subtrees.
+/// Builds a SharedTree: its top level by level, by exact medians over all ranks; then one exchange
+/// brings samples to the ranks that own their subtrees. Each rank has consecutive subtrees.
 template <class TSample>
 class SharedTreeBuilder
 {
 public:
-  /// @param loaded this rank's samples, with the ids of the whole cloud, in a tree with a root
-  /// alone
+  /// @param loaded this rank's samples, with ids of the whole cloud, in a tree of only a root
   /// @param idCount of the whole cloud
-  SharedTreeBuilder(Team& team, SampleTree<TSample> loaded, std::uint64_t idCount)
-    : Group(team)
+  SharedTreeBuilder(ProcessGroup& processes, SampleTree<TSample> loaded, std::uint64_t idCount)
+    : Processes(processes)
     , Loaded(std::move(loaded))
     , IdCount(idCount)
   {
   }
 
-  /// Collective.
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  /// Collective. @throws std::bad_alloc, Aborted, FailedElsewhere
   SharedTree<TSample> build(const Execution& execution)
   {
-    const std::uint64_t count = this->Group.sum(this->Loaded.samples.size());
+    const std::uint64_t count = this->Processes.sum(this->Loaded.samples.size());
     this->Result.tree.isPartial = true;
     this->Result.tree.skipped = this->Loaded.skipped;
     if (count > 0)
     {
       this->makeSharedRoot(count);
-      const int depth = topDepth(this->Group.size());
+      const int depth = topDepth(this->Processes.size());
       for (int level = 0; level < depth; ++level)
       {
         this->splitLevel(execution);
@@ -66,8 +63,8 @@ public:
   }
 
 private:
-  /// Subtrees are alike in size except for coincident samples: as many as there are ranks, or a few
-  /// for each where that is no power of two.
+  /// Subtrees are of similar size except for coincident samples: one per rank, or a few if the
+  /// number of ranks is not a power of two.
   static int topDepth(int ranks)
   {
     const int levels = levelsToHalve(static_cast<std::size_t>(ranks));
@@ -87,7 +84,7 @@ private:
     tree.nodes.resize(2);
     tree.usedPairs = 1;
     tree.nodes[SampleTree<TSample>::rootNode] = makeNode<TSample>(0, count);
-    this->Group.maximum(keys);
+    this->Processes.maximum(keys);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       tree.region.upper[axis] = fromOrderedKey(keys[axis]);
@@ -97,17 +94,17 @@ private:
       { SampleTree<TSample>::rootNode, tree.region, 0, this->Loaded.samples.size(), count });
   }
 
-  /// How the samples of a node stand to its middle sample.
+  /// Positions of a node's samples relative to its middle sample.
   struct Sides
   {
-    std::uint64_t less = 0;       // at lower positions, in the order of the node's axes
-    std::uint64_t equalBelow = 0; // at its position with lower ids
+    std::uint64_t less = 0;       // number at lower positions, in the order of the node's axes
+    std::uint64_t equalBelow = 0; // number at the same position with lower ids
     std::uint64_t greater = 0;
-    std::uint64_t last = 0;     // the greatest key on the axis of those less, 0 without any
-    std::uint64_t notFirst = 0; // inverted, the least key on the axis of those greater
+    std::uint64_t last = 0;     // greatest key of the lower ones on the axis, or 0
+    std::uint64_t notFirst = 0; // inverted, least key of the greater ones on the axis
   };
 
-  /// Below, at or above the position of a middle sample: -1, 0 or 1.
+  /// -1, 0 or 1 if a sample is below, at or above the position of a middle sample.
   static int sideOf(const TSample& sample, const MiddleSample& middle, const Vector& place)
   {
     for (int i = 0; i < 3; ++i)
@@ -161,7 +158,7 @@ private:
     return sides;
   }
 
-  /// Those of all ranks.
+  /// Combined over all ranks.
   std::vector<Sides> sidesOf(
     const std::vector<DealtNode>& nodes, const std::vector<MiddleSample>& middles)
   {
@@ -173,8 +170,8 @@ private:
       sums.insert(sums.end(), { sides.less, sides.equalBelow, sides.greater });
       maxima.insert(maxima.end(), { sides.last, sides.notFirst });
     }
-    this->Group.sum(sums);
-    this->Group.maximum(maxima);
+    this->Processes.sum(sums);
+    this->Processes.maximum(maxima);
     std::vector<Sides> all(nodes.size());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
@@ -183,7 +180,7 @@ private:
     return all;
   }
 
-  /// Splits all nodes of the present level that are no leaves.
+  /// Splits all nodes of the current level that are not leaves.
   void splitLevel(const Execution& execution)
   {
     throwIfAborted(execution);
@@ -194,7 +191,7 @@ private:
     {
       return;
     }
-    MedianSearch<TSample> search(this->Group, this->Loaded.samples.data(), this->IdCount);
+    MedianSearch<TSample> search(this->Processes, this->Loaded.samples.data(), this->IdCount);
     const std::vector<MiddleSample> middles = search.find(nodes);
     const std::vector<Sides> sides = this->sidesOf(nodes, middles);
     std::vector<DealtNode> below;
@@ -223,7 +220,7 @@ private:
     double last = fromOrderedKey(sides.last);
     double first = place;
     std::uint64_t lowerCount = sides.less;
-    bool isLower = false; // whether what stands at the position of the middle goes there
+    bool isLower = false; // whether samples at the middle's position belong in the lower half
     if (sides.equalBelow > 0 && sides.greater > 0)
     {
       isLower = true;
@@ -261,7 +258,7 @@ private:
     below.push_back({ parent.upperNode(), upper, localMiddle, node.end, node.count - lowerCount });
   }
 
-  /// The ranges of values of all nodes.
+  /// The value ranges of all nodes.
   void computeRanges()
   {
     using Value = typename TSample::Value;
@@ -276,7 +273,7 @@ private:
         keys[2 * i + 1] = std::max(keys[2 * i + 1], ~key);
       }
     }
-    this->Group.maximum(keys);
+    this->Processes.maximum(keys);
     SampleTree<TSample>& tree = this->Result.tree;
     for (std::size_t i = 0; i < this->Level.size(); ++i)
     {
@@ -291,23 +288,23 @@ private:
     }
   }
 
-  /// The rank that gets a subtree: that in whose equal share of all samples its middle lies.
+  /// The owner of a subtree: the rank whose equal share of all samples contains its middle.
   std::size_t ownerOf(const DealtNode& node, std::uint64_t all) const
   {
     const auto begin = static_cast<double>(this->Result.tree.nodes[node.nodeIndex].begin);
     const double middle =
       (begin + 0.5 * static_cast<double>(node.count)) / static_cast<double>(all);
-    const auto ranks = static_cast<std::size_t>(this->Group.size());
+    const auto ranks = static_cast<std::size_t>(this->Processes.size());
     return std::min(ranks - 1, static_cast<std::size_t>(middle * static_cast<double>(ranks)));
   }
 
-  /// Sends each sample to the rank that gets its subtree.
+  /// Sends each sample to the owner of its subtree.
   void dealOut(std::uint64_t all)
   {
-    const auto ranks = static_cast<std::size_t>(this->Group.size());
-    const auto own = static_cast<std::size_t>(this->Group.rank());
+    const auto ranks = static_cast<std::size_t>(this->Processes.size());
+    const auto own = static_cast<std::size_t>(this->Processes.rank());
     SampleTree<TSample>& tree = this->Result.tree;
-    std::vector<std::vector<std::size_t>> partsOf(ranks); // of each rank, in Level
+    std::vector<std::vector<std::size_t>> partsOf(ranks); // by rank, in Level
     std::vector<std::vector<std::uint64_t>> counts(ranks);
     this->Result.begins.assign(ranks + 1, 0);
     for (std::size_t i = 0; i < this->Level.size(); ++i)
@@ -326,7 +323,7 @@ private:
     tree.ownBegin = this->Result.begins[own];
     tree.ownEnd = this->Result.begins[own + 1];
     tree.samples.spread(all, tree.ownBegin, tree.ownEnd - tree.ownBegin);
-    const std::vector<std::vector<std::uint64_t>> arriving = this->Group.exchange(counts);
+    const std::vector<std::vector<std::uint64_t>> arriving = this->Processes.exchange(counts);
     std::size_t rounds = 0;
     for (const std::vector<std::size_t>& parts : partsOf)
     {
@@ -361,12 +358,11 @@ private:
     std::size_t length(std::size_t size) const { return this->end(size) - this->begin(size); }
   };
 
-  /// Sends a slice of one subtree's samples to each rank that has this many, and gives up its
-  /// memory.
+  /// Sends a slice of each rank's subtree number `round`, if it has one, and frees its memory.
   void sendParts(const std::vector<std::vector<std::size_t>>& partsOf,
     const std::vector<std::vector<std::uint64_t>>& arriving, std::size_t round, const Slice& slice)
   {
-    const auto own = static_cast<std::size_t>(this->Group.rank());
+    const auto own = static_cast<std::size_t>(this->Processes.rank());
     SampleTree<TSample>& tree = this->Result.tree;
     std::vector<OutgoingBytes> from(partsOf.size());
     std::vector<IncomingBytes> to(partsOf.size());
@@ -391,7 +387,7 @@ private:
         next += count;
       }
     }
-    this->Group.exchange(from, to);
+    this->Processes.exchange(from, to);
     for (std::size_t rank = 0; rank < partsOf.size() && slice.count > 1; ++rank)
     {
       if (round < partsOf[rank].size())
@@ -404,7 +400,7 @@ private:
     }
   }
 
-  /// Coincident samples are in the order of their ids.
+  /// Sorts coincident samples by id.
   void sortLeaves(const std::vector<std::size_t>& parts)
   {
     SampleTree<TSample>& tree = this->Result.tree;
@@ -419,14 +415,12 @@ private:
     }
   }
 
-  Team& Group;
+  ProcessGroup& Processes;
   SampleTree<TSample> Loaded;
   std::uint64_t IdCount;
   SharedTree<TSample> Result;
-  std::vector<DealtNode> Level;   // the nodes of the present level, and leaves above it
+  std::vector<DealtNode> Level;   // nodes of the current level, and leaves above it
   std::vector<std::size_t> Split; // nodes, parents first
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SurfaceHalo_h
-#define isopoint_SurfaceHalo_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Extraction/IsopointNeighbors.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Neighbors/NeighborSearch.h"
@@ -12,7 +11,7 @@
 #include "Core/Ranks/SentIsopoint.h"
 #include "Core/Ranks/SharedRanks.h"
 #include "Core/Splat/Splat.h"
-#include "Core/Splat/SplatFans.h"
+#include "Core/Splat/SplatPolygons.h"
 
 #include <algorithm>
 #include <array>
@@ -28,19 +27,18 @@
 namespace isopoint
 {
 
-/// This rank's isopoints and those of others within some rings around them, in the order of the
-/// whole surface. Each ring adds those whose edges end in or next to an end of one of the ring
-/// before: one ring more than IsopointNeighbors are asked for has all that these find. gather(),
-/// forEach() and what begins with share are collective.
+/// WholeSurface for several ranks: this rank's isopoints and those of others within some rings
+/// around them, in the order of the whole surface. Each ring adds the isopoints of edges adjacent
+/// to the previous ring's; one ring more than IsopointNeighbors::Finder is asked for has all that
+/// it finds. Collective: gather(), forEach(), share() and shareCells().
 template <class TSample>
 class SurfaceHalo
 {
 public:
   using Neighborhoods = NeighborhoodCache<typename TSample::Id>;
 
-  /// @param own the isopoints on edges with an end in this rank's leaves, those of edges between
-  /// two ranks on both
-  /// @param hasFits whether surfaces have them, which an empty one does not show
+  /// @param own isopoints on edges with an end in this rank's leaves; on both ranks if between two
+  /// @param hasFits whether surfaces have fits; an empty one does not show this
   SurfaceHalo(const Execution& execution, SharedRanks<TSample>& ranks,
     const SampleTree<TSample>& tree, const Neighborhoods& known, Isosurface own, bool hasFits)
     : Run(execution)
@@ -52,14 +50,12 @@ public:
   {
   }
 
-  /// Gathers this many rings: none, or three or more.
-  /// @param isShared whether what is computed for this rank's isopoints will be sent to the ranks
-  /// in whose halo they are; otherwise those have normals alone there
+  /// @param rings 0, or at least 3
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   void gather(int rings, bool isShared)
   {
     this->indexOwn();
-    this->Received.resize(static_cast<std::size_t>(this->Ranks.team().size()));
+    this->Received.resize(static_cast<std::size_t>(this->Ranks.processes().size()));
     this->Given.resize(this->Received.size());
     std::vector<std::size_t> ends = endsOf(this->Own.leaves);
     for (int ring = 0; ring < rings; ++ring)
@@ -70,7 +66,7 @@ public:
         for (const SentIsopoint& isopoint : list)
         {
           ends.insert(ends.end(), { isopoint.leaves.first, isopoint.leaves.second });
-          if (ring == std::min(2, rings - 2)) // those of the rings before among them
+          if (ring == std::min(2, rings - 2)) // including those of previous rings
           {
             this->Surrounded.push_back(isopoint.edge);
           }
@@ -82,24 +78,19 @@ public:
     this->chooseOwn(isShared);
   }
 
-  /// All of them, each once, without coincident samples.
   const Isosurface& surface() const { return this->All; }
 
-  /// Their numbers among points at one position: as they are listed.
   std::vector<std::size_t> numbers() const { return {}; }
 
-  /// Whether each is one of this rank's or in the first ring, so that its own first ring is
-  /// complete.
+  /// This rank's isopoints and the first three rings; only two rings if there are three.
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
-  /// Those that are counted on this rank, and all others.
   std::vector<std::size_t> home() const { return markedOf(this->IsHome); }
   std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
 
-  /// The surface of home().
   Isosurface takeHome() const { return chosenIsopoints(this->Run, this->All, this->home()); }
 
-  // What computeSplats() needs; see AllPoints.
+  // See AllPoints.
 
   const std::vector<std::size_t>& own() const { return this->OwnInTreeOrder; }
   const std::vector<std::size_t>& shaped() const { return this->Shaped; }
@@ -119,7 +110,7 @@ public:
     this->Ranks.forEach(execution, batches, makeWorker, work, batchDone);
   }
 
-  void shareCells(RawArray<SplatCell>& cells)
+  void shareCells(RawArray<VoronoiCell>& cells)
   {
     std::vector<SentCell> sent(cells.size());
     for (const std::size_t i : this->OwnIndices)
@@ -128,7 +119,7 @@ public:
       for (std::size_t k = 0; k < cells[i].count; ++k)
       {
         const std::size_t beyond = cells[i].corners[k].beyond;
-        sent[i].beyond[k] = beyond == SplatCell::none ? IsopointEdge{} : this->All.edges[beyond];
+        sent[i].beyond[k] = beyond == VoronoiCell::none ? IsopointEdge{} : this->All.edges[beyond];
       }
     }
     this->share(sent);
@@ -139,15 +130,13 @@ public:
       {
         std::size_t& beyond = cells[i].corners[k].beyond;
         const std::size_t found =
-          beyond == SplatCell::none ? this->All.size() : this->find(sent[i].beyond[k]);
-        beyond = found < this->All.size() ? found : SplatCell::none;
+          beyond == VoronoiCell::none ? this->All.size() : this->find(sent[i].beyond[k]);
+        beyond = found < this->All.size() ? found : VoronoiCell::none;
       }
     }
   }
 
-  /// Sends what was computed for this rank's isopoints to the ranks in whose halo they are.
-  /// The ends of an edge between two ranks yield the same on both.
-  /// @param ofAll one entry for each isopoint of surface(); those of the halo are set
+  /// Isopoints of edges between two ranks have equal results on both.
   template <class T>
   void share(std::vector<T>& ofAll)
   {
@@ -159,7 +148,7 @@ public:
         outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
       }
     }
-    const std::vector<std::vector<T>> arrived = this->Ranks.team().exchange(outgoing);
+    const std::vector<std::vector<T>> arrived = this->Ranks.processes().exchange(outgoing);
     for (std::size_t rank = 0; rank < arrived.size(); ++rank)
     {
       for (std::size_t i = 0; i < arrived[rank].size(); ++i)
@@ -170,10 +159,10 @@ public:
   }
 
 private:
-  /// A cell as ranks send it to each other.
+  /// A cell as sent between ranks.
   struct SentCell
   {
-    SplatCell cell;
+    VoronoiCell cell;
     std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
   };
 
@@ -203,8 +192,7 @@ private:
     std::sort(this->OwnEnds.begin(), this->OwnEnds.end());
   }
 
-  /// The given leaves and all that touch them, except for leaves that touch too many others: around
-  /// those no isopoints are looked for.
+  /// The leaves and their neighbors, except for neighbors of leaves that have too many.
   std::vector<std::size_t> withTouching(const std::vector<std::size_t>& leaves)
   {
     using Id = typename TSample::Id;
@@ -225,8 +213,7 @@ private:
     return all;
   }
 
-  /// Fetches the isopoints whose edges end in those of the leaves that are other ranks', unless
-  /// that was done before.
+  /// Fetches the isopoints of leaves that other ranks own, unless fetched before.
   void requestIn(const std::vector<std::size_t>& leaves)
   {
     std::vector<std::vector<std::uint64_t>> questions(this->Received.size());
@@ -238,13 +225,15 @@ private:
         questions[this->Ranks.ownerOf(node.begin)].push_back(node.begin);
       }
     }
-    const std::vector<std::vector<std::uint64_t>> asked = this->Ranks.team().exchange(questions);
+    const std::vector<std::vector<std::uint64_t>> asked =
+      this->Ranks.processes().exchange(questions);
     std::vector<ByteBuffer> answers(asked.size());
     for (std::size_t rank = 0; rank < asked.size(); ++rank)
     {
       this->answer(asked[rank], rank, answers[rank]);
     }
-    const std::vector<SentIsopoint*> added = this->receive(this->Ranks.team().exchange(answers));
+    const std::vector<SentIsopoint*> added =
+      this->receive(this->Ranks.processes().exchange(answers));
     this->Ranks.forEach(
       Execution(), { added.size(), 1024, 256 }, []() { return 0; },
       [&](int, std::size_t i)
@@ -275,7 +264,7 @@ private:
     }
   }
 
-  /// @returns those that arrived, which stay where they are until the next call
+  /// @returns isopoints that arrived; valid until the next call
   std::vector<SentIsopoint*> receive(const std::vector<ByteBuffer>& arrived)
   {
     std::vector<SentIsopoint*> added;
@@ -295,7 +284,7 @@ private:
     return added;
   }
 
-  /// Brings own and received isopoints into one order.
+  /// Merges own and received isopoints in one order.
   void unite()
   {
     Isosurface both = this->Own;
@@ -336,8 +325,7 @@ private:
     }
   }
 
-  /// Notes where this rank's own isopoints are: which of them are counted here, and in which order
-  /// their cells are cut.
+  /// Finds this rank's isopoints among all: which belong to it, and in which order cells are cut.
   void chooseOwn(bool isShared)
   {
     this->IsHome.assign(this->All.size(), false);
@@ -348,7 +336,7 @@ private:
       isOwn[i] = true;
       this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
       this->IsElsewhere[i] = !this->IsHome[i];
-      // Either rank of an edge between two sends such a ghost.
+      // Both ranks of an edge between two send such a ghost.
       if (this->IsHome[i] || isShared)
       {
         this->Shaped.push_back(i);
@@ -363,7 +351,7 @@ private:
     }
   }
 
-  /// @returns the index of an isopoint of this edge, or size() of surface() if there is none
+  /// @returns the index of the edge's isopoint in surface(), or size() if there is none
   std::size_t find(const IsopointEdge& edge) const
   {
     const std::size_t index = this->indexOf(edge);
@@ -385,18 +373,16 @@ private:
   const bool HasFits;
   std::vector<OwnEnd> OwnEnds;
   std::unordered_set<std::size_t> Requested;       // leaves
-  std::vector<std::vector<SentIsopoint>> Received; // from each rank, in the order they came
-  std::vector<std::vector<std::size_t>> Given;     // to each rank, in the order they went
+  std::vector<std::vector<SentIsopoint>> Received; // from each rank, in order of arrival
+  std::vector<std::vector<std::size_t>> Given;     // to each rank, in order of sending
   std::vector<IsopointEdge> Surrounded; // received with the first three rings, or two of three
   Isosurface All;
-  std::vector<std::size_t> OwnIndices; // of this rank's own isopoints among all
+  std::vector<std::size_t> OwnIndices; // of this rank's isopoints among all
   std::vector<std::size_t> OwnInTreeOrder;
   std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
-  std::vector<bool> IsHome; // whether each is counted on this rank
+  std::vector<bool> IsHome; // whether each belongs to this rank
   std::vector<bool> IsElsewhere;
 };
 
 } // namespace isopoint
-
-#endif

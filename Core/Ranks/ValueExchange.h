@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ValueExchange_h
-#define isopoint_ValueExchange_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/Tree/BinaryIndex.h"
 #include "Core/Tree/Loading.h"
 #include "Core/Tree/Path.h"
@@ -17,8 +16,8 @@
 namespace isopoint
 {
 
-/// Gives all samples that a rank holds, its own and copies of others, new values: it asks the ranks
-/// that have read them, by id. Trees keep their shape. Collective.
+/// Sets new values of all samples that a rank holds, its own and copies: asks the ranks that have
+/// read them, by id. Trees keep their shape. Collective.
 template <class TSample>
 class ValueExchange
 {
@@ -26,10 +25,10 @@ public:
   using Value = typename TSample::Value;
 
   /// @param begins see SharedTree
-  /// @param counts of the items of each rank
-  ValueExchange(Team& team, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins,
-    const std::vector<std::uint64_t>& counts)
-    : Group(team)
+  /// @param counts number of items by rank
+  ValueExchange(ProcessGroup& processes, SampleTree<TSample>& tree,
+    const std::vector<std::uint64_t>& begins, const std::vector<std::uint64_t>& counts)
+    : Processes(processes)
     , Tree(tree)
     , Begins(begins)
     , FirstIds(counts.size() + 1, 0)
@@ -38,20 +37,20 @@ public:
   }
 
   /// @param read(id, position, value) of this rank's items, by local ids
-  /// @throws Aborted, std::bad_alloc, FailedElsewhere, and then some values are new
+  /// @throws Aborted, std::bad_alloc, FailedElsewhere, after which some values are new
   template <class Reader>
   void replace(const Execution& execution, const Reader& read)
   {
     throwIfAborted(execution);
     this->visit(SampleTree<TSample>::rootNode);
-    const std::vector<std::vector<Id>> asked = this->Group.exchange(this->questions());
+    const std::vector<std::vector<Id>> asked = this->Processes.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
     answers.reserve(asked.size());
     for (const std::vector<Id>& ids : asked)
     {
       answers.push_back(valuesOf(execution, ids, read));
     }
-    const std::vector<std::vector<Value>> values = this->Group.exchange(answers);
+    const std::vector<std::vector<Value>> values = this->Processes.exchange(answers);
     answers.clear();
     this->setValues(values);
     for (const std::size_t node : this->Whole)
@@ -72,7 +71,7 @@ private:
     Value maximum;
   };
 
-  /// Lists what is below a node: whole subtrees with samples, and absent nodes.
+  /// Lists the subtrees below a node whose samples this rank holds, and absent nodes.
   void visit(std::size_t nodeIndex)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
@@ -91,7 +90,7 @@ private:
     }
   }
 
-  /// Whether all samples of a node are this rank's own.
+  /// Whether this rank owns all samples of a node.
   bool isOwn(const Node<TSample>& node) const
   {
     return node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
@@ -151,7 +150,7 @@ private:
       [&](TSample& sample, std::size_t rank) { sample.value = values[rank][next[rank]++]; });
   }
 
-  /// Asks for the ranges of absent nodes.
+  /// Fetches the value ranges of absent nodes.
   void fetchRanges()
   {
     std::vector<std::vector<BinaryIndex>> questions(this->FirstIds.size() - 1);
@@ -162,7 +161,7 @@ private:
       questions[owner].push_back(pathToLeaf(this->Tree, node).index);
       nodes[owner].push_back(node);
     }
-    const std::vector<std::vector<BinaryIndex>> asked = this->Group.exchange(questions);
+    const std::vector<std::vector<BinaryIndex>> asked = this->Processes.exchange(questions);
     std::vector<std::vector<Range>> answers(asked.size());
     for (std::size_t rank = 0; rank < asked.size(); ++rank)
     {
@@ -172,7 +171,7 @@ private:
         answers[rank].push_back({ node.minimum, node.maximum });
       }
     }
-    const std::vector<std::vector<Range>> ranges = this->Group.exchange(answers);
+    const std::vector<std::vector<Range>> ranges = this->Processes.exchange(answers);
     for (std::size_t rank = 0; rank < ranges.size(); ++rank)
     {
       for (std::size_t i = 0; i < ranges[rank].size(); ++i)
@@ -184,7 +183,7 @@ private:
     }
   }
 
-  /// Recomputes the ranges of nodes above those that visit() has listed.
+  /// Recomputes the value ranges of nodes above those listed by visit().
   void uniteFrom(std::size_t nodeIndex)
   {
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
@@ -196,14 +195,12 @@ private:
     }
   }
 
-  Team& Group;
+  ProcessGroup& Processes;
   SampleTree<TSample>& Tree;
   const std::vector<std::uint64_t>& Begins;
   std::vector<std::uint64_t> FirstIds; // of each rank's items, and the end
-  std::vector<std::size_t> Whole;      // nodes all of whose samples this rank holds
+  std::vector<std::size_t> Whole;      // nodes with all their samples on this rank
   std::vector<std::size_t> Absent;     // nodes
 };
 
 } // namespace isopoint
-
-#endif

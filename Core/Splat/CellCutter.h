@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_CellCutter_h
-#define isopoint_CellCutter_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
@@ -8,8 +7,8 @@
 #include "Core/Splat/NearbyPoints.h"
 #include "Core/Splat/Splat.h"
 #include "Core/Splat/SplatBorder.h"
-#include "Core/Splat/SplatCell.h"
-#include "Core/Splat/TangentCell.h"
+#include "Core/Splat/TangentPolygon.h"
+#include "Core/Splat/VoronoiCell.h"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +19,15 @@
 namespace isopoint
 {
 
-/// Cuts out the cells of points whose normals are known, one at a time. For one thread.
+/// Cuts out the Voronoi cells of points with known normals, in their tangent planes. For one
+/// thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder and isAcrossGap()
 /// @tparam TExtents see cutAtBorder()
 template <class TNeighbors, class TExtents>
 class CellCutter
 {
 public:
-  /// @param normals of the tangent planes in which cells are cut
+  /// @param normals of the tangent planes
   /// @param states of all points
   CellCutter(const TNeighbors& neighbors, const SurfacePoints& points, const TExtents* extents,
     const std::vector<Vector>& normals, const std::vector<SplatState>& states)
@@ -40,8 +40,8 @@ public:
   {
   }
 
-  /// @param missed points that the cell is to be cut towards besides those around it
-  SplatCell cut(std::size_t point, const std::vector<std::size_t>& missed)
+  /// @param missed additional points that the cell is cut towards
+  VoronoiCell cut(std::size_t point, const std::vector<std::size_t>& missed)
   {
     this->Missed = missed;
     const double unit = unitAt(this->Points, point);
@@ -49,7 +49,7 @@ public:
     {
       return { {}, 0, unit, {} };
     }
-    TangentCell cell(this->Normals[point], (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
+    TangentPolygon cell(this->Normals[point], (this->isSmooth(point) ? 4.0 : 2.0) * openReach);
     this->cutOut(point, unit, cell);
     PlaneForm curvature;
     if (this->isSmooth(point))
@@ -59,73 +59,71 @@ public:
       cutWhereSurfaceTurns(curvature, cell);
     }
     cell.reduceTo(mostCorners);
-    SplatCell result{ {}, 0, unit, curvature };
-    for (const TangentCell::Corner& corner : cell)
+    VoronoiCell result{ {}, 0, unit, curvature };
+    for (const TangentPolygon::Corner& corner : cell)
     {
-      const bool isPoint = corner.side != TangentCell::limit && corner.side != TangentCell::plane;
+      const bool isPoint =
+        corner.side != TangentPolygon::limit && corner.side != TangentPolygon::plane;
       result.corners[result.count++] = { corner.x, corner.y,
-        isPoint ? corner.side : SplatCell::none };
+        isPoint ? corner.side : VoronoiCell::none };
     }
     return result;
   }
 
 private:
-  /// How far a cell may reach, in spacings, where no point bounds it; twice as far where points do
-  /// but no fit determines a smooth surface, and four times where one does, as between samples in
-  /// lines.
+  /// How far an open cell may extend, in spacings. A closed cell may extend twice as far, or four
+  /// times as far at a point with a smooth fit, as between samples in lines.
   static constexpr double openReach = 1.1;
 
-  /// How far a cell may reach that was cut at a border, in spacings.
+  /// How far a cell that was cut at a border may extend, in spacings.
   static constexpr double borderCellReach = 1.3;
 
-  /// Corners up to here, in spacings, are certain; those beyond are cut off here where samples
-  /// contradict them.
+  /// Corners farther than `certainReach`, in spacings, are cut off at `contradictedReach` if
+  /// samples contradict them.
   static constexpr double certainReach = 0.8;
   static constexpr double contradictedReach = 0.6;
   static constexpr double contradiction = 0.35;
 
-  /// How far on either side of the surface samples are asked whether it passes between them.
+  /// Samples are looked up at this distance on either side of the surface, to see if it passes.
   static constexpr double sideShare = 0.6;
 
-  /// A point is beyond the plane of a crease, or on it if its normal is the plane's, up to this
-  /// share of its distance.
+  /// Tolerance for a point beyond a crease plane, or on it, as a share of its distance.
   static constexpr double creaseTolerance = 0.1;
 
   bool isSmooth(std::size_t point) const { return isSmoothAt(this->Points, point); }
 
-  /// The spacing of the samples at a point, or 0 if there are no fits.
+  /// Or 0 without fits.
   double spacingAt(std::size_t point) const
   {
     return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;
   }
 
-  /// The creases that a point's fit knows.
   const std::vector<CreasePlane>& creasesAt(std::size_t point) const
   {
     static const std::vector<CreasePlane> none;
     return this->Points.fits.empty() ? none : this->Points.fits[point].creases;
   }
 
-  /// Cuts off what is farther than the surface's radius of curvature.
-  static void cutWhereSurfaceTurns(const PlaneForm& form, TangentCell& cell)
+  /// Cuts off everything beyond the surface's radius of curvature.
+  static void cutWhereSurfaceTurns(const PlaneForm& form, TangentPolygon& cell)
   {
     for (const PrincipalDirection& curvature : principalDirections(form))
     {
       const double radius = 1.0 / std::abs(curvature.value);
       if (radius * radius < cell.squaredReach())
       {
-        cell.cut(curvature.x, curvature.y, radius, TangentCell::plane);
-        cell.cut(-curvature.x, -curvature.y, radius, TangentCell::plane);
+        cell.cut(curvature.x, curvature.y, radius, TangentPolygon::plane);
+        cell.cut(-curvature.x, -curvature.y, radius, TangentPolygon::plane);
       }
     }
   }
 
-  /// Cuts the octagon down to the cell, in the unit of length.
-  void cutOut(std::size_t point, double unit, TangentCell& cell)
+  /// Cuts the octagon down to the cell. Lengths are in `unit`.
+  void cutOut(std::size_t point, double unit, TangentPolygon& cell)
   {
     for (const CreasePlane& crease : this->creasesAt(point))
     {
-      cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentCell::plane);
+      cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentPolygon::plane);
     }
     this->cutTowardsRings(point, 2, unit, cell);
     if (cell.squaredReach() > largeReach * largeReach)
@@ -152,22 +150,21 @@ private:
     }
   }
 
-  /// Cuts off corners that the samples there contradict: where the surface has turned away from the
-  /// tangent plane, or has ended.
-  void cutWhereSamplesDisagree(std::size_t point, TangentCell& cell) const
+  /// Cuts off corners where samples show that the surface bends away from the plane or ends.
+  void cutWhereSamplesDisagree(std::size_t point, TangentPolygon& cell) const
   {
     if (!this->Extents || this->Points.fits.empty() || !hasScale(this->Points.fits[point]) ||
         this->isBesideCrease())
     {
       return;
     }
-    constexpr int mostRounds = 3; // cuts make corners too
+    constexpr int mostRounds = 3; // cuts create new corners
     bool isAnyCut = true;
     for (int round = 0; round < mostRounds && isAnyCut; ++round)
     {
       std::vector<std::array<double, 2>> directions;
       bool isConfirmedBefore = this->isConfirmed(point, (cell.end() - 1)->side);
-      for (const TangentCell::Corner& corner : cell)
+      for (const TangentPolygon::Corner& corner : cell)
       {
         const bool isConfirmedHere = this->isConfirmed(point, corner.side);
         const double squaredReach = corner.x * corner.x + corner.y * corner.y;
@@ -181,21 +178,22 @@ private:
       }
       for (const auto& [x, y] : directions)
       {
-        cell.cut(x, y, contradictedReach, TangentCell::plane);
+        cell.cut(x, y, contradictedReach, TangentPolygon::plane);
       }
       isAnyCut = !directions.empty();
     }
   }
 
-  /// Whether the surface goes on smoothly to what is beyond a side: no samples need to be asked.
+  /// Whether the surface is smooth across a side, so that samples need not be checked there.
   bool isConfirmed(std::size_t point, std::size_t side) const
   {
     constexpr double leastCosine = 0.9;
-    return side != TangentCell::limit && side != TangentCell::plane && this->isSmooth(point) &&
-           this->isSmooth(side) && dot(this->Normals[point], this->Normals[side]) > leastCosine;
+    return side != TangentPolygon::limit && side != TangentPolygon::plane &&
+           this->isSmooth(point) && this->isSmooth(side) &&
+           dot(this->Normals[point], this->Normals[side]) > leastCosine;
   }
 
-  /// Whether a point nearby knows a crease: values beyond that are not those of this one's fit.
+  /// Whether a point nearby has a crease. This point's fit does not describe the values beyond.
   bool isBesideCrease() const
   {
     return std::any_of(this->Nearby.begin(), this->Nearby.end(),
@@ -208,10 +206,10 @@ private:
     return slope > 0.0 && std::isfinite(slope) && fit.spacing > 0.0 && std::isfinite(fit.spacing);
   }
 
-  /// Whether the value of the sample nearest to a corner is not what a point's fit says, by more
-  /// than the values change within a share of the spacing, or of its distance.
+  /// Whether the sample nearest to a corner contradicts the fit: its value differs by too much,
+  /// compared with the change over the spacing or over the sample's distance from the corner.
   bool isContradicted(
-    std::size_t point, const TangentFrame& frame, const TangentCell::Corner& corner) const
+    std::size_t point, const TangentFrame& frame, const TangentPolygon::Corner& corner) const
   {
     const LocalFit& fit = this->Points.fits[point];
     const Vector place =
@@ -236,10 +234,10 @@ private:
              place, scaled(sideShare * unit, this->Normals[point]), reach * fit.spacing);
   }
 
-  /// Whether the samples nearest to two places on either side of one on the surface are below the
-  /// isovalue and not below, as they should be: then the surface passes there, however values
-  /// change along the normal, as in the steps of an adaptive grid.
-  /// @param down to the place on the side where values decrease
+  /// Whether the samples nearest to two places, on either side of a place on the surface, lie on
+  /// the correct sides of the isovalue. Then the surface passes there even if values along the
+  /// normal change unevenly, as in the steps of an adaptive grid.
+  /// @param down offset to the side of lower values
   bool isBetweenSides(const Vector& place, const Vector& down, double reach) const
   {
     const auto isBelow = [&](const auto& sample)
@@ -253,11 +251,10 @@ private:
     return above && !isBelow(*above);
   }
 
-  /// Cuts a cell towards the points in rings around its own that are within twice its reach:
-  /// others cut nothing off.
-  void cutTowardsRings(std::size_t point, int rings, double unit, TangentCell& cell)
+  /// Cuts a cell towards the points in its rings, up to twice the cell's reach.
+  void cutTowardsRings(std::size_t point, int rings, double unit, TangentPolygon& cell)
   {
-    constexpr double usual = 1.5; // mostly no others are so near
+    constexpr double usual = 1.5; // farther points are rarely needed
     this->Nearby.find(point, rings, unit, this->Missed);
     this->Nearby.listWithin(std::min(usual * usual, 4.0 * cell.squaredReach()));
     this->cutTowardsNearby(point, unit, cell);
@@ -268,7 +265,7 @@ private:
     }
   }
 
-  void cutTowardsNearby(std::size_t point, double unit, TangentCell& cell)
+  void cutTowardsNearby(std::size_t point, double unit, TangentPolygon& cell)
   {
     for (const NearbyPoint& other : this->Nearby)
     {
@@ -280,8 +277,9 @@ private:
     }
   }
 
-  /// Cuts a cell towards another point: halfway, but not on this side of a crease.
-  void cutTowards(std::size_t point, const NearbyPoint& other, double unit, TangentCell& cell) const
+  /// Cuts a cell halfway to another point, unless that point lies across a crease.
+  void cutTowards(
+    std::size_t point, const NearbyPoint& other, double unit, TangentPolygon& cell) const
   {
     const Vector offset = scaled(
       1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
@@ -299,8 +297,8 @@ private:
     cell.cut(a, b, 0.5 * distance, other.point);
   }
 
-  /// Whether another point lies beyond one of a point's creases, or on the piece that meets its own
-  /// there: nothing is to be cut halfway to it.
+  /// Whether another point lies beyond one of this point's creases, or on the piece across one, so
+  /// that no halfway cut is made.
   bool isBeyondCrease(std::size_t point, std::size_t other, const Vector& offset, double unit) const
   {
     const std::vector<CreasePlane>& creases = this->creasesAt(point);
@@ -313,10 +311,11 @@ private:
       });
   }
 
-  /// Cuts the cell of a point at the plane of another, if it lies on a piece that meets that one's
-  /// at one of its creases. @returns whether it does
+  /// Cuts the cell at the other point's plane if the point is on the piece across the other's
+  /// crease.
+  /// @returns whether it did
   bool isCutAtCrease(std::size_t point, std::size_t other, const Vector& offset, double unit,
-    TangentCell& cell) const
+    TangentPolygon& cell) const
   {
     for (const CreasePlane& crease : this->creasesAt(other))
     {
@@ -326,25 +325,23 @@ private:
       if (this->isOnPiece(point, other, crease) && height > -tolerance &&
           crease.distance / unit - dot(crease.inward, offset) < tolerance)
       {
-        cell.cut(outward, std::max(0.0, height), TangentCell::plane);
+        cell.cut(outward, std::max(0.0, height), TangentPolygon::plane);
         return true;
       }
     }
     return false;
   }
 
-  /// Whether a point's normal is rather that of the plane across a crease than that of the point
-  /// whose crease this is.
+  /// Whether a point's normal matches the plane across a crease better than the crease owner's.
   bool isOnPiece(std::size_t point, std::size_t own, const CreasePlane& across) const
   {
     const Vector& normal = this->Normals[point];
     return std::abs(dot(normal, across.inward)) > std::abs(dot(normal, this->Normals[own]));
   }
 
-  /// Whether the surface bends from a point to another, as a sphere would, so that half the
-  /// distance in the tangent plane is the farthest that is nearer to the point: the plane between
-  /// the two meets the tangent plane farther off, and a splat up to there sticks out. Other sheets
-  /// close by are not what it bends to, nor what lies across an edge.
+  /// Whether the surface bends from one point to the other as a sphere does. The plane halfway then
+  /// meets the tangent plane too far off, so that the splat would stick out; the cut is made at
+  /// half the distance in the tangent plane. Not for points on other sheets or across an edge.
   bool bendsTowards(std::size_t point, std::size_t other, const Vector& offset) const
   {
     if (!this->Points.fits.empty() && !(this->isSmooth(point) && this->isSmooth(other)))
@@ -366,5 +363,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

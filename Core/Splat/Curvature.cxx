@@ -21,7 +21,6 @@ double valueAt(const PlaneForm& form, double x, double y)
   return form.xx * x * x + 2.0 * form.xy * x * y + form.yy * y * y;
 }
 
-/// The direction in which a form is largest.
 PrincipalDirection largestDirection(const PlaneForm& form)
 {
   const double half = 0.5 * (form.xx - form.yy);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Curvature_h
-#define isopoint_Curvature_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -9,7 +8,7 @@
 namespace isopoint
 {
 
-/// A symmetric form of the two coordinates of a tangent plane.
+/// A quadratic form on a tangent plane.
 struct PlaneForm
 {
   double xx = 0.0;
@@ -17,7 +16,7 @@ struct PlaneForm
   double yy = 0.0;
 };
 
-/// A direction in a tangent plane, of length 1, in which a form has an extreme value.
+/// A unit vector in a tangent plane along which a form has an extreme value.
 struct PrincipalDirection
 {
   double x;
@@ -25,16 +24,12 @@ struct PrincipalDirection
   double value; // of the form
 };
 
-/// How a surface bends along a tangent plane: one over its radius, in a direction of length 1. In a
-/// small distance (x, y) it is half the form's value above the plane.
-/// @param hessian, gradient of the field (see LocalFit)
-/// @param unit of length in the plane
+/// The normal curvature of a surface, 1 / radius, as a form on unit vectors of a tangent plane. At
+/// a small offset (x, y) the surface is half the form's value above the plane.
 PlaneForm curvatureOf(
   const TangentFrame& frame, const Hessian& hessian, const Vector& gradient, double unit);
 
-/// The two directions, orthogonal to each other, that of the least magnitude first.
+/// The two orthogonal principal directions, the one of smaller magnitude first.
 std::array<PrincipalDirection, 2> principalDirections(const PlaneForm& form);
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_HiddenPoints_h
-#define isopoint_HiddenPoints_h
+#pragma once
 
 #include "Core/Base/Hash.h"
 #include "Core/Base/Vector.h"
@@ -17,10 +16,9 @@
 namespace isopoint
 {
 
-/// Finds points that need no splat: each is at the position of a visible point, or very close to
-/// one on the same sheet. Where many samples have the isovalue itself, all
-/// edges that end in one of them yield nearly the same point, and what separates these is rounding.
-/// For one thread.
+/// Finds points that need no splat: those at the position of a visible point, or very close to one
+/// on the same sheet. If many samples have exactly the isovalue, all edges that end at such a
+/// sample yield nearly the same point, and they differ only by rounding. For one thread.
 /// @tparam TNeighbors see NearbyPoints
 template <class TNeighbors>
 class HiddenPoints
@@ -34,8 +32,8 @@ public:
   {
   }
 
-  /// The next state of an undecided point: hidden beside a visible one, visible if it precedes all
-  /// undecided ones beside it.
+  /// The next state of an undecided point: hidden if next to a visible point, visible if first
+  /// among the undecided points next to it.
   /// @param states of all points
   SplatState next(std::size_t point, const std::vector<SplatState>& states)
   {
@@ -67,8 +65,8 @@ private:
              dot(this->Normals[point], this->Normals[other]) > leastCosine);
   }
 
-  /// What decides which one of close points precedes: chance, so that a chain of them is decided
-  /// soon, but the same in any order of samples, and after scaling by a power of two.
+  /// A random order of close points, so that chains of them are decided in few rounds. It depends
+  /// neither on the order of the samples nor on scaling by a power of two.
   std::tuple<std::uint64_t, Vector, Vector, std::size_t> keyOf(std::size_t point) const
   {
     const Vector& position = this->Points.positions[point];
@@ -76,7 +74,7 @@ private:
     for (const double coordinate : position)
     {
       int exponent = 0;
-      // Of float, so that rounding of the coordinates hardly matters; zeros have one sign.
+      // In float, so that rounding of coordinates hardly matters; + 0.0f makes -0 equal to 0.
       const auto mantissa = static_cast<float>(std::frexp(coordinate, &exponent)) + 0.0f;
       std::uint32_t bits = 0;
       std::memcpy(&bits, &mantissa, sizeof(bits));
@@ -91,5 +89,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NearbyPoints_h
-#define isopoint_NearbyPoints_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Splat/Splat.h"
@@ -12,20 +11,19 @@
 namespace isopoint
 {
 
-/// A point near another one.
 struct NearbyPoint
 {
   double squaredDistance; // in a unit of length
   std::size_t point;
 };
 
-/// The points around each point, nearest first, without hidden ones. For one thread.
+/// The visible points around a point, nearest first. For one thread.
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 template <class TNeighbors>
 class NearbyPoints
 {
 public:
-  /// @param states of all points, or null where none is hidden
+  /// @param states of all points, or null if none is hidden
   NearbyPoints(const TNeighbors& neighbors, const SurfacePoints& points,
     const std::vector<SplatState>* states = nullptr)
     : Points(points)
@@ -34,10 +32,10 @@ public:
   {
   }
 
-  /// Goes to a point, and finds those around it. None is listed yet.
+  /// Finds the points around a point. The list is empty until listWithin().
   /// @param rings see IsopointNeighbors
-  /// @param unit of length; if one over it is not finite, no point will be listed
-  /// @param missed points that are around in any case
+  /// @param unit of length; no point is listed if its inverse is not finite
+  /// @param missed additional points
   void find(std::size_t point, int rings, double unit, const std::vector<std::size_t>& missed = {})
   {
     const Vector& position = this->Points.positions[point];
@@ -59,10 +57,10 @@ public:
     std::for_each(missed.begin(), missed.end(), add);
   }
 
-  /// Lists those at other positions within a limit, the square of a distance in the unit.
+  /// Lists the points at other positions within a squared distance, in squared units.
   void listWithin(double squaredLimit)
   {
-    // Which ones are within the limit is unpredictable: all are written, and those are kept.
+    // Branch-free: writes all points and advances only past those within the limit.
     this->Nearby.resize(this->All.size());
     std::size_t count = 0;
     for (const NearbyPoint& other : this->All)
@@ -88,10 +86,8 @@ private:
   const SurfacePoints& Points;
   const std::vector<SplatState>* States;
   typename TNeighbors::Finder Finder;
-  std::vector<NearbyPoint> All; // that were found, in any order
+  std::vector<NearbyPoint> All; // unsorted
   std::vector<NearbyPoint> Nearby;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatBorder_h
-#define isopoint_SplatBorder_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Neighbors/SampleExtent.h"
-#include "Core/Splat/TangentCell.h"
+#include "Core/Splat/TangentPolygon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +11,17 @@
 namespace isopoint
 {
 
-/// How far around itself a sample represents its surroundings, in spacings.
+/// The radius that a sample represents, in spacings.
 constexpr double sampleReach = 1.0;
 
-/// How far a splat may reach out of the samples, in spacings.
+/// How far a splat may extend beyond the samples, in spacings.
 constexpr double borderReach = 0.15;
 
-/// Cells that reach farther, in spacings, may be large because points beyond were not found, or
-/// because of a gap.
+/// Cells may extend farther, in spacings, only next to gaps or if neighbors were not found.
 constexpr double largeReach = 1.27;
 
-/// How far samples stand ahead of a place, in the sense of SampleExtents::at(), without those
-/// across a gap.
-/// @param isAcrossGap(sample, width) whether the void up to a sample, of this width, is a gap
+/// The extent of the samples from a place, as SampleExtents::at(), up to the first gap.
+/// @param isAcrossGap(sample, width) whether the void of this width before a sample is a gap
 template <class TExtents, class TIsAcrossGap>
 double extentUpToGaps(
   const TExtents& extents, const ExtentQuery& query, const TIsAcrossGap& isAcrossGap)
@@ -43,22 +40,19 @@ double extentUpToGaps(
   return isAcrossGap(*sample, dot(offset, query.direction) - before) ? before : extent;
 }
 
-/// Cuts off the parts of a point's cell that reach out of the samples: where the surface ends, a
-/// cell may be bounded only by points along its border, far outside. In each of extentDirections()
-/// it may reach `borderReach` farther than samples stand ahead of the point on this side of gaps;
-/// the cell is bounded there. A closed cell is complete where it reaches no farther than
-/// `sampleReach`.
+/// Limits a cell to the samples: at the end of a surface, only distant points along its border may
+/// bound a cell. In each of extentDirections(), the cell may extend `borderReach` beyond the
+/// samples on this side of gaps. A closed cell is not cut within `sampleReach`.
 /// @tparam TExtents SampleExtents, or another class with its at() and nearest()
-/// @param extents null for none: then there is no border
+/// @param extents null for no limit
 /// @param normal of the point's splat, of length 1
-/// @param spacing of the samples there, the unit of the cell; if it is not positive, no border is
-/// known
+/// @param spacing of the samples, the unit of the cell; no limit if not positive
 /// @param isAcrossGap see extentUpToGaps()
 template <class TExtents, class TIsAcrossGap>
 void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& normal, double spacing,
-  const TIsAcrossGap& isAcrossGap, TangentCell& cell)
+  const TIsAcrossGap& isAcrossGap, TangentPolygon& cell)
 {
-  constexpr double mostReach = 9.0; // of samples that count, in spacings
+  constexpr double mostReach = 9.0; // samples farther away do not count; in spacings
   const double complete = cell.isOpen() ? borderReach : sampleReach;
   if (!extents || !(spacing > 0.0) || !std::isfinite(mostReach * spacing) ||
       cell.squaredReach() <= complete * complete)
@@ -78,11 +72,9 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
       reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap) : extents->at(query);
     if (extent < query.enough)
     {
-      cell.cut(direction, extent / spacing + borderReach, TangentCell::plane);
+      cell.cut(direction, extent / spacing + borderReach, TangentPolygon::plane);
     }
   }
 }
 
 } // namespace isopoint
-
-#endif

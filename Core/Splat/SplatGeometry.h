@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatGeometry_h
-#define isopoint_SplatGeometry_h
+#pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
-#include "Core/Base/SortUnique.h"
 #include "Core/Splat/CellCutter.h"
 #include "Core/Splat/HiddenPoints.h"
-#include "Core/Splat/MutualSides.h"
+#include "Core/Splat/SharedSides.h"
 #include "Core/Splat/Splat.h"
-#include "Core/Splat/SplatFans.h"
 #include "Core/Splat/SplatNormals.h"
+#include "Core/Splat/SplatPolygons.h"
 #include "Core/Splat/UmbrellaNormals.h"
 
 #include <algorithm>
@@ -24,8 +23,8 @@
 namespace isopoint
 {
 
-/// The points of a surface whose splats are computed, where these are all. SurfaceHalo has the same
-/// functions where several ranks share the surface.
+/// The points whose splats are computed: all points of the surface. SurfaceHalo has the same
+/// interface for a surface shared by a process group.
 class AllPoints
 {
 public:
@@ -35,17 +34,17 @@ public:
     std::iota(this->Indices.begin(), this->Indices.end(), std::size_t{ 0 });
   }
 
-  /// Of the points whose cells are cut on this rank; close ones best after each other.
+  /// The points whose cells are cut on this rank; consecutive points should be close.
   const std::vector<std::size_t>& own() const { return this->Indices; }
 
-  /// Of the points whose shapes are made on this rank.
+  /// The points whose shapes are made on this rank.
   const std::vector<std::size_t>& shaped() const { return this->Indices; }
 
-  /// Drops what is not this rank's own from a list of points, which are ordered.
+  /// Removes the points of other ranks from an ascending list.
   void keepOwn(std::vector<std::size_t>& /*points*/) const {}
 
-  /// See forEachItem(). A point that misses samples of other ranks is begun anew once these have
-  /// been fetched: work must not leave anything behind where it throws MissingNode.
+  /// See forEachItem(). If samples of other ranks are missing, `work` throws MissingNode and is
+  /// repeated once they are fetched: it must leave no side effects when it throws.
   template <class MakeWorker, class Work>
   void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
     const Work& work, const BatchDone& batchDone) const
@@ -53,12 +52,12 @@ public:
     forEachItem(execution, batches, makeWorker, work, batchDone);
   }
 
-  /// Sets what was computed for points that are other ranks' own.
+  /// Fetches the entries of other ranks' points.
   template <class T>
   void share(std::vector<T>& /*ofAll*/) const
   {
   }
-  void shareCells(RawArray<SplatCell>& /*cells*/) const {}
+  void shareCells(RawArray<VoronoiCell>& /*cells*/) const {}
 
 private:
   std::vector<std::size_t> Indices;
@@ -100,7 +99,7 @@ private:
   static constexpr double cutEnd = 0.7;
   static constexpr double cellsEnd = 0.8;
 
-  /// See forEachItem(), for some of this rank's own points.
+  /// forEachItem() for some of this rank's points.
   template <class MakeWorker, class Work>
   void forPoints(const Execution& execution, const std::vector<std::size_t>& own,
     const MakeWorker& makeWorker, const Work& work)
@@ -137,7 +136,7 @@ private:
 
   void findHidden()
   {
-    // In every second round points become visible. Few are left, and are drawn too.
+    // Points become visible in every second round. The few undecided points left are drawn too.
     constexpr int rounds = 6;
     this->States.assign(this->Splats.size(), SplatState::Undecided);
     std::vector<std::size_t> undecided = this->Chosen.own();
@@ -174,7 +173,7 @@ private:
     this->cut(partOf(this->Run, cutEnd, cellsEnd), turned);
   }
 
-  /// Cuts the cells of some points, and shares all.
+  /// Cuts the cells of some points, and shares all cells.
   void cut(const Execution& execution, const std::vector<std::size_t>& own)
   {
     this->forPoints(
@@ -201,8 +200,8 @@ private:
     return others;
   }
 
-  /// Turns the planes of cells whose normals do not agree with the points around.
-  /// @returns the own points whose cells are to be cut anew: those, and the ones beside them
+  /// Turns the planes of cells whose normals disagree with the surrounding points.
+  /// @returns this rank's points whose cells must be cut again: those and their neighbors
   std::vector<std::size_t> turnPlanes()
   {
     const std::vector<std::size_t>& own = this->Chosen.own();
@@ -224,11 +223,11 @@ private:
     std::copy_if(own.begin(), own.end(), std::back_inserter(changed),
       [&](std::size_t point)
       {
-        const SplatCell& cell = this->Cells[point];
+        const VoronoiCell& cell = this->Cells[point];
         return areTurned[point] ||
                std::any_of(cell.begin(), cell.end(),
-                 [&](const SplatCell::Corner& corner)
-                 { return SplatCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
+                 [&](const VoronoiCell::Corner& corner)
+                 { return VoronoiCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
       });
     return changed;
   }
@@ -240,21 +239,20 @@ private:
   const SplatOptions& Options;
   TChosen& Chosen;
   std::vector<Splat> Splats;
-  // Of each point; other ranks' are set by share() and shareCells().
+  // One entry per point; share() and shareCells() fetch those of other ranks.
   std::vector<Vector> Planes; // normals of the planes in which cells are cut
   std::vector<SplatState> States;
-  RawArray<SplatCell> Cells;
+  RawArray<VoronoiCell> Cells;
   std::vector<MissedPoint> Missed;
 };
 
 /// Normals and shapes of splats for the points of one surface; see docs/algorithm.md, section 12.
-///
-/// @param points close ones best after each other
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
-/// @param extents of the samples, or null: then no border is known; see cutAtBorder()
+/// @param points consecutive ones should be close
+/// @param extents of the samples, or null for no border; see cutAtBorder()
 /// @param chosen AllPoints, or SurfaceHalo
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(n), and what the few requests of extents take.
+/// Complexity: O(n), plus a few queries of extents
 template <class TNeighbors, class TExtents, class TChosen>
 std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints& points,
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options,
@@ -266,5 +264,3 @@ std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints
 }
 
 } // namespace isopoint
-
-#endif

@@ -11,8 +11,7 @@ namespace isopoint
 namespace
 {
 
-/// The normal, not oriented, of the plane through points around the origin of a size near 1, if
-/// they determine one.
+/// The unoriented normal of the plane through points of size near 1 around the origin, if unique.
 std::optional<Vector> planeNormal(const std::vector<Eigen::Vector3d>& points)
 {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
@@ -27,7 +26,7 @@ std::optional<Vector> planeNormal(const std::vector<Eigen::Vector3d>& points)
     const Eigen::Vector3d offset = point - centroid;
     covariance += offset * offset.transpose();
   }
-  // Not by computeDirect(), whose sines and cosines differ among libraries and processors.
+  // Not computeDirect(): its sines and cosines differ between libraries and processors.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.compute(covariance);
   const Eigen::Vector3d& spreads = solver.eigenvalues(); // ascending
@@ -47,8 +46,7 @@ std::optional<Vector> fitPlane(
   {
     return std::nullopt;
   }
-  // Around the point and at a size near 1, so that the fit loses no digits to a far origin or a
-  // tiny scale.
+  // Centered and scaled, so that a far origin or a tiny scale costs no digits.
   const Vector& origin = positions[point];
   const double scale = 1.0 / lengthOf(difference(positions[around.back()], origin));
   std::vector<Eigen::Vector3d> points(1, Eigen::Vector3d::Zero());
@@ -60,9 +58,8 @@ std::optional<Vector> fitPlane(
   return planeNormal(points);
 }
 
-/// The mean direction of those edges around along which values decrease to the same side as along
-/// the point's own: a single edge may run nearly along the surface, and along the edges of a sheet
-/// close by values decrease to the other side.
+/// The mean direction of the edges around, of those that agree with the point's own edge. A single
+/// edge may be almost tangential; edges of a sheet close by point to the opposite side.
 Vector decreasingSide(
   const SurfacePoints& points, const Vector& own, const std::vector<std::size_t>& around)
 {
@@ -79,18 +76,6 @@ Vector decreasingSide(
 }
 
 } // namespace
-
-std::optional<Vector> fieldNormal(const SurfacePoints& points, std::size_t point)
-{
-  if (points.fits.empty() || !points.fits[point].isGradientFitted)
-  {
-    return std::nullopt;
-  }
-  const Vector& gradient = points.fits[point].gradient;
-  return std::isnormal(lengthOf(gradient)) // denormal gradients have lost their direction
-           ? std::optional(scaled(-1.0, directionOf(gradient)))
-           : std::nullopt;
-}
 
 Vector planeNormal(
   const SurfacePoints& points, std::size_t point, const std::vector<std::size_t>& around)

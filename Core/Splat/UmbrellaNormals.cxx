@@ -8,18 +8,17 @@ namespace isopoint
 namespace
 {
 
-/// The normal of the umbrella of triangles between a point and each two consecutive points that
-/// bound its cell, if these are all around it; larger triangles count more, by the root of their
-/// area.
+/// The normal of the umbrella, the triangles between a point and each two consecutive neighbors of
+/// its cell, weighted by the root of their areas. Nothing if a side has no neighbor.
 std::optional<Vector> umbrellaNormal(
-  const std::vector<Vector>& positions, std::size_t point, const SplatCell& cell)
+  const std::vector<Vector>& positions, std::size_t point, const VoronoiCell& cell)
 {
   Vector normal{};
   for (std::size_t i = 0; i < cell.count; ++i)
   {
     const std::size_t a = cell.corners[i].beyond;
     const std::size_t b = cell.corners[(i + 1) % cell.count].beyond;
-    if (!SplatCell::isPoint(a) || !SplatCell::isPoint(b))
+    if (!VoronoiCell::isPoint(a) || !VoronoiCell::isPoint(b))
     {
       return std::nullopt;
     }
@@ -36,9 +35,9 @@ std::optional<Vector> umbrellaNormal(
 } // namespace
 
 std::optional<Vector> turnedNormal(
-  const SurfacePoints& points, std::size_t point, const Vector& normal, const SplatCell& cell)
+  const SurfacePoints& points, std::size_t point, const Vector& normal, const VoronoiCell& cell)
 {
-  constexpr double leastCosine = 0.2; // others are of another sheet
+  constexpr double leastCosine = 0.2; // below that, of another sheet
   const double mostCosine = isSmoothAt(points, point) ? 0.95 : 0.99;
   const std::optional<Vector> umbrella = umbrellaNormal(points.positions, point, cell);
   const double cosine = umbrella ? dot(*umbrella, normal) : 1.0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/SplatMesh/MeetingVertices.h"
 
-#include "Core/Base/Collected.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,11 +31,11 @@ bool areOne(const SplatVertex& a, const SplatVertex& b)
   return true;
 }
 
-/// Whole numbers, which may be beyond those of integer types.
+/// Integers that may exceed the range of integer types.
 using Cell = std::array<double, 3>;
 
-/// The cell of a grid that a position, moved by an offset along all axes, is in.
-/// @param cells how many there are per unit of length
+/// The grid cell of a position that is moved by an offset along all axes.
+/// @param cells per unit of length
 Cell cellOf(const Vector& position, double offset, double cells)
 {
   Cell cell;
@@ -61,15 +60,14 @@ std::uint64_t hashOf(int grid, const Cell& cell)
   return hash;
 }
 
-/// Whether a vertex may be one with others.
+/// Whether other vertices may coincide with a vertex.
 bool mayMeet(const SplatVertex& vertex)
 {
   return vertex.tolerance > 0.0f && std::isfinite(vertex.tolerance);
 }
 
-/// The grid of a vertex, by the binary logarithm of its spacing: at least four times the vertex's
-/// tolerance, and still small against a splat. There are few grids, since their spacings differ by
-/// a factor of 16 or more.
+/// The grid of a vertex, as the binary logarithm of its spacing: at least four times the tolerance,
+/// but small compared with a splat. Spacings differ by factors of 16, so there are few grids.
 int gridOf(const SplatVertex& vertex)
 {
   constexpr int powers = 4;
@@ -83,7 +81,7 @@ struct Entry
   std::uint64_t cell; // a hash
   std::size_t vertex;
 
-  /// The vertices of the cell's own grid come first.
+  /// Vertices of the cell's own grid come first.
   bool operator<(const Entry& other) const
   {
     return this->cell != other.cell ? this->cell < other.cell : this->vertex < other.vertex;
@@ -94,19 +92,19 @@ struct Entry
   }
 };
 
-/// Entries of finer grids have odd hashes, one more than others in the same cell.
+/// Entries of finer grids have odd hashes: the cell's even hash plus one.
 bool isOfFinerGrid(const Entry& entry)
 {
   return (entry.cell & 1) != 0;
 }
 
-/// A number of the cell that an entry is in, whatever its own grid.
+/// The same for all entries in a cell.
 std::uint64_t cellNumber(const Entry& entry)
 {
   return entry.cell >> 1;
 }
 
-/// Calls visit(cell) for the cells of a grid that a vertex is in, up to its tolerance.
+/// Calls visit(cell) for all cells of a grid within a vertex's tolerance.
 template <class Visit>
 void forCells(const SplatVertex& vertex, int grid, const Visit& visit)
 {
@@ -126,8 +124,8 @@ void forCells(const SplatVertex& vertex, int grid, const Visit& visit)
   }
 }
 
-/// All vertices in all cells that they are in, of their own grids and of coarser ones, sorted by
-/// cell. Vertices that are one have a cell in common, in the own grid of at least one of them.
+/// An entry for each vertex and each cell that contains it, in its own grid and in coarser ones,
+/// sorted by cell. Coincident vertices share a cell of the own grid of at least one of them.
 std::vector<Entry> verticesByCell(
   const Execution& execution, const std::vector<SplatVertex>& vertices)
 {
@@ -174,7 +172,7 @@ std::vector<std::size_t> meetingVertices(
     return vertex;
   };
   const std::vector<Entry> entries = verticesByCell(execution, vertices);
-  std::size_t begin = 0; // of the vertices in a cell of their own grid
+  std::size_t begin = 0; // of the entries with this own grid in the current cell
   std::size_t end = 0;
   for (std::size_t i = 0; i < entries.size(); ++i)
   {
@@ -202,7 +200,7 @@ std::vector<std::size_t> meetingVertices(
   }
   for (std::size_t& vertex : meetsAt)
   {
-    vertex = meetsAt[vertex]; // of a lower number, which is done
+    vertex = meetsAt[vertex]; // has a lower number, so it is final
   }
   return meetsAt;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_MeetingVertices_h
-#define isopoint_MeetingVertices_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
@@ -12,23 +11,20 @@
 namespace isopoint
 {
 
-/// A vertex of a splat.
 struct SplatVertex
 {
   Vector position;
   std::array<float, 3> normal;
-  float tolerance; // how far others that are the same may be; 0: there are none
+  float tolerance; // how far coincident vertices may be apart; 0: there are none
 };
 
-/// Which vertices are one, directly or through others, up to rounding: along each axis they are no
-/// farther apart than both of their tolerances, and their normals differ by less than 0.06 degrees.
-/// A vertex that is one with several others, which are not one, may join some of them alone.
-/// O(n log n), unless tolerances are large against the distances between vertices that are not one.
-/// @returns for each vertex the first one of its group, perhaps itself
+/// Groups vertices that coincide up to rounding, directly or through others: along each axis they
+/// are no farther apart than both tolerances, and their normals differ by less than 0.06 degrees.
+/// If a vertex coincides with several vertices that do not coincide, it may join only some of them.
+/// O(n log n), unless tolerances are large compared with the distances between distinct vertices.
+/// @returns for each vertex the first vertex of its group, possibly itself
 /// @throws Aborted, std::bad_alloc
 std::vector<std::size_t> meetingVertices(
   const Execution& execution, const std::vector<SplatVertex>& vertices);
 
 } // namespace isopoint
-
-#endif

@@ -59,7 +59,7 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
     }
     if (next > 1 && offset == fan.positions[next - 1])
     {
-      continue; // fewer corners repeat the last one
+      continue; // unused corners repeat the last one
     }
     steepest = std::max({ steepest, rootOfSquares(corner[3], corner[4]), std::abs(corner[2]) });
     fan.positions[next] = offset;
@@ -71,8 +71,8 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   {
     return {};
   }
-  // Around the point of such a fan the surface is flat to a hundredth of the splat's size. Without
-  // a vertex there it looks the same, with a third fewer triangles.
+  // The surface around the point is flat to a hundredth of the splat's size. Without a center
+  // vertex it looks the same, with a third fewer triangles.
   constexpr double slightSlope = 0.03;
   const bool isFlat = scale * steepest < slightSlope;
   if (isFlat)
@@ -86,7 +86,7 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   {
     fan.positions[i] = sum(position, 1.0, fan.positions[i]);
   }
-  // Corners are sums of a few numbers of float.
+  // Corners are sums of a few float numbers.
   fan.tolerance = static_cast<float>(16.0 * std::numeric_limits<float>::epsilon() * radius);
   const double largest =
     std::max({ std::abs(position[0]), std::abs(position[1]), std::abs(position[2]) });

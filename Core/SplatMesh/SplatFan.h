@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatFan_h
-#define isopoint_SplatFan_h
+#pragma once
 
 #include "Core/Base/SplatNumbers.h"
 #include "Core/Base/Vector.h"
@@ -12,45 +11,42 @@
 namespace isopoint
 {
 
-/// The triangles of one splat.
+/// The triangles of one splat polygon.
 struct SplatFan
 {
   static constexpr std::size_t mostVertices = 1 + mostCorners;
 
-  std::size_t vertexCount = 0; // 0: nothing is drawn
+  std::size_t vertexCount = 0; // 0: not drawn
   std::size_t triangleCount = 0;
-  float tolerance = 0.0f; // how far corners that are shared with other splats may be apart; 0: none
+  float tolerance = 0.0f; // how far shared corners of splats may be apart; 0: none are shared
   std::array<Vector, mostVertices> positions;
   std::array<Vector, mostVertices> normals;                      // of length 1
-  std::array<std::array<std::size_t, 3>, mostCorners> triangles; // vertices of each
+  std::array<std::array<std::size_t, 3>, mostCorners> triangles; // indices of vertices
 };
 
-/// Makes triangles between the first vertex and each two consecutive others.
-/// @param isClosed whether the last other vertex and the first one are consecutive, too
+/// Makes triangles between the first vertex and each two consecutive other vertices.
+/// @param isClosed whether to add the triangle of the last and the first other vertex
 void makeTriangles(SplatFan& fan, bool isClosed);
 
-/// The normal at length 1; one without a length as it is.
+/// The normal scaled to length 1; unchanged if its length is 0.
 Vector unitNormal(const Vector& normal);
 
-/// The relative error of coordinates in float or double, with one rounding to spare.
+/// The relative error of float or double coordinates, with a margin of one rounding.
 constexpr double positionErrorOf(bool areFloat)
 {
   return 2.0 * (areFloat ? std::numeric_limits<float>::epsilon()
                          : std::numeric_limits<double>::epsilon());
 }
 
-/// The fan of a splat. Its vertices are the point and the corners, or, if the splat is nearly flat,
-/// the corners alone.
+/// The triangles of a splat. Nearly flat splats have no center vertex.
 /// @param position finite
-/// @param normal as unitNormal() returns it
+/// @param normal from unitNormal()
 /// @param axis see Splat
 /// @param numbers see numbersOf()
 /// @param scale factor on the size
 /// @param positionError see positionErrorOf()
-/// @returns a fan without vertices if the splat has no area or is not finite
+/// @returns no vertices if the splat has no area or is not finite
 SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   const SplatNumbers& numbers, double scale, double positionError);
 
 } // namespace isopoint
-
-#endif

@@ -10,8 +10,8 @@ namespace isopoint
 namespace
 {
 
-/// The vertices of one of a fan's triangles. Where two corners of a splat have passed each other,
-/// it would face away and be dark: it is turned over.
+/// The vertices of one of a fan's triangles. Flips a triangle that faces away because two corners
+/// have passed each other; it would be dark.
 std::array<std::size_t, 3> facingTriangle(const SplatFan& fan, std::size_t triangle)
 {
   std::array<std::size_t, 3> corners = fan.triangles[triangle];
@@ -25,7 +25,7 @@ std::array<std::size_t, 3> facingTriangle(const SplatFan& fan, std::size_t trian
   return corners;
 }
 
-/// Work on all points in batches, which report progress and may be stopped.
+/// Processes points in batches, with progress and aborts.
 template <class Work>
 void forPoints(const Execution& execution, std::size_t points, const Work& work)
 {

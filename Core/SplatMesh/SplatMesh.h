@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SplatMesh_h
-#define isopoint_SplatMesh_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/ItemLists.h"
+#include "Core/Base/Lists.h"
 #include "Core/SplatMesh/MeetingVertices.h"
 #include "Core/SplatMesh/SplatFan.h"
 
@@ -16,28 +15,27 @@
 namespace isopoint
 {
 
-/// The triangles of all splats, in the order of their points. Each splat has vertices of its own.
+/// The triangles of all splats, in the order of their points. Splats do not share vertices.
 struct SplatMesh
 {
   std::vector<SplatVertex> vertices;
   std::vector<std::size_t> pointOfVertex;
   std::vector<std::array<std::size_t, 3>> triangles; // counterclockwise around their normals
   std::vector<std::size_t> meetsAt;                  // see meetingVertices()
-  ItemLists meeting;                                 // the vertices of which each one is the first
+  ItemLists meeting; // the vertices of each group, at its first vertex
 
   std::size_t pointOfTriangle(std::size_t triangle) const
   {
     return this->pointOfVertex[this->triangles[triangle][0]];
   }
 
-  /// The first point whose splat has a vertex at the place of this one.
+  /// The first point whose splat has a vertex that coincides with this one.
   std::size_t firstPointAt(std::size_t vertex) const
   {
     return this->pointOfVertex[this->meetsAt[vertex]];
   }
 
-  /// The mean of the numbers of all points whose splats have a vertex at the place of this one, as
-  /// exact as double.
+  /// The mean of numbers over the points whose splats meet at a vertex, to double precision.
   /// @param numberOf(point)
   template <class NumberOf>
   double meanAt(std::size_t vertex, const NumberOf& numberOf) const
@@ -56,16 +54,16 @@ struct SplatMesh
   }
 };
 
-/// @param fanAt(point) from any thread, twice for each point
+/// @param fanAt(point) called from any thread, twice per point
 /// @throws Aborted, std::bad_alloc, and what fanAt throws
 /// Complexity: that of meetingVertices()
 SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
   const std::function<SplatFan(std::size_t point)>& fanAt);
 
-/// Values of points at the vertices, so that colors are interpolated as on a mesh; see meanAt().
+/// Averages values of points at the vertices, so that colors interpolate as on a mesh: meanAt().
 /// @param components of each value
-/// @param numberOf(point, component) from any thread
-/// @param means components of each vertex; written
+/// @param numberOf(point, component) called from any thread
+/// @param means output: components of each vertex
 template <class T, class NumberOf>
 void meansAtVertices(const Execution& execution, const SplatMesh& mesh, std::size_t components,
   const NumberOf& numberOf, T* means)
@@ -83,5 +81,3 @@ void meansAtVertices(const Execution& execution, const SplatMesh& mesh, std::siz
 }
 
 } // namespace isopoint
-
-#endif

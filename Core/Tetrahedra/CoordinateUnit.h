@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_CoordinateUnit_h
-#define isopoint_CoordinateUnit_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -12,19 +11,18 @@
 namespace isopoint
 {
 
-/// The largest power of two that all coordinates of some positions are multiples of, unless it is
-/// too small to be of use. Differences of such coordinates are integers of few bits, as in
-/// lattices and grids of cells: polynomials of these are exact in double.
+/// The largest power of two that divides all coordinates of some positions, unless it is too small
+/// to be useful. Differences of such coordinates are integers with few bits, as in lattices and
+/// grids of cells, and polynomials in them are exact in double.
 class CoordinateUnit
 {
 public:
-  /// @param least units below that are of no use, nor are those below 2^-100; NaN: these alone
+  /// @param least smaller units are useless, and so are units below 2^-100; NaN: only the latter
   explicit CoordinateUnit(double least = 0.0)
     : Least(std::max(smallest, least)) // in this order, which ignores a NaN
   {
   }
 
-  /// O(1)
   void add(const Vector& position)
   {
     for (const double coordinate : position)
@@ -39,7 +37,7 @@ public:
 
   void add(const CoordinateUnit& other) { this->Unit = std::min(this->Unit, other.Unit); }
 
-  /// The unit, or 0 if it is of no use. Without positions other than 0 it is the largest of use.
+  /// The unit, or 0 if it is useless. The largest useful unit if all coordinates are 0.
   double value() const { return this->Unit; }
 
 private:
@@ -55,7 +53,7 @@ private:
                                   static_cast<double>(static_cast<std::int64_t>(units)) == units);
   }
 
-  /// Of a number other than 0; 0 of one that is not finite.
+  /// The value of the lowest set bit; 0 if the number is not finite. The number must not be 0.
   static double lowestBitOf(double number)
   {
     if (!std::isfinite(number))
@@ -74,5 +72,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_CrossingTetrahedra_h
-#define isopoint_CrossingTetrahedra_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Neighbors/NeighborSearch.h"
-#include "Core/Tetrahedra/Band.h"
+#include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Tetrahedra/SideCheck.h"
 #include "Core/Tetrahedra/SphereSearch.h"
 #include "Core/Tree/CoincidentSamples.h"
@@ -25,20 +24,18 @@
 namespace isopoint
 {
 
-/// What finding the crossing tetrahedra took.
 struct TetrahedraCounts
 {
   std::size_t band = 0; // samples near the surface
-  std::size_t size = 0; // samples that were tetrahedrized in the end
+  std::size_t size = 0; // samples tetrahedralized in the end
   std::size_t rounds = 0;
-  bool isWhole = false; // whether all samples were tetrahedrized in the end
+  bool isWhole = false; // whether these are all samples
 };
 
-/// Finds the crossing tetrahedra of the Delaunay tetrahedrization of all samples of a tree, without
-/// that tetrahedrization: docs/triangles.md, which proves that they are these.
-///
-/// Where several ranks share the tree, all functions are collective. Every rank tetrahedrizes the
-/// band of all, searches spheres for samples of its own, and finds all crossing tetrahedra.
+/// Finds the crossing tetrahedra of the Delaunay tetrahedralization of all samples, without
+/// building it. See docs/triangles.md for the proof.
+/// With a process group, all functions are collective: every rank tetrahedralizes the whole band,
+/// searches spheres for its own samples only, and finds all crossing tetrahedra.
 /// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
 class CrossingTetrahedraFinder
@@ -46,12 +43,12 @@ class CrossingTetrahedraFinder
 public:
   using Id = typename TSample::Id;
 
-  /// @param tree refined around the isovalue (see NarrowBand); will be refined further
+  /// @param tree refined around the isovalue (see NarrowBand); is refined further
   /// @param values of the tree's leaves
-  /// @param kept the band of an earlier search in this tree, or null; becomes that of this one, or
-  /// null if that is large or the search fails
+  /// @param kept the band of an earlier search in this tree, or null; replaced by the new band, or
+  /// by null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    SharedLeafMeans<TSample>& values, double isovalue, std::unique_ptr<Band>& kept)
+    SharedLeafMeans<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
@@ -61,8 +58,7 @@ public:
   {
   }
 
-  /// @param nodes below which all of this rank's leaves are that touch a leaf on the other side of
-  /// the isovalue
+  /// @param nodes that contain all of this rank's leaves that touch a leaf on the other side
   /// @returns tetrahedra of leaves of this rank's tree
   /// @throws std::bad_alloc, Aborted, FailedElsewhere, or std::length_error (see NarrowBand)
   std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
@@ -70,7 +66,7 @@ public:
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
     this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
     this->gather(leaves);
-    if (leaves.empty()) // of all ranks: what is kept may serve the next isovalue
+    if (leaves.empty()) // on all ranks; the kept band may serve the next isovalue
     {
       return {};
     }
@@ -108,8 +104,8 @@ public:
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
-  /// The unit of the coordinates of this rank's samples, unless it is so small that few of those
-  /// around a tetrahedron are within the units for which doubles are exact. @throws Aborted
+  /// The unit of this rank's coordinates, unless too small for doubles to be exact.
+  /// @throws Aborted
   static CoordinateUnit unitOfSamples(const Execution& execution, const SampleTree<TSample>& tree)
   {
     double volume = 1.0;
@@ -117,7 +113,7 @@ private:
     {
       volume *= tree.region.upper[axis] - tree.region.lower[axis];
     }
-    // No result depends on its last bits, nor on the unit: predicates are exact with any.
+    // The unit affects only speed: predicates are exact with any.
     constexpr double leastShare = 1.0 / 128.0; // of the mean spacing
     const CoordinateUnit none(
       leastShare * std::cbrt(volume / static_cast<double>(tree.samples.size())));
@@ -156,7 +152,7 @@ private:
     return result;
   }
 
-  /// What one thread needs to look for leaves at the surface.
+  /// Reusable memory of one thread.
   struct LeafSearch
   {
     LeafValueCache<TSample> values;
@@ -164,7 +160,7 @@ private:
     std::vector<std::size_t> found;
   };
 
-  /// This rank's leaves that touch one on the other side.
+  /// This rank's leaves that touch a leaf on the other side of the isovalue.
   std::vector<std::size_t> leavesAtSurface(const std::vector<BinaryIndex>& nodes)
   {
     std::vector<std::size_t> leaves;
@@ -204,10 +200,9 @@ private:
     return touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow);
   }
 
-  BandTriangulation& triangulation() { return this->Current->triangulation; }
+  PartialTriangulation& triangulation() { return this->Current->triangulation; }
 
-  /// Adds those of all other ranks to leaves of this one, and brings them into an order that is the
-  /// same for any number of threads and on all ranks.
+  /// Adds the leaves of all other ranks, in an order that depends on neither threads nor ranks.
   /// @param leaves in any order, with repetitions
   void gather(std::vector<std::size_t>& leaves)
   {
@@ -218,8 +213,8 @@ private:
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   }
 
-  /// Goes on with the band that was kept, if it holds most of the leaves and not many others, or
-  /// begins a new one. Nothing is kept while it changes: it may fail.
+  /// Continues with the kept band if it contains at least half of the leaves and not many others;
+  /// otherwise begins a new one. `Kept` is null meanwhile, because updates may fail.
   /// @param leaves gathered
   void begin(const std::vector<std::size_t>& leaves)
   {
@@ -228,7 +223,7 @@ private:
     if (isNew || !this->isOfUse(leaves))
     {
       this->Current.reset();
-      this->Current = std::make_unique<Band>(unitOfSamples(this->Run, this->Tree));
+      this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
       return;
     }
     LeafValueCache<TSample> values(this->Tree, this->Means);
@@ -245,7 +240,6 @@ private:
     return 2 * known >= leaves.size() && this->triangulation().size() <= mostTimes * leaves.size();
   }
 
-  /// Adds leaves to the band.
   /// @param leaves gathered
   void insert(const std::vector<std::size_t>& leaves)
   {
@@ -265,7 +259,7 @@ private:
     this->insert(leaves);
   }
 
-  /// Marks leaves as those of the band. @returns those that were not
+  /// Marks leaves as members of the band. @returns the new ones
   std::vector<BandSite> newSites(const std::vector<std::size_t>& leaves)
   {
     LeafValueCache<TSample> values(this->Tree, this->Means);
@@ -283,14 +277,12 @@ private:
     return sites;
   }
 
-  /// Splits nodes of this rank.
   void split(const std::vector<std::size_t>& nodes)
   {
     splitFurther(this->Run, this->Tree, nodes);
     this->Current->marks.grow(this->Tree.nodes.size());
   }
 
-  /// Inserts all samples.
   void insertAll()
   {
     splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
@@ -308,7 +300,7 @@ private:
     this->Current->isWhole = true;
   }
 
-  /// Inserts samples until the band's are not coplanar, unless all are.
+  /// Inserts samples until the band is not coplanar, unless all samples are.
   void spanSpace()
   {
     while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
@@ -331,7 +323,7 @@ private:
     }
   }
 
-  /// A node of this rank without children with a sample that would raise the dimension of the band.
+  /// A node of this rank, without children, with a sample that would raise the band's dimension.
   std::optional<std::size_t> nodeOffBand()
   {
     std::optional<std::size_t> found;
@@ -352,16 +344,15 @@ private:
     return found;
   }
 
-  /// What searches in spheres yield.
   struct SearchResult
   {
-    std::vector<std::size_t> leaves;  // that lie inside
-    std::vector<std::size_t> unsplit; // nodes that have to be split for searches to be complete
+    std::vector<std::size_t> leaves;  // with samples inside a sphere
+    std::vector<std::size_t> unsplit; // nodes to be split before a search is complete
   };
 
-  /// Looks for samples inside the spheres of crossing cells, certifies cells without any, and
-  /// inserts those found. A cell that holds one of another rank does not outlive that.
-  /// @returns whether cells remain to be certified
+  /// Searches the spheres of crossing cells. Certifies empty ones, and inserts the samples found in
+  /// the others. A cell whose sphere contains a sample of another rank does not survive.
+  /// @returns whether any cells remain uncertified
   bool certify()
   {
     throwIfAborted(this->Run);
@@ -410,7 +401,7 @@ private:
     return all;
   }
 
-  /// Inserts samples whose value is on the other side than the band's surface has it.
+  /// Inserts samples whose value is on the other side of the isovalue than the band indicates.
   /// @returns whether there were any
   bool checkSides()
   {
@@ -428,8 +419,8 @@ private:
     return this->Ranks.isAny(isAnyWrong);
   }
 
-  /// The execution of an insertion or a search. How many follow is not known: each takes half of
-  /// the progress that is left.
+  /// The execution of an insertion or a search. As their number is unknown, each takes half of the
+  /// remaining progress.
   Execution nextStep()
   {
     const double begin = this->StepEnd;
@@ -437,19 +428,19 @@ private:
     return partOf(this->Run, begin, this->StepEnd);
   }
 
-  /// Whether so many samples are near the surface that it is better to insert all.
+  /// Whether it is faster to insert all samples, because so many are near the surface.
   bool areMany(std::size_t leafCount) const
   {
     constexpr double manyShare = 1.0 / 3.0;
-    constexpr std::size_t smallCloud = 1000; // whose samples are mostly near the surface
+    constexpr std::size_t smallCloud = 1000; // most of its samples are near the surface
     const std::size_t count = this->Tree.samples.size();
     return count > smallCloud &&
            static_cast<double>(leafCount) > manyShare * static_cast<double>(count);
   }
 
-  /// Whether searches took so long that it is better to insert all samples. Long searches, as in
-  /// huge spheres through voids, promise more of their kind: they get less. On several ranks each
-  /// would insert the samples of all.
+  /// Whether searches took so long that inserting all samples is faster. Long searches, as in huge
+  /// spheres through voids, tend to be followed by more of them and get a smaller budget. On
+  /// several ranks, each would insert all samples.
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;
@@ -465,15 +456,13 @@ private:
   TRanks& Ranks;
   SharedLeafMeans<TSample>& Means;
   const double Isovalue;
-  std::unique_ptr<Band>& Kept;
-  std::unique_ptr<Band> Current;
-  std::atomic<std::size_t> Visits{ 0 }; // of nodes, and of cells in lists, or as long as these
+  std::unique_ptr<KeptTetrahedra>& Kept;
+  std::unique_ptr<KeptTetrahedra> Current;
+  std::atomic<std::size_t> Visits{ 0 }; // nodes and list entries visited, or equal work
   std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;
-  static constexpr double searchEnd = 0.1; // for leaves at the surface; share of the progress
+  static constexpr double searchEnd = 0.1; // share of the progress
   double StepEnd = searchEnd;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SideCheck_h
-#define isopoint_SideCheck_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Base/Lists.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tetrahedra/SphereSearch.h"
 #include "Core/Tree/CoincidentSamples.h"
 #include "Core/Tree/NodeMarks.h"
@@ -16,18 +15,17 @@
 namespace isopoint
 {
 
-/// Finds samples whose value is on the other side of the isovalue than the surface of a band, all
-/// of whose crossing cells are certified, has it at their position. There are such if a piece of
-/// the surface lies where the band has no samples.
-///
-/// Regions of the tree that no sphere of a crossing tetrahedron reached do not meet the surface:
-/// one sample stands for all in them. Where ranks share the tree, each checks its own samples.
+/// Finds samples whose value is on the other side of the isovalue than the band's surface indicates
+/// at their position, after all crossing cells are certified. They show pieces of the surface where
+/// the band has no samples.
+/// Tree regions that no sphere of a crossing tetrahedron reached do not meet the surface: one
+/// sample represents all in them. In a process group, each rank checks its own samples.
 template <class TSample>
 class SideCheck
 {
 public:
   SideCheck(const Execution& execution, const SampleTree<TSample>& tree,
-    const BandTriangulation& band, const NodeMarks& marks, SharedLeafMeans<TSample>& means)
+    const PartialTriangulation& band, const NodeMarks& marks, SharedLeafMeans<TSample>& means)
     : Run(execution)
     , Tree(tree)
     , Band(band)
@@ -36,11 +34,9 @@ public:
   {
   }
 
-  /// @returns leaves that are to be inserted, and other nodes that are to be split, with
-  /// repetitions
+  /// @returns leaves to insert and other nodes to split, with repetitions
   /// @throws std::bad_alloc, Aborted
-  /// Complexity: O(nodes), and a location for each leaf that spheres reached and for each of the
-  /// largest nodes that none did
+  /// Complexity: O(nodes), plus one location per reached leaf and per maximal unreached node
   std::vector<std::size_t> find(double isovalue)
   {
     this->Isovalue = isovalue;
@@ -70,19 +66,17 @@ public:
   }
 
 private:
-  /// What is known of a node.
   struct Summary
   {
     bool isClear; // no sphere reached it, and all its samples are on one side
-    bool isKnown; // one of them is in the band
-    bool isBelow; // that side
+    bool isKnown; // one of its samples is in the band
+    bool isBelow; // the side, if clear
   };
 
-  /// A sample to be located.
   struct Place
   {
     std::size_t sample;
-    std::size_t node; // without children, that holds it or a part of those it stands for
+    std::size_t node; // without children; contains the sample or part of those it represents
     bool isBelow;
   };
 
@@ -110,7 +104,7 @@ private:
     return { false, false, false };
   }
 
-  /// A node without children.
+  /// The same for a node without children.
   Summary collectEnd(std::size_t nodeIndex, bool isReached)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
@@ -137,7 +131,7 @@ private:
     return { false, false, false };
   }
 
-  /// Adds a sample for all of a clear node.
+  /// Adds one sample to represent a clear node, unless the band contains one.
   void addUnlessKnown(const Summary& summary, std::size_t nodeIndex)
   {
     if (summary.isClear && !summary.isKnown)
@@ -153,7 +147,7 @@ private:
 
   const Execution& Run;
   const SampleTree<TSample>& Tree;
-  const BandTriangulation& Band;
+  const PartialTriangulation& Band;
   const NodeMarks& Marks;
   LeafValueCache<TSample> Values;
   double Isovalue = 0.0;
@@ -162,5 +156,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -11,15 +11,14 @@ namespace isopoint
 namespace
 {
 
-/// A bound on the relative error of the polynomials below, of no more than forty roundings each,
-/// with respect to the sum of the magnitudes of their terms; and the evaluation of F.
+/// Bounds the error of the polynomials below, including the evaluation of F, relative to the sum of
+/// the magnitudes of their terms. Each has at most 40 roundings.
 constexpr double relativeError = 64.0 * 0.5 * std::numeric_limits<double>::epsilon();
 
-/// Up to this share of d its error does no harm.
+/// An error of d up to this share of d is harmless.
 constexpr double toleratedShare = 1.0 / 16.0;
 
-/// Two numbers that are computed together: a polynomial, and the sum of the magnitudes of its
-/// terms.
+/// A polynomial, and the sum of the magnitudes of its terms.
 struct Bounded
 {
   double value;
@@ -69,7 +68,7 @@ struct Ball
   Triple<T> n;
 };
 
-/// @param a3 another corner or, with `isCorner` false, a direction in which the center is not off
+/// @param a3 another corner or, unless `isCorner`, a direction orthogonal to the center
 template <class T>
 Ball<T> ballOf(const Triple<T>& a1, const Triple<T>& a2, const Triple<T>& a3, bool isCorner)
 {
@@ -91,8 +90,7 @@ Ball<T> ballOf(const Triple<T>& a1, const Triple<T>& a2, const Triple<T>& a3, bo
   return ball;
 }
 
-/// A power of two that brings the largest difference from the first corner near 1, as far as double
-/// permits.
+/// A power of two that scales the largest difference from the first corner to about 1, if possible.
 template <std::size_t Count>
 double scaleOf(const std::array<Vector, Count>& corners)
 {
@@ -101,7 +99,7 @@ double scaleOf(const std::array<Vector, Count>& corners)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      // Halves, lest the difference overflows.
+      // Halves, to avoid overflow of the difference.
       largest = std::max(largest, std::abs(0.5 * corner[axis] - 0.5 * corners[0][axis]));
     }
   }
@@ -145,7 +143,7 @@ SphereFunction functionOf(const Vector& origin, double scale, const Ball<Bounded
   return { origin, scale, ball.d.value, relativeError * ball.d.magnitude, n, nError };
 }
 
-/// The same of numbers that were rounded once.
+/// The same from numbers that were rounded once.
 SphereFunction functionOf(const Vector& origin, double scale, const Ball<Exact>& ball)
 {
   return functionOf(origin, scale,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SphereFunction_h
-#define isopoint_SphereFunction_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -11,7 +10,7 @@
 namespace isopoint
 {
 
-/// Where a position stands, as far as double precision shows.
+/// The side of a sphere that a position is on, as far as double precision can tell.
 enum class Side
 {
   Inside,
@@ -19,19 +18,18 @@ enum class Side
   Outside
 };
 
-/// A ball or half-space as the places x with F(x) < 0, where
+/// A ball or half-space: the places x with F(x) < 0, where
 ///
 ///     F(x) = d |y|^2 - 2 n . y,    y = scale * (x - origin),    d >= 0,
 ///
-/// and the origin lies on its boundary. (A ball has the center y = n / d; a half-space has d = 0.)
-/// This form loses nothing as balls become huge, and it is a sum over the axes: its least value
-/// over a box is the sum of three. Bounds on the errors of d and n are known, so that all answers
-/// are certain.
+/// with the origin on its boundary. A ball has its center at y = n / d; a half-space has d = 0.
+/// This form stays accurate for huge balls. It is a sum over the axes, so the minimum over a box is
+/// the sum of three minima. Error bounds on d and n make all answers certain.
 class SphereFunction
 {
 public:
   /// @param scale a power of two that brings differences of coordinates near 1
-  /// @param dError, nError bounds on the errors of d and n. They also have to cover the rounding in
+  /// @param dError, nError bounds on the errors of d and n. They must also cover the rounding in
   /// the evaluation of F, 16 units in the last place of d and of each n
   SphereFunction(const Vector& origin, double scale, double d, double dError, const Vector& n,
     const Vector& nError)
@@ -50,7 +48,7 @@ public:
     }
   }
 
-  /// A lower bound on an axis' share of F between two coordinates.
+  /// A lower bound of an axis' term of F between two coordinates.
   double least(int axis, double lower, double upper) const
   {
     const auto a = static_cast<std::size_t>(axis);
@@ -70,14 +68,14 @@ public:
     return result;
   }
 
-  /// Whether the part of a box above a coordinate is nearer to the center than that below.
+  /// Whether the upper part of a box, split at a coordinate, is nearer to the center.
   bool isAbove(int axis, double coordinate) const
   {
     const auto a = static_cast<std::size_t>(axis);
     return this->Center[a] > this->Scale * coordinate - this->ScaledOrigin[a];
   }
 
-  /// Whether shares of the axes, computed by least(), add up to a value that is certainly positive.
+  /// Whether a sum of terms from least() is certainly positive.
   static bool isPositive(const Vector& shares) { return shares[0] + shares[1] + shares[2] > tiny; }
   static bool isNotNegative(const Vector& shares)
   {
@@ -102,10 +100,10 @@ public:
   }
 
 private:
-  /// More than all that is lost where products underflow: values of F are near 1 or 0.
+  /// Exceeds all underflow in products: values of F are near 1 or 0.
   static constexpr double tiny = 1e-290;
 
-  /// Where d y^2 - b y is least.
+  /// The minimizer of d y^2 - b y.
   static double placeOfLeast(double b, double d)
   {
     return b == 0.0 ? 0.0 : b / (2.0 * d); // infinite for half-spaces
@@ -117,28 +115,24 @@ private:
   double HighD;
   Vector Ahead;       // 2 n and its error, for y >= 0
   Vector Behind;      // for y <= 0
-  Vector LowestAhead; // where the bound is least
+  Vector LowestAhead; // minimizer of the bound
   Vector LowestBehind;
   Vector Center;
 };
 
-/// The corners of a cell of a Delaunay triangulation of a set of positions, in the order that makes
-/// the orientation positive: det(p1 - p0, p2 - p0, p3 - p0) > 0.
+/// The corners of a Delaunay tetrahedron, with det(p1 - p0, p2 - p0, p3 - p0) > 0.
 using TetrahedronCorners = std::array<Vector, 4>;
 
-/// The corners of a facet of the convex hull, such that det(p1 - p0, p2 - p0, x - p0) > 0 for x
-/// beyond it.
+/// The corners of a facet of the convex hull: det(p1 - p0, p2 - p0, x - p0) > 0 for x beyond it.
 using HullFacetCorners = std::array<Vector, 3>;
 
-/// The ball around a tetrahedron that is not flat.
+/// The circumscribed ball of a tetrahedron that is not flat.
 SphereFunction ballAround(const TetrahedronCorners& corners);
 
-/// The half-space beyond a facet of the hull that is not degenerate.
+/// The half-space beyond a nondegenerate facet of the hull.
 SphereFunction halfSpaceBeyond(const HullFacetCorners& corners);
 
-/// The smallest ball whose boundary passes through the corners of a facet.
+/// The smallest ball with the corners of a facet on its boundary.
 SphereFunction ballThrough(const HullFacetCorners& corners);
 
 } // namespace isopoint
-
-#endif

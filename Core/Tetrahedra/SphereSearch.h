@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SphereSearch_h
-#define isopoint_SphereSearch_h
+#pragma once
 
 #include "Core/Base/Region.h"
-#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tetrahedra/SphereFunction.h"
 #include "Core/Tree/NodeMarks.h"
 #include "Core/Tree/SampleTree.h"
@@ -17,20 +16,19 @@
 namespace isopoint
 {
 
-/// What NodeMarks say of nodes while the crossing tetrahedra are found.
+/// The NodeMarks used to find crossing tetrahedra.
 namespace bandmarks
 {
 
-/// The leaf's samples are a vertex of the band's triangulation.
+/// The leaf's samples are a vertex of the band.
 inline constexpr std::uint8_t inBand = 1;
 
-/// The sphere of a crossing tetrahedron may reach the region of the node, which has no children.
+/// The sphere of a crossing tetrahedron may reach the region of this node without children.
 inline constexpr std::uint8_t reached = 2;
 
 } // namespace bandmarks
 
-/// The inside of a tetrahedron's sphere, as a search sees it: what a box holds at least of its
-/// function.
+/// The ball of a tetrahedron, with lower bounds of its function over boxes.
 class BallShape
 {
 public:
@@ -39,16 +37,16 @@ public:
   {
   }
 
-  /// What a box holds at least, by axis.
+  /// Lower bounds over a box, by axis.
   using Bounds = Vector;
 
-  /// Takes note of a box' extent along an axis.
+  /// Updates the bounds for the extent of a box along an axis.
   void narrow(Bounds& bounds, int axis, double lower, double upper) const
   {
     bounds[axis] = this->Ball.least(axis, lower, upper);
   }
 
-  /// Whether a box may have places inside.
+  /// Whether a box may intersect the ball.
   bool mayHold(const Bounds& bounds) const { return !SphereFunction::isPositive(bounds); }
 
   bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
@@ -58,8 +56,8 @@ private:
   SphereFunction Ball;
 };
 
-/// The same of a facet of the hull: what lies beyond its plane or, in the plane, in its circle. The
-/// many samples in the plane of a flat hull are off the circle.
+/// The shape for a facet of the hull: the half-space beyond its plane and, in the plane, its
+/// circle. Most samples in the plane of a flat hull lie outside the circle.
 class HullFacetShape
 {
 public:
@@ -96,26 +94,25 @@ private:
   SphereFunction Ball;
 };
 
-/// Nodes of so few samples are seen through without being split.
+/// Nodes with at most this many samples are searched without being split.
 constexpr std::size_t fewSamples = 16;
 
-/// Searches the tree for a sample inside the sphere of a cell, the nearest to the center first as
-/// far as the tree indicates it; where ranks share the tree, for one of this rank's. Memory is
-/// kept. For one thread.
+/// Searches the tree for a sample inside the sphere of a cell, approximately nearest to the center
+/// first. In a process group, only this rank's samples are searched. Reuses memory. For one thread.
 template <class TSample>
 class SphereSearch
 {
 public:
-  SphereSearch(const SampleTree<TSample>& tree, const BandTriangulation& band, NodeMarks& marks)
+  SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks)
     : Tree(tree)
     , Band(band)
     , Marks(marks)
   {
   }
 
-  /// Looks for a sample inside the sphere of a listed cell that is not in the band. Marks each node
-  /// without children whose region the sphere may reach, up to where the search ends.
-  /// @returns the leaf that was found. With none, and if isComplete(), there is none
+  /// Finds a sample outside the band but inside the sphere of a listed cell. Marks each visited
+  /// node without children whose region the sphere may reach.
+  /// @returns its leaf. Nothing means that there is none if isComplete()
   std::optional<std::size_t> find(std::size_t openCell)
   {
     this->Cell = openCell;
@@ -128,10 +125,10 @@ public:
   /// Whether the last search, if it found nothing, saw all samples.
   bool isComplete() const { return this->UnsplitReached == 0; }
 
-  /// Nodes that have to be split for searches to see all samples, with repetitions.
+  /// Nodes to split so that searches see all samples, with repetitions.
   const std::vector<std::size_t>& unsplit() const { return this->Unsplit; }
 
-  /// The number of nodes visited so far, and what took as long.
+  /// The number of nodes visited so far, or equal work.
   std::size_t visits() const { return this->Visits; }
 
 private:
@@ -153,8 +150,8 @@ private:
   }
 
   /// @param bounds of the node's region
-  /// @param box the node's region; restored in the end
-  /// @returns whether the search ends
+  /// @param box the node's region; restored on return
+  /// @returns whether the search is finished
   template <class TShape>
   bool visit(
     std::size_t nodeIndex, const TShape& shape, const typename TShape::Bounds& bounds, Region& box)
@@ -170,7 +167,7 @@ private:
       return this->visitEnd(nodeIndex, shape);
     }
     const bool isUpperFirst = shape.isAbove(node.axis, node.plane);
-    // The nearer child holds at least what the node does.
+    // The bounds of the nearer child are those of the node.
     return this->visitChild(node, isUpperFirst, shape, bounds, box) ||
            this->visitFarther(node, !isUpperFirst, shape, bounds, box);
   }
@@ -197,7 +194,7 @@ private:
     return isDone;
   }
 
-  /// A node without children.
+  /// The same for a node without children.
   template <class TShape>
   bool visitEnd(std::size_t nodeIndex, const TShape& shape)
   {
@@ -241,15 +238,13 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  const BandTriangulation& Band;
+  const PartialTriangulation& Band;
   NodeMarks& Marks;
   std::size_t Cell = 0;
   std::optional<std::size_t> Found;
   std::size_t Visits = 0;
-  std::size_t UnsplitReached = 0; // by the last search
+  std::size_t UnsplitReached = 0;
   std::vector<std::size_t> Unsplit;
 };
 
 } // namespace isopoint
-
-#endif

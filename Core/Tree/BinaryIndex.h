@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_BinaryIndex_h
-#define isopoint_BinaryIndex_h
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +8,8 @@
 namespace isopoint
 {
 
-/// The binary index of a node of the kd-tree ([RL06] section 4), a number of 128 bits: that of the
-/// root is 1, and each further bit leads to a child, 0 to the lower and 1 to the upper one. It
-/// names a node whatever part of the tree has been built.
+/// The 128-bit index of a node in the kd-tree ([RL06] section 4), whichever part of it is built: 1
+/// for the root; each further bit leads to the lower (0) or upper (1) child.
 struct BinaryIndex
 {
   std::uint64_t high = 0;
@@ -29,13 +27,12 @@ constexpr bool operator!=(const BinaryIndex& a, const BinaryIndex& b)
   return !(a == b);
 }
 
-/// The depth of the deepest node that 128 bits can name. Halving at the median keeps a tree of n
-/// samples at different positions within ceil(log2 n) levels. Coincident samples stay together, so
-/// that a split may part off as little as one sample on each axis before they are alone: nested
-/// groups of coincident samples take up to four levels for each halving, 4 log2 n in all.
+/// The greatest depth that 128 bits can name. n distinct positions need ceil(log2 n) levels.
+/// Coincident samples stay together, so a split may part off only one sample on each axis before
+/// they are alone: nested groups of them take up to four levels per halving, 4 log2 n in all.
 constexpr int maximumDepth = 127;
 
-/// Where a tree would have to be deeper. @throws std::length_error
+/// @throws std::length_error if the tree would exceed maximumDepth
 [[noreturn]] inline void throwTooDeep()
 {
   throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
@@ -56,7 +53,7 @@ constexpr bool isUpperChild(const BinaryIndex& node)
   return (node.low & 1) != 0;
 }
 
-/// The ancestor this many levels above a node, 0 to 127; 0 above the root.
+/// The ancestor `levels` levels above a node, 0 to 127; 0 above the root.
 constexpr BinaryIndex ancestorOf(const BinaryIndex& node, int levels)
 {
   constexpr int bits = 64;
@@ -69,7 +66,7 @@ constexpr BinaryIndex ancestorOf(const BinaryIndex& node, int levels)
            : BinaryIndex{ 0, node.high >> (levels - bits) };
 }
 
-/// The place of the highest bit that is set: the logarithm to base 2, rounded down. Not of 0.
+/// The place of the highest set bit: floor(log2 number), for number > 0.
 constexpr int highestBit(std::uint64_t number)
 {
   int place = 0;
@@ -84,18 +81,16 @@ constexpr int highestBit(std::uint64_t number)
   return place;
 }
 
-/// Levels below the root. The node is not 0.
+/// Levels below the root, for node != 0.
 constexpr int depthOf(const BinaryIndex& node)
 {
   return node.high != 0 ? 64 + highestBit(node.high) : highestBit(node.low);
 }
 
-/// The levels of a tree that halves this many samples exactly: ceil(log2 count), count at least 1.
+/// Levels of a tree that halves the samples exactly: ceil(log2 count), for count > 0.
 constexpr int levelsToHalve(std::size_t count)
 {
   return count > 1 ? highestBit(count - 1) + 1 : 0;
 }
 
 } // namespace isopoint
-
-#endif

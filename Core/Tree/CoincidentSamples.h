@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_CoincidentSamples_h
-#define isopoint_CoincidentSamples_h
+#pragma once
 
 #include "Core/Base/ConcurrentMemo.h"
 #include "Core/Tree/SampleTree.h"
@@ -14,15 +13,13 @@
 namespace isopoint
 {
 
-/// Samples at exactly one position. They count as one sample, with the lowest of their ids and the
-/// mean of their values and other attributes.
+/// Samples at one position. They count as one, with the lowest id and the mean attributes.
 struct CoincidentSamples
 {
   std::vector<std::uint64_t> ids; // ascending, at least two
 };
 
-/// The mean of the values of coincident samples: summed in the order of their ids and kept within
-/// their range, which the rounding of a sum may leave by a bit.
+/// The mean of coincident samples' values, summed by ascending id and clamped to their range.
 /// @param count at least 1
 /// @param valueAt(i) the i-th value, as a double
 template <class ValueAt>
@@ -41,7 +38,6 @@ double meanOf(std::size_t count, const ValueAt& valueAt)
   return std::min(std::max(sum / static_cast<double>(count), minimum), maximum);
 }
 
-/// The value of a leaf: its sample's, or the mean of several. O(samples of the leaf)
 template <class TSample>
 double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
 {
@@ -50,7 +46,7 @@ double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
     leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
 }
 
-/// The values of leaves with very many coincident samples, shared by all threads.
+/// The values of leaves; thread-safe. Those of large leaves are kept.
 template <class TSample>
 class SharedLeafMeans
 {
@@ -60,9 +56,7 @@ public:
   {
   }
 
-  /// The value of a leaf: O(1), but at the first request for a leaf of over 4096 samples. From any
-  /// thread.
-  /// @throws std::bad_alloc
+  /// O(1), except for the first request for a leaf of over 4096 samples. @throws std::bad_alloc
   double at(std::size_t nodeIndex)
   {
     constexpr std::size_t manySamples = 4096;
@@ -79,8 +73,7 @@ private:
   ConcurrentMemo<double> Means;
 };
 
-/// The values of leaves, for one thread. Those of many coincident samples are kept, since many
-/// cells may touch such a leaf.
+/// The values of leaves, for one thread. Those of large leaves are kept: many cells may touch one.
 template <class TSample>
 class LeafValueCache
 {
@@ -92,15 +85,14 @@ public:
   {
   }
 
-  /// The value of a leaf: O(1), but at the first request for one with many samples.
-  /// @throws std::bad_alloc
+  /// O(1), except for the first request for a leaf of over 16 samples. @throws std::bad_alloc
   double at(std::size_t nodeIndex)
   {
     constexpr std::size_t fewSamples = 16;
     const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
     if (leaf.count() == 1)
     {
-      return static_cast<double>(leaf.minimum); // the sample's value, without a look at the sample
+      return static_cast<double>(leaf.minimum); // the sample's value, already in cache
     }
     if (leaf.count() <= fewSamples)
     {
@@ -119,5 +111,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

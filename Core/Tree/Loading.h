@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Loading_h
-#define isopoint_Loading_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Hash.h"
@@ -25,11 +24,11 @@ bool isFinite(const TSample& sample)
          std::isfinite(sample.position[2]) && std::isfinite(sample.value);
 }
 
-/// The samples that a slice of the input contributes.
+/// Summary of the samples read from a slice of the input.
 template <class TSample>
 struct SliceSummary
 {
-  std::size_t kept = 0; // bounds and range are defined where this is positive
+  std::size_t kept = 0; // bounds and range are valid if positive
   typename TSample::Coordinate lower[3] = {};
   typename TSample::Coordinate upper[3] = {};
   typename TSample::Value minimum = {};
@@ -53,7 +52,7 @@ struct SliceSummary
   }
 };
 
-/// Reads the items [begin, end) into samples[begin] and following, packed.
+/// Reads the items [begin, end) into samples[begin] and following, without gaps.
 template <class TSample, class Reader>
 SliceSummary<TSample> loadSlice(
   TSample* samples, std::size_t begin, std::size_t end, const Reader& read, std::uint64_t firstId)
@@ -97,10 +96,10 @@ void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>
   }
 }
 
-/// Creates a tree with nothing but a root from an input of `count` items, each read once.
-/// @param read(id, position, value) writes an item's coordinates and value and returns whether it
-/// takes part. Items with a non-finite coordinate or value are left out as well.
-/// @param firstId of the samples, whose ids count from there on
+/// Creates a tree of only a root from an input of `count` items, each read once.
+/// @param read(id, position, value) writes an item's coordinates and value; returns false to leave
+/// it out. Items with a non-finite coordinate or value are left out as well
+/// @param firstId id of the first item's sample
 /// @throws std::bad_alloc, Aborted
 template <class TSample, class Reader>
 SampleTree<TSample> loadSamples(
@@ -111,7 +110,7 @@ SampleTree<TSample> loadSamples(
   tree.nodes.resize(2);
   tree.usedPairs = 1;
 
-  // Each slice is packed where it begins; gaps are closed afterwards, if there are any.
+  // Slices are packed on their own; the gaps between them are closed afterwards.
   constexpr std::size_t sliceLength = std::size_t{ 1 } << 16;
   const std::size_t sliceCount = (count + sliceLength - 1) / sliceLength;
   std::vector<SliceSummary<TSample>> slices(sliceCount);
@@ -148,8 +147,8 @@ SampleTree<TSample> loadSamples(
   return tree;
 }
 
-/// Recomputes the value ranges of a node and of its descendants up to this many levels below: from
-/// their children, or from their samples where they are not split.
+/// Recomputes the value ranges of a node and its descendants, `levels` levels down: from children,
+/// or from samples where nodes are not split.
 template <class TSample>
 void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
 {
@@ -169,7 +168,7 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
-/// What an item that takes part adds to a digest.
+/// An item's contribution to a digest.
 template <class TCoordinate>
 std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
 {
@@ -184,9 +183,9 @@ std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
   return hash;
 }
 
-/// Which items take part, and where, as a sum over 0 .. count - 1: equal for the same items, and
-/// for others by chance alone, once in 2^64 cases.
-/// @param digestAt(i) what an item adds, 0 for one that takes no part
+/// A digest of the ids and positions of the items in use, among 0 .. count - 1. Different inputs
+/// have equal digests with a probability of 2^-64.
+/// @param digestAt(i) the item's contribution, 0 if it is left out
 /// @throws Aborted
 template <class DigestAt>
 std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
@@ -206,8 +205,8 @@ std::uint64_t digestOf(const Execution& execution, std::size_t count, const Dige
   return sum;
 }
 
-/// That of samples that were loaded.
-/// @param firstId of the rank's items
+/// The digest of loaded samples.
+/// @param firstId as for loadSamples()
 template <class TSample>
 std::uint64_t digestOfSamples(
   const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
@@ -216,7 +215,7 @@ std::uint64_t digestOfSamples(
     [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
 }
 
-/// That of items as they are read; see loadSamples().
+/// The digest of items as loadSamples() reads them.
 template <class TSample, class Reader>
 std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
 {
@@ -229,10 +228,9 @@ std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const
     });
 }
 
-/// Gives the samples of a tree new values and recomputes the value ranges of its nodes. The tree
-/// keeps its shape, which does not depend on values.
-/// @param read as for loadSamples(); the digests of both must be the same
-/// @throws Aborted, and then some values are new
+/// Sets new values of a tree's samples and the nodes' value ranges. The tree's shape stays.
+/// @param read as for loadSamples(); the digest of its items must equal that of the samples
+/// @throws Aborted, after which some values are new
 template <class TSample, class Reader>
 void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)
 {
@@ -267,5 +265,3 @@ void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const 
 }
 
 } // namespace isopoint
-
-#endif

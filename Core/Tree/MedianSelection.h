@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_MedianSelection_h
-#define isopoint_MedianSelection_h
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +12,7 @@
 namespace isopoint
 {
 
-/// The coordinates of the two samples in the middle of a node, on one axis: those of rank
-/// count / 2 - 1 and count / 2.
+/// The coordinates of rank count / 2 - 1 and count / 2 in a node, on one axis.
 template <class TCoordinate>
 struct MiddleCoordinates
 {
@@ -22,8 +20,8 @@ struct MiddleCoordinates
   TCoordinate first; // of the upper half
 };
 
-/// The coordinates of rank - 1 and rank among few, 0 < rank < count: each is ranked by counting the
-/// smaller ones, which takes count^2 comparisons but no branch, and vectorizes.
+/// The coordinates of rank - 1 and rank, 0 < rank < count. Counts the smaller coordinates of each:
+/// count^2 comparisons, but vectorized and without branches.
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectByCounting(
   const TCoordinate* coordinates, std::size_t count, std::size_t rank)
@@ -38,8 +36,8 @@ MiddleCoordinates<TCoordinate> selectByCounting(
     {
       smaller += coordinates[j] < coordinate ? 1 : 0;
     }
-    // Equal coordinates hold the ranks from `smaller` on. The greatest one that holds a rank up to
-    // rank - 1 is `last`; `first` follows from how many there are of it.
+    // Equal coordinates have the ranks from `smaller` on. `last` is the greatest coordinate that
+    // has a rank below `rank`; the number of coordinates up to it decides `first`.
     last = static_cast<std::size_t>(smaller) < rank ? std::max(last, coordinate) : last;
     first = static_cast<std::size_t>(smaller) >= rank ? std::min(first, coordinate) : first;
   }
@@ -51,29 +49,27 @@ MiddleCoordinates<TCoordinate> selectByCounting(
   return { last, upToLast > rank ? last : first };
 }
 
-/// Passes over coordinates that a compiler turns into vector instructions: each lane of a block has
-/// its own sums and extrema.
+/// Vectorized passes over coordinates: each lane of a block has its own sums and extrema.
 template <class TCoordinate>
 class CoordinatePasses
 {
 public:
-  /// The least and the greatest coordinate.
   struct Range
   {
     TCoordinate least;
     TCoordinate greatest;
   };
 
-  /// How the coordinates lie around a pivot, which is not greater than all of them.
+  /// Coordinates on both sides of a pivot, which is not greater than all of them.
   struct Division
   {
-    std::size_t below; // how many are less than the pivot
-    TCoordinate last;  // the greatest of these, if there are any
+    std::size_t below; // number less than the pivot
+    TCoordinate last;  // the greatest of these, if any
     TCoordinate first; // the least of the others
   };
 
-  /// @param coordinates finite, at least one
-  /// @param count how many there are at the beginning of the vector, whose other elements change
+  /// @param coordinates finite
+  /// @param count at least 1; elements after the first `count` are overwritten
   CoordinatePasses(std::vector<TCoordinate>& coordinates, std::size_t count)
     : PaddedCount((count + lanes - 1) / lanes * lanes)
   {
@@ -135,8 +131,8 @@ public:
   }
 
 private:
-  // As wide as a coordinate, so that both fit the same vectors. Float coordinates are those of
-  // fewer than 2^30 samples.
+  // As wide as a coordinate, so that both fill the same vectors. 32 bits suffice for float
+  // coordinates, of which there are fewer than 2^30.
   using Counter =
     std::conditional_t<sizeof(TCoordinate) <= sizeof(std::int32_t), std::int32_t, std::int64_t>;
 
@@ -147,12 +143,10 @@ private:
   std::size_t PaddedCount;
 };
 
-/// The coordinates of rank - 1 and rank, 0 < rank < count. Pivots are interpolated between the
-/// nearest coordinates known on both sides: a uniform distribution takes three or four passes.
-/// Where that closes in slowly, every other pivot is one of the coordinates in between.
-/// @param coordinates finite ones at its beginning; reordered, and those behind the first `count`
-/// change
-/// Complexity: O(count)
+/// The coordinates of rank - 1 and rank, 0 < rank < count. O(count). Pivots are interpolated
+/// between the nearest known coordinates: a uniform distribution takes three or four passes. If
+/// this converges slowly, every other pivot is one of the coordinates in between.
+/// @param coordinates the first `count` are finite and are reordered; the others are overwritten
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectMiddle(
   std::vector<TCoordinate>& coordinates, std::size_t count, std::size_t rank)
@@ -166,10 +160,10 @@ MiddleCoordinates<TCoordinate> selectMiddle(
   }
   const CoordinatePasses<TCoordinate> passes(coordinates, count);
   const auto range = passes.range();
-  TCoordinate lower = range.least;    // the sought ones lie within these two,
-  TCoordinate upper = range.greatest; //
-  std::size_t below = 0;              // this many coordinates are less than `lower`,
-  std::size_t upTo = count;           // and this many are not greater than `upper`
+  TCoordinate lower = range.least; // lower <= last and first <= upper
+  TCoordinate upper = range.greatest;
+  std::size_t below = 0;    // coordinates less than `lower`
+  std::size_t upTo = count; // coordinates not greater than `upper`
   std::size_t next = 0;
   for (int pass = 0; pass < mostPasses; ++pass)
   {
@@ -211,8 +205,8 @@ MiddleCoordinates<TCoordinate> selectMiddle(
   return { *std::max_element(begin, first), *first };
 }
 
-/// Bounds that very likely enclose both middle coordinates, and few others, taken from a random
-/// subset [FR75]. The generator is seeded by the count, so that runs are repeatable.
+/// Bounds that very likely enclose both middle coordinates and few others, from a random subset
+/// [FR75]. The seed is the count, so runs are reproducible.
 template <class TSample>
 struct MiddleBracket
 {
@@ -220,12 +214,12 @@ struct MiddleBracket
   Coordinate lower = -std::numeric_limits<Coordinate>::infinity();
   Coordinate upper = std::numeric_limits<Coordinate>::infinity();
 
-  /// @param subset its contents change
+  /// @param subset scratch memory
   MiddleBracket(
     const TSample* samples, std::size_t count, int axis, std::vector<Coordinate>& subset)
   {
     constexpr std::size_t largestSubset = 32768;
-    // No result depends on the last bits of the root: it decides how large the subset is.
+    // The last bits of the root do not affect results, only the size of the subset.
     const double root = std::cbrt(static_cast<double>(count));
     const std::size_t size = std::min(static_cast<std::size_t>(root * root), largestSubset);
     subset.resize(std::max(subset.size(), size));
@@ -233,8 +227,7 @@ struct MiddleBracket
     for (std::size_t i = 0; i < size; ++i)
     {
       state = state * 6364136223846793005u + 1442695040888963407u;
-      // The upper half of the product of two 32-bit numbers maps one range onto the other; more
-      // than 2^32 samples are reached in steps.
+      // Maps a 32-bit random number to [0, count) by a product; large counts are sampled in steps.
       const std::size_t random = static_cast<std::size_t>(state >> 32);
       const std::size_t step = (count >> 32) + 1;
       subset[i] = samples[((random * (count / step)) >> 32) * step].position[axis];
@@ -251,5 +244,3 @@ struct MiddleBracket
 };
 
 } // namespace isopoint
-
-#endif

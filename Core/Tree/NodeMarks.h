@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_NodeMarks_h
-#define isopoint_NodeMarks_h
+#pragma once
 
 #include <atomic>
 #include <cstddef>
@@ -10,7 +9,7 @@
 namespace isopoint
 {
 
-/// Marks on the nodes of a tree, by node index: bits, of which each may be set from any thread.
+/// Bits for each node of a tree, by node index; each bit can be set from any thread.
 class NodeMarks
 {
 public:
@@ -29,7 +28,7 @@ public:
     this->Marks.swap(grown);
   }
 
-  /// Whether a node has all of some marks.
+  /// Whether a node has all of these marks.
   bool has(std::size_t node, std::uint8_t marks) const
   {
     return (this->Marks[node].load(std::memory_order_relaxed) & marks) == marks;
@@ -37,7 +36,7 @@ public:
 
   void set(std::size_t node, std::uint8_t marks)
   {
-    if (!this->has(node, marks)) // mostly it has: no cache line is written in vain
+    if (!this->has(node, marks)) // mostly it has: do not write to the cache line
     {
       this->Marks[node].fetch_or(marks, std::memory_order_relaxed);
     }
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

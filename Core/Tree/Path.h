@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Path_h
-#define isopoint_Path_h
+#pragma once
 
 #include "Core/Base/Region.h"
 #include "Core/Tree/BinaryIndex.h"
@@ -18,11 +17,11 @@ struct Path
 {
   BinaryIndex index = rootIndex;
   int depth = 0;
-  std::size_t nodeIndices[maximumDepth + 1]; // of the ancestors by depth, the node's own last
-  double planes[maximumDepth];               // that cut the ancestors' regions
+  std::size_t nodeIndices[maximumDepth + 1]; // by depth: ancestors, then the node
+  double planes[maximumDepth];               // that split the ancestors
   std::uint8_t axes[maximumDepth];           // of these planes
-  bool uppers[maximumDepth];                 // whether the path goes to their upper sides
-  double formerBounds[maximumDepth];         // of the regions, which the planes replaced
+  bool uppers[maximumDepth];                 // whether the path takes the upper child
+  double formerBounds[maximumDepth];         // of the region, before each plane cut it
   Region region{};
 
   std::size_t nodeIndex() const { return this->nodeIndices[this->depth]; }
@@ -53,7 +52,6 @@ void descend(const SampleTree<TSample>& tree, Path& path, bool upper)
   bound = node.plane;
 }
 
-/// Shortens the path to the parent of its node.
 inline void ascend(Path& path)
 {
   path.index = ancestorOf(path.index, 1);
@@ -63,8 +61,7 @@ inline void ascend(Path& path)
   (upper ? path.region.lower[axis] : path.region.upper[axis]) = path.formerBounds[path.depth];
 }
 
-/// Moves a path to the node with that binary index, over the nearest common ancestor: nodes that
-/// follow each other in the order of the tree take few steps.
+/// Moves a path to a node over the nearest common ancestor: a few steps to the next node in order.
 template <class TSample>
 void moveTo(const SampleTree<TSample>& tree, Path& path, const BinaryIndex& index)
 {
@@ -79,7 +76,7 @@ void moveTo(const SampleTree<TSample>& tree, Path& path, const BinaryIndex& inde
   }
 }
 
-/// The path to the node with that binary index. O(depth)
+/// O(depth)
 template <class TSample>
 Path pathTo(const SampleTree<TSample>& tree, const BinaryIndex& index)
 {
@@ -88,7 +85,7 @@ Path pathTo(const SampleTree<TSample>& tree, const BinaryIndex& index)
   return path;
 }
 
-/// The path to a leaf, found by the position of its samples in the tree's order. O(depth)
+/// The path to a leaf, found by the position of its samples in tree order. O(depth)
 template <class TSample>
 Path pathToLeaf(const SampleTree<TSample>& tree, std::size_t leafNode)
 {
@@ -101,9 +98,8 @@ Path pathToLeaf(const SampleTree<TSample>& tree, std::size_t leafNode)
   return path;
 }
 
-/// Visits the nodes of the depth `nodeDepth` below the path's node, and the unsplit ones above
-/// that depth.
-/// @param visit(path) called with the path to each; `path` itself is restored in the end
+/// Visits the descendants of the path's node at depth `nodeDepth`, and unsplit ones above it.
+/// @param visit(path) called with the path to each; `path` is restored at the end
 template <class TSample, class Visitor>
 void forEachBelow(const SampleTree<TSample>& tree, Path& path, int nodeDepth, const Visitor& visit)
 {
@@ -121,5 +117,3 @@ void forEachBelow(const SampleTree<TSample>& tree, Path& path, int nodeDepth, co
 }
 
 } // namespace isopoint
-
-#endif

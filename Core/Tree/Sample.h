@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Sample_h
-#define isopoint_Sample_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 
@@ -11,8 +10,8 @@
 namespace isopoint
 {
 
-/// One sample as the tree holds it: all that building and searching need, in one place in memory.
-/// Positions and values keep the input's type. The id identifies the sample in the input.
+/// One sample in the tree, with all data for building and searching. Positions and values keep the
+/// input's type; the id is the sample's number in the input.
 template <class TCoordinate, class TValue, class TId>
 struct Sample
 {
@@ -25,9 +24,9 @@ struct Sample
   TValue value;
 };
 
-/// The layouts in use. Those with 32-bit ids serve clouds of fewer than 2^30 samples, since ids
-/// also number the tree's nodes: two for each sample, and some that are reserved but never used.
-/// Any cloud fits the wide layout, since float converts to double exactly.
+/// The layouts in use. Those with 32-bit ids hold fewer than 2^30 samples, since ids also number
+/// nodes: two for each sample, and some that are reserved but unused. WideSample holds any cloud,
+/// since float converts to double exactly.
 using FloatSample = Sample<float, float, std::uint32_t>;
 using FloatSampleOfDouble = Sample<float, double, std::uint32_t>;
 using DoubleSampleOfFloat = Sample<double, float, std::uint32_t>;
@@ -48,8 +47,7 @@ bool haveOnePosition(const TSample& a, const TSample& b)
          a.position[2] == b.position[2];
 }
 
-/// The strict total order in which a node's samples are halved: by the coordinate on `axis`, then
-/// on the two axes that follow it cyclically, then by id.
+/// The strict total order on an axis: by this coordinate, the next two cyclically, then id.
 template <class TSample>
 struct SplittingOrder
 {
@@ -76,5 +74,3 @@ struct SplittingOrder
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SampleBounds_h
-#define isopoint_SampleBounds_h
+#pragma once
 
 #include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Offset.h"
@@ -15,7 +14,7 @@
 namespace isopoint
 {
 
-/// The bounding box of some samples.
+/// The bounding box of samples.
 template <class TSample>
 struct SampleBox
 {
@@ -23,7 +22,6 @@ struct SampleBox
   typename TSample::Coordinate upper[3];
 };
 
-/// The bounding box of two.
 template <class TSample>
 SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>& b)
 {
@@ -36,7 +34,7 @@ SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>&
   return box;
 }
 
-/// The bounding box of a node's samples. O(samples of the node), O(1) for a leaf
+/// O(samples of the node), O(1) for a leaf.
 template <class TSample>
 SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
 {
@@ -56,9 +54,9 @@ SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSam
   return box;
 }
 
-/// The bounding boxes of the samples of each split node, which can be far smaller than its region.
-/// They exist once compute() was called and take six coordinates for each split node. The tree must
-/// not change while they are in use, except for being split further where ranks share it.
+/// The bounding boxes of the samples of split nodes, which can be far smaller than their regions.
+/// Memory: six coordinates per split node once compute() has run. The tree must not change
+/// meanwhile, except that a partial tree may be split further.
 template <class TSample>
 class SampleBounds
 {
@@ -68,13 +66,13 @@ public:
   {
   }
 
-  /// Computes the boxes at its first call: O(samples + nodes). From any thread.
-  /// @throws std::bad_alloc; then the next call tries again
+  /// Computes the boxes at the first call: O(samples + nodes). Thread-safe.
+  /// @throws std::bad_alloc; the next call tries again
   void compute()
   {
     if (this->Tree.isPartial)
     {
-      return; // each on demand: the tree grows where samples of other ranks are fetched
+      return; // computed on demand: a partial tree grows as samples are fetched
     }
     std::call_once(this->Computed,
       [this]()
@@ -85,8 +83,8 @@ public:
       });
   }
 
-  /// Bounds on the offsets from a position to the samples of a node, which is a leaf or split.
-  /// @throws MissingNode if some of them are held by another rank
+  /// Bounds on the offsets from a position to the samples of a leaf or split node.
+  /// @throws MissingNode if another rank holds some of them
   OffsetBounds offsets(const Vector& from, const Node<TSample>& node) const
   {
     if (!node.isSplit())
@@ -106,7 +104,7 @@ public:
 private:
   using Box = SampleBox<TSample>;
 
-  /// @param note(pair, box) called for each split node, by its pair of children
+  /// @param note(pair, box) called for each split node with its pair of children
   template <class Note>
   Box boxOf(const Node<TSample>& node, const Note& note) const
   {
@@ -133,11 +131,9 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  RawArray<Box> Boxes;                       // by the number of the node's pair of children
+  RawArray<Box> Boxes;                       // by pair of children
   mutable ConcurrentMemo<Box> BoxesOnDemand; // likewise, of a partial tree
   std::once_flag Computed;
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SampleTree_h
-#define isopoint_SampleTree_h
+#pragma once
 
 #include "Core/Base/RawArray.h"
 #include "Core/Base/Region.h"
@@ -16,33 +15,33 @@
 namespace isopoint
 {
 
-/// A node of the kd-tree, identified by its index in SampleTree::nodes. Siblings are stored side by
-/// side, as a pair with one number; pair 0 is never given out.
+/// A node of the kd-tree, identified by its index in SampleTree::nodes. Siblings are adjacent and
+/// form a pair with one number; pair 0 never holds children.
 template <class TSample>
 struct Node
 {
   using Value = typename TSample::Value;
   using Id = typename TSample::Id;
 
-  double plane;      // where the region is cut, once split
-  Id begin;          // its samples are [begin, end) of the tree's
-  Id end;            //
-  Id childPair;      // the children are the nodes 2 childPair and 2 childPair + 1; see isSplit()
-  Value minimum;     // of the samples' values
-  Value maximum;     //
-  std::uint8_t axis; // the plane's, once split
+  double plane; // splitting plane, if split
+  Id begin;     // samples [begin, end) of the tree
+  Id end;
+  Id childPair;  // index of the lower child / 2, or 0; see isSplit()
+  Value minimum; // range of the samples' values
+  Value maximum;
+  std::uint8_t axis; // of the plane, if split
   bool isLeaf;       // all its samples share one position
-  bool isAbsent;     // its samples are held by another rank; see MissingNode
+  bool isAbsent;     // another rank holds its samples; see MissingNode
 
-  /// Whether it has children; a node that is neither split nor a leaf may be split later.
+  /// Nodes that are neither split nor leaves may be split later.
   bool isSplit() const { return this->childPair != 0; }
   std::size_t lowerNode() const { return 2 * static_cast<std::size_t>(this->childPair); }
   std::size_t upperNode() const { return this->lowerNode() + 1; }
   std::size_t count() const { return static_cast<std::size_t>(this->end - this->begin); }
 };
 
-/// Thrown by a search for samples that this rank does not hold, or not in the form that is needed:
-/// nobody guesses. Once they have been fetched, the search must be repeated.
+/// Thrown by searches that need samples this rank does not hold, or that need a node to be split
+/// further. Fetch them and repeat the search.
 struct MissingNode : std::exception
 {
   MissingNode(std::size_t node, const Region& needed)
@@ -54,13 +53,12 @@ struct MissingNode : std::exception
   const char* what() const noexcept override { return "samples of another rank are missing"; }
 
   std::size_t nodeIndex;
-  Region box; // where the samples are needed
+  Region box; // where samples are needed
 };
 
-/// The samples in the order of the tree, and as much of the kd-tree as the isovalues so far needed
-/// ([RL06] section 4; docs/algorithm.md, sections 3 and 9). Splitting a node only permutes
-/// the samples inside it, so a tree may be refined further at any time.
-/// Memory: sizeof(TSample) for each sample and sizeof(Node) for each node.
+/// Samples in tree order, and the part of the kd-tree that the isovalues so far needed ([RL06]
+/// section 4; docs/algorithm.md, sections 3 and 9). A split only permutes samples within a node, so
+/// the tree can be refined at any time. Memory: sizeof(TSample) per sample, sizeof(Node) per node.
 template <class TSample>
 struct SampleTree
 {
@@ -68,14 +66,14 @@ struct SampleTree
 
   RawArray<TSample> samples;
   RawArray<NodeType> nodes;
-  std::size_t usedPairs = 0; // pairs of nodes given out, pair 0 (which holds the root) included
-  Region region{};           // the root's
+  std::size_t usedPairs = 0; // pairs in use, including pair 0, which holds the root
+  Region region{};           // of the root
   std::size_t skipped = 0;   // samples left out
-  double valueError = 0.0;   // standard error that each value has at least, as by rounding
+  double valueError = 0.0;   // least standard error of each value, as by rounding
 
-  /// Where a tree is shared among ranks, each of them has the samples [ownBegin, ownEnd) for its
-  /// own and copies of some others; `samples` has room for all, of which no page is touched that
-  /// holds none. Every node that is split lies in the same place in the trees of all ranks.
+  /// A tree shared among ranks: each rank owns the samples [ownBegin, ownEnd) and has copies of
+  /// some others. `samples` has room for all; pages without samples are never touched. Split nodes
+  /// are at the same place in the trees of all ranks.
   bool isPartial = false;
   std::size_t ownBegin = 0;
   std::size_t ownEnd = std::numeric_limits<std::size_t>::max();
@@ -84,22 +82,21 @@ struct SampleTree
 
   bool isEmpty() const { return this->samples.size() == 0; }
 
-  /// Whether any of a node's samples is this rank's own.
+  /// Whether this rank owns any of a node's samples.
   bool hasOwn(const NodeType& node) const
   {
     return node.begin < this->ownEnd && node.end > this->ownBegin;
   }
 
-  /// Whether a place in the order of the samples is this rank's own.
+  /// Whether this rank owns the sample at a place in tree order.
   bool isOwn(std::size_t place) const { return place >= this->ownBegin && place < this->ownEnd; }
 
-  /// The number of samples that are this rank's own.
   std::size_t ownCount() const
   {
     return this->isPartial ? this->ownEnd - this->ownBegin : this->samples.size();
   }
 
-  /// The first sample of a node: of a leaf that of the lowest id.
+  /// The first sample of a node; for a leaf, the one with the lowest id.
   const TSample& sampleOf(std::size_t nodeIndex) const
   {
     return this->samples[this->nodes[nodeIndex].begin];
@@ -111,7 +108,7 @@ struct SampleTree
   }
 };
 
-/// The node below another one whose region contains a box, as far down as nodes are split.
+/// The deepest node, at or below another one, whose region contains a box.
 template <class TSample>
 std::size_t smallestAround(
   const SampleTree<TSample>& tree, std::size_t nodeIndex, const Region& box)
@@ -133,9 +130,8 @@ inline std::size_t siblingOf(std::size_t nodeIndex)
   return nodeIndex ^ 1;
 }
 
-/// Appends pairs of nodes to be filled in. @returns the number of the first one
-/// @throws std::bad_alloc, or std::length_error if an id cannot number the nodes; the tree
-/// unchanged
+/// Appends uninitialized pairs of nodes. @returns the number of the first one
+/// @throws std::bad_alloc, or std::length_error if ids cannot number the nodes; without effect then
 template <class TSample>
 std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
 {
@@ -147,7 +143,7 @@ std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
   }
   if (nodeCount > tree.nodes.size())
   {
-    constexpr std::size_t spare = 8192; // where a tree grows in small steps
+    constexpr std::size_t spare = 8192; // partial trees grow in small steps
     tree.nodes.resize(nodeCount + (tree.isPartial ? spare : 0));
   }
   tree.usedPairs = first + pairCount;
@@ -175,7 +171,7 @@ void uniteRanges(Node<TSample>& node, const Node<TSample>& lower, const Node<TSa
   node.maximum = std::max(lower.maximum, upper.maximum);
 }
 
-/// A node with the samples [begin, end), neither split nor ranged.
+/// A node of the samples [begin, end), unsplit and without a value range.
 template <class TSample>
 Node<TSample> makeNode(std::size_t begin, std::size_t end)
 {
@@ -187,5 +183,3 @@ Node<TSample> makeNode(std::size_t begin, std::size_t end)
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Separation_h
-#define isopoint_Separation_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Tree/MedianSelection.h"
@@ -14,12 +13,12 @@
 namespace isopoint
 {
 
-/// Pointers to samples. Room is made for many at a time, so that adding one takes no branch.
+/// Pointers to samples. Room is made for many at a time, so that adding one needs no branch.
 template <class TSample>
 class SampleList
 {
 public:
-  /// Where the next ones go, of which there may be up to this many.
+  /// Where to write up to `count` further pointers; resize() then sets how many there are.
   TSample** makeRoom(std::size_t count)
   {
     if (this->Samples.size() < this->Count + count)
@@ -41,7 +40,7 @@ private:
   std::size_t Count = 0;
 };
 
-/// The samples of a node that are open after a separation: they may be in the wrong half.
+/// Samples that may be in the wrong half after a separation.
 template <class TSample>
 struct OpenSamples
 {
@@ -66,9 +65,8 @@ struct OpenSamples
   }
 };
 
-/// Goes through a part of one half of a node's samples, a block at a time. What it lists is listed
-/// without a branch on a comparison [EW16], which at a median split no branch predictor could
-/// foresee.
+/// Scans a part of one half of a node's samples in blocks. Misplaced samples are listed without
+/// branches on comparisons [EW16], which are unpredictable at a median split.
 template <class TSample>
 class HalfScan
 {
@@ -80,8 +78,7 @@ public:
   {
   }
 
-  /// Lists the next samples that belong in the other half, if none are left on the list.
-  /// @returns whether any are listed
+  /// Lists the next misplaced samples if the list is empty. @returns whether any are listed
   template <class Misplaced>
   bool list(const Misplaced& isMisplaced)
   {
@@ -99,10 +96,10 @@ public:
       });
   }
 
-  /// The same where some samples may belong in either half.
+  /// The same if some samples may belong in either half.
   /// @param isHere(sample) whether it belongs in this half
-  /// @param isThere(sample) whether it belongs in the other one
-  /// @param open takes those that may belong in either
+  /// @param isThere(sample) whether it belongs in the other half
+  /// @param open receives the samples that may belong in either
   /// @returns whether any are listed
   template <class Here, class There>
   bool list(const Here& isHere, const There& isThere, SampleList<TSample>& open)
@@ -111,7 +108,7 @@ public:
       [&](std::ptrdiff_t length) { this->scan(length, isHere, isThere, open); });
   }
 
-  /// Swaps as many listed samples as both scans have.
+  /// Swaps as many samples as both lists have.
   void swapListed(HalfScan& other)
   {
     const std::size_t pairs = std::min(this->count(), other.count());
@@ -130,7 +127,7 @@ public:
 private:
   static constexpr std::ptrdiff_t blockSize = 128;
 
-  /// Goes through blocks until any samples are listed. @returns whether any are
+  /// Scans blocks until samples are listed. @returns whether any are
   template <class Scan>
   bool listBlocks(const Scan& scanBlock)
   {
@@ -175,13 +172,12 @@ private:
   TSample* Unscanned;
   TSample* End;
   std::size_t Next = 0;
-  std::size_t Count = 0; // of the list, from its beginning
+  std::size_t Count = 0; // end of the list; its first `Next` samples are done
   std::uint8_t Offsets[blockSize];
 };
 
-/// Partitions samples of which exactly `lowerCount` belong lower, in place: swaps what is misplaced
-/// on either side.
-/// @param belongsLower whether a sample belongs among the first `lowerCount`
+/// Partitions samples in place by swapping misplaced ones.
+/// @param belongsLower(sample) must be true for exactly `lowerCount` samples
 template <class TSample, class Predicate>
 void exchangeMisplaced(
   TSample* samples, std::size_t count, std::size_t lowerCount, const Predicate& belongsLower)
@@ -196,7 +192,7 @@ void exchangeMisplaced(
 }
 
 /// Separates samples around a bracket of their middle on an axis: those below it belong in the
-/// lower half, those above it in the upper one.
+/// lower half, those above it in the upper half.
 template <class TSample>
 class Separation
 {
@@ -208,8 +204,8 @@ public:
   {
   }
 
-  /// Swaps misplaced samples until either half has none left to swap.
-  /// @param open takes samples inside the bracket
+  /// Swaps misplaced samples until one half has none left.
+  /// @param open receives samples inside the bracket
   void exchange(HalfScan<TSample>& low, HalfScan<TSample>& high, OpenSamples<TSample>& open) const
   {
     while (this->listLow(low, open) && this->listHigh(high, open))
@@ -218,8 +214,8 @@ public:
     }
   }
 
-  /// Goes through what is left of both halves.
-  /// @param open takes samples inside the bracket and misplaced ones
+  /// Scans the rest of both halves.
+  /// @param open receives samples inside the bracket and misplaced ones
   void finish(HalfScan<TSample>& low, HalfScan<TSample>& high, OpenSamples<TSample>& open) const
   {
     while (this->listLow(low, open))
@@ -263,7 +259,7 @@ private:
 
 /// Separates the samples of a node around a bracket of their middle.
 /// @param open set to the samples in the bracket and a few others. All other samples of the lower
-/// half lie below the bracket, those of the upper half above it.
+/// half are below the bracket, those of the upper half above it.
 template <class TSample>
 void separate(TSample* samples, std::size_t count, int axis, const MiddleBracket<TSample>& bracket,
   OpenSamples<TSample>& open)
@@ -277,9 +273,8 @@ void separate(TSample* samples, std::size_t count, int axis, const MiddleBracket
   separation.finish(low, high, open);
 }
 
-/// The same with every thread: each takes one part of both halves. What a part cannot balance
-/// within itself, which is little unless the cloud is in a particular order, the calling thread
-/// exchanges afterwards.
+/// The same on all threads: each one separates a part of both halves. The calling thread then
+/// exchanges the imbalance of the parts, which is small unless the cloud has a special order.
 template <class TSample>
 void separateTogether(const Execution& execution, TSample* samples, std::size_t count, int axis,
   const MiddleBracket<TSample>& bracket, OpenSamples<TSample>& open)
@@ -328,5 +323,3 @@ void separateTogether(const Execution& execution, TSample* samples, std::size_t 
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_Splitting_h
-#define isopoint_Splitting_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Region.h"
@@ -16,18 +15,16 @@
 namespace isopoint
 {
 
-/// How a node's samples were halved: the first `lowerCount` of them now form the lower child, and
-/// the region is cut at `plane`.
+/// Result of halving a node: the first `lowerCount` samples form the lower child.
 struct Halves
 {
   std::size_t lowerCount;
   double plane;
 };
 
-/// Halves by the definition (docs/algorithm.md, section 3), with the standard library's selection,
-/// for nodes where coincident samples stand on both sides of the middle.
+/// Halves by the definition (docs/algorithm.md, section 3) around coincident middle samples.
 /// @returns nothing if all samples share one position
-/// Complexity: O(n) on average, O(n log n) at worst.
+/// Complexity: O(n) on average, O(n log n) at worst
 template <class TSample>
 std::optional<Halves> halveByDefinition(TSample* samples, std::size_t count, int axis)
 {
@@ -57,11 +54,11 @@ std::optional<Halves> halveByDefinition(TSample* samples, std::size_t count, int
     splittingPlaneBetween(last->position[axis], first->position[axis]) };
 }
 
-/// The first sample of the upper half of a node, where the samples in its middle share their
-/// coordinate on the axis, so that the other coordinates and the ids determine it.
-/// @param forEachCandidate(visit) visits samples that include all which share the coordinate
-/// @param rank of the first one of the upper half among them
-/// @returns nothing if it has the position of the last one of the lower half
+/// The first sample of the upper half if the two middle samples share their coordinate on the axis:
+/// the other coordinates and the ids then decide.
+/// @param forEachCandidate(visit) visits samples, including all with that coordinate
+/// @param rank of the result among them
+/// @returns nothing if it coincides with the last sample of the lower half
 template <class TSample, class ForEach>
 std::optional<TSample> firstOfTied(const ForEach& forEachCandidate, std::size_t rank, int axis,
   typename TSample::Coordinate coordinate)
@@ -84,7 +81,7 @@ std::optional<TSample> firstOfTied(const ForEach& forEachCandidate, std::size_t 
            : std::optional(*middle);
 }
 
-/// What halving needs besides the samples, kept to spare allocations.
+/// Scratch memory of halving.
 template <class TSample>
 struct HalvingScratch
 {
@@ -93,9 +90,9 @@ struct HalvingScratch
   OpenSamples<TSample> open;
 };
 
-/// Moves samples to their halves, where the middle coordinates are known.
-/// @param forEachCandidate(visit) visits samples that include all which share a middle coordinate
-/// @param rank of the first one of the upper half among them
+/// Moves samples to their halves, given the middle coordinates.
+/// @param forEachCandidate(visit) visits samples, including all that have a middle coordinate
+/// @param rank of the first sample of the upper half among them
 /// @param partition(belongsLower) moves the samples
 /// @returns nothing if all samples share one position
 template <class TSample, class ForEach, class Partition>
@@ -114,7 +111,7 @@ std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axi
     {
       return halveByDefinition(samples, count, axis);
     }
-    // Equal coordinates are rare: the common case takes a single comparison.
+    // Equal coordinates are rare: the common case takes one comparison.
     partition(
       [axis, first = *first, coordinate = middle.first, order = SplittingOrder<TSample>(axis)](
         const TSample& sample)
@@ -126,8 +123,7 @@ std::optional<Halves> halveAtMiddle(TSample* samples, std::size_t count, int axi
   return Halves{ count / 2, splittingPlaneBetween(middle.last, middle.first) };
 }
 
-/// Halves few samples, or those whose middle a bracket missed: one pass finds the middle, another
-/// moves the samples.
+/// Halves few samples, or after a bracket missed the middle: finds it, then moves the samples.
 template <class TSample>
 std::optional<Halves> halveWithoutBracket(
   TSample* samples, std::size_t count, int axis, HalvingScratch<TSample>& scratch)
@@ -142,7 +138,7 @@ std::optional<Halves> halveWithoutBracket(
     [&](const auto& belongsLower) { exchangeMisplaced(samples, count, count / 2, belongsLower); });
 }
 
-/// Swaps the open samples that are in the wrong half.
+/// Swaps open samples that are in the wrong half.
 template <class TSample, class Predicate>
 void exchangeOpen(OpenSamples<TSample>& open, const Predicate& belongsLower)
 {
@@ -165,7 +161,7 @@ void exchangeOpen(OpenSamples<TSample>& open, const Predicate& belongsLower)
   }
 }
 
-/// Halves samples that are separated around a bracket of their middle.
+/// Halves samples after their separation around a bracket.
 /// @param halves set to nothing if all samples share one position
 /// @returns whether the bracket encloses the middle; if not, samples are only moved
 template <class TSample>
@@ -200,8 +196,8 @@ bool halveSeparated(TSample* samples, std::size_t count, int axis,
   return true;
 }
 
-/// Halves the samples of one node along an axis, in place: one pass separates them around a bracket
-/// of the middle, which is then found among the few samples inside.
+/// Halves the samples of a node along an axis, in place: separates them around a bracket of the
+/// middle, then finds the middle among the few samples inside.
 /// @param separateAround(bracket) separates them and fills scratch.open
 /// @returns nothing if all samples share one position
 template <class TSample, class Separate>
@@ -222,7 +218,7 @@ std::optional<Halves> halveBySeparation(TSample* samples, std::size_t count, int
   return halveWithoutBracket(samples, count, axis, scratch);
 }
 
-/// Halves the samples of one node along an axis, in place.
+/// Halves the samples of a node along an axis, in place.
 /// @returns nothing if all samples share one position
 template <class TSample>
 std::optional<Halves> halve(
@@ -232,7 +228,7 @@ std::optional<Halves> halve(
     [&](const auto& bracket) { separate(samples, count, axis, bracket, scratch.open); });
 }
 
-/// The same with every thread at work on one node.
+/// The same, with all threads on one node.
 template <class TSample>
 std::optional<Halves> halveTogether(
   const Execution& execution, TSample* samples, std::size_t count, int axis)
@@ -244,5 +240,3 @@ std::optional<Halves> halveTogether(
 }
 
 } // namespace isopoint
-
-#endif

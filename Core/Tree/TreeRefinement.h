@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_TreeRefinement_h
-#define isopoint_TreeRefinement_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Tree/Path.h"
 #include "Core/Tree/TreeletSplitting.h"
 
@@ -15,9 +13,9 @@
 namespace isopoint
 {
 
-/// Splits nodes of a tree further: small ones down to leaves, others by one treelet. The result is
-/// a larger part of the complete tree, whatever part was there.
-/// @param nodes node indices in any order, with repetitions; those that are split or leaves stay
+/// Splits nodes further: small ones down to leaves, others by one treelet. The result is part of
+/// the canonical tree, whatever was split before.
+/// @param nodes node indices in any order, with repetitions; split nodes and leaves are skipped
 /// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
 template <class TSample>
 void splitFurther(
@@ -32,7 +30,7 @@ void splitFurther(
   };
   constexpr std::size_t small = 512;
   keepUnique(nodes);
-  constexpr std::size_t batch = 4096; // paths are large
+  constexpr std::size_t batch = 4096; // limits memory: paths are large
   for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
   {
     std::vector<Task> tasks;
@@ -69,10 +67,10 @@ void splitFurther(
   }
 }
 
-/// Splits what is found unsplit, until nothing is.
-/// @param addUnsplit(item, nodes) adds nodes at one of 0 .. count - 1 to a list; from any thread
-/// @param batchDone called while items are looked at, which is done again after nodes were split
-/// @throws what splitFurther() does
+/// Splits unsplit nodes until none is found.
+/// @param addUnsplit(item, nodes) appends unsplit nodes at an item below count; from any thread
+/// @param batchDone called while items are examined; repeated after nodes were split
+/// @throws as splitFurther()
 template <class TSample, class AddUnsplit>
 void splitWhileUnsplit(
   const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
@@ -96,8 +94,8 @@ void splitWhileUnsplit(
   } while (!unsplit.empty());
 }
 
-/// Splits everything below some nodes down to leaves, as far as samples are this rank's.
-/// @throws what splitFurther() does
+/// Splits the subtrees below `tops` down to leaves, where this rank owns samples.
+/// @throws as splitFurther()
 template <class TSample>
 void splitCompletely(
   const Execution& execution, SampleTree<TSample>& tree, const std::vector<std::size_t>& tops)
@@ -119,5 +117,3 @@ void splitCompletely(
 }
 
 } // namespace isopoint
-
-#endif

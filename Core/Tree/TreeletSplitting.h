@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_TreeletSplitting_h
-#define isopoint_TreeletSplitting_h
+#pragma once
 
 #include "Core/Tree/BinaryIndex.h"
 #include "Core/Tree/SampleTree.h"
@@ -13,44 +12,41 @@
 namespace isopoint
 {
 
-/// The tree grows by treelets, subtrees of a fixed depth [KA13]: after every third level the narrow
-/// band decides which nodes to split next, and a treelet is built while its samples are in cache.
+/// Levels of a treelet, the unit by which the tree grows [KA13]: the narrow band decides after each
+/// treelet which nodes to split next, and a treelet is built while its samples are in cache.
 constexpr int treeletLevels = 3;
 
-/// The depth that treelets below nodes of the given depth reach. Treelets are aligned to the
-/// bottom of a tree without coincident samples: the last ones, by far the most, are then of full
-/// depth.
+/// The bottom of treelets below nodes at a depth. Treelets are aligned to the bottom of a tree
+/// without coincident samples, so that the last ones, by far the most, have full depth.
 inline int treeletBottom(int depth, std::size_t sampleCount)
 {
   const int remaining = levelsToHalve(sampleCount) - depth;
   return depth + (remaining > treeletLevels ? (remaining - 1) % treeletLevels + 1 : treeletLevels);
 }
 
-/// The largest number of pairs of children that a treelet below a node of that many samples takes.
+/// The greatest number of pairs in a treelet below a node of `sampleCount` samples.
 inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
 {
   return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
 }
 
 /// Splits nodes by the definition of the canonical tree (docs/algorithm.md, section 3; [RL06]
-/// section 4). The node itself becomes a parent last of all, so that an exception leaves it
-/// unsplit.
+/// section 4). The top node becomes a parent last, so an exception leaves it unsplit.
 template <class TSample>
 class TreeletSplitter
 {
 public:
-  /// @param firstPair where the treelet's nodes go: maximumTreeletPairs() are set aside there
+  /// @param firstPair first of the maximumTreeletPairs() pairs reserved for the treelet
   TreeletSplitter(SampleTree<TSample>& tree, std::size_t firstPair)
     : Tree(tree)
     , NextPair(firstPair)
   {
   }
 
-  /// The splitter's next treelet goes there.
+  /// Sets the first pair of the next treelet.
   void moveTo(std::size_t firstPair) { this->NextPair = firstPair; }
 
-  /// Splits a node and what is below it, this many levels deep, in the calling thread, and computes
-  /// the value ranges of all new nodes.
+  /// Splits a node `levels` levels deep in the calling thread. New nodes get value ranges.
   void split(Node<TSample>& node, const Region& region, int levels)
   {
     const auto halveAlone = [this](TSample* samples, std::size_t count, int axis)
@@ -60,7 +56,7 @@ public:
     this->split(node, region, levels, halveAlone, rangeAlone);
   }
 
-  /// The same with every thread at work on each node.
+  /// The same, with all threads on each node.
   void splitTogether(
     const Execution& execution, Node<TSample>& node, const Region& region, int levels)
   {
@@ -138,5 +134,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -74,12 +74,11 @@ std::size_t CreaseSurface::addVertex(
 namespace
 {
 
-/// Facets of a vertex whose normals form a smaller cosine, of 20 degrees or more with it, get a
-/// copy of it.
+/// Facets at a vertex get a copy of it per piece if the normals differ by more than 20 degrees.
 constexpr double mostPartedCosine = 0.94;
 
-/// Merges two vertices of a facet that looks the wrong way, if all others around then look the
-/// right way, or are much smaller. Vertices on creases stay on them. @returns whether it did
+/// Merges two vertices of an inverted facet if no facet around stays inverted, except for much
+/// smaller ones. Vertices on creases stay there. @returns whether it did
 bool mergeAt(FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
 {
   const Facet facet = mesh.facet(inverted);
@@ -99,8 +98,8 @@ bool mergeAt(FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
   return false;
 }
 
-/// Moves a vertex of a facet that looks the wrong way halfway between its neighbors along the
-/// crease, if that makes less around it look the wrong way. @returns whether it did
+/// Moves a vertex of an inverted facet to the middle between its neighbors along the crease, if
+/// this reduces the inverted area around it. @returns whether it did
 bool slideAt(
   CreaseSurface& whole, const FacetMesh& mesh, std::size_t inverted, std::size_t firstOnCrease)
 {
@@ -129,10 +128,10 @@ bool slideAt(
   return false;
 }
 
-/// Makes facets look to the side of their normals: flips edges, and merges or moves vertices where
-/// that does not suffice. A few may be left.
-/// @param whole whose vertices on creases may be moved along them
-/// @param firstOnCrease the first vertex on a crease, all others being behind it
+/// Turns inverted facets by edge flips or, if necessary, by merging or moving vertices. A few may
+/// remain.
+/// @param whole whose vertices on creases may move along them
+/// @param firstOnCrease the first vertex on a crease; all following vertices are on creases
 /// @throws std::bad_alloc, Aborted
 std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
   std::vector<Facet> facets, std::size_t firstOnCrease)
@@ -147,7 +146,7 @@ std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& who
     for (const std::size_t facet : mesh.invertedFacets())
     {
       throwIfAborted(execution);
-      if (mesh.isInverted(facet)) // still
+      if (mesh.isInverted(facet)) // an earlier fix may have turned it
       {
         isAnyMerged = mergeAt(mesh, facet, firstOnCrease) ||
                       slideAt(whole, mesh, facet, firstOnCrease) || isAnyMerged;
@@ -158,7 +157,7 @@ std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& who
   return mesh.facets();
 }
 
-/// Whether a vertex is on all pieces that another one is on.
+/// Whether a vertex is on all the pieces of another vertex.
 bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
 {
   const auto isOnPieceOf = [&](std::size_t otherFacet)
@@ -172,7 +171,7 @@ bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
   return std::all_of(facets.begin(), facets.end(), isOnPieceOf);
 }
 
-/// Merges the ends of short edges, the shortest first, where facets stay on their pieces.
+/// Collapses short edges, shortest first, if the facets stay on their pieces.
 /// @throws std::bad_alloc, Aborted
 std::vector<Facet> withoutShortEdges(
   const Execution& execution, const CreaseSurface& whole, std::vector<Facet> facets)
@@ -247,7 +246,7 @@ public:
   }
 
 private:
-  /// Takes the triangles beside creases out of the surface, and those around.
+  /// Removes the triangles next to creases, and those around them, from the surface.
   std::vector<Facet> takeFacets()
   {
     const std::vector<char> areNear = areAtCreases(this->Whole.surface.fits, this->Triangles);
@@ -265,8 +264,7 @@ private:
     return facets;
   }
 
-  /// Repeats the vertices of facets that look to different sides: the copy for a piece has the
-  /// normal of the first facet there.
+  /// Duplicates vertices between pieces. A piece's copy has the normal of its first facet.
   void partCreases(std::vector<Facet>& facets)
   {
     std::map<std::size_t, std::vector<std::size_t>> copies; // of each vertex
@@ -291,13 +289,13 @@ private:
         return copy;
       }
     }
-    const Vector place = this->Whole.surface.positions[vertex]; // which adding moves
+    const Vector place = this->Whole.surface.positions[vertex]; // adding reallocates
     copies.push_back(
       this->Whole.addVertex(vertex, place, normal, lengthOf(this->Whole.fitOf(vertex).gradient)));
     return copies.back();
   }
 
-  /// Drops vertices without triangles, and orders the triangles.
+  /// Drops unused vertices, and orders the triangles.
   void order()
   {
     Isosurface& surface = this->Whole.surface;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/CreaseMesh.h"
 
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Fit/SurfacePiece.h"
 
 #include <algorithm>
@@ -18,11 +18,10 @@ namespace isopoint
 namespace
 {
 
-/// A crease's vertex is at most this many lengths of the edge away from the middle of it.
+/// The maximum distance of a crease vertex from the middle of its edge, in lengths of the edge.
 constexpr double mostOffset = 1.0;
 
-/// The vertex of a corner is at most this many lengths of the longest edge away from the middle of
-/// the triangle.
+/// The maximum distance of a corner vertex from the middle of its triangle, in longest edges.
 constexpr double mostCornerOffset = 2.0;
 
 class CreaseSplitter
@@ -34,8 +33,7 @@ public:
   {
   }
 
-  /// Merges vertices that are lost with the nearest neighbor that leaves no triangle looking the
-  /// wrong way, and finds the fits that describe pieces.
+  /// Merges lost vertices with the nearest neighbor that inverts no triangle. Sets Pieces.
   std::vector<Facet> withoutLost(std::vector<Facet> facets)
   {
     FacetMesh mesh(this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
@@ -97,7 +95,7 @@ private:
       onEdges[i] = this->vertexOnCrease(facet.corners[i], facet.corners[(i + 1) % 3]);
       count += onEdges[i] ? 1 : 0;
     }
-    // Turned so that the corner that differs is the first one.
+    // Rotates the corner that differs to the front.
     const auto turnedTo = [&](std::size_t first)
     {
       return std::array{ facet.corners[first], facet.corners[(first + 1) % 3],
@@ -130,7 +128,7 @@ private:
     }
   }
 
-  /// @param a alone on its piece; ab, ca where the crease crosses
+  /// @param a alone on its piece; ab, ca the crossings of the crease
   void addTwoPieces(std::size_t a, std::size_t b, std::size_t c, std::size_t ab, std::size_t ca,
     std::vector<Facet>& parts) const
   {
@@ -190,7 +188,7 @@ private:
              : std::nullopt;
   }
 
-  /// Looks from time to time whether to stop.
+  /// Checks now and then for an abort.
   void lookAfter(std::size_t count) const
   {
     constexpr std::size_t batch = 1024;
@@ -200,8 +198,8 @@ private:
     }
   }
 
-  /// Whether nothing is known of the piece that a vertex is on: no fit holds, or a smooth one that
-  /// differs from all around that know the crease.
+  /// Whether a vertex's piece is unknown: it has no fit, or a smooth fit that disagrees with all
+  /// neighbors whose fits have the crease.
   bool isLost(std::size_t vertex, const std::vector<std::size_t>& neighbors) const
   {
     const auto knowsCrease = [this](std::size_t neighbor)
@@ -214,7 +212,7 @@ private:
              std::none_of(neighbors.begin(), neighbors.end(), agrees));
   }
 
-  /// Neighbors that are wanted and their distances, the nearest first.
+  /// The selected neighbors with their distances, nearest first.
   template <class IsWanted>
   std::vector<std::pair<double, std::size_t>> nearestNeighbors(
     const FacetMesh& mesh, std::size_t vertex, const IsWanted& isWanted) const
@@ -251,8 +249,8 @@ private:
     }
   }
 
-  /// The vertex whose fit describes the piece that a vertex is on: beside a crease smooth fits are
-  /// rounded, so that of the nearest neighbor on the piece that knows the crease.
+  /// The vertex whose fit describes a vertex's piece. Smooth fits near a crease are rounded; the
+  /// fit of the nearest neighbor on the piece with the crease is used instead.
   std::size_t pieceOf(const FacetMesh& mesh, std::size_t vertex) const
   {
     if (this->Whole.isCrease(vertex))
@@ -270,8 +268,8 @@ private:
     return this->Whole.fitOf(this->Pieces[vertex]).creases.size() + 1;
   }
 
-  /// The pieces that vertices are on: all as the vertex whose fit has the most pieces sees them, if
-  /// it sees all, or else each as its own vertex does.
+  /// The pieces of vertices: from the fit with the most pieces if it has all, otherwise from their
+  /// own.
   std::vector<SurfacePiece> piecesAt(const std::vector<std::size_t>& vertices) const
   {
     const std::size_t viewer = *std::max_element(vertices.begin(), vertices.end(),
@@ -289,8 +287,8 @@ private:
     return seen.size() == own.size() ? seen : own;
   }
 
-  /// The piece of a vertex: its own fit's, or as another one's fit with more pieces sees it, if one
-  /// of these has a similar normal.
+  /// The piece of a vertex according to another vertex's fit: the vertex's own piece if that fit
+  /// has no more pieces, otherwise the piece with the most similar normal, if any is similar.
   std::optional<SurfacePiece> pieceSeenFrom(std::size_t viewer, std::size_t vertex) const
   {
     const LocalFit& fit = this->Whole.fitOf(this->Pieces[viewer]);
@@ -314,7 +312,6 @@ private:
 
   using Edge = std::pair<std::size_t, std::size_t>; // the lower vertex first
 
-  /// Whether two vertices are on different pieces.
   bool isAcrossCrease(std::size_t a, std::size_t b) const
   {
     return this->Whole.isInner[a] && this->Whole.isInner[b] && this->Whole.isFitted(a) &&
@@ -322,7 +319,7 @@ private:
            !this->Whole.isAlike(a, b);
   }
 
-  /// Where an edge that is laid along both pieces crosses the crease between them.
+  /// The crossing of the crease by an edge that follows both pieces.
   std::optional<Vector> placeOnCrease(std::size_t a, std::size_t b) const
   {
     const Vector& p = this->Whole.surface.positions[a];
@@ -356,7 +353,7 @@ private:
 
   const Execution& Run;
   CreaseSurface& Whole;
-  std::vector<std::size_t> Pieces;       // the vertex whose fit describes that of a vertex
+  std::vector<std::size_t> Pieces;       // the vertex whose fit describes a vertex's piece
   std::map<Edge, std::size_t> OnCreases; // vertices, by the edges that they are on
 };
 

@@ -14,11 +14,10 @@ namespace isopoint
 namespace
 {
 
-/// A side of a triangle: three times the number of the triangle, and the corner where it begins,
-/// counterclockwise.
+/// Three times the number of a triangle, plus the corner where the side begins, counterclockwise.
 using Side = std::size_t;
 
-/// A triangle looks about as its vertices do from this cosine between the normals on.
+/// The minimum cosine between the normals of an upright triangle and of its vertices.
 constexpr double upright = 0.6;
 
 constexpr Side noSide = std::numeric_limits<Side>::max();
@@ -82,7 +81,6 @@ private:
   std::size_t startOf(Side side) const { return this->Triangles[side / 3][side % 3]; }
   std::size_t endOf(Side side) const { return this->startOf(nextOf(side)); }
 
-  /// The corner that is not on a side.
   std::size_t oppositeOf(Side side) const { return this->startOf(lastOf(side)); }
 
   Vector normalOf(std::size_t a, std::size_t b, std::size_t c) const
@@ -91,7 +89,7 @@ private:
       difference(this->Positions[c], this->Positions[a]));
   }
 
-  /// Sides of two triangles that are the same edge, if no others are.
+  /// Pairs the sides of edges with exactly two triangles.
   void findTwins()
   {
     std::vector<Side> begins(this->Positions.size() + 1, 0); // by the lower vertex
@@ -135,7 +133,7 @@ private:
       });
   }
 
-  /// The normals of vertices: of the triangles around, weighted by area. Counts these.
+  /// Sets the area-weighted normals of vertices, and their degrees.
   void findNormals()
   {
     for (const auto& [a, b, c] : this->Triangles)
@@ -168,7 +166,7 @@ private:
            this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
   }
 
-  /// Whether the angles at c and d over the edge from a to b add up to more than 180 degrees.
+  /// Whether the angles at c and d, opposite the edge ab, add up to more than 180 degrees.
   bool isObtuse(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
     const auto angleAt = [&](std::size_t corner)
@@ -179,13 +177,13 @@ private:
     };
     const auto [cosC, sinC] = angleAt(c);
     const auto [cosD, sinD] = angleAt(d);
-    constexpr double leastSine = 0.01; // for which a flip is worthwhile
+    constexpr double leastSine = 0.01; // a smaller excess is not worth a flip
     const double scale =
       std::sqrt(cosC * cosC + sinC * sinC) * std::sqrt(cosD * cosD + sinD * sinD);
     return sinC * cosD + cosC * sinD < -leastSine * scale;
   }
 
-  /// The cosine between a triangle's normal and its vertices' mean normal.
+  /// The cosine between the normals of a triangle and of its vertices.
   double uprightness(const SurfaceTriangle& triangle) const
   {
     const auto& [a, b, c] = triangle;
@@ -200,8 +198,7 @@ private:
     return std::min(this->uprightness(first), this->uprightness(second));
   }
 
-  /// Whether the surface has a crease between two triangles: it bends by more than 60 degrees, and
-  /// neither triangle is folded over.
+  /// Whether the surface bends by more than 60 degrees at the edge, and no triangle is folded over.
   bool isCrease(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
     constexpr double leastCosine = 0.5;
@@ -211,8 +208,7 @@ private:
            this->leastUprightness({ a, b, c }, { b, a, d }) >= upright;
   }
 
-  /// Whether the triangles that a flip makes look about as their vertices do, or at least as well
-  /// as those before.
+  /// Whether a flip leaves two triangles that are upright, or at least as upright as before.
   bool staysUpright(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
     const double after = this->leastUprightness({ c, a, d }, { d, b, c });
@@ -220,13 +216,12 @@ private:
            (after > 0.0 && after >= this->leastUprightness({ a, b, c }, { b, a, d }));
   }
 
-  /// Whether the corners opposite to an edge are, or may be, connected: then it must not be
-  /// flipped.
+  /// Whether the opposite corners are, or may be, connected, which forbids a flip.
   bool isEdge(Side side, Side twin) const
   {
     if (this->Degrees[this->oppositeOf(side)] > this->Degrees[this->oppositeOf(twin)])
     {
-      std::swap(side, twin); // fewer triangles are looked at
+      std::swap(side, twin); // the corner with fewer triangles
     }
     const std::size_t other = this->oppositeOf(twin);
     const Side start = lastOf(side); // from the opposite corner
@@ -246,17 +241,17 @@ private:
     } while (at != noSide && at != start && !isFound);
     if (at == noSide)
     {
-      // At a border, in the other direction as well.
+      // At a border, also in the other direction.
       for (at = this->Twins[start]; at != noSide && !isFound; at = this->Twins[at])
       {
         at = nextOf(at);
         look(at);
       }
     }
-    return isFound || count != this->Degrees[corner]; // several disks may meet at the corner
+    return isFound || count != this->Degrees[corner]; // several disks may meet there
   }
 
-  /// The triangles (a, b, c) and (b, a, d) become (c, a, d) and (d, b, c).
+  /// Replaces the triangles (a, b, c) and (b, a, d) by (c, a, d) and (d, b, c).
   void flipAt(Side side, Side twin)
   {
     const std::size_t a = this->startOf(side);
@@ -291,7 +286,7 @@ private:
     }
   }
 
-  /// Suspects the sides of a triangle except the one that a flip made.
+  /// Marks the sides of a triangle for another check, except the new edge.
   void suspectAround(Side side, std::vector<char>& isSuspect) const
   {
     const Side first = side / 3 * 3;

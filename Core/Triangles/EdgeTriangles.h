@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_EdgeTriangles_h
-#define isopoint_EdgeTriangles_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -18,15 +17,14 @@
 namespace isopoint
 {
 
-/// Triangles on crossing edges.
 template <class TSample>
 struct EdgeTriangles
 {
-  /// One edge of each vertex; of a merged one, the edges of all crossings that it is the mean of,
-  /// the nearest first, one list after the other.
+  /// The edge of each vertex. For a merged vertex, the edges of all crossings that it is the mean
+  /// of, nearest first. One list after the other.
   std::vector<CrossingEdge<TSample>> edges;
   std::vector<std::size_t> edgeBegins;    // see Isosurface
-  std::vector<Vector> positions;          // of the crossings, or their means
+  std::vector<Vector> positions;          // crossings, or their means
   std::vector<SurfaceTriangle> triangles; // ordered
 
   std::size_t edgeBegin(std::size_t vertex) const
@@ -34,7 +32,6 @@ struct EdgeTriangles
     return this->edgeBegins.empty() ? vertex : this->edgeBegins[vertex];
   }
 
-  /// The first edge of each vertex.
   std::vector<CrossingEdge<TSample>> firstEdges(const Execution& execution) const
   {
     std::vector<CrossingEdge<TSample>> first(this->positions.size());
@@ -44,16 +41,16 @@ struct EdgeTriangles
   }
 };
 
-/// Triangles each vertex of which has one edge, by the places of the edges' ends in the tree.
+/// Triangles whose vertices have one edge each, sorted by the edges' ends in the tree.
 template <class TSample>
 struct MarchedTriangles : EdgeTriangles<TSample>
 {
-  /// The nearer end of each edge, by its number among all ends in the order of the tree.
+  /// The nearer end of each edge, numbered by its place in the tree.
   std::vector<std::size_t> nearerEnds;
-  std::size_t endCount = 0; // above all of these numbers
+  std::size_t endCount = 0; // exceeds all of these numbers
 };
 
-/// Merges vertices; see mergeVertices(). @throws std::bad_alloc, Aborted
+/// See mergeVertices(). @throws std::bad_alloc, Aborted
 template <class TSample>
 EdgeTriangles<TSample> withMergedVertices(
   const Execution& execution, MarchedTriangles<TSample> marched, std::vector<char> areKept)
@@ -68,7 +65,7 @@ EdgeTriangles<TSample> withMergedVertices(
   return result;
 }
 
-/// The vertices in the order of their first edges. @throws std::bad_alloc, Aborted
+/// The vertices sorted by their first edges. @throws std::bad_alloc, Aborted
 template <class TSample>
 std::vector<std::size_t> orderOfEdges(
   const Execution& execution, const EdgeTriangles<TSample>& triangles)
@@ -92,7 +89,7 @@ std::vector<std::size_t> orderOfEdges(
   return order;
 }
 
-/// The same triangles with their vertices in another order. @throws std::bad_alloc, Aborted
+/// Reorders the vertices. @throws std::bad_alloc, Aborted
 template <class TSample>
 EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<TSample>& triangles,
   const std::vector<std::size_t>& order)
@@ -107,5 +104,3 @@ EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<T
 }
 
 } // namespace isopoint
-
-#endif

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ExtractTriangles_h
-#define isopoint_ExtractTriangles_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractIsosurface.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NarrowBand.h"
-#include "Core/Tetrahedra/Band.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
+#include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/EdgeTriangles.h"
@@ -28,41 +27,40 @@
 namespace isopoint
 {
 
-/// The isosurface of one isovalue as triangles.
+/// The triangles for one isovalue.
 struct TriangleSurface
 {
   Isosurface vertices; // of crossing Delaunay edges
   std::vector<SurfaceTriangle> triangles;
-  std::size_t droppedTetrahedra = 0; // those that lie in gaps
+  std::size_t droppedTetrahedra = 0; // in gaps
 };
 
-/// Extracts triangles; see docs/triangles.md. For one isovalue. Where several ranks share the tree,
-/// all functions are collective, and each rank finds the whole surface.
+/// Extracts the triangles for one isovalue; see docs/triangles.md. With a process group, all
+/// functions are collective, and each rank finds the whole surface.
 template <class TSample, class TRanks>
 class TriangleExtraction
 {
 public:
   using Id = typename TSample::Id;
 
-  /// @param tree will be refined
+  /// @param tree is refined
   /// @param ranks SingleRank, or SharedRanks
-  /// @param neighborhoods of the tree's leaves that are known
+  /// @param neighborhoods known neighborhoods of leaves
   /// @param band see CrossingTetrahedraFinder
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<Band>& band,
+    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<KeptTetrahedra>& band,
     const IsosurfaceRequest& request)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Neighborhoods(neighborhoods)
-    , KeptBand(band)
+    , Kept(band)
     , Request(request)
     , Means(tree)
   {
   }
 
-  /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree can be used
-  /// again afterwards
+  /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree stays usable
   TriangleSurface extract()
   {
     if (this->Tree.isEmpty())
@@ -87,7 +85,6 @@ public:
     return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
 
-  /// The crossing tetrahedra of the Delaunay tetrahedrization of all samples.
   std::vector<CrossingTetrahedron<Id>> tetrahedra(const Execution& execution)
   {
     if (this->Tree.isEmpty())
@@ -100,11 +97,11 @@ public:
         .refine(this->Ranks);
     const Execution part = partOf(execution, bandEnd, 1.0);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->KeptBand);
+      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->Kept);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     if (!this->Request.keepsBand)
     {
-      this->KeptBand.reset();
+      this->Kept.reset();
     }
     this->Counts = finder.counts();
     return found;
@@ -113,7 +110,6 @@ public:
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
-  /// The triangles of all tetrahedra but those across gaps.
   MarchedTriangles<TSample> march(const Execution& execution)
   {
     constexpr double tetrahedraEnd = 0.8; // shares of the progress
@@ -134,11 +130,11 @@ private:
     return this->Request.fit && this->Request.fit->highest == FitOrder::Crease;
   }
 
-  /// Of vertices with one edge, by that.
+  /// By the edges of vertices with one edge.
   using FitsAtEdges = std::map<SampleEdge, LocalFit>;
 
-  /// Merges vertices except beside creases, which fits at all vertices find.
-  /// @param kept set to the fits of vertices beside creases
+  /// Merges vertices except at creases. Needs fits at all vertices to find these.
+  /// @param kept set to the fits of vertices at creases
   EdgeTriangles<TSample> merge(const Execution& execution, ExtractionContext<TSample>& context,
     MarchedTriangles<TSample> marched, FitsAtEdges& kept)
   {
@@ -158,7 +154,7 @@ private:
       partOf(execution, fitsEnd, 1.0), std::move(marched), std::move(areKept));
   }
 
-  /// @param known fits that need not be found again
+  /// @param known fits that are reused
   std::vector<LocalFit> fitTo(const Execution& execution, ExtractionContext<TSample>& context,
     const EdgeTriangles<TSample>& mesh, const FitsAtEdges& known)
   {
@@ -191,7 +187,6 @@ private:
     return fits;
   }
 
-  /// Drops tetrahedra in gaps of the cloud.
   void dropGaps(const Execution& execution, std::vector<CrossingTetrahedron<Id>>& found)
   {
     this->Ranks.order(found);
@@ -202,7 +197,7 @@ private:
     this->Dropped = count - found.size();
   }
 
-  /// The surface of triangles whose vertices the fits move where no triangle turns over.
+  /// Moves vertices by their fits unless a triangle turns over.
   TriangleSurface place(const Execution& execution, ExtractionContext<TSample>& context,
     EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
   {
@@ -231,7 +226,6 @@ private:
     return surface;
   }
 
-  /// Flips edges between the vertices where the fits put them.
   void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
   {
     std::vector<Vector> positions = mesh.positions;
@@ -246,7 +240,7 @@ private:
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const NeighborhoodCache<Id>& Neighborhoods;
-  std::unique_ptr<Band>& KeptBand;
+  std::unique_ptr<KeptTetrahedra>& Kept;
   const IsosurfaceRequest& Request;
   SharedLeafMeans<TSample> Means;
   TetrahedraCounts Counts;
@@ -254,5 +248,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/FacetMesh.h"
 
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Fit/LocalFit.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void FacetMesh::disconnect(std::size_t facet)
   const SurfaceTriangle& corners = this->Facets[facet].corners;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    // An edge of several facets stays one, and is left alone.
+    // Nonmanifold edges are neither flipped nor collapsed.
     const auto found = this->Edges.find({ corners[i], corners[(i + 1) % 3] });
     if (found->second.isOne)
     {
@@ -191,8 +191,7 @@ std::vector<std::size_t> FacetMesh::neighborsOf(std::size_t vertex) const
   return neighbors;
 }
 
-/// The facets around a vertex that stay if it is moved onto a neighbor; nothing if the surface
-/// would not stay a manifold.
+/// The facets around a vertex that survive a move onto a neighbor; nothing if not manifold then.
 std::optional<std::vector<std::size_t>> FacetMesh::facetsToMove(
   std::size_t vertex, std::size_t neighbor) const
 {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_FacetMesh_h
-#define isopoint_FacetMesh_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -14,32 +13,31 @@
 namespace isopoint
 {
 
-/// A triangle and the direction that it is to look to.
+/// A triangle with the normal that it should have.
 struct Facet
 {
   SurfaceTriangle corners;
   Vector normal;
 };
 
-/// Triangles whose edges can be flipped and collapsed. A closed surface stays closed. What is done
-/// depends on the facets and their order alone.
+/// Triangles whose edges can be flipped and collapsed. A closed surface stays closed. Results
+/// depend only on the facets and their order.
 class FacetMesh
 {
 public:
-  /// @param positions of all vertices, kept by the caller
-  /// @param isInner of each vertex: whether all triangles around it are facets
+  /// @param positions of all vertices, owned by the caller
+  /// @param isInner for each vertex, whether all triangles around it are facets
   /// @throws std::bad_alloc
   FacetMesh(const std::vector<Vector>& positions, const std::vector<bool>& isInner,
     std::vector<Facet> facets);
 
-  /// Flips edges between facets of similar normals as long as that makes less of the surface look
-  /// the wrong way.
+  /// Flips edges between facets with similar normals while this reduces the inverted area.
   /// Complexity: O(facets), mostly
   void untangle();
 
-  /// Moves a vertex onto a neighbor, and drops the two facets in between, if the edge is an inner
-  /// one of a manifold.
-  /// @param isAllowed(facet) of each facet that is changed, with its new corners
+  /// Moves a vertex onto a neighbor across an inner, manifold edge, and drops the facets between
+  /// them.
+  /// @param isAllowed(facet) for each facet that changes, with its new corners
   /// @returns whether it did
   template <class IsAllowed>
   bool collapse(std::size_t vertex, std::size_t neighbor, const IsAllowed& isAllowed)
@@ -62,16 +60,14 @@ public:
     return true;
   }
 
-  /// Vertices with a facet in common with one, in ascending order.
+  /// In ascending order.
   std::vector<std::size_t> neighborsOf(std::size_t vertex) const;
 
-  /// Facets that look the wrong way.
   std::vector<std::size_t> invertedFacets() const;
 
-  /// The facet with an edge, if there is one alone.
+  /// The facet with a directed edge, if there is exactly one.
   std::optional<std::size_t> facetAt(std::size_t a, std::size_t b) const;
 
-  /// Facets with a vertex.
   const std::vector<std::size_t>& facetsAround(std::size_t vertex) const
   {
     return this->FacetsAround.at(vertex);
@@ -79,23 +75,23 @@ public:
 
   const Facet& facet(std::size_t index) const { return this->Facets[index]; }
 
-  /// Whether a facet is left, and looks the wrong way.
+  /// Whether a facet still exists and is inverted.
   bool isInverted(std::size_t index) const
   {
     return !this->IsRemoved[index] && this->signedArea(this->Facets[index]) < 0.0;
   }
 
-  /// Twice the area of a facet, negative if it looks the wrong way.
+  /// Twice the area of a facet, negative if it is inverted.
   double signedArea(const Facet& facet) const;
 
-  /// Twice the area around a vertex that looks the wrong way.
+  /// Twice the area of the inverted facets around a vertex.
   double invertedAreaAround(std::size_t vertex) const;
 
-  /// Those that are left.
+  /// The remaining facets.
   std::vector<Facet> facets() const;
 
 private:
-  using Edge = std::array<std::size_t, 2>; // as a facet has it, counterclockwise
+  using Edge = std::array<std::size_t, 2>; // directed counterclockwise in its facet
 
   struct EdgeHash
   {
@@ -109,7 +105,7 @@ private:
   struct EdgeFacet
   {
     std::size_t facet;
-    bool isOne; // of one facet alone
+    bool isOne; // whether exactly one facet has it
   };
 
   static void replace(SurfaceTriangle& corners, std::size_t vertex, std::size_t by);
@@ -119,7 +115,7 @@ private:
 
   bool hasEdge(std::size_t a, std::size_t b) const;
 
-  /// Flips the edge of a facet that leaves the least looking the wrong way, if that is less.
+  /// Flips the edge of a facet that leaves the least inverted area, if that is less than before.
   /// @returns the other facet
   std::optional<std::size_t> flipBest(std::size_t facet);
 
@@ -138,5 +134,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_GapTetrahedra_h
-#define isopoint_GapTetrahedra_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/ItemLists.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Offset.h"
-#include "Core/Base/SortUnique.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/GapSpread.h"
-#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -20,8 +18,7 @@
 namespace isopoint
 {
 
-/// Crossing tetrahedra as parts of a surface for GapSpread: those with a crossing facet in common
-/// are connected.
+/// Crossing tetrahedra as the elements of GapSpread, connected by shared crossing facets.
 template <class TSample>
 class TetrahedronParts
 {
@@ -36,7 +33,7 @@ public:
 
   std::size_t size() const { return this->Tetrahedra.size(); }
 
-  /// On the rank of the corner that comes first in the order of the tree.
+  /// True on the rank that owns the first corner, in the order of the tree.
   bool isCounted(std::size_t tetrahedron) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
@@ -68,7 +65,7 @@ public:
     return false;
   }
 
-  /// O(tetrahedra at a corner), except for the first time: O(n). @throws std::bad_alloc
+  /// O(tetrahedra at a corner), O(n) for the first call. @throws std::bad_alloc
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
   {
@@ -83,7 +80,7 @@ public:
     for (std::size_t opposite = 0; opposite < 4; ++opposite)
     {
       const bool isBelow = opposite < belowCount;
-      if (belowCount != (isBelow ? 1 : 3)) // else all corners of the facet are on one side
+      if (belowCount != (isBelow ? 1 : 3)) // otherwise all corners of the facet are on one side
       {
         this->visitAcross(tetrahedron, corners[opposite], visit);
       }
@@ -91,12 +88,12 @@ public:
   }
 
 private:
-  /// Visits the other tetrahedron at the facet opposite to a corner, if there is one.
+  /// Visits the tetrahedron across the facet opposite a corner, if there is one.
   template <class Visit>
   void visitAcross(std::size_t tetrahedron, typename TSample::Id opposite, const Visit& visit) const
   {
     const auto& corners = this->Tetrahedra[tetrahedron].corners;
-    // The corner with the fewest: one in a void has very many.
+    // Searches at the corner with the fewest tetrahedra: one in a void has very many.
     std::size_t shared = static_cast<std::size_t>(corners[0] == opposite ? corners[1] : corners[0]);
     for (const auto corner : corners)
     {
@@ -121,11 +118,11 @@ private:
 
   const SampleTree<TSample>& Tree;
   const std::vector<Tetrahedron>& Tetrahedra;
-  std::optional<ItemLists> AtLeaves; // tetrahedra, listed once there is a gap
+  std::optional<ItemLists> AtLeaves; // tetrahedra; built when a gap is found
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
-/// Where several ranks share the tree, all functions are collective.
+/// With a process group, all functions are collective.
 /// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
 class GapTetrahedraFinder
@@ -134,7 +131,7 @@ public:
   using Id = typename TSample::Id;
   using Tetrahedron = CrossingTetrahedron<Id>;
 
-  /// @param tetrahedra all that are crossing, in the same order on all ranks
+  /// @param tetrahedra all crossing tetrahedra, in the same order on all ranks
   GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
     const std::vector<Tetrahedron>& tetrahedra)
     : Run(execution)
@@ -155,18 +152,18 @@ public:
   }
 
 private:
-  static constexpr std::size_t smallestPiece = 8; // of tetrahedra beside a gap
+  static constexpr std::size_t smallestPiece = 8; // of tetrahedra next to a gap
 
-  /// The tetrahedra that gaps spread from: those over the strong criterion, and those at the hull.
+  /// The tetrahedra from which gaps spread: those rejected by the strong criterion or at the hull.
   std::vector<std::size_t> seeds()
   {
     std::vector<std::size_t> candidates;
-    const std::vector<char> isCrowded = this->crowdedLeaves();
+    const std::vector<char> isDense = this->denseLeaves();
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
       const auto& corners = this->Tetrahedra[i].corners;
       if (std::count_if(corners.begin(), corners.end(),
-            [&](Id leaf) { return isCrowded[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
+            [&](Id leaf) { return isDense[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
       {
         candidates.push_back(i);
       }
@@ -183,9 +180,9 @@ private:
     return seeds;
   }
 
-  /// Marks, by node, the leaves at which the longest edge of a tetrahedron may be over the strong
-  /// criterion. In clouds without gaps these are few, so that next to no edge is looked at.
-  std::vector<char> crowdedLeaves()
+  /// Marks, by node, the leaves whose longest edge the strong criterion may reject. Clouds without
+  /// gaps have few, so that almost no edges are tested.
+  std::vector<char> denseLeaves()
   {
     const std::vector<std::atomic<double>> longest = this->longestEdges(); // at each leaf, by node
     std::vector<std::size_t> corners; // in the same order on all ranks
@@ -213,10 +210,10 @@ private:
                      : 0;
       },
       this->Run.progress);
-    std::vector<std::size_t> crowded = markedOf(marks);
-    this->Ranks.unite(crowded);
+    std::vector<std::size_t> dense = markedOf(marks);
+    this->Ranks.unite(dense);
     std::vector<char> marksOfNodes(longest.size(), 0);
-    for (const std::size_t i : crowded)
+    for (const std::size_t i : dense)
     {
       marksOfNodes[corners[i]] = 1;
     }
@@ -258,13 +255,13 @@ private:
     return longest;
   }
 
-  /// What is in gaps, with the small pieces that border on them.
+  /// Adds the small pieces that border on gaps.
   std::vector<char> withFragments(std::vector<char> isInGap)
   {
     std::vector<std::size_t> fragments;
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
-      // All that borders on a gap was reached.
+      // Everything next to a gap was reached.
       if (this->Spread.isReached()[i] && !isInGap[i] && this->isBesideGap(i))
       {
         const std::vector<std::size_t> piece = this->pieceAround(i, isInGap);
@@ -289,8 +286,7 @@ private:
     return isBeside;
   }
 
-  /// The tetrahedra that are connected with one across crossing facets, out of gaps; of many,
-  /// `smallestPiece`.
+  /// The tetrahedra outside gaps connected to one by crossing facets, at most `smallestPiece`.
   std::vector<std::size_t> pieceAround(std::size_t tetrahedron, const std::vector<char>& isInGap)
   {
     std::vector<std::size_t> piece{ tetrahedron };
@@ -318,5 +314,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_MarchingTetrahedra_h
-#define isopoint_MarchingTetrahedra_h
+#pragma once
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Execution.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/Isosurface.h"
-#include "Core/Tetrahedra/BandTriangulation.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tree/CoincidentSamples.h"
 #include "Core/Triangles/EdgeTriangles.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -24,21 +22,21 @@
 namespace isopoint
 {
 
-/// Which of several edges is the first, where crossings are one sample or diagonals are equal.
+/// The order of edges, used for coincident crossings and equal diagonals.
 enum class EdgeOrder
 {
   Ids, // by the ids of their ends
-  Tree // by the places of their ends in the tree: however the samples are numbered
+  Tree // by the places of their ends in the tree, independent of sample ids
 };
 
-/// Marching tetrahedra: the isosurface of the linear interpolation in each crossing tetrahedron.
+/// Marching tetrahedra: the isosurface of linear interpolation in each crossing tetrahedron.
 template <class TSample>
 class MarchingTetrahedra
 {
 public:
   using Id = typename TSample::Id;
 
-  /// @param tetrahedra of leaves of the tree
+  /// @param tetrahedra their corners are leaves of the tree
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
     SharedLeafMeans<TSample>& means, double isovalue, EdgeOrder order,
     const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
@@ -68,13 +66,12 @@ public:
   }
 
 private:
-  /// An edge, by the numbers of its ends in ascending order.
+  /// The numbers of an edge's ends, ascending.
   using LeafPair = std::pair<Id, Id>;
 
   static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
 
-  /// The end at which an edge crosses, if it does so at one: from either end seen, since rounding
-  /// depends on that.
+  /// The end at which an edge crosses, if any; tested from either end, because of rounding.
   enum class End : char
   {
     Neither,
@@ -82,7 +79,7 @@ private:
     Upper
   };
 
-  /// Numbers the leaves at corners in the order of the tree.
+  /// Numbers the corner leaves in the order of the tree.
   void numberLeaves()
   {
     std::vector<bool> isCorner(this->Tree.nodes.size(), false);
@@ -121,7 +118,7 @@ private:
     return static_cast<std::size_t>(this->Leaves[static_cast<std::size_t>(number)]);
   }
 
-  /// The edges of a tetrahedron that cross, around its polygon, with values falling to the front.
+  /// The crossing edges of a tetrahedron, counterclockwise seen from lower values.
   struct Polygon
   {
     std::array<LeafPair, 4> pairs;
@@ -218,13 +215,12 @@ private:
                                                                                   : End::Neither;
   }
 
-  /// Whether the edge of one vertex is before that of another one.
   bool isBefore(std::size_t a, std::size_t b) const
   {
     return this->Order == EdgeOrder::Tree ? a < b : this->Edges[a] < this->Edges[b];
   }
 
-  /// Edges that cross at one of their ends are crossed at one vertex there.
+  /// Merges the vertices of edges that cross at the same end.
   void mergeAtSamples()
   {
     this->VertexOf.resize(this->Edges.size());
@@ -255,7 +251,6 @@ private:
     }
   }
 
-  /// Notes where the pairs of each leaf begin.
   void indexPairs()
   {
     this->PairBegins.assign(this->Leaves.size() + 1, 0);
@@ -276,7 +271,7 @@ private:
     return this->VertexOf[static_cast<std::size_t>(found - this->Pairs.begin())];
   }
 
-  /// The triangles, their vertices numbered as pairs are.
+  /// The triangles, with the numbers of pairs as vertices.
   std::vector<SurfaceTriangle> allTriangles()
   {
     return this->collectedOfAll<SurfaceTriangle>(
@@ -315,8 +310,8 @@ private:
     }
   }
 
-  /// Whether a quadrilateral is cut from its first corner: along the shorter diagonal or, of equal
-  /// ones, that from the vertex of the first edge.
+  /// Whether to split a quadrilateral at its first corner: along the shorter diagonal or, if equal,
+  /// along the one from the vertex of the first edge.
   bool cutsFirst(const std::array<std::size_t, 4>& corners) const
   {
     const auto lengthBetween = [&](std::size_t a, std::size_t b)
@@ -332,7 +327,7 @@ private:
     return this->isBefore(firstOf(0, 2), firstOf(1, 3));
   }
 
-  /// Orders the triangles, and leaves out vertices without any.
+  /// Orders the triangles, and drops unused vertices.
   MarchedTriangles<TSample> withUsedVertices(const std::vector<SurfaceTriangle>& triangles) const
   {
     const std::vector<std::size_t> used = verticesOf(triangles, this->Edges.size());
@@ -355,14 +350,12 @@ private:
   std::vector<Id> NumberOf;            // by leaf
   std::vector<LeafPair> Pairs;         // of crossing edges, ordered
   std::vector<std::size_t> PairBegins; // by the number of their first leaf
-  // One entry for each pair.
+  // One entry per pair.
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<Vector> Positions;
   std::vector<std::size_t> NearerEnds;
-  std::vector<End> Ends;             // where it crosses at one
-  std::vector<std::size_t> VertexOf; // the pair whose vertex is that of this one
+  std::vector<End> Ends;             // if the crossing is at an end
+  std::vector<std::size_t> VertexOf; // the pair that represents this pair's vertex
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_ShortEdges_h
-#define isopoint_ShortEdges_h
+#pragma once
 
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -11,13 +10,12 @@
 namespace isopoint
 {
 
-/// How often short edges are merged.
+/// The number of rounds in which short edges are merged.
 constexpr int shortEdgeRounds = 3;
 
-/// An edge that is short beside the triangles around it.
 struct ShortEdge
 {
-  double share; // of the side of an equilateral triangle that is as large as they are in the mean
+  double share; // its length over the side of an equilateral triangle of their mean area
   std::size_t first;
   std::size_t second; // above the first
 
@@ -29,14 +27,11 @@ struct ShortEdge
   }
 };
 
-/// The edges that are shorter than 0.55 times the side of an equilateral triangle, the shortest
-/// first. Its area is the mean over the triangles around one end and those around the other.
-/// @returns edges of several triangles once for each
+/// Edges shorter than 0.55 sides of an equilateral triangle, shortest first. Its area is the mean
+/// of the areas of the triangles at both ends. O(n log n)
+/// @returns an edge of several triangles several times
 /// @throws std::bad_alloc
-/// Complexity: O(n log n)
 std::vector<ShortEdge> shortEdges(
   const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles);
 
 } // namespace isopoint
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_SurfacePart_h
-#define isopoint_SurfacePart_h
+#pragma once
 
 #include "Core/Triangles/TriangleGeometry.h"
 
@@ -11,22 +10,21 @@
 namespace isopoint
 {
 
-/// A part of a surface of triangles.
 struct SurfacePart
 {
   std::vector<std::size_t> vertices;      // their numbers in the whole surface, ascending
-  std::vector<bool> areElsewhere;         // whether each of them is counted on another rank
-  std::vector<SurfaceTriangle> triangles; // of places in `vertices`, the ghosts last
-  std::size_t ghostCount = 0;             // of the triangles
+  std::vector<bool> areElsewhere;         // whether each is counted on another rank
+  std::vector<SurfaceTriangle> triangles; // indices into `vertices`; ghosts last
+  std::size_t ghostCount = 0;
 };
 
-/// Chooses the part of one rank: triangles belong to the ranks of their first vertices, and a
-/// vertex is counted on the rank of the first triangle that has it.
+/// Chooses the part of one rank: triangles belong to the rank of their first vertex, vertices are
+/// counted on the rank of their first triangle.
 class SurfacePartChoice
 {
 public:
-  /// @param wholeSurface whose vertices all have a triangle
-  /// @param vertexRanks to which vertices belong, by number
+  /// @param wholeSurface every vertex has a triangle
+  /// @param vertexRanks the rank of each vertex
   SurfacePartChoice(const std::vector<SurfaceTriangle>& wholeSurface,
     const std::vector<std::size_t>& vertexRanks, std::size_t rank)
     : Triangles(wholeSurface)
@@ -37,9 +35,9 @@ public:
   {
   }
 
-  /// @param ghostRings of triangles of other ranks that are added. A ring is all triangles with a
-  /// vertex in the part within
-  /// Complexity: O(vertices + triangles), for each ring
+  /// @param ghostRings number of rings of other ranks' triangles to add, each with all triangles
+  /// that share a vertex with the part so far
+  /// Complexity: O(vertices + triangles) per ring
   SurfacePart choose(int ghostRings)
   {
     for (int ring = 0; ring <= ghostRings; ++ring)
@@ -125,9 +123,7 @@ private:
   const std::vector<std::size_t>& VertexRanks;
   const std::size_t Rank;
   std::vector<int> RingOf;    // of each triangle
-  std::vector<bool> IsInside; // whether each vertex is that of a triangle of the rings so far
+  std::vector<bool> IsInside; // whether each vertex is in a ring so far
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/TriangleGeometry.h"
 
-#include "Core/Base/Collected.h"
-#include "Core/Base/ItemLists.h"
-#include "Core/Base/NodeList.h"
-#include "Core/Base/SortUnique.h"
-#include "Core/Splat/SplatNormals.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +17,7 @@ namespace isopoint
 namespace
 {
 
-/// The normal of a triangle, as long as twice its area in units that neither over- nor underflow:
-/// its direction alone is of use.
+/// The normal of a triangle, scaled to avoid overflow and underflow: only its direction matters.
 Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
 {
   const Vector u = difference(b, a);
@@ -41,13 +36,7 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
   return cross(toUnit(u), toUnit(v));
 }
 
-bool hasDirection(const Vector& vector)
-{
-  const double length = lengthOf(vector);
-  return std::isfinite(length) && length > 0.0;
-}
-
-/// Takes back moves that are more than twice as long as all edges of the vertex's triangles.
+/// Reverts moves longer than twice the longest edge of the vertex's triangles.
 void takeBackFarMoves(const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
@@ -76,77 +65,6 @@ void takeBackFarMoves(const std::vector<Vector>& unmoved,
       fit.position = unmoved[vertex];
     }
   }
-}
-
-/// The sum of the normals of the triangles at each vertex, weighted by area.
-std::vector<Vector> triangleNormals(
-  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
-{
-  std::vector<Vector> sums(positions.size());
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    const auto& [a, b, c] = triangle;
-    const Vector normal =
-      cross(difference(positions[b], positions[a]), difference(positions[c], positions[a]));
-    for (const std::size_t vertex : triangle)
-    {
-      sums[vertex] = sum(sums[vertex], 1.0, normal);
-    }
-  }
-  return sums;
-}
-
-/// The sum, at each vertex, of what the other corners of its triangles have.
-std::vector<Vector> sumsAround(
-  const std::vector<Vector>& all, const std::vector<SurfaceTriangle>& triangles)
-{
-  std::vector<Vector> sums(all.size());
-  for (const auto& [a, b, c] : triangles)
-  {
-    sums[a] = sum(sums[a], 1.0, sum(all[b], 1.0, all[c]));
-    sums[b] = sum(sums[b], 1.0, sum(all[c], 1.0, all[a]));
-    sums[c] = sum(sums[c], 1.0, sum(all[a], 1.0, all[b]));
-  }
-  return sums;
-}
-
-/// The vertices whose fits have failed, as their normals show: those turned away from the triangles
-/// around, and from the triangles around the neighbors. (Of the triangles around one vertex alone,
-/// long thin ones can look anywhere beside a right normal.)
-/// @param normals of vertices, except for `others`
-/// @param ofTriangles triangleNormals()
-std::vector<std::size_t> failedNormals(const SurfacePoints& points,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<Vector>& normals,
-  const std::vector<std::size_t>& others, const std::vector<Vector>& ofTriangles)
-{
-  constexpr double leastCosine = 0.5; // of 60 degrees
-  const auto isTurnedFrom = [&](const std::vector<Vector>& means, std::size_t vertex)
-  {
-    return hasDirection(means[vertex]) &&
-           dot(normals[vertex], directionOf(means[vertex])) < leastCosine;
-  };
-  std::vector<bool> isOther(normals.size(), false);
-  for (const std::size_t vertex : others)
-  {
-    isOther[vertex] = true;
-  }
-  std::vector<std::size_t> failed;
-  for (std::size_t vertex = 0; vertex < normals.size(); ++vertex)
-  {
-    if (!isOther[vertex] && points.fits[vertex].order != FitOrder::Crease &&
-        isTurnedFrom(ofTriangles, vertex))
-    {
-      failed.push_back(vertex);
-    }
-  }
-  if (!failed.empty())
-  {
-    const std::vector<Vector> around = sumsAround(ofTriangles, triangles);
-    failed.erase(std::remove_if(failed.begin(), failed.end(),
-                   [&](std::size_t vertex) { return !isTurnedFrom(around, vertex); }),
-      failed.end());
-  }
-  return failed;
 }
 
 } // namespace
@@ -217,10 +135,10 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
-  // All at first, then those that changed.
+  // All triangles at first, then those that changed.
   std::vector<std::size_t> suspects(triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
-  std::optional<ItemLists> trianglesAt; // each vertex, once one is turned over
+  std::optional<ItemLists> trianglesAt; // by vertex; built when a triangle is turned over
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 8192;
@@ -255,27 +173,6 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     }
     keepUnique(suspects);
   }
-}
-
-std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
-  const std::vector<SurfaceTriangle>& triangles, bool areOfField)
-{
-  std::vector<Vector> normals(points.positions.size());
-  std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
-    [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
-  const std::vector<Vector> ofTriangles = triangleNormals(points.positions, triangles);
-  if (others.size() < normals.size())
-  {
-    const std::vector<std::size_t> failed =
-      failedNormals(points, triangles, normals, others, ofTriangles);
-    others.insert(others.end(), failed.begin(), failed.end());
-  }
-  for (const std::size_t vertex : others)
-  {
-    const Vector& normal = ofTriangles[vertex];
-    normals[vertex] = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
-  }
-  return normals;
 }
 
 } // namespace isopoint

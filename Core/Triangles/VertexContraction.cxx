@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/VertexContraction.h"
 
-#include "Core/Base/Collected.h"
 #include "Core/Base/Hash.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,7 @@ namespace isopoint
 namespace
 {
 
-/// An edge from a vertex outside of a part to one of its members, by what the former has become.
+/// An edge from a vertex outside a part, or the vertex it was merged into, to a member of the part.
 struct Spoke
 {
   std::size_t root;
@@ -35,12 +34,12 @@ struct Spoke
 
 } // namespace
 
-/// The triangles around a vertex that a part has become. Memory is kept.
+/// The triangles around a merged part. Reuses memory.
 struct VertexContraction::Surroundings
 {
   VertexLink link;
   std::vector<Spoke> spokes;
-  std::vector<std::size_t> vanished; // of triangles that have become edges, the outer ends
+  std::vector<std::size_t> vanished; // outer ends of triangles that became edges
 
   void clear()
   {
@@ -49,8 +48,8 @@ struct VertexContraction::Surroundings
     this->vanished.clear();
   }
 
-  /// Whether all spokes are to vertices of the link, those to each of them are connected by
-  /// triangles that have vanished, and these form no loops: then there is one spoke more.
+  /// Whether all spokes lead to vertices of the link, and the spokes to each of them form a tree,
+  /// connected by vanished triangles: one spoke more than triangles.
   bool haveTrees()
   {
     keepUnique(this->spokes);
@@ -91,7 +90,7 @@ VertexContraction::VertexContraction(const Execution& execution, const WeightedV
 
 void VertexContraction::findBorder()
 {
-  // Within a surface each neighbor of a vertex follows one and precedes another one.
+  // At inner vertices, each neighbor is once a successor and once a predecessor.
   std::vector<std::uint64_t> balances(this->IsAtBorder.size(), 0);
   for (const SurfaceTriangle& triangle : this->Triangles)
   {
@@ -143,7 +142,7 @@ void VertexContraction::contract()
   }
 }
 
-/// Calls visit(other) for all parts with a triangle in common with one, mostly several times.
+/// Calls visit(other) for all parts that share a triangle with a part, often repeatedly.
 template <class Visit>
 void VertexContraction::forPartsAround(std::size_t part, const Visit& visit) const
 {
@@ -161,7 +160,7 @@ void VertexContraction::forPartsAround(std::size_t part, const Visit& visit) con
   }
 }
 
-/// Of parts that failed, those with the lowest hash among their neighbors that failed.
+/// Of the failed parts, those with the lowest hash among their failed neighbors.
 std::vector<std::size_t> VertexContraction::lowestAmongNeighbors(
   const std::vector<std::size_t>& failed) const
 {
@@ -193,7 +192,7 @@ void VertexContraction::merge(std::size_t part)
   this->Positions[root] = this->meanOf(this->placingMembers(part));
 }
 
-/// The mean of some vertices, within their bounds.
+/// The weighted mean of vertices, clamped to their bounds.
 Vector VertexContraction::meanOf(const std::vector<std::size_t>& vertices) const
 {
   const auto positionOf = [this](std::size_t vertex) -> const Vector&
@@ -234,7 +233,7 @@ void VertexContraction::separate(std::size_t part)
   }
 }
 
-/// The vertices whose mean a part becomes: at a border those on it, and at a corner of it that.
+/// The vertices that place a merged part: its border corner, else its border vertices, else all.
 std::vector<std::size_t> VertexContraction::placingMembers(std::size_t part) const
 {
   const NodeList<std::size_t> vertices = this->Parts.verticesOf(part);
@@ -249,12 +248,12 @@ std::vector<std::size_t> VertexContraction::placingMembers(std::size_t part) con
   return corner != VertexParts::none ? std::vector<std::size_t>(1, corner) : atBorder;
 }
 
-/// The vertex of a part at which the border has a corner, if it has one: far off the straight line
-/// between the two vertices of the border outside of the part.
+/// The vertex of a part at a corner of the border, far from the line between the two border
+/// vertices next to the part. `none` if there is no corner.
 std::size_t VertexContraction::cornerOf(
   std::size_t part, const std::vector<std::size_t>& atBorder) const
 {
-  constexpr double cornerShare = 0.25; // of the length of that line
+  constexpr double cornerShare = 0.25; // share of the length of that line
   std::vector<DirectedEdge> edges;
   const auto isInside = [&](std::size_t vertex) { return this->Parts.partOf(vertex) == part; };
   for (const std::size_t triangle : this->Parts.trianglesAround(part))
@@ -308,8 +307,7 @@ std::vector<std::size_t> VertexContraction::membersOf(std::size_t root) const
                                                            : std::vector<std::size_t>(1, root);
 }
 
-/// Whether the triangles around what a part has become are a disk, or half of one at a border; and
-/// with them those around all vertices next to it.
+/// Whether the triangles around a merged part, and around vertices next to it, form a (half) disk.
 bool VertexContraction::isSurface(std::size_t part, Surroundings& around) const
 {
   around.clear();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_VertexContraction_h
-#define isopoint_VertexContraction_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
@@ -16,21 +15,18 @@
 namespace isopoint
 {
 
-/// Vertices of a surface that are means of others.
 struct WeightedVertices
 {
   std::vector<Vector> positions;
-  std::vector<double> weights; // how many others each of them is the mean of
+  std::vector<double> weights; // number of crossings that each vertex is the mean of
 };
 
-/// Makes one vertex of each part of a surface's vertices, as far as the topology stays:
-/// docs/triangles.md, "Regularization".
+/// Merges connected vertices of groups: docs/triangles.md, "Regularization".
 class VertexContraction
 {
 public:
-  /// All kept by the caller. Around vertices that have others in their group, triangles are a disk
-  /// or half of one.
-  /// @param groups of the vertices, below groupCount: those of one group may become one
+  /// Keeps references to all arguments. Triangles around grouped vertices must form a (half) disk.
+  /// @param groups of the vertices, below groupCount; only vertices of one group are merged
   /// @throws std::bad_alloc, Aborted
   VertexContraction(const Execution& execution, const WeightedVertices& vertices,
     const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& groups,
@@ -40,13 +36,13 @@ public:
   /// Complexity: O(n log n), mostly
   void contract();
 
-  /// The first of the vertices that one became a vertex with.
+  /// The lowest vertex merged with a vertex.
   std::size_t rootOf(std::size_t vertex) const { return this->Roots[vertex]; }
 
-  /// Where the vertex of a root is.
+  /// The position of a merged vertex.
   const Vector& positionOf(std::size_t root) const { return this->Positions[root]; }
 
-  /// The vertices whose mean the vertex of a root is, ascending.
+  /// The vertices that determine the position of a root, ascending.
   std::vector<std::size_t> membersOf(std::size_t root) const;
 
 private:
@@ -76,5 +72,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/VertexLink.h"
 
-#include "Core/Base/Collected.h"
-#include "Core/Base/ItemLists.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 
@@ -27,8 +26,8 @@ bool VertexLink::isCycleOrPath()
   {
     return false;
   }
-  // Where each vertex has one successor at most, and one predecessor at most, all is one path or
-  // cycle if one of these is as long as all edges.
+  // Each vertex has at most one successor and one predecessor. So the edges are one path or cycle
+  // if a path or cycle includes all of them.
   const auto start = std::find_if(begin, end,
     [this](const DirectedEdge& edge)
     { return !std::binary_search(this->Ends.begin(), this->Ends.end(), edge.first); });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_VertexLink_h
-#define isopoint_VertexLink_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Triangles/TriangleGeometry.h"
@@ -14,7 +13,7 @@ namespace isopoint
 
 using DirectedEdge = std::pair<std::size_t, std::size_t>;
 
-/// The edges opposite to a vertex in the triangles around it. Memory is kept.
+/// The edges opposite a vertex in its triangles. Reuses memory.
 class VertexLink
 {
 public:
@@ -23,15 +22,14 @@ public:
   /// Adds an edge, counterclockwise seen from outside.
   void add(std::size_t from, std::size_t to) { this->Edges.emplace_back(from, to); }
 
-  /// Sorts what was added, and finds out whether it is one cycle of at least three edges, or one
-  /// path: whether the triangles around the vertex are a disk, or half of one at a border.
-  /// O(n log n)
+  /// Sorts the edges. @returns whether they form one path, or one cycle of at least three edges:
+  /// the triangles around the vertex are a half disk or a disk. O(n log n)
   bool isCycleOrPath();
 
-  /// Whether the sorted edges have a vertex.
+  /// Whether a sorted edge has a vertex.
   bool hasVertex(std::size_t vertex) const;
 
-  /// Of a cycle or path.
+  /// For a cycle or path.
   std::size_t vertexCount() const { return this->Edges.size() + (this->IsPath ? 1 : 0); }
 
 private:
@@ -40,12 +38,9 @@ private:
   bool IsPath = false;
 };
 
-/// The vertices, ascending, around which triangles are neither a disk nor half of one.
+/// The vertices whose triangles form neither a disk nor a half disk, ascending. O(n log n)
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(n log n)
 std::vector<std::size_t> branchedVertices(
   const Execution& execution, const std::vector<SurfaceTriangle>& triangles, std::size_t count);
 
 } // namespace isopoint
-
-#endif

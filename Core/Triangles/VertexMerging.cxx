@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/VertexMerging.h"
 
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/VertexContraction.h"
@@ -57,7 +57,7 @@ public:
 private:
   std::size_t count() const { return this->Vertices.weights.size(); }
 
-  /// Merges those vertices of each group that can be, and numbers what is left.
+  /// Merges the vertices of each group if possible, and renumbers.
   void contract(std::vector<std::size_t> groups, std::size_t groupCount)
   {
     for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
@@ -126,8 +126,7 @@ private:
     this->Result.memberBegins = std::move(begins);
   }
 
-  /// The vertices in pairs that short edges connect, the shortest first: the first of each pair, or
-  /// a vertex itself.
+  /// Pairs vertices along short edges, shortest first. @returns the first vertex of each one's pair
   std::vector<std::size_t> pairsOfShortEdges() const
   {
     std::vector<std::size_t> groups(this->count());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_VertexMerging_h
-#define isopoint_VertexMerging_h
+#pragma once
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
@@ -12,33 +11,29 @@
 namespace isopoint
 {
 
-/// Triangles whose vertices are means of crossings.
+/// Triangles between means of crossings.
 struct MergedTriangles
 {
   std::vector<Vector> positions;
   std::vector<SurfaceTriangle> triangles; // ordered
-  /// The crossings whose mean each vertex is, the nearest to it first, one list after the other.
+  /// The crossings whose mean each vertex is, nearest first, one list after the other.
   std::vector<std::size_t> members;
-  std::vector<std::size_t> memberBegins; // by vertex, and the end of the last list
+  std::vector<std::size_t> memberBegins; // by vertex, with an end
 
   std::size_t size() const { return this->positions.size(); }
 };
 
-/// Merges the crossings of a surface to about one vertex for each sample next to it ([TPG99]), and
-/// then short edges, as far as the topology stays: docs/triangles.md, "Regularization". The result
-/// depends on the order of vertices and triangles, and on nothing else.
+/// Merges crossings to about one vertex per sample next to the surface ([TPG99]), and then short
+/// edges, if the topology allows: docs/triangles.md, "Regularization". The result depends only on
+/// the order of vertices and triangles. O(n log n)
 /// @param crossings positions of the vertices
-/// @param nearerEnds the number of the sample that is nearest to each crossing on its edge
-/// @param endCount above all of these numbers
+/// @param nearerEnds the number of the nearer sample on the edge of each crossing
+/// @param endCount exceeds all of these numbers
 /// @param triangles ordered
-/// @param areKept whether each vertex stays as it is (so do triangles between three of these), or
-/// empty for none
+/// @param areKept vertices that stay, as do triangles between three of them; empty for none
 /// @throws std::bad_alloc, Aborted
-/// Complexity: O(n log n)
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
   std::vector<SurfaceTriangle> triangles, std::vector<char> areKept = {});
 
 } // namespace isopoint
-
-#endif

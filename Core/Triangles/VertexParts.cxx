@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/VertexParts.h"
 
-#include "Core/Base/Collected.h"
-#include "Core/Base/SortUnique.h"
+#include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,7 @@ namespace isopoint
 namespace
 {
 
-/// The different groups, or parts, of a triangle's vertices.
+/// The distinct groups, or parts, of a triangle's vertices.
 class LabelsOfTriangle
 {
 public:
@@ -40,7 +39,7 @@ private:
 
 } // namespace
 
-/// Labels the vertices of one group by part, one group after the other. Memory is kept.
+/// Labels the vertices of one group at a time by part. Reuses memory.
 class VertexParts::Labeling
 {
 public:
@@ -50,7 +49,7 @@ public:
   {
   }
 
-  /// Orders the vertices of a group by part, and appends the parts.
+  /// Sorts the vertices of a group by part, and appends the parts.
   /// @param own the vertices, at `begin` among those of all groups
   void label(std::size_t* own, std::size_t count, std::size_t begin,
     const NodeList<std::size_t>& around, std::vector<Part>& parts)
@@ -89,7 +88,7 @@ private:
       std::lower_bound(this->Members.begin(), this->Members.end(), vertex) - this->Members.begin());
   }
 
-  /// The edges between members, and the triangles of three, by a member.
+  /// The edges between members, and the triangles between three members.
   void findEdges(const NodeList<std::size_t>& around)
   {
     const std::size_t group = this->Groups[this->Members.front()];
@@ -128,7 +127,7 @@ private:
     return place;
   }
 
-  /// Finds the Euler characteristic of each part, and the parts of the members.
+  /// The Euler characteristic of each part, and the part of each member.
   void countUp()
   {
     this->Order.clear();
@@ -151,10 +150,10 @@ private:
   const std::vector<SurfaceTriangle>& Triangles;
   const std::vector<std::size_t>& Groups;
   std::vector<std::size_t> Members;
-  // All of the following by places among the members.
-  std::vector<std::size_t> Roots; // lower ones, up to the first of the part
+  // Indices of members.
+  std::vector<std::size_t> Roots; // of lower number, down to the first member of the part
   std::vector<Edge> Edges;
-  std::vector<std::size_t> Inner; // the triangles of three members, by one of them
+  std::vector<std::size_t> Inner; // triangles between three members, by one of them
   std::vector<std::pair<std::size_t, std::size_t>> Order; // roots, and members
   std::vector<std::ptrdiff_t> Characteristics;            // at the roots
 };

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef isopoint_VertexParts_h
-#define isopoint_VertexParts_h
+#pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/ItemLists.h"
-#include "Core/Base/NodeList.h"
+#include "Core/Base/Lists.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <cstddef>
@@ -15,8 +13,7 @@
 namespace isopoint
 {
 
-/// The connected parts of groups of vertices: vertices of one group that edges of triangles connect
-/// are of one part. Parts of a single vertex are left out.
+/// The connected parts of groups of vertices, along edges of triangles, without single vertices.
 class VertexParts
 {
 public:
@@ -24,16 +21,15 @@ public:
 
   /// @param groups of the vertices, below groupCount
   /// @throws std::bad_alloc, Aborted
-  /// Complexity: O(triangles + groups), and O(n log n) of those within one group
+  /// Complexity: O(triangles + groups), and O(n log n) for those within one group
   VertexParts(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
     const std::vector<std::size_t>& groups, std::size_t groupCount);
 
   std::size_t size() const { return this->Parts.size(); }
 
-  /// The part of a vertex, or none if it is alone. Parts are numbered by group and first vertex.
+  /// The part of a vertex, or none if it is alone. Parts are ordered by group and first vertex.
   std::size_t partOf(std::size_t vertex) const { return this->PartOf[vertex]; }
 
-  /// The vertices of a part, ascending.
   NodeList<std::size_t> verticesOf(std::size_t part) const
   {
     const Part& own = this->Parts[part];
@@ -43,7 +39,6 @@ public:
   /// Whether a part is simply connected: vertices - edges + triangles = 1.
   bool isSimple(std::size_t part) const { return this->Parts[part].isSimple; }
 
-  /// The triangles with a vertex in a part, ascending.
   NodeList<std::size_t> trianglesAround(std::size_t part) const
   {
     return this->Triangles->at(part);
@@ -66,5 +61,3 @@ private:
 };
 
 } // namespace isopoint
-
-#endif

@@ -26,7 +26,7 @@
 namespace
 {
 
-/// The names of the arrays except ghost marks, for an error message.
+/// The names of all arrays but ghost marks, for an error message.
 std::string arrayNames(vtkDataSetAttributes* attributes)
 {
   std::string names;
@@ -43,7 +43,7 @@ std::string arrayNames(vtkDataSetAttributes* attributes)
   return names.empty() ? "none" : names;
 }
 
-/// The remedy of an error about the array to process, with the arrays of a leaf.
+/// The remedy for a wrong array to process: lists the arrays of a leaf.
 std::string remedyFor(vtkDataObject* leaf)
 {
   const std::string ofPoints = arrayNames(leaf->GetAttributes(vtkDataObject::POINT));
@@ -67,7 +67,7 @@ vtkIdType elementCount(vtkDataObject* leaf)
   return trees ? trees->GetNumberOfLeaves() : 0;
 }
 
-/// @throws isopoint::UsageError if the array is not numeric or has not one component
+/// @throws isopoint::UsageError unless the array is numeric with one component
 vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
 {
   const std::string described =
@@ -103,7 +103,7 @@ vtkUnsignedCharArray* ownGhosts(vtkDataObject* leaf)
                  : nullptr;
 }
 
-/// How many of the first samples their ghosts, if there are any, exclude.
+/// The number of samples that ghost marks exclude.
 vtkIdType countExcluded(
   const isopoint::Execution& execution, vtkUnsignedCharArray* ghosts, vtkIdType samples)
 {
@@ -222,7 +222,7 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
   {
     state.push_back(static_cast<vtkMTimeType>(wholeExtent[i]));
   }
-  if (!hasPoints) // its leaves have the ids of values
+  if (!hasPoints) // hyper tree grids: the ids are those of the values
   {
     state.push_back(static_cast<vtkMTimeType>(block.Scalars->GetNumberOfTuples()));
   }

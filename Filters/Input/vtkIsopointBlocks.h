@@ -2,10 +2,10 @@
 #ifndef vtkIsopointBlocks_h
 #define vtkIsopointBlocks_h
 
-#include "Core/Base/UsageError.h"
-#include "Input/vtkIsopointBlock.h"
+#include "Core/Failure.h"
 #include "Input/vtkIsopointInputState.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -20,31 +20,53 @@ namespace isopoint
 struct Execution;
 }
 class vtkAbstractArray;
+class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
-class vtkDataSetAttributes;
 class vtkInformation;
 class vtkUnsignedCharArray;
 
-/**
- * The array to contour, as chosen by vtkAlgorithm::SetInputArrayToProcess().
- */
+/// The samples of a data set or hyper tree grid: its points, or the centers of its cells, with
+/// their ids. References the input; only centers may be computed.
+struct vtkIsopointBlock
+{
+  vtkSmartPointer<vtkDataSet> Positions; // one point per sample; its attributes are ignored
+  vtkDataSetAttributes* Attributes = nullptr;
+  vtkDataArray* Scalars = nullptr;
+
+  /// Null, or one value per sample; samples with any of the bits in `Excluding` are skipped.
+  vtkSmartPointer<vtkUnsignedCharArray> Ghosts;
+  static constexpr unsigned char Excluding =
+    vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+
+  /// The number of samples that `Ghosts` excludes.
+  vtkIdType NumberOfExcluded = 0;
+
+  /// For a hyper tree grid, how many of these are ids of coarse nodes or of no node.
+  vtkIdType NumberOfUnusedIds = 0;
+
+  /// The number of its leaf in the traversal of a composite input; otherwise 0.
+  std::size_t Leaf = 0;
+
+  vtkIdType GetNumberOfSamples() const;
+};
+
+/// The array to contour, as chosen by vtkAlgorithm::SetInputArrayToProcess().
 class vtkIsopointArrayChoice
 {
 public:
   vtkIsopointArrayChoice() = default;
   explicit vtkIsopointArrayChoice(vtkInformation* inputArray);
 
-  /// Whether the array may be a point array, and a cell array. If it may be either, a point array
-  /// has precedence.
+  /// Whether the array may be a point array, and a cell array. Point arrays have precedence.
   bool MayBeOfPoints() const;
   bool MayBeOfCells() const;
 
-  /// The array of the chosen name or, if none was chosen, of the chosen attribute (the active
-  /// scalars by default); null if there is none.
+  /// The array of the chosen name, or else of the chosen attribute (default: active scalars), or
+  /// null.
   vtkAbstractArray* Find(vtkDataSetAttributes* attributes) const;
 
-  /// Which array it is, for messages and comparisons, as in "point array named ...".
+  /// Describes the array for messages and comparisons, as in "point array named ...".
   std::string Describe() const;
 
 private:
@@ -53,54 +75,47 @@ private:
   int Attribute = 0;
 };
 
-/**
- * There is nothing to contour, which on one of several ranks is no error unless it is so on all.
- */
+/// There is nothing to contour. In a process group this is an error only if it holds for all ranks.
 struct vtkIsopointNothingError : isopoint::UsageError
 {
   using isopoint::UsageError::UsageError;
 };
 
-/**
- * Presents a data object as samples: each of its data sets or hyper tree grids is a block. Computed
- * cell centers, and ghosts that points and cells inherit from each other, are kept from one call to
- * the next while the cells and their ghosts do not change. Modified() must be called for arrays
- * that are changed in place, except ghost arrays and the mask of a hyper tree grid, whose content
- * is compared.
- */
+/// Presents a data object as samples: each data set or hyper tree grid in it is a block. Keeps
+/// computed cell centers and inherited ghosts between calls while the cells and their ghosts do not
+/// change. Arrays changed in place need Modified(), except ghost arrays and the mask of a hyper
+/// tree grid, whose contents are compared.
 class vtkIsopointBlocks
 {
 public:
-  /// Collects the blocks of an input, except those without the array or without points or cells.
-  /// @param wholeExtent of the structured grid of which the input is a piece of one of several
-  /// ranks, or null
-  /// @throws isopoint::UsageError if no block remains, or if the array of a block is not a scalar
-  /// array with one value for each point or cell; std::bad_alloc; isopoint::Aborted
+  /// Collects the blocks of an input that have the array and any points or cells.
+  /// @param wholeExtent of the structured grid whose pieces are distributed over ranks, or null
+  /// @throws isopoint::UsageError if no block remains, or if the array of a block does not have one
+  /// component with a value per point or cell; std::bad_alloc; isopoint::Aborted
   void Collect(const isopoint::Execution& execution, vtkDataObject* input,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);
 
   const std::vector<vtkIsopointBlock>& GetBlocks() const { return this->Blocks; }
 
-  /// The state of the input that the blocks [begin, end) present.
+  /// The state of the input in the blocks [begin, end).
   vtkIsopointInputState GetState(std::size_t begin, std::size_t end) const;
 
-  /// The number of points (or cells, where there are more) of leaves without the array.
+  /// The number of points (or cells, if more) of leaves without the array.
   vtkIdType GetNumberOfPointsWithoutArray() const { return this->PointsWithoutArray; }
 
-  /// Drops all references to the input. What was computed is kept.
+  /// Drops all references to the input, but keeps computed data.
   void ReleaseInput();
 
 private:
   void AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf, std::size_t number,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);
 
-  /// What is computed for a leaf.
   struct Computed
   {
     vtkIsopointInputState Of;                     // what it was computed from
     vtkSmartPointer<vtkDataSet> Centers;          // of cells or leaves of hyper trees, as points
     vtkSmartPointer<vtkUnsignedCharArray> Ghosts; // as vtkIsopointBlock::Ghosts, or null
-    bool HasOwnGhosts = false;                    // whether these are the array of the points
+    bool HasOwnGhosts = false;                    // whether Ghosts is the array of the points
     vtkIdType NumberOfExcluded = 0;
     vtkIdType NumberOfUnusedIds = 0;
   };
@@ -113,10 +128,8 @@ private:
   std::map<std::size_t, Computed> Kept; // by leaf
 };
 
-/**
- * Calls visit(leaf, number) for each leaf of a composite data object, numbered in the order of
- * traversal, or for any other data object itself, with the number 0.
- */
+/// Calls visit(leaf, number) for each leaf of a composite, numbered in the order of traversal, or
+/// for a data object that is no composite, with the number 0.
 void vtkForEachIsopointLeaf(
   vtkDataObject* input, const std::function<void(vtkDataObject* leaf, std::size_t number)>& visit);
 

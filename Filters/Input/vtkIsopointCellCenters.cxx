@@ -83,7 +83,6 @@ vtkSmartPointer<vtkDataSet> dualOf(vtkRectilinearGrid* grid)
   return dual;
 }
 
-/// Collects the positions of the leaves below a cursor's node.
 class LeafCollector
 {
 public:
@@ -100,7 +99,7 @@ public:
   {
     if (cursor->IsMasked())
     {
-      // No cursor may enter a masked node.
+      // Cursors must not enter masked nodes.
       this->CountLeaves(cursor->GetTree(), cursor->GetVertexId());
       return;
     }
@@ -187,7 +186,7 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   {
     return centers;
   }
-  // GetCell() is thread-safe only after a first call from a single thread.
+  // GetCell() is thread-safe only after a first call on a single thread.
   vtkNew<vtkGenericCell> first;
   input->GetCell(0, first);
   const auto largestCell = static_cast<std::size_t>(std::max(8, input->GetMaxCellSize()));

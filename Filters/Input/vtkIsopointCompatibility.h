@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/**
- * All differences between the supported versions of VTK (9.1 and later).
- */
+/// All differences between the supported versions of VTK (9.1 and later).
 #ifndef vtkIsopointCompatibility_h
 #define vtkIsopointCompatibility_h
 
@@ -17,11 +15,9 @@
 #include <type_traits>
 #include <utility>
 
-/**
- * Calls the first of two functions that the class of an object allows: development versions of VTK,
- * which ParaView ships, have some of what a later version number stands for.
- * @param newer a lambda of any pointer, whose return type is that of the call
- */
+/// Calls the first of two functions that compiles for an object's class. Version numbers do not
+/// suffice: ParaView ships development versions of VTK.
+/// @param newer a generic lambda on the pointer; its return type is that of the call
 template <class TObject, class TNewer, class TOlder>
 decltype(auto) vtkCallNewer(TObject* object, const TNewer& newer, const TOlder& older)
 {
@@ -35,10 +31,7 @@ decltype(auto) vtkCallNewer(TObject* object, const TNewer& newer, const TOlder& 
   }
 }
 
-/**
- * Whether an abort was requested of a filter or, if this version of VTK propagates that, of an
- * algorithm downstream.
- */
+/// Whether an abort was requested for a filter or, if VTK propagates aborts, downstream of it.
 inline bool vtkIsAborted(vtkAlgorithm* filter)
 {
   return vtkCallNewer(
@@ -46,17 +39,13 @@ inline bool vtkIsAborted(vtkAlgorithm* filter)
     [](auto* any) { return any->GetAbortExecute() != 0; });
 }
 
-/**
- * The number of threads that was passed to vtkSMPTools::Initialize(), 0 if it was not called.
- */
+/// The number of threads passed to vtkSMPTools::Initialize(), 0 if it was not called.
 inline int vtkGetRequestedSMPThreads()
 {
   return vtk::detail::smp::vtkSMPToolsAPI::GetInstance().GetInternalDesiredNumberOfThread();
 }
 
-/**
- * The number of grids of a level of an AMR, and one of them, null or not.
- */
+/// The number of grids in a level of an AMR, and one of them or null.
 inline unsigned int vtkCountGridsOfLevel(vtkUniformGridAMR* amr, unsigned int level)
 {
   return vtkCallNewer(
@@ -74,9 +63,7 @@ inline vtkDataSet* vtkGetGridOfLevel(vtkUniformGridAMR* amr, unsigned int level,
     [&](auto* any) { return any->GetDataSet(level, grid); });
 }
 
-/**
- * The type of each cell.
- */
+/// The type of each cell.
 inline vtkDataArray* vtkGetTypesOfCells(vtkUnstructuredGrid* grid)
 {
   return vtkCallNewer(
@@ -84,10 +71,8 @@ inline vtkDataArray* vtkGetTypesOfCells(vtkUnstructuredGrid* grid)
     [](auto* any) { return any->GetCellTypesArray(); });
 }
 
-/**
- * The faces of the polyhedra of an unstructured grid, and their locations for each cell: two
- * vtkCellArray or, before VTK 9.4, two vtkIdTypeArray; null if it has none.
- */
+/// The faces of the polyhedra of an unstructured grid, and their locations for each cell: two
+/// vtkCellArray or, before VTK 9.4, two vtkIdTypeArray. Null if there are none.
 inline auto vtkGetFacesOfPolyhedra(vtkUnstructuredGrid* grid)
 {
   return vtkCallNewer(

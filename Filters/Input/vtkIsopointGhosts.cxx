@@ -40,7 +40,7 @@ vtkSmartPointer<vtkUnsignedCharArray> newGhosts(vtkIdType count)
   return ghosts;
 }
 
-/// @param visit(cell, point) called from any thread, for the points of a cell from one thread
+/// @param visit(cell, point) called from any thread, for all points of a cell on one thread
 template <class Visitor>
 void forEachCellPoint(const isopoint::Execution& execution, vtkDataSet* input, const Visitor& visit)
 {
@@ -49,7 +49,7 @@ void forEachCellPoint(const isopoint::Execution& execution, vtkDataSet* input, c
   {
     return;
   }
-  // GetCellPoints() is thread-safe only after a first call from a single thread.
+  // GetCellPoints() is thread-safe only after a first call on a single thread.
   vtkNew<vtkIdList> first;
   input->GetCellPoints(0, first);
   constexpr std::size_t grain = 4096;
@@ -82,7 +82,7 @@ vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtk
 namespace
 {
 
-/// The points of a data set without regard to other ranks; see vtkFindGhostPoints().
+/// vtkFindGhostPoints() without regard to other ranks.
 vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
   const isopoint::Execution& execution, vtkDataSet* input)
 {
@@ -90,7 +90,7 @@ vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
   vtkUnsignedCharArray* const own = vtkGetIsopointGhosts(input->GetPointData(), count);
   vtkUnsignedCharArray* const cells =
     vtkGetIsopointGhosts(input->GetCellData(), input->GetNumberOfCells());
-  // If the points have a ghost array, it marks the duplicates among them.
+  // If the points have a ghost array, it marks duplicates itself.
   const int excluding =
     own ? hiddenOrCovered : hiddenOrCovered | vtkDataSetAttributes::DUPLICATECELL;
   if (!hasAny(cells, excluding))
@@ -122,7 +122,7 @@ vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
   return ghosts;
 }
 
-/// Whether the pieces of a structured grid go on beyond this one.
+/// Whether other pieces of a structured grid follow this one.
 bool goesOn(const int* extent, const int* wholeExtent)
 {
   return extent[1] < wholeExtent[1] || extent[3] < wholeExtent[3] || extent[5] < wholeExtent[5];

@@ -2,7 +2,7 @@
 #include "Input/vtkIsopointInput.h"
 
 #include "Core/Contour.h"
-#include "Input/vtkIsopointBlock.h"
+#include "Input/vtkIsopointBlocks.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
@@ -20,7 +20,7 @@
 namespace
 {
 
-/// The values of an array that stores them one after the other as T, or null.
+/// The values of an array if it stores them contiguously as T, otherwise null.
 template <class T>
 const T* packedArray(vtkDataArray* array)
 {
@@ -39,7 +39,7 @@ const unsigned char* ghostsOf(const vtkIsopointBlock& block)
   return block.Ghosts ? block.Ghosts->GetPointer(0) : nullptr;
 }
 
-/// Positions of any kind, determined at run time.
+/// Positions of any array type, dispatched at run time.
 class AnyPositions
 {
 public:
@@ -73,7 +73,7 @@ private:
   const double* Doubles;
 };
 
-/// Values of any type, determined at run time: exactly, except 64-bit integers beyond 2^53.
+/// Values of any array type, dispatched at run time. Exact except for 64-bit integers beyond 2^53.
 class AnyValues
 {
 public:
@@ -97,7 +97,7 @@ private:
   const double* Doubles;
 };
 
-/// Reads the samples of several blocks, as IsosurfaceExtractor::load() calls for.
+/// Reads the samples of several blocks for IsosurfaceExtractor::load().
 class BlockReader
 {
 public:
@@ -175,10 +175,10 @@ isopoint::CloudCounts vtkCountIsopointSamples(const std::vector<vtkIsopointBlock
   return counts;
 }
 
-void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
+void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::ProcessGroup& processes,
   const isopoint::SampleTypes& types, const std::vector<vtkIsopointBlock>& blocks,
   isopoint::IsosurfaceExtractor& extractor)
 {
   const BlockReader read(blocks);
-  isopoint::loadOrReplace(execution, &team, extractor, types, read.count(), read);
+  isopoint::loadOrReplace(execution, &processes, extractor, types, read.count(), read);
 }

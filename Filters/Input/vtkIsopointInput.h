@@ -7,30 +7,24 @@
 namespace isopoint
 {
 class IsosurfaceExtractor;
-class Team;
+class ProcessGroup;
 struct CloudCounts;
 struct Execution;
 struct SampleTypes;
 } // namespace isopoint
 struct vtkIsopointBlock;
 
-/**
- * What the types of all blocks hold.
- */
+/// The sample types of all blocks.
 isopoint::SampleTypes vtkGetIsopointSampleTypes(const std::vector<vtkIsopointBlock>& blocks);
 
-/**
- * The samples of all blocks.
- */
+/// The samples of all blocks.
 isopoint::CloudCounts vtkCountIsopointSamples(const std::vector<vtkIsopointBlock>& blocks);
 
-/**
- * Loads the samples of the blocks of all ranks as one cloud, in the order of the ranks, into an
- * extractor, which reads the arrays in place; see isopoint::loadOrReplace(). Collective.
- * @param types of all ranks
- * @param blocks of this rank, perhaps none
- */
-void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::Team& team,
+/// Loads the samples of the blocks of all ranks as one cloud, in the order of the ranks. The
+/// extractor reads the arrays in place; see isopoint::loadOrReplace(). Collective.
+/// @param types of all ranks
+/// @param blocks of this rank, possibly none
+void vtkLoadIsopointInput(const isopoint::Execution& execution, isopoint::ProcessGroup& processes,
   const isopoint::SampleTypes& types, const std::vector<vtkIsopointBlock>& blocks,
   isopoint::IsosurfaceExtractor& extractor);
 

@@ -43,8 +43,8 @@ void add(vtkIsopointInputState& state, vtkCellArray* cells)
   add(state, cells ? cells->GetOffsetsArray() : nullptr);
 }
 
-/// Adds a hash of the flags in an array, of bits or bytes. Blanking a point or a cell and masking a
-/// node change flags in place without a new modification time.
+/// Adds a hash of the flags in an array of bits or bytes. Blanking points or cells and masking
+/// nodes change flags in place without a new modification time.
 template <class TArray>
 void addFlags(const isopoint::Execution& execution, vtkIsopointInputState& state, TArray* flags)
 {
@@ -83,12 +83,11 @@ void addCoordinates(vtkIsopointInputState& state, vtkDataArray* x, vtkDataArray*
   add(state, z);
 }
 
-/// Subdividing or replacing a tree, or numbering its nodes, does not change the grid's modification
-/// time.
+/// Adds the trees, because changing a tree does not change the grid's modification time.
 void addTrees(
   const isopoint::Execution& execution, vtkIsopointInputState& state, vtkHyperTreeGrid* trees)
 {
-  // A uniform grid has no coordinates, and is modified where its origin and scale are.
+  // A uniform grid has no coordinates; changes of its origin and scale modify the grid.
   if (!vtkUniformHyperTreeGrid::SafeDownCast(trees))
   {
     addCoordinates(
@@ -141,7 +140,7 @@ vtkIsopointInputState vtkGetIsopointGeometryState(
   }
   else if (vtkUnstructuredGridBase::SafeDownCast(leaf))
   {
-    // The cells are stored in a way of its own; only the grid knows their modification time.
+    // Only the grid knows the modification time of its cells.
     add(state, static_cast<vtkObject*>(leaf));
   }
   if (auto* const grid = vtkExplicitStructuredGrid::SafeDownCast(leaf))

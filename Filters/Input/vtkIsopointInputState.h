@@ -13,27 +13,19 @@ struct Execution;
 class vtkDataArray;
 class vtkDataObject;
 
-/**
- * The key of what was computed from an input, such as a kept tree: equal states mean the same input
- * objects, unchanged. It lists the modification times of these objects in a fixed order: each time
- * is unique among all objects, whereas a maximum over several of them is not. Where VTK changes an
- * object without a new modification time, numbers that describe its content follow (counts, or a
- * hash).
- */
+/// A key for data computed from an input: equal states mean the same, unchanged input objects.
+/// Lists their modification times in a fixed order; unlike the maximum, each is unique among all
+/// objects. Where VTK changes an object without a new time, counts or a hash of its contents
+/// follow.
 using vtkIsopointInputState = std::vector<vtkMTimeType>;
 
-/**
- * The state of everything that determines the positions of a leaf's points and cells, and which of
- * them are ghosts, hidden or masked. O(values of ghost arrays and mask + hyper trees), on the
- * threads of the execution.
- * @throws std::bad_alloc, isopoint::Aborted
- */
+/// The state of everything that determines the positions of a leaf's points and cells, and which of
+/// them are ghosts, hidden or masked. O(ghost values + mask + hyper trees), in parallel.
+/// @throws std::bad_alloc, isopoint::Aborted
 vtkIsopointInputState vtkGetIsopointGeometryState(
   const isopoint::Execution& execution, vtkDataObject* leaf);
 
-/**
- * Appends the state of an array of values.
- */
+/// Appends the state of an array of values.
 void vtkAppendIsopointArrayState(vtkIsopointInputState& state, vtkDataArray* array);
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointStructure.h"
 
-#include "Core/Base/Team.h"
-#include "Core/Base/UsageError.h"
+#include "Core/Base/ProcessGroup.h"
+#include "Core/Failure.h"
 #include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkCompositeDataSet.h"
@@ -16,7 +16,7 @@
 namespace
 {
 
-/// Gives access to protected member functions of vtkDataObjectTree.
+/// Gives access to protected member functions.
 struct Tree : vtkDataObjectTree
 {
   static constexpr auto getCount = &Tree::GetNumberOfChildren;
@@ -27,7 +27,7 @@ struct Tree : vtkDataObjectTree
   static constexpr auto getInformation = &Tree::GetChildMetaData;
 };
 
-/// A composite that is a tree, or null. An AMR is none, though a collection from VTK 9.5 on.
+/// The object as a tree of blocks, or null. An AMR is none, even since VTK 9.5.
 vtkDataObjectTree* treeOf(vtkDataObject* object)
 {
   return vtkUniformGridAMR::SafeDownCast(object) ? nullptr
@@ -43,7 +43,7 @@ std::string nameOf(vtkDataObjectTree* tree, unsigned int child)
            : std::string();
 }
 
-/// The boxes of a level of an AMR, null or not.
+/// The boxes of a level of an AMR, or nulls.
 std::vector<vtkDataObject*> boxesOf(vtkUniformGridAMR* levels, unsigned int level)
 {
   std::vector<vtkDataObject*> boxes;
@@ -54,7 +54,7 @@ std::vector<vtkDataObject*> boxesOf(vtkUniformGridAMR* levels, unsigned int leve
   return boxes;
 }
 
-/// Whether two ranks may have different numbers of children of such a composite.
+/// Whether ranks may have different numbers of children of a composite of this type.
 bool isInPieces(int type)
 {
   return type == VTK_PARTITIONED_DATA_SET || type == VTK_MULTIPIECE_DATA_SET;
@@ -249,14 +249,15 @@ vtkIsopointStructure vtkIsopointStructure::Read(isopoint::ByteReader& bytes)
   return structure;
 }
 
-vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObject* input)
+vtkIsopointStructure vtkMergeIsopointStructures(
+  isopoint::ProcessGroup& processes, vtkDataObject* input)
 {
-  // The first rank merges, so that what the others receive does not grow with their number.
-  std::vector<isopoint::ByteBuffer> messages(static_cast<std::size_t>(team.size()));
+  // Only the first rank merges, so that messages do not grow with the number of ranks.
+  std::vector<isopoint::ByteBuffer> messages(static_cast<std::size_t>(processes.size()));
   vtkIsopointStructure(input).Write(messages.front());
-  const std::vector<isopoint::ByteBuffer> arrived = team.exchange(messages);
+  const std::vector<isopoint::ByteBuffer> arrived = processes.exchange(messages);
   isopoint::ByteBuffer merged;
-  if (team.rank() == 0)
+  if (processes.rank() == 0)
   {
     vtkIsopointStructure structure;
     for (const isopoint::ByteBuffer& bytes : arrived)
@@ -266,7 +267,7 @@ vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObj
     }
     structure.Write(merged);
   }
-  const isopoint::ByteBuffer ofFirst = team.gather(merged).front();
+  const isopoint::ByteBuffer ofFirst = processes.gather(merged).front();
   isopoint::ByteReader reader(ofFirst);
   return vtkIsopointStructure::Read(reader);
 }

@@ -12,20 +12,18 @@
 
 namespace isopoint
 {
-class Team;
+class ProcessGroup;
 }
 class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkPolyData;
 
-/**
- * The structure of a data object: a leaf, or the tree of the leaves of a composite, some of which
- * may be null. Leaves are numbered in the order of traversal, null ones included.
- */
+/// The structure of a data object: a leaf, or the tree of a composite. Leaves may be null; they are
+/// numbered in the order of traversal, including null ones.
 class vtkIsopointStructure
 {
 public:
-  /// That of null.
+  /// The structure of null.
   vtkIsopointStructure() = default;
 
   explicit vtkIsopointStructure(vtkDataObject* object);
@@ -34,25 +32,24 @@ public:
 
   std::size_t GetNumberOfLeaves() const;
 
-  /// The numbers of the leaves of a data object that are not null, in the order of traversal.
+  /// The numbers of the non-null leaves of a data object, in the order of traversal.
   /// @param object of this structure, or of one that was merged into it
   std::vector<std::size_t> GetNumbersOf(vtkDataObject* object) const;
 
-  /// Adds what another structure has and this one lacks. Null can be anything, and a composite
-  /// without children may have any; data sets in pieces may have different numbers of them.
-  /// @throws isopoint::UsageError where the structures contradict each other
+  /// Adds the parts of another structure that are missing in this one. Null matches anything, and a
+  /// composite without children matches one with any; partitioned data sets may differ in size.
+  /// @throws isopoint::UsageError if the structures contradict each other
   void Merge(const vtkIsopointStructure& other);
 
-  /// Gives an output of vtkNewIsopointComposite() this structure, with surfaces in place of the
-  /// leaves.
-  /// @param input that the output is for; names of blocks and assemblies are kept
-  /// @param surfaces one for each leaf, null for none
+  /// Gives an output of vtkNewIsopointComposite() this structure, with surfaces as leaves.
+  /// @param input of the output; names of blocks and assemblies are kept
+  /// @param surfaces one per leaf, or null
   void Fill(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
     vtkCompositeDataSet* output) const;
 
   /// Appends this node, then its children.
   void Write(isopoint::ByteBuffer& bytes) const;
-  /// @returns what Write() has appended
+  /// Reads what Write() appended.
   static vtkIsopointStructure Read(isopoint::ByteReader& bytes);
 
 private:
@@ -65,16 +62,15 @@ private:
   void FillChildren(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, std::size_t& next,
     vtkDataObject* output) const;
 
-  int Type = nothing; // of a composite, as vtkDataObject::GetDataObjectType() returns it
-  std::string Name;   // as its parent calls it, or empty
+  int Type = nothing; // vtkDataObject::GetDataObjectType() of a composite
+  std::string Name;   // within its parent, or empty
   std::vector<vtkIsopointStructure> Children;
 };
 
-/**
- * The structure that the inputs of all ranks have together. Collective.
- * @throws isopoint::UsageError on rank 0 and isopoint::FailedElsewhere on the others where they
- * contradict each other; what isopoint::Team throws
- */
-vtkIsopointStructure vtkMergeIsopointStructures(isopoint::Team& team, vtkDataObject* input);
+/// The merged structure of the inputs of all ranks. Collective.
+/// @throws isopoint::UsageError on rank 0 and isopoint::FailedElsewhere on the others if they
+/// contradict each other; what isopoint::ProcessGroup throws
+vtkIsopointStructure vtkMergeIsopointStructures(
+  isopoint::ProcessGroup& processes, vtkDataObject* input);
 
 #endif

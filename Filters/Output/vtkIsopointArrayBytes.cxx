@@ -34,7 +34,7 @@ bool isSent(vtkDataSetAttributes* attributes, int index)
            attributes->IsArrayAnAttribute(index) != vtkDataSetAttributes::GLOBALIDS);
 }
 
-/// Of the values of an array of numbers, contiguous in memory.
+/// The bytes of a contiguous numeric array.
 std::size_t sizeOf(vtkAbstractArray* array)
 {
   const auto values = static_cast<std::size_t>(array->GetNumberOfValues());

@@ -9,17 +9,12 @@
 class vtkDataSetAttributes;
 class vtkPointData;
 
-/**
- * Arrays as ranks send them to each other: the named ones of numbers or strings, and the last one
- * in any case. Global ids and ghost arrays are left out.
- */
+/// Serializes arrays for other ranks: named arrays of numbers or strings, and the last array in any
+/// case. Omits global ids and ghost arrays.
 isopoint::ByteBuffer vtkWriteIsopointArrays(vtkDataSetAttributes* attributes);
 
-/**
- * What vtkWriteIsopointArrays() wrote: arrays with their names, those of their components, and what
- * attributes they are.
- * @throws std::bad_alloc
- */
+/// Deserializes arrays, with their names, component names and attribute types.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkPointData> vtkReadIsopointArrays(const isopoint::ByteBuffer& bytes);
 
 #endif

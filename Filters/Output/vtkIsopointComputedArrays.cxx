@@ -20,7 +20,7 @@
 namespace
 {
 
-/// A new array, or null if it is not to be computed.
+/// A new array, or null unless `isComputed`.
 /// @param values receives its memory, or null
 template <class TArray>
 vtkSmartPointer<TArray> newArray(bool isComputed, const char* name, int components,
@@ -85,7 +85,7 @@ std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution&
   if (hasSplats)
   {
     vtkCellData* const cellData = output->GetCellData();
-    cellData->SetVectors(axes); // transforms of points turn active vectors
+    cellData->SetVectors(axes); // transforms of points rotate active vectors
     cellData->AddArray(polygons);
     for (vtkFloatArray* const array : { axes.Get(), polygons.Get() })
     {

@@ -14,14 +14,12 @@ struct Options;
 } // namespace isopoint
 class vtkPolyData;
 
-/**
- * Adds the arrays that are computed for isopoints, as the options ask for them: normals, splats,
- * gradients and orders of fits. They hold the isopoints of all surfaces, one surface after the
- * other. Normals become the active ones. The arrays of the shapes of splats become cell data of the
- * vertices, hidden from menus, the axes as the active vectors.
- * @returns the names of the arrays that replaced another one
- * @throws std::bad_alloc
- */
+/// Adds the computed arrays that the options request: normals, splats, gradients and orders of
+/// fits, for the isopoints of all surfaces, one surface after the other. Normals become active.
+/// Splat shapes become cell data of the vertices, hidden from menus, with the axes as active
+/// vectors.
+/// @returns the names of the arrays that replaced another array
+/// @throws std::bad_alloc
 std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution& execution,
   const isopoint::Options& options, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
   vtkPolyData* output);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointEndSamples.h"
 
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 #include "Core/EndSamples.h"
 #include "Input/vtkIsopointAllocation.h"
 #include "Output/vtkIsopointArrayBytes.h"
@@ -25,11 +25,11 @@ vtkIdType countOf(const vtkIsopointBlock& block)
   return block.Scalars->GetNumberOfTuples();
 }
 
-/// The range of sorted ids that belong to one block.
+/// The sorted ids that belong to one block.
 struct IdRange
 {
   std::size_t block;
-  std::size_t begin; // positions among the sorted ids
+  std::size_t begin; // index of a sorted id
   std::size_t end;
   std::uint64_t firstId; // of the block's samples
 };
@@ -52,7 +52,7 @@ std::vector<IdRange> idRangesOf(
   return ranges;
 }
 
-/// The attributes of a block that have one tuple for each sample.
+/// The attributes of a block with one tuple per sample.
 vtkSmartPointer<vtkPointData> completeAttributes(const vtkIsopointBlock& block)
 {
   auto complete = vtkSmartPointer<vtkPointData>::New();
@@ -67,7 +67,7 @@ vtkSmartPointer<vtkPointData> completeAttributes(const vtkIsopointBlock& block)
   return complete;
 }
 
-/// Allocates arrays for the attributes that all blocks have, and copies the tuples with these ids.
+/// Copies the tuples with these ids of the attributes that all blocks have.
 void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids,
   vtkDataSetAttributes* gathered)
@@ -100,7 +100,7 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   }
 }
 
-/// The contoured array at samples of blocks: float if it is in all of them.
+/// Copies the contoured array at these ids; float if it is float in all blocks.
 vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>& blocks,
   const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids)
 {
@@ -122,7 +122,7 @@ vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>&
   return scalars;
 }
 
-/// The attributes that all blocks have, at samples of them; the last one is the contoured array.
+/// Copies the common attributes at these ids, with the contoured array at the end.
 vtkSmartPointer<vtkPointData> copiedSamples(
   const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
 {
@@ -138,7 +138,7 @@ vtkSmartPointer<vtkPointData> copiedSamples(
   return copied;
 }
 
-/// The same with the attributes in the order of the first block.
+/// The same, with attributes in the order of the first block.
 vtkSmartPointer<vtkPointData> copiedInOrder(
   const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
 {
@@ -167,12 +167,12 @@ vtkSmartPointer<vtkPointData> copiedInOrder(
 
 } // namespace
 
-vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
+vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::ProcessGroup& processes,
   const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
-  if (team.size() > 1)
+  if (processes.size() > 1)
   {
-    this->CopyFromRanks(team, blocks, surfaces);
+    this->CopyFromRanks(processes, blocks, surfaces);
   }
   else if (blocks.size() > 1)
   {
@@ -189,7 +189,7 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::Team& team,
 
 vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
 
-void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
+void vtkIsopointEndSamples::CopyFromRanks(isopoint::ProcessGroup& processes,
   const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
   const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
@@ -197,12 +197,13 @@ void vtkIsopointEndSamples::CopyFromRanks(isopoint::Team& team,
     { return sum + static_cast<std::uint64_t>(countOf(block)); });
   const std::vector<std::uint64_t> ids = isopoint::endSamples(surfaces);
   std::vector<isopoint::ByteBuffer> answers;
-  for (const auto& wanted : team.exchange(isopoint::idsByRank(ids, team.gather(ownCount))))
+  for (const auto& wanted :
+    processes.exchange(isopoint::idsByRank(ids, processes.gather(ownCount))))
   {
     answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
                                      : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
   }
-  this->Join(team.exchange(answers), ids.size());
+  this->Join(processes.exchange(answers), ids.size());
   isopoint::renumberEndSamples(surfaces, ids);
 }
 

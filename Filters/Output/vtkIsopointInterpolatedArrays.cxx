@@ -23,14 +23,14 @@ using isopoint::ExtractedIsosurface;
 using isopoint::IsopointEdge;
 using isopoint::Isosurface;
 
-/// Interpolates arrays that VTK can dispatch on, in parallel.
+/// Interpolates arrays that VTK can dispatch, in parallel.
 struct TypedInterpolation
 {
   const isopoint::Execution& Run;
   const Isosurface& Surface;
   vtkIdType FirstTuple;
 
-  /// @param output may be of another class: what NewInstance() of an implicit array yields
+  /// @param output its class may differ: NewInstance() of an implicit array yields another
   template <class TInput, class TOutput>
   void operator()(TInput* input, TOutput* output) const
   {
@@ -88,7 +88,7 @@ vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdTyp
   return output;
 }
 
-/// Adds an array, as the active attribute of this type unless that is -1.
+/// Adds an array, as the active attribute of this type unless it is -1.
 void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
 {
   const int index = output->AddArray(array);
@@ -98,7 +98,6 @@ void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
   }
 }
 
-/// Whether an array is not to be interpolated.
 bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||

@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& ex
 namespace
 {
 
-/// Cells of `size` points each, of given ids.
+/// Cells of `size` points each.
 vtkSmartPointer<vtkCellArray> newCells(vtkIdType size, vtkIdTypeArray* connectivity)
 {
   const vtkIdType count = connectivity->GetNumberOfValues() / size;

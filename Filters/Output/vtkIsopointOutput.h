@@ -18,39 +18,29 @@ class vtkDataObject;
 class vtkPoints;
 class vtkPolyData;
 
-/**
- * The positions of the isopoints of all surfaces, one surface after the other.
- * @param type VTK_FLOAT or VTK_DOUBLE
- * @throws std::bad_alloc
- */
+/// The positions of the isopoints of all surfaces, one surface after the other.
+/// @param type VTK_FLOAT or VTK_DOUBLE
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& execution,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, int type);
 
-/**
- * One vertex cell for each of `count` points.
- * @throws std::bad_alloc
- */
+/// One vertex cell per point.
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
 
-/**
- * The triangles of all surfaces, whose points are those of vtkNewIsopointPositions().
- * @throws std::bad_alloc
- */
+/// The triangles of all surfaces, on the points of vtkNewIsopointPositions().
+/// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   const isopoint::Execution& execution, const std::vector<isopoint::ExtractedIsosurface>& surfaces);
 
-/**
- * Adds ghost arrays to the output of some surfaces, which mark as duplicates the points that are
- * counted on other ranks, their vertices, and the triangles of other ranks.
- * @throws std::bad_alloc
- */
+/// Marks as duplicates the points counted on other ranks, their vertices, and other ranks'
+/// triangles.
+/// @throws std::bad_alloc
 void vtkAddIsopointGhosts(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
 
-/**
- * A new, empty output for a composite input whose blocks are contoured separately: an object of
- * the same type, or a vtkMultiBlockDataSet (of levels) for an AMR.
- */
+/// A new, empty output for a composite input whose blocks are contoured separately: of the same
+/// type, or for an AMR a vtkMultiBlockDataSet of levels.
 vtkSmartPointer<vtkDataObject> vtkNewIsopointComposite(vtkDataObject* input);
 
 #endif

@@ -22,7 +22,7 @@
 namespace
 {
 
-/// The tuples of some ids, in their order.
+/// Takes the tuples of some ids, in their order.
 void takeTuples(vtkDataSetAttributes* attributes, vtkIdList* ids)
 {
   const auto whole = vtkSmartPointer<vtkDataSetAttributes>::Take(attributes->NewInstance());
@@ -44,7 +44,7 @@ void takePiece(int piece, int pieces, vtkPolyData* surface)
   const vtkIdType begin = count * std::clamp(piece, 0, pieces) / pieces;
   const vtkIdType end = count * std::clamp(piece + 1, 0, pieces) / pieces;
 
-  // Points that the piece uses keep their order.
+  // Points used by the piece keep their order.
   constexpr vtkIdType unused = -1;
   std::vector<vtkIdType> newIds(static_cast<std::size_t>(surface->GetNumberOfPoints()), unused);
   const auto newId = [&newIds](vtkIdType id) -> vtkIdType&

@@ -4,15 +4,12 @@
 
 class vtkDataObject;
 
-/**
- * Reduces an output to one of several pieces: of points, the share of them that is its turn; of
- * triangles, the share of them with the points that they use. All pieces together have each vertex
- * or triangle once, in their order. Points that triangles of several pieces use are in all of
- * these.
- * @param output a vtkPolyData with cells of one kind, or a composite, whose leaves are reduced
- * @param piece 0 .. pieces - 1; others are empty
- * @throws std::bad_alloc
- */
+/// Reduces an output to one of several pieces: a range of the points, or a range of the triangles
+/// with the points that they use. The pieces together have each vertex or triangle once, in their
+/// order; points shared by triangles of several pieces are in all of these.
+/// @param output a vtkPolyData with cells of one kind, or a composite, whose leaves are reduced
+/// @param piece 0 .. pieces - 1; other pieces are empty
+/// @throws std::bad_alloc
 void vtkTakeIsopointPiece(int piece, int pieces, vtkDataObject* output);
 
 #endif

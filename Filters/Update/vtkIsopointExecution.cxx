@@ -22,7 +22,7 @@ void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTa
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
 }
 
-/// Whether the backend is sequential because VTK was built so, and not by choice.
+/// Whether the backend is sequential by default rather than by choice.
 bool isSequentialByDefault()
 {
   const char* const backend = vtkSMPTools::GetBackend();

@@ -8,14 +8,11 @@
 
 class vtkAlgorithm;
 
-/**
- * How the core runs on behalf of a filter: on the threads of vtkSMPTools, reporting progress as the
- * filter's and stopping if the filter is aborted. If useAllCores is set and vtkSMPTools is
- * sequential merely by default, it runs on those of oneTBB instead, where that is available (see
- * vtkScatteredIsopointFilter::SetUseAllCores()). The backend of vtkSMPTools is not changed, since
- * that is global and unsafe while other filters run.
- * @param processes how many do the same on the same cores, which are shared among them
- */
+/// Runs the core for a filter: on the threads of vtkSMPTools, with the filter's progress and abort
+/// flag. If vtkSMPTools is sequential merely by default and useAllCores is set, uses oneTBB if
+/// available (see vtkScatteredContourFilter::SetUseAllCores()). The backend of vtkSMPTools is not
+/// changed: it is global, and changing it is unsafe while other filters run.
+/// @param processes number of processes that share the cores, including this one
 isopoint::Execution vtkMakeIsopointExecution(
   vtkAlgorithm* filter, bool useAllCores, std::size_t processes = 1);
 

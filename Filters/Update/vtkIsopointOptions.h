@@ -6,19 +6,10 @@
 
 #include <algorithm>
 #include <type_traits>
-#include <vector>
 
-namespace isopoint
-{
-class Team;
-}
 class vtkContourValues;
-class vtkIsopointArrayChoice;
 
-/**
- * The properties of a filter: those of the core, and those that concern data objects or how an
- * update runs.
- */
+/// The properties of a filter: the core's options, and those of data objects and updates.
 struct vtkIsopointOptions
 {
   isopoint::Options Core;
@@ -29,17 +20,8 @@ struct vtkIsopointOptions
   bool UseAllCores = true;
 };
 
-/**
- * Checks that all ranks have the same options. Collective.
- * @throws isopoint::UsageError on one rank and isopoint::FailedElsewhere on the others
- */
-void vtkCheckIsopointOptionsOnRanks(isopoint::Team& team, const vtkIsopointOptions& options,
-  const std::vector<double>& sortedIsovalues, const vtkIsopointArrayChoice& array);
-
-/**
- * Sets an option to a value, clamped to its range.
- * @returns whether that changed it
- */
+/// Sets an option to a value, clamped to its range.
+/// @returns whether it changed
 template <class T, class TValue>
 bool vtkSetIsopointOption(
   const isopoint::Option<T>& option, TValue value, vtkIsopointOptions& options)
@@ -57,10 +39,7 @@ bool vtkSetIsopointOption(
   return held != before;
 }
 
-/**
- * Defines the setter of an option of the core, which clamps as that of vtkSetClampMacro() does, and
- * the getter.
- */
+/// Defines the getter of a core option, and a setter that clamps like vtkSetClampMacro().
 #define vtkIsopointOptionMacro(filter, name, type, option)                                         \
   void filter::Set##name(type value)                                                               \
   {                                                                                                \
@@ -74,9 +53,7 @@ bool vtkSetIsopointOption(
     return this->Options->Core.*option.value;                                                      \
   }
 
-/**
- * The same for an option of the filter that is on or off.
- */
+/// The same for an option of the filter that is on or off.
 #define vtkIsopointSwitchMacro(filter, name)                                                       \
   void filter::Set##name(vtkTypeBool isOn)                                                         \
   {                                                                                                \

@@ -2,7 +2,7 @@
 #ifndef vtkIsopointRanks_h
 #define vtkIsopointRanks_h
 
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 
 #include "vtkSmartPointer.h"
 
@@ -10,12 +10,11 @@
 #include <cstdint>
 #include <vector>
 
+class vtkIsopointArrayChoice;
 class vtkMultiProcessController;
+struct vtkIsopointOptions;
 
-/**
- * The ranks of a controller of VTK, as the core sees them; without one, this rank alone. Messages
- * may have any size: they are sent in parts.
- */
+/// Connects the core to a VTK controller, or to this rank alone. Splits large messages into parts.
 class vtkIsopointCommunicator : public isopoint::Communicator
 {
 public:
@@ -36,19 +35,20 @@ private:
   void Receive(const isopoint::IncomingBytes& message, int rank);
 
   vtkSmartPointer<vtkMultiProcessController> Controller;
-  // Memory for sums and maxima, which must not be lacking on one rank alone.
+  // Preallocated for sums and maxima, so that no single rank can run out of memory there.
   std::vector<unsigned long long> OwnNumbers;
   std::vector<unsigned long long> AllNumbers;
 };
 
-/**
- * Whether VTK's global controller has several processes.
- */
+/// Whether VTK's global controller has several processes.
 bool vtkHasOtherProcesses();
 
-/**
- * The number of ranks that run on the same cores as this rank, itself included. Collective.
- */
-std::size_t vtkCountIsopointRanksOnCores(isopoint::Team& team);
+/// The number of ranks that share cores with this rank, including itself. Collective.
+std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes);
+/// Checks that all ranks have the same options. Collective.
+/// @throws isopoint::UsageError on one rank and isopoint::FailedElsewhere on the others
+void vtkCheckIsopointOptionsOnRanks(isopoint::ProcessGroup& processes,
+  const vtkIsopointOptions& options, const std::vector<double>& sortedIsovalues,
+  const vtkIsopointArrayChoice& array);
 
 #endif

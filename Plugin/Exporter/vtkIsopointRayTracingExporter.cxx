@@ -33,64 +33,53 @@ vtkIsopointRayTracingExporter::Monitor& theMonitor()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetMonitor(Monitor monitor)
 {
   theMonitor() = std::move(monitor);
 }
 
-//------------------------------------------------------------------------------
 vtkIsopointRayTracingExporter::vtkIsopointRayTracingExporter() = default;
 
-//------------------------------------------------------------------------------
 vtkIsopointRayTracingExporter::~vtkIsopointRayTracingExporter()
 {
   this->SetFileName(nullptr);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetSamplesPerPixel(int samples)
 {
   this->Tracer->SetSamplesPerPixel(samples);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetShadows(bool shadows)
 {
   this->Tracer->SetShadows(shadows);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetLightAngle(double angle)
 {
   this->Tracer->SetLightAngle(angle);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetAmbientLight(double light)
 {
   this->Tracer->SetAmbientLight(light);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetAmbientDistance(double distance)
 {
   this->Tracer->SetAmbientDistance(distance);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetMaximumNumberOfBounces(int bounces)
 {
   this->Tracer->SetMaximumNumberOfBounces(bounces);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::SetAbsorptionDistance(double distance)
 {
   this->Tracer->SetAbsorptionDistance(distance);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::WriteData()
 {
   if (!this->FileName || !this->FileName[0])
@@ -124,7 +113,6 @@ void vtkIsopointRayTracingExporter::WriteData()
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkIsopointRayTracingExporter::Trace(vtkRenderer* renderer)
 {
   int size[2];
@@ -142,16 +130,15 @@ bool vtkIsopointRayTracingExporter::Trace(vtkRenderer* renderer)
   const unsigned long observer = this->Tracer->AddObserver(vtkCommand::ProgressEvent, progress);
   if (theMonitor())
   {
-    theMonitor()(0.0); // the scene is prepared first
+    theMonitor()(0.0); // preparing the scene comes first
   }
   vtkNew<vtkImageData> image;
   const bool isComplete = this->Tracer->RenderToImage(
     renderer, this->Magnification * size[0], this->Magnification * size[1], image);
   this->Tracer->RemoveObserver(observer);
-  return isComplete; // else the tracer has reported why, or was stopped
+  return isComplete; // otherwise the tracer reported an error, or was stopped
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::WriteWindow(vtkRenderer* renderer)
 {
   const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
@@ -177,7 +164,6 @@ void vtkIsopointRayTracingExporter::WriteWindow(vtkRenderer* renderer)
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointRayTracingExporter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

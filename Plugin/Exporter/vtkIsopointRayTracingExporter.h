@@ -3,8 +3,8 @@
  * @class   vtkIsopointRayTracingExporter
  * @brief   writes what a view shows as a ray-traced PNG picture
  *
- * The picture is that of vtkIsopointRayTracer, as large as the view or a multiple of it, with what
- * else the view shows, such as color legends and axes. Its properties are those of the ray tracer.
+ * The picture of vtkIsopointRayTracer, as large as the view or a multiple of it, with everything
+ * else in the view, such as color legends and axes. The properties are the ray tracer's.
  */
 #ifndef vtkIsopointRayTracingExporter_h
 #define vtkIsopointRayTracingExporter_h
@@ -55,14 +55,13 @@ public:
   ///@}
 
   /**
-   * Called several times a second with the share of an export that is done, 0 to 1, in the thread
-   * that exports, while no OpenGL context is in use. If it returns false the export ends, and
-   * nothing is written.
+   * Called several times a second with the share done, 0 to 1, on the exporting thread, while no
+   * OpenGL context is in use. If it returns false, the export ends and writes nothing.
    */
   using Monitor = std::function<bool(double share)>;
 
   /**
-   * A monitor of all exports of this process: windows show their progress by it. Default: none.
+   * Sets a monitor of all exports of this process, which shows their progress. Default: none.
    */
   static void SetMonitor(Monitor monitor);
 

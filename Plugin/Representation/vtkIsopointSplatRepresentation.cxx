@@ -30,11 +30,10 @@ bool lacksNormals(vtkDataObject* data)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
   : Polygons(vtkIsopointSplatPolygons::New())
 {
-  // The superclass deletes what it holds, and connects it in SetupDefaults().
+  // The superclass deletes this filter, and connects it in SetupDefaults().
   this->GeometryFilter->Delete();
   this->GeometryFilter = this->Polygons;
   this->GeometryFilter->AddObserver(vtkCommand::ProgressEvent, this,
@@ -44,28 +43,24 @@ vtkIsopointSplatRepresentation::vtkIsopointSplatRepresentation()
   this->SetupDefaults();
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatRepresentation::SetRadiusArrayName(const char* name)
 {
   this->Polygons->SetRadiusArrayName(name);
   this->MarkModified();
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatRepresentation::SetRadius(double radius)
 {
   this->Polygons->SetRadius(radius);
   this->MarkModified();
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatRepresentation::SetRadiusScale(double scale)
 {
   this->Polygons->SetRadiusScale(scale);
   this->MarkModified();
 }
 
-//------------------------------------------------------------------------------
 int vtkIsopointSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -80,7 +75,6 @@ int vtkIsopointSplatRepresentation::RequestData(
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
-//------------------------------------------------------------------------------
 void vtkIsopointSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

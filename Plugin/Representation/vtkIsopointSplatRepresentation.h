@@ -4,13 +4,12 @@
  * @brief   renders points with normals as one lit surface
  *
  * ParaView's representation "Isopoint Splats": its surface representation with
- * vtkIsopointSplatPolygons in place of the filter that extracts surfaces. Selections of points and
- * cells hold those of the input, whose splats are seen.
+ * vtkIsopointSplatPolygons instead of the filter that extracts surfaces. Selections hold the
+ * input's points and cells whose splats are visible. Without normals, points are drawn as octahedra
+ * if there is a Radius; otherwise there is a warning.
  *
- * Points without normals would be octahedra. They are drawn only with a Radius, and there is a
- * warning otherwise.
- *
- * @sa vtkIsopointSplatPolygons, vtkIsopointPolygonMapper
+ * @sa
+ * vtkIsopointSplatPolygons, vtkIsopointPolygonMapper
  */
 #ifndef vtkIsopointSplatRepresentation_h
 #define vtkIsopointSplatRepresentation_h
@@ -30,7 +29,7 @@ public:
 
   ///@{
   /**
-   * The shape of splats, see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
+   * The shape of splats; see vtkIsopointSplatPolygons. Defaults: "Radius", 0, 1.
    */
   void SetRadiusArrayName(const char* name);
   void SetRadius(double radius);

@@ -20,8 +20,8 @@ vtkStandardNewMacro(vtkSMIsopointArrayDomain);
 namespace
 {
 
-/// Whether an array numbers points or cells. Readers of finite elements make such arrays
-/// attributes, which data of several blocks may lose.
+/// Whether an array numbers points or cells. Readers of finite elements mark such arrays as id
+/// attributes, but composites may lose the mark.
 bool isIds(vtkPVDataInformation* data, const std::string& name, int association)
 {
   static const std::set<std::string> names{ "vtkOriginalPointIds", "vtkOriginalCellIds",
@@ -39,7 +39,7 @@ bool isIds(vtkPVDataInformation* data, const std::string& name, int association)
          isAttribute(vtkDataSetAttributes::PEDIGREEIDS);
 }
 
-/// Whether an array may well be contoured.
+/// Whether an array is worth contouring.
 bool isField(vtkPVDataInformation* data, const char* name, int association)
 {
   vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
@@ -54,7 +54,6 @@ bool isField(vtkPVDataInformation* data, const char* name, int association)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues)
 {
   int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
@@ -77,7 +76,6 @@ int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool use
   return result;
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
 {
   this->Superclass::Update(requestingProperty);
@@ -90,7 +88,7 @@ void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
   vtkSMProxy* const input = helper.GetNumberOfElements() > 0 ? helper.GetAsProxy(0) : nullptr;
   if (!input)
   {
-    return; // the former one is taken off before another one is connected
+    return; // the former input is removed before another one is connected
   }
   const bool isReplaced = this->Input && this->Input.GetPointer() != input;
   this->Input = input;
@@ -101,7 +99,6 @@ void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSMIsopointArrayDomain::IsFilteredArray(
   vtkPVDataInformation* data, int association, const char* name)
 {
@@ -118,7 +115,6 @@ bool vtkSMIsopointArrayDomain::IsFilteredArray(
   return range[0] > range[1] && array->GetNumberOfTuples() > 0;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSMIsopointArrayDomain::IsReplaceable(vtkSMProperty* property)
 {
   const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();

@@ -3,10 +3,9 @@
  * @class   vtkSMIsopointArrayDomain
  * @brief   a list of arrays that have isosurfaces
  *
- * The arrays are those of vtkSMArrayListDomain, without ghost marks and arrays that have no finite
- * value (such as arrays of strings). The default is that of vtkSMArrayListDomain, unless that array
- * is constant (as the numbers of blocks often are) or holds the ids of points or cells: then it is
- * the first one in the list that does neither.
+ * The arrays of vtkSMArrayListDomain, without ghost marks and arrays without finite values (such as
+ * strings). The default is that of vtkSMArrayListDomain or, if that array is constant (as block
+ * numbers often are) or holds ids of points or cells, the first array that does neither.
  */
 #ifndef vtkSMIsopointArrayDomain_h
 #define vtkSMIsopointArrayDomain_h
@@ -30,9 +29,9 @@ public:
   int SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues) override;
 
   /**
-   * Sets the default once more where another input takes the place of a former one, and that has no
-   * such array or, while the filter is being created, the array is still the former one's default:
-   * scripts first connect the active source, then the input that they name.
+   * Sets the default again when another input replaces the former one, if the new input has no such
+   * array or, while the filter is being created, if the array is still the former default: scripts
+   * first connect the active source, then the input that they name.
    */
   void Update(vtkSMProperty* requestingProperty) override;
 

@@ -21,7 +21,6 @@ std::string chosenArray(vtkSMPropertyHelper& selection)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues)
 {
   const int result = this->Superclass::SetDefaultValues(property, usesUncheckedValues);
@@ -33,7 +32,6 @@ int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool use
   return result;
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
 {
   this->Superclass::Update(requestingProperty);
@@ -49,13 +47,12 @@ void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
   this->Array = array;
   if (isAnother && this->IsDefault(property))
   {
-    // A choice that is not applied yet changes the panel alone.
+    // A choice that is not applied yet only changes the panel.
     vtkSMPropertyHelper applied(selection);
     this->SetDefaultValues(property, array != chosenArray(applied));
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSMIsopointRangeDomain::IsDefault(vtkSMProperty* property) const
 {
   vtkSMUncheckedPropertyHelper isovalues(property);

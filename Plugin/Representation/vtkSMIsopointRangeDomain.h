@@ -3,10 +3,9 @@
  * @class   vtkSMIsopointRangeDomain
  * @brief   a range whose default follows the array
  *
- * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. Where
- * another array is chosen while the isovalue still is the default, it becomes the middle of the new
- * array's range. Others, those of a state that was loaded, and all where only the data change, are
- * kept.
+ * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
+ * another array is chosen while the isovalue is the default, it becomes the middle of the new
+ * range. Other isovalues, those of a loaded state, and all if only the data change, are kept.
  *
  * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
  */
@@ -40,9 +39,9 @@ protected:
 private:
   bool IsDefault(vtkSMProperty* property) const;
 
-  std::string Array;                  // that the range is of, with its association
-  std::optional<double> Default;      // that the property was set to
-  std::optional<double> ShownDefault; // the same, where it is not applied yet
+  std::string Array;                  // of the range, with its association
+  std::optional<double> Default;      // value that the property was set to
+  std::optional<double> ShownDefault; // the same, if not applied yet
 
   vtkSMIsopointRangeDomain(const vtkSMIsopointRangeDomain&) = delete;
   void operator=(const vtkSMIsopointRangeDomain&) = delete;

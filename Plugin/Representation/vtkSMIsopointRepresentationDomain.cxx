@@ -41,13 +41,11 @@ const char* const splats = "Isopoint Splats";
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool vtkSMIsopointRepresentationDomain::AreIsopoints(vtkPVDataInformation* data)
 {
   return hasSplats(data) && hasVerticesAlone(data);
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointRepresentationDomain::Update(vtkSMProperty* requestingProperty)
 {
   this->Superclass::Update(requestingProperty);
@@ -66,12 +64,11 @@ void vtkSMIsopointRepresentationDomain::Update(vtkSMProperty* requestingProperty
   this->OfferSplats();
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointRepresentationDomain::OfferSplats()
 {
   if (!this->Types || this->Types->GetNumberOfElements() == 0)
   {
-    return; // the representation has not listed them yet
+    return; // the types are not listed yet
   }
   std::vector<std::string> types = this->Types->GetElements();
   types.erase(std::remove(types.begin(), types.end(), splats), types.end());
@@ -82,7 +79,6 @@ void vtkSMIsopointRepresentationDomain::OfferSplats()
   this->Types->SetElements(types);
 }
 
-//------------------------------------------------------------------------------
 int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   vtkSMProperty* property, bool usesUncheckedValues)
 {

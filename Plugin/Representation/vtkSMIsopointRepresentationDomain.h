@@ -3,11 +3,11 @@
  * @class   vtkSMIsopointRepresentationDomain
  * @brief   offers "Isopoint Splats" for isopoints, and makes it their default representation
  *
- * A domain of a property of the representation's proxy, which is part of one with the property
- * "Representation" that it sets. Of other data the default is left as it is. Data without the
- * arrays of splats are not offered them: the type is taken from the list "RepresentationTypesInfo".
+ * A domain for a property of the representation's proxy; it sets the property "Representation" of
+ * the proxy around it. For data without splats, it keeps the default and removes the type from the
+ * list "RepresentationTypesInfo".
  *
- * The required property "Input" yields the data.
+ * The required property "Input" provides the data.
  */
 #ifndef vtkSMIsopointRepresentationDomain_h
 #define vtkSMIsopointRepresentationDomain_h
@@ -27,9 +27,8 @@ public:
   vtkTypeMacro(vtkSMIsopointRepresentationDomain, vtkSMDomain);
 
   /**
-   * Whether data are isopoints, whatever filters they have passed through: they have the point
-   * arrays "Normals" of three components and "Radius" of one, and as many cells as points, the
-   * vertices, or none.
+   * Whether data are isopoints, possibly filtered: they have the point arrays "Normals" of three
+   * components and "Radius" of one, and either no cells or one vertex per point.
    */
   static bool AreIsopoints(vtkPVDataInformation* data);
 
@@ -50,7 +49,7 @@ protected:
 private:
   void OfferSplats();
 
-  vtkWeakPointer<vtkSMStringVectorProperty> Types; // that are offered, in the order of their names
+  vtkWeakPointer<vtkSMStringVectorProperty> Types; // offered types, in the order of their names
 
   vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
   void operator=(const vtkSMIsopointRepresentationDomain&) = delete;

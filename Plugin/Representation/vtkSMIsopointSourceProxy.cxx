@@ -14,7 +14,7 @@ vtkStandardNewMacro(vtkSMIsopointSourceProxy);
 namespace
 {
 
-/// The file that this plugin was loaded from; empty if it is part of the program.
+/// The file that this plugin was loaded from; empty if it is linked into the program.
 std::string findPluginFile()
 {
   vtkPVPluginTracker* const tracker = vtkPVPluginTracker::GetInstance();
@@ -32,7 +32,6 @@ std::string findPluginFile()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
 {
   this->Superclass::AddConsumer(property, consumer);
@@ -45,7 +44,6 @@ void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* 
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointSourceProxy::CreateVTKObjects()
 {
   if (!this->ObjectsCreated && vtkSMTrace::GetActiveTracer())
@@ -63,7 +61,6 @@ void vtkSMIsopointSourceProxy::CreateVTKObjects()
   this->Superclass::CreateVTKObjects();
 }
 
-//------------------------------------------------------------------------------
 void vtkSMIsopointSourceProxy::PostUpdateData(bool usesCache)
 {
   this->Superclass::PostUpdateData(usesCache);

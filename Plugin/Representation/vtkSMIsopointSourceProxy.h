@@ -3,12 +3,9 @@
  * @class   vtkSMIsopointSourceProxy
  * @brief   proxy of a filter of this plugin
  *
- * ParaView asks a filter for its information properties where a panel or a script calls for that.
- * This proxy does so after each update, so that counters are always those of the last one.
- *
- * Where points are saved as STL, it warns that the file will be empty.
- *
- * Traces load the plugin, if it is not loaded when they are run, before they create the filter.
+ * Updates information properties after each update, so that counters are always current. ParaView
+ * does so only when a panel or a script asks for them. Warns if points are saved as STL, because
+ * the file would be empty. Traces load the plugin, if necessary, before they create the filter.
  */
 #ifndef vtkSMIsopointSourceProxy_h
 #define vtkSMIsopointSourceProxy_h

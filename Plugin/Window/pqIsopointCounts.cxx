@@ -64,7 +64,7 @@ pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group,
     }
   }
   this->updateTexts();
-  // Once the panel is complete; this group is in the panels of all filters of this plugin.
+  // After the panel is complete. The panels of all filters of this plugin contain this group.
   QTimer::singleShot(0, this, [this]() { pqShowHelpAtLabels(this->parentWidget()); });
 }
 

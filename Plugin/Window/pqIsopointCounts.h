@@ -10,8 +10,8 @@ class QLabel;
 class vtkSMProperty;
 class vtkSMPropertyGroup;
 
-/// Counts of the last update as text, "27 of 12717", empty before the first one. What the property
-/// with a function "name" is a part of has the function "name of".
+/// Counts of the last update as text, "27 of 12717"; empty before the first update. The property
+/// with the function "name of" is the total for the property with the function "name".
 class pqIsopointCounts : public pqPropertyWidget
 {
   Q_OBJECT

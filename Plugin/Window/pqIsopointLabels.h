@@ -4,8 +4,7 @@
 
 class QWidget;
 
-/// Shows the help of each property in a panel at its label too: ParaView shows it only at what is
-/// to the right of the label.
+/// Shows the help of each property also at its label; ParaView shows it only at the widget.
 void pqShowHelpAtLabels(QWidget* panel);
 
 #endif

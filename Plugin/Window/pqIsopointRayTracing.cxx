@@ -38,7 +38,7 @@
 namespace
 {
 
-/// Whether there is something to trace.
+/// Whether a view shows anything that can be traced.
 bool showsSomething(pqView* view)
 {
   if (!qobject_cast<pqRenderView*>(view))
@@ -50,18 +50,18 @@ bool showsSomething(pqView* view)
     all.begin(), all.end(), [](pqRepresentation* each) { return each->isVisible(); });
 }
 
-/// Lets the user press buttons of the dialog in front while ParaView draws, and keeps everything
-/// else waiting: timers and messages of a server may change the scene.
+/// Processes only user input while ParaView draws, so that the dialog's buttons work. Timers and
+/// messages of a server must wait: they may change the scene.
 void processInput()
 {
   pqProgressManager* const progress = pqApplicationCore::instance()->getProgressManager();
-  const bool before = progress->unblockEvents(true); // else it drops what the mouse does
+  const bool before = progress->unblockEvents(true); // otherwise it drops mouse events
   QCoreApplication::processEvents(
     QEventLoop::ExcludeSocketNotifiers | QEventLoop::X11ExcludeTimers);
   progress->unblockEvents(before);
 }
 
-/// Asks for a file and for options, and traces the active view.
+/// Asks for a file and options, and traces the active view.
 void exportActiveView()
 {
   const QPointer<pqView> view = pqActiveObjects::instance().activeView();
@@ -161,7 +161,7 @@ bool pqIsopointRayTracing::show(double share)
       "Tracing rays...", QString(), 0, all, pqCoreUtilities::mainWidget());
     this->Dialog->setObjectName("RayTracingProgress");
     this->Dialog->setCancelButton(new QPushButton("Stop"));
-    this->Bar = new QProgressBar; // setting it, unlike the dialog, processes no events
+    this->Bar = new QProgressBar; // setValue() of the dialog, unlike this, processes events
     this->Dialog->setBar(this->Bar);
     this->Dialog->setWindowTitle("Ray Tracing");
     this->Dialog->setWindowModality(Qt::ApplicationModal);

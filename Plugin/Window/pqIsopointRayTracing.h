@@ -10,8 +10,8 @@
 class QProgressBar;
 class QProgressDialog;
 
-/// Exports of ray-traced pictures: an entry in the menu File, and the progress of all such exports,
-/// with a button that stops them.
+/// Exports ray-traced pictures: adds an entry to the File menu, and shows the progress of all such
+/// exports with a button that stops them.
 class pqIsopointRayTracing
 {
 public:
@@ -25,11 +25,11 @@ public:
 private:
   void addMenuEntry();
 
-  /// Shows the share of an export that is done. @returns whether it is to go on
+  /// Shows the share of an export that is done. @returns whether to continue
   bool show(double share);
 
-  QPointer<QObject> Entry;                 // of the menu
-  std::unique_ptr<QProgressDialog> Dialog; // while an export is under way
+  QPointer<QObject> Entry;                 // in the menu
+  std::unique_ptr<QProgressDialog> Dialog; // during an export
   QProgressBar* Bar = nullptr;             // of the dialog
 };
 

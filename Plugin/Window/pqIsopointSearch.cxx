@@ -28,12 +28,12 @@ void pqIsopointSearch::updateEntries()
   qDeleteAll(former);
   for (const char* const filter : { "ScatteredIsopoints", "ScatteredIsosurface" })
   {
-    // Actions of the filter menu have the names of their filters.
+    // Actions in the filter menu are named after their filters.
     if (auto* const action = pqCoreUtilities::mainWidget()->findChild<QAction*>(filter))
     {
       auto* const entry =
         new QAction(action->icon(), action->text() + " (contour)", this->Entries.get());
-      entry->setObjectName(action->objectName() + "Contour"); // the search tells them apart by it
+      entry->setObjectName(action->objectName() + "Contour"); // the search needs distinct names
       entry->setEnabled(action->isEnabled());
       entry->setData(action->data());
       QObject::connect(entry, &QAction::triggered, action, &QAction::trigger);

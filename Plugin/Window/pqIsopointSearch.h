@@ -6,8 +6,8 @@
 
 #include <memory>
 
-/// Lets the quick search (Filters > Search) find the filters by "contour": it looks for the words
-/// in the names of menu entries, so that these get another one.
+/// Makes the quick search (Filters > Search) find the filters by "contour". It searches the names
+/// of menu entries, so each filter gets another entry.
 class pqIsopointSearch
 {
 public:

@@ -64,7 +64,7 @@ void pqIsopointSelections::keepVertices(pqServerManagerModelItem* item)
     vtkSMPropertyHelper(own, "ContainingCells").Set(1);
     own->UpdateVTKObjects();
     const std::string name = "selection_sources." + std::string(own->GetGlobalIDAsString());
-    proxies->RegisterProxy("selection_sources", name.c_str(), own); // for states
+    proxies->RegisterProxy("selection_sources", name.c_str(), own); // so that states contain it
     sources.Set(i, own);
     selection->UpdateVTKObjects();
   }

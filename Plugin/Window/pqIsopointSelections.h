@@ -8,9 +8,8 @@
 
 class pqServerManagerModelItem;
 
-/// Lets Extract Selection keep the vertices of points that it takes from isopoints, and with them
-/// the shapes of their splats. The active selection stays as it is: ParaView adds to it only what
-/// is selected in the same way.
+/// Makes Extract Selection keep the vertices of points from isopoints, and with them the shapes of
+/// their splats. The active selection stays: ParaView only adds selections of the same kind to it.
 class pqIsopointSelections
 {
 public:
@@ -19,10 +18,10 @@ public:
   void shutdown();
 
 private:
-  /// Makes the selection of a filter that was applied contain cells.
+  /// Makes the selection of an applied filter contain cells.
   static void keepVertices(pqServerManagerModelItem* item);
 
-  std::unique_ptr<QObject> Following; // as long as signals are followed
+  std::unique_ptr<QObject> Following; // receives signals
 };
 
 #endif

@@ -10,9 +10,9 @@
 class pqPipelineFilter;
 class pqServerManagerModelItem;
 
-/// Hides what a filter was applied to where it is drawn as splats, as ParaView's window does where
-/// it is drawn as a surface: behind opaque splats the output would not be seen. Where a filter
-/// leaves nothing of isopoints, since it takes cells, it says what to do.
+/// Hides the input of a new filter if it is drawn as opaque splats, as ParaView does for surfaces:
+/// the output would be hidden behind them. Explains what to do if a filter leaves nothing of
+/// isopoints because it works on cells.
 class pqIsopointVisibility
 {
 public:
@@ -21,16 +21,16 @@ public:
   void shutdown();
 
 private:
-  /// Follows the states of a pipeline's items: a filter is new until it is first applied.
+  /// Follows the states of pipeline items: a filter is new until it is first applied.
   void follow(pqServerManagerModelItem* item);
 
   static void hideSplatsBehind(pqPipelineFilter* filter);
 
-  /// Says why a slice of isopoints shows nothing.
+  /// Explains why a slice of isopoints shows nothing.
   static void explainEmptySlice(pqPipelineFilter* filter);
 
   QSet<pqServerManagerModelItem*> NewItems;
-  std::unique_ptr<QObject> Following; // as long as signals are followed
+  std::unique_ptr<QObject> Following; // receives signals
 };
 
 #endif

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Isosurfaces straight from scattered samples.
+"""Isosurfaces directly from scattered samples.
 
-contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; Samples keeps the tree from
-one isovalue to the next. Both need NumPy alone. Where this project is installed with VTK, the package
-has its classes, too; with ParaView, load_plugin() and ray_trace().
+contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; Samples keeps the tree between
+isovalues. Both only need NumPy. With the project's VTK modules, the package also has their classes; with
+its ParaView plugin, load_plugin() and ray_trace().
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .plugin import load_plugin
 
 __version__ = _library.version().decode()
 
-# Modules of compiled classes; each may be missing. They load VTK, so that this package does not.
+# Modules of compiled classes; each may be missing. They load VTK, so they are imported on demand.
 _COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
              "vtkScatteredIsopointRayTracing")
 
@@ -48,7 +48,7 @@ def __dir__() -> list[str]:
 
 
 def _classes() -> list[str]:
-    """All compiled classes, and ray_trace() where there is a ray tracer."""
+    """All compiled classes, and ray_trace() if there is a ray tracer."""
     names = [name for module in map(_compiled, _COMPILED) for name in dir(module)
              if name.startswith("vtk")]
     if not names:
@@ -57,7 +57,7 @@ def _classes() -> list[str]:
 
 
 def _in_python() -> Any:
-    """The module of the filters in Python, or None without VTK."""
+    """The filters implemented in Python, or None without VTK."""
     try:
         return importlib.import_module("._vtk", __name__)
     except ImportError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python -m scatteredisopoints paraview: says how to load the filters into ParaView."""
+"""python -m scatteredisopoints paraview: explains how to load the filters into ParaView."""
 
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NumPy arrays as the C library reads them."""
+"""NumPy arrays for the C library."""
 
 from __future__ import annotations
 
@@ -9,10 +9,8 @@ import numpy as np
 
 
 def readable(name: str, array: Any) -> np.ndarray:
-    """An array of a type that the library reads, with any strides but zero; masked places are NaN.
-
-    Raises TypeError of a type without an order, such as complex numbers or text.
-    """
+    """Converts an array to a type and layout that the library reads (no zero strides); masked entries
+    become NaN. Raises TypeError for types without an order, such as complex numbers or text."""
     is_masked = isinstance(array, np.ma.MaskedArray) and array.dtype.kind in "fiub"
     if is_masked and np.ma.is_masked(array):
         array = array.astype(np.result_type(array.dtype, np.float32)).filled(np.nan)
@@ -33,7 +31,7 @@ def readable(name: str, array: Any) -> np.ndarray:
 
 
 def positions_of(array: Any) -> np.ndarray:
-    """Positions of the shape (n, 3), of float32 or float64."""
+    """Positions with shape (n, 3), float32 or float64."""
     result = readable("positions", array)
     if result.ndim != 2 or result.shape[1] != 3:
         raise ValueError(f"positions have the shape {result.shape}, not (n, 3): for samples in a"
@@ -42,14 +40,14 @@ def positions_of(array: Any) -> np.ndarray:
 
 
 def values_of(array: Any, count: int) -> np.ndarray:
-    """Values of the shape (count,)."""
+    """Values with shape (count,)."""
     if array is None:
         raise TypeError("values are missing: one for each position")
     return column("values", array, count, one_component=True)
 
 
 def column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
-    """An array of the samples: of the shape (count,) or, if that is allowed, (count, components)."""
+    """An array of the samples with shape (count,) or, unless one_component, (count, components)."""
     result = readable(name, array)
     if one_component and result.ndim == 2 and result.shape[1] == 1:
         result = result[:, 0]
@@ -72,7 +70,7 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
 
 
 def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
-    """One or several isovalues as a list; masked ones are left out."""
+    """One or several isovalues as a list, without masked ones."""
     if isovalues is None or isinstance(isovalues, (str, bytes)):
         raise TypeError(f"isovalues are {isovalues!r}, not numbers")
     if isinstance(isovalues, np.ma.MaskedArray):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples of data sets of VTK, and of packages that have its classes (PyVista, cvista, vedo).
+"""The samples of data sets of VTK, and of packages with its classes (PyVista, cvista, vedo).
 
-Only methods of the objects are used, so that any of these packages will do. docs/properties.md says
-which points and cells are samples.
+Only calls methods of the objects, so that any of these packages works. docs/properties.md defines which
+points and cells are samples.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from ._arrays import readable
 from ._ghosts import excluded_cells, excluded_points
 
 POINT, CELL = 0, 1
-# Types of arrays, as in vtkType.h.
+# Array types, as in vtkType.h.
 BIT, UNSIGNED_CHAR, FLOAT, DOUBLE = 1, 3, 10, 11
 UNSIGNED = (UNSIGNED_CHAR, 5, 7, 9, 17)
-# What the attributes of a data set are used for, as in vtkDataSetAttributes::AttributeTypes.
+# Attribute types, as in vtkDataSetAttributes::AttributeTypes.
 GLOBAL_IDS, PEDIGREE_IDS = 5, 6
 
 
@@ -30,15 +30,15 @@ class Block:
 
     positions: Any
     values: np.ndarray
-    excluded: Optional[np.ndarray]  # bool, or None if there are no ghosts
+    excluded: Optional[np.ndarray]  # bool; None without ghosts
     arrays: dict[str, Any]
-    uses: dict[str, int]  # arrays that are an attribute: vectors, texture coordinates, ...
+    uses: dict[str, int]  # types of arrays that are attributes: vectors, texture coordinates, ...
 
 
 @dataclass
 class DataSamples:
-    """The samples of all blocks of a data object together. Positions and arrays of one block are VTK's:
-    see numbers_of()."""
+    """The samples of all blocks of a data object. With one block, positions and arrays are VTK's; see
+    numbers_of()."""
 
     positions: Any
     values: np.ndarray
@@ -46,14 +46,14 @@ class DataSamples:
     name: str  # of the values
     arrays: dict[str, Any]
     uses: dict[str, int]
-    without_array: int  # points or cells of blocks that lack it
-    package: str = ""  # which has the data object's class
+    without_array: int  # points or cells of blocks without the array
+    package: str = ""  # with the data object's class
     is_of_pyvista: bool = False
     field_data: Any = None
 
 
 def data_object(source: Any) -> Any:
-    """The data object that something is or wraps, as objects of vedo do; None of arrays."""
+    """The data object that an object is or wraps (vedo); None for arrays."""
     if hasattr(source, "IsA") and hasattr(source, "GetDataObjectType"):
         return source
     if isinstance(source, (np.ndarray, list, tuple)):
@@ -68,21 +68,21 @@ def data_object(source: Any) -> Any:
 
 
 def package_of(data: Any) -> str:
-    """The name of the package that has the class of a data object: vtkmodules, cvista."""
+    """The name of the package with the class of a data object: vtkmodules, cvista."""
     for base in type(data).__mro__:
         package, _, module = base.__module__.rpartition(".")
-        if module == "vtkCommonCore":  # that of vtkObject; cvista has data objects that name vtkmodules
+        if module == "vtkCommonCore":  # has vtkObject; cvista has data objects that name vtkmodules
             return package
     raise TypeError(f"{type(data).__name__} is none of VTK's data objects")
 
 
 def is_of_pyvista(data: Any) -> bool:
-    """Whether a data object is one of PyVista's, rather than of VTK."""
+    """Whether a data object belongs to PyVista rather than VTK."""
     return any(base.__module__.startswith("pyvista.") for base in type(data).__mro__)
 
 
 def module_of(data: Any, name: str) -> Any:
-    """A module of that package."""
+    """A module of the package of a data object."""
     return importlib.import_module(f"{package_of(data)}.{name}")
 
 
@@ -99,8 +99,7 @@ def leaves(data: Any) -> Iterator[Any]:
 
 
 def as_numpy(array: Any) -> np.ndarray:
-    """The numbers of a data array, shape (n,) or (n, components), which share its memory if they
-    follow each other there."""
+    """The numbers of a data array, with shape (n,) or (n, components). Shares its memory if contiguous."""
     kind = array.GetDataType()
     if kind == BIT or not array.HasStandardMemoryLayout():
         kind = UNSIGNED_CHAR if kind == BIT else kind
@@ -115,13 +114,13 @@ def as_numpy(array: Any) -> np.ndarray:
 
 
 def numbers_of(array: Any) -> np.ndarray:
-    """The numbers of an array of VTK or NumPy. Those of VTK may be reallocated, so that nothing keeps
-    them longer than a call."""
+    """The numbers of a VTK or NumPy array. VTK may reallocate its arrays: do not keep the result after a
+    call."""
     return array if isinstance(array, np.ndarray) else as_numpy(array)
 
 
 def state_of(data: Any) -> tuple:
-    """What changes when a data object does, as far as VTK notices it."""
+    """A value that changes when VTK notices a change of the data object."""
     state = []
     for leaf in leaves(data):
         times = [leaf.GetMTime()]
@@ -137,10 +136,10 @@ def samples_of(data: Any, values: Any, prefers_cells: bool = False) -> DataSampl
     Parameters
     ----------
     values
-        The name of an array of points or cells, one number for each of a data set's points or cells,
-        or None: the active scalars of the points.
+        The name of a point or cell array, one number per point or cell of a data set, or None for the
+        active scalars of the points.
     prefers_cells
-        Whether the name is that of an array of cells where points have such an array, too.
+        Whether a name refers to the cell array if there are both.
     """
     is_supported = data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")
     if not is_supported:
@@ -180,7 +179,7 @@ def _size(leaf: Any) -> int:
 
 def _find(leaf: Any, values: Any, given: Optional[np.ndarray], associations: tuple[int, int]
           ) -> Optional[tuple[int, Any]]:
-    """Where the values of a data set are, and what they are: an array of VTK or NumPy."""
+    """The array of a data set's values, of VTK or NumPy, and its association."""
     if given is not None:
         counts = leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()
         if given.ndim == 2 and given.shape[1] == 1:
@@ -210,7 +209,7 @@ def _array_names(leaf: Any) -> tuple[list[str], list[str]]:
 
 
 class NoSamplesError(ValueError):
-    """A data object has no points, cells or array of values."""
+    """A data object has no points, no cells or no array of values."""
 
 
 def _raise_nothing(values: Any, names: list[tuple[list[str], list[str]]]) -> None:
@@ -284,7 +283,7 @@ def _joined(blocks: list[Block], name: str, without_array: int) -> DataSamples:
 
 
 def point_positions(leaf: Any) -> np.ndarray:
-    """The points of a data set, shape (n, 3)."""
+    """The points of a data set, with shape (n, 3)."""
     if leaf.IsA("vtkImageData"):
         extent = leaf.GetExtent()
         return _image_positions(leaf, [np.arange(extent[2 * axis], extent[2 * axis + 1] + 1.0)
@@ -306,12 +305,12 @@ def _lattice(axes: list[np.ndarray]) -> np.ndarray:
 
 
 def _image_positions(image: Any, indices: list[np.ndarray], origin=None) -> np.ndarray:
-    """Positions at continuous indices, as VTK computes them, to the last bit.
+    """Positions at continuous indices, equal to VTK's to the last bit.
 
     Parameters
     ----------
     origin
-        In place of the image's own.
+        Replaces the image's own origin.
     """
     matrix = image.GetIndexToPhysicalMatrix()
     x, y, z = _lattice(indices).T
@@ -324,7 +323,7 @@ def _image_positions(image: Any, indices: list[np.ndarray], origin=None) -> np.n
 
 def _cell_centers(leaf: Any) -> np.ndarray:
     if leaf.IsA("vtkImageData"):
-        # The image whose points are the centers: its origin is the center of the first cell.
+        # An image with the cell centers as points: its origin is the center of the first cell.
         extent = leaf.GetExtent()
         steps = [extent[2 * axis + 1] > extent[2 * axis] for axis in range(3)]
         halfway = [np.array([0.5 if step else 0.0]) for step in steps]

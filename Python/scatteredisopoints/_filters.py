@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""contour() by the compiled filters, where they are installed: of all kinds of data, on ranks."""
+"""contour() by the compiled filters, if installed: for all kinds of data, and for process groups."""
 
 from __future__ import annotations
 
@@ -123,21 +123,20 @@ def _set_input(isopoints: vtkScatteredContourFilter, data: vtkDataObject, values
 
 
 def _as_vtk(name: str, array: np.ndarray):
-    """A VTK array of the same memory, which it keeps alive, or of a copy where VTK has no such
-    layout."""
+    """A VTK array that shares the memory, and keeps it alive. Copies layouts that VTK does not have."""
     array = np.ascontiguousarray(array)
     if not array.flags.writeable:
-        array = array.copy()  # numpy_to_vtk() refuses it
+        array = array.copy()  # numpy_to_vtk() refuses its layout
     result = numpy_to_vtk(array)
     result.SetName(name)
     return result
 
 
 def _options_of(isopoints: vtkScatteredContourFilter) -> dict[str, str]:
-    """The methods that set the filter's properties, by the properties' names in snake case."""
+    """The filter's setters, by the names of their properties in snake case."""
     base = next(c for c in type(isopoints).__mro__ if not c.__name__.startswith("vtkScattered"))
     inherited = set(dir(base))
-    # Outputs are one vtkPolyData, and a controller is an option of its own.
+    # contour() itself determines these.
     others = {"SetValue", "SetNumberOfContours", "SetContourBlocks", "SetUseGlobalController"}
     return {
         snake_case(method[3:]): method
@@ -159,7 +158,7 @@ def _set_option(isopoints: vtkScatteredContourFilter, name: str, value: Any) -> 
 
 
 def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:
-    """Runs the filter. Raises what it reports, and what `report` raised. Ctrl-C ends it."""
+    """Runs the filter. Raises the errors that it reports and those of `report`. Ctrl-C ends it."""
     raised: list[BaseException] = []
 
     def end(error: BaseException) -> None:
@@ -188,7 +187,7 @@ def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:
     watch("ErrorEvent", errors)
     watch("WarningEvent", cautions)
     watch("MessageEvent", cautions)
-    # VTK prints what an observer raises, so that Python's handler must not raise in one.
+    # VTK prints exceptions in observers, so Python's handler must not raise one there.
     is_replaced = signal.getsignal(signal.SIGINT) is signal.default_int_handler and (
         threading.current_thread() is threading.main_thread())
     if is_replaced:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points and cells of data sets are no samples, since they are ghosts or hidden."""
+"""Finds points and cells of data sets that are no samples because they are ghosts or hidden."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Callable, Optional
 
 import numpy as np
 
-# Bits of vtkGhostType: of points, and of cells.
+# Bits of vtkGhostType, for points and for cells.
 DUPLICATE_POINT, HIDDEN_POINT = 1, 2
 DUPLICATE_CELL, REFINED_CELL, HIDDEN_CELL = 1, 8, 32
 
@@ -15,14 +15,14 @@ AsNumpy = Callable[[Any], np.ndarray]
 
 
 def excluded_points(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
-    """Whether each point is a ghost, hidden, or of no cells but hidden ones or ghosts; None if none
+    """Whether each point is a ghost, hidden, or only in cells that are hidden or ghosts; None if no point
     is."""
     points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
     cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
     excluded = None
     if points is not None:
         excluded = (points & (DUPLICATE_POINT | HIDDEN_POINT)) != 0
-    # If the points have a ghost array, it marks the duplicates among them.
+    # If the points have a ghost array, it marks duplicates itself.
     bits = HIDDEN_CELL | REFINED_CELL | (DUPLICATE_CELL if points is None else 0)
     if cells is not None and (cells & bits).any():
         is_excluded = (cells & bits) != 0
@@ -36,8 +36,8 @@ def excluded_points(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
 
 
 def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
-    """Whether each cell is a ghost, hidden, covered by a finer one, has a hidden point, or no points
-    at all; None if none is."""
+    """Whether each cell is a ghost, hidden, covered by a finer one, with a hidden point, or without points;
+    None if no cell is."""
     points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
     cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
     excluded = np.zeros(data.GetNumberOfCells(), bool)
@@ -60,7 +60,7 @@ def _ghosts(attributes: Any, count: int, as_numpy: AsNumpy) -> Optional[np.ndarr
 
 
 def _cell_arrays(data: Any) -> list[Any]:
-    """The vtkCellArrays of a data set, in the order of its cells; none of a structured one."""
+    """The vtkCellArrays of a data set, in the order of its cells; empty for structured data sets."""
     if data.IsA("vtkPolyData"):
         return [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
     is_unstructured = data.IsA("vtkUnstructuredGrid") or data.IsA("vtkExplicitStructuredGrid")
@@ -68,7 +68,7 @@ def _cell_arrays(data: Any) -> list[Any]:
 
 
 def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
-    """All pairs of a cell and a point of it, as the ids of both."""
+    """All pairs of a cell and one of its points, as two arrays of ids."""
     arrays = _cell_arrays(data)
     if arrays:
         sizes = np.concatenate([np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What contour() returns."""
+"""The result of contour()."""
 
 from __future__ import annotations
 
@@ -13,10 +13,7 @@ from ._arrays import column, readable
 
 
 class Isosurface:
-    """Points on isosurfaces, or triangles between them.
-
-    Arrays are views of the memory of the result, which they keep alive.
-    """
+    """Points on isosurfaces, or triangles between them. Arrays are views that keep their memory alive."""
 
     points: np.ndarray
     """Positions in the unit of the input: shape (n, 3), of float32 or float64."""
@@ -52,25 +49,25 @@ class Isosurface:
 
     @property
     def are_triangles(self) -> bool:
-        """Whether triangles were extracted, or points alone."""
+        """Whether triangles were extracted rather than only points."""
         return self.triangles is not None
 
     @property
     def normals(self) -> Optional[np.ndarray]:
-        """Unit normals towards decreasing values: shape (n, 3); None if they were not computed."""
+        """Unit normals towards decreasing values, shape (n, 3); None if not computed."""
         return self.arrays.get("Normals")
 
     @property
     def radii(self) -> Optional[np.ndarray]:
-        """Radii of splats in the unit of positions: shape (n,); None if not computed."""
+        """Radii of splats in the unit of positions, shape (n,); None if not computed."""
         return self.arrays.get("Radius")
 
     @property
     def polydata(self) -> Any:
         """Points, vertices or triangles, and all arrays, whose memory it shares.
 
-        A pyvista.PolyData if the samples were an object of PyVista, otherwise a vtkPolyData.
-        Raises ImportError where neither VTK nor PyVista is installed.
+        A pyvista.PolyData if the samples were an object of PyVista, otherwise a vtkPolyData. Raises
+        ImportError if neither VTK nor PyVista is installed.
         """
         if self._polydata is None:
             self._polydata = self._make_polydata(self)
@@ -79,7 +76,7 @@ class Isosurface:
     def splats(self, scale: float = 1.0) -> Isosurface:
         """The triangles that show points as a closed, lit surface, for programs that draw meshes.
 
-        Each splat has vertices of its own: for a connected mesh extract triangles.
+        Splats do not share vertices: for a connected mesh extract triangles.
 
         Parameters
         ----------
@@ -88,13 +85,12 @@ class Isosurface:
 
         Returns
         -------
-        Triangles with normals and the arrays of the points; where splats meet at a vertex, real
-        numbers are averaged.
+        Triangles with normals and the arrays of the points. Real numbers are averaged where splats meet.
 
         Raises
         ------
         ValueError
-            If there are no splats: of triangles, or if they or normals were switched off.
+            If there are no splats: for triangles, or if splats or normals were switched off.
         """
         if not self.splat_shapes or self.normals is None:
             raise ValueError("The surface has no splats: extract points with compute_splats and"
@@ -125,7 +121,7 @@ class Isosurface:
 
 
 def _at_vertices(surface: _library.Handle, array: np.ndarray, point_of_vertex) -> np.ndarray:
-    """An array of points at the vertices of their splats."""
+    """An array of points, evaluated at the vertices of their splats."""
     if array.dtype.kind != "f":
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The C library by ctypes. Its header, isopoint.h, describes all that is declared here."""
+"""The C library by ctypes; isopoint.h documents its declarations."""
 
 from __future__ import annotations
 
@@ -35,8 +35,7 @@ class Array(ctypes.Structure):
 
     @classmethod
     def of(cls, numbers: np.ndarray) -> Array:
-        """Of an array of the shape (n,) or (n, components), as readable() returns it, which has to
-        outlive this."""
+        """Describes an array of the shape (n,) or (n, components) from readable(), which must outlive this."""
         columns = numbers.ndim == 2
         if numbers.ndim not in (1, 2):
             raise ValueError(f"an array has the shape {numbers.shape}, not (n,) or (n, components)")
@@ -101,22 +100,22 @@ average_at_splat_vertices = _declare(
 
 
 class Handle:
-    """An extractor or a surface, which is destroyed together with this."""
+    """Owns an extractor or a surface."""
 
     def __init__(self, pointer: int | None, destroy: Callable[[int], None]):
         if not pointer:
             raise MemoryError("There is no memory for a tree.")
         self._as_parameter_ = c_void_p(pointer)
-        self.callbacks: Any = None  # which a surface calls as its extractor did
+        self.callbacks: Any = None  # a surface uses those of its extractor
         weakref.finalize(self, destroy, pointer).atexit = False
 
 
 class Callbacks:
     """Progress and cancellation of one call.
 
-    What a callback of ctypes raises is lost, and handlers of signals may raise before its first line
-    is reached, also that of Ctrl-C. So ctypes calls two methods in C alone: of a dictionary, which
-    keeps the last fraction, and of a generator that waits within a try block.
+    ctypes drops exceptions of callbacks, and signal handlers, including that of Ctrl-C, may raise before
+    the first line of a callback. So ctypes only calls two methods implemented in C: one of a dictionary,
+    which keeps the last fraction, and one of a generator, which waits within a try block.
     """
 
     def __init__(
@@ -126,7 +125,7 @@ class Callbacks:
     ):
         self.error: Optional[BaseException] = None
         self._report, self._is_canceled = progress, is_canceled
-        self._fractions: dict[Any, float] = {}  # by the user of the callback, which is None
+        self._fractions: dict[Any, float] = {}  # by the callback's user pointer, which is None
         self._reported: Optional[float] = None
         answers = self._answers()
         next(answers)
@@ -159,8 +158,8 @@ class Callbacks:
 
 
 class _Calls:
-    """The calls that run. Those of daemon threads have to end before the interpreter does, which aborts
-    if it stops a thread within a callback, or one that prints an error."""
+    """Counts running calls. Those of daemon threads must end before the interpreter: it aborts if it stops
+    a thread within a callback, or one that prints an error."""
 
     changed = threading.Condition()
     count = 0
@@ -175,7 +174,7 @@ class _Calls:
     def begin(cls) -> None:
         with cls.changed:
             if cls.are_over():
-                raise SystemExit  # which ends a thread and prints nothing
+                raise SystemExit  # ends a thread silently
             cls.count += 1
 
     @classmethod
@@ -200,12 +199,12 @@ def create() -> Handle:
 
 
 def run(function: Any, *arguments: Any) -> None:
-    """Calls a function of the library that returns a status, and raises what it tells of."""
+    """Calls a function of the library that returns a status, and raises its error."""
     _check(function(*arguments))
 
 
 def run_with(callbacks: Callbacks, extractor: Handle, function: Any, *arguments: Any) -> None:
-    """The same of a function of an extractor. Raises what a callback or a handler of signals did, and
+    """The same for a function of an extractor. Also raises exceptions of callbacks and signal handlers, and
     InterruptedError after a cancellation."""
     _Calls.begin()
     try:
@@ -219,7 +218,7 @@ def run_with(callbacks: Callbacks, extractor: Handle, function: Any, *arguments:
         if error is not None:
             raise error
     finally:
-        del error  # whose traceback has this frame
+        del error  # its traceback refers to this frame
     _check(status)
     callbacks.report()
 
@@ -231,7 +230,7 @@ def _check(status: int) -> None:
 
 
 def view(surface: Handle, array_id: int) -> np.ndarray:
-    """An array of a surface: its memory, which the result keeps alive."""
+    """An array of a surface as a view that keeps its memory alive."""
     array = Array()
     run(get_array, surface, array_id, byref(array))
     dtype = TYPES[array.type]
@@ -246,7 +245,7 @@ def view(surface: Handle, array_id: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Message:
-    """What the user may have to know of a surface."""
+    """A message for the user about a surface."""
 
     text: str
     is_warning: bool

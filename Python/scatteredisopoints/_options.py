@@ -11,7 +11,7 @@ import numpy as np
 
 from ._library import Options
 
-# Constants that can be named, by option. Their numbers are those of isopoint.h.
+# Names of constants by option; their numbers are those of isopoint.h.
 CONSTANTS = {
     "projection": {"NO_PROJECTION": 0, "LINEAR_FIT": 1, "QUADRATIC_FIT": 2, "CUBIC_FIT": 3,
                    "CREASE_FIT": 4},
@@ -25,12 +25,12 @@ _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra")
 
 
 def snake_case(name: str) -> str:
-    """The name of a property as an option: DropGaps as drop_gaps."""
+    """Converts the name of a property to that of its option: DropGaps to drop_gaps."""
     return re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
 
 
 def option_names(triangles: bool) -> list[str]:
-    """The options of triangles, or of points."""
+    """The options for triangles, or for points."""
     names = [field[0] for field in Options._fields_]
     others = _NOT_OPTIONS + (_OF_POINTS if triangles else _OF_TRIANGLES)
     names = [name for name in names if name not in others]
@@ -38,11 +38,8 @@ def option_names(triangles: bool) -> list[str]:
 
 
 def constant(name: str, value: Any) -> Any:
-    """The number of a constant that is named by a string, other values as they are. The projection None
-    is NO_PROJECTION.
-
-    Raises ValueError if the option has no such constant.
-    """
+    """The number of a named constant; other values unchanged. The projection None is NO_PROJECTION. Raises
+    ValueError if the option has no such constant."""
     if name == "projection" and value is None:
         value = "NO_PROJECTION"
     if not isinstance(value, str):
@@ -55,8 +52,7 @@ def constant(name: str, value: Any) -> Any:
 
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
-    """Raises TypeError if an option is unknown, ValueError if it cannot have a value. The library
-    checks the ranges of numbers."""
+    """Raises TypeError for unknown options and ValueError for invalid values. The library checks ranges."""
     names = option_names(triangles)
     options = Options()
     options.triangles = int(switch("triangles", triangles))
@@ -73,14 +69,14 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
 
 
 def switch(name: str, value: Any) -> bool:
-    """Raises ValueError unless a value is true or false, as a bool or a number."""
+    """Raises ValueError unless the value is true or false, as a bool or a number."""
     if not isinstance(value, (bool, int, np.bool_, np.integer)) or value not in (0, 1):
         raise ValueError(f"{name} cannot be {value!r}: it is True or False")
     return bool(value)
 
 
 def _number(name: str, value: Any, default: Any) -> Any:
-    """A value of the type of the default."""
+    """Converts a value to the type of the default."""
     if name.startswith(("compute_", "drop_", "regularize")):
         return int(switch(name, value))
     try:

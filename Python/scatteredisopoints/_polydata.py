@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Isosurfaces as data of VTK or PyVista, which share the memory of the arrays."""
+"""Isosurfaces as data of VTK or PyVista that share the arrays' memory."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class PolyDataMaker:
-    """Makes the same data as the compiled filters do."""
+    """Makes the same data as the compiled filters."""
 
     package: Optional[str] = None
     """That has VTK's classes; None: whichever is installed."""
@@ -51,7 +51,7 @@ class PolyDataMaker:
             return result
 
         def ids(numbers: np.ndarray):
-            # A copy: vtkCellArray keeps the memory of ids, but not the array that keeps NumPy's.
+            # A copy: vtkCellArray keeps the memory of ids alive, but not the array that owns NumPy's.
             return support.numpy_to_vtk(numbers, deep=True, array_type=id_type)
 
         def cells(corners: np.ndarray):
@@ -82,7 +82,7 @@ class PolyDataMaker:
             shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)
             data.GetCellData().AddArray(shapes)
         if "SplatAxis" in surface.splat_shapes:
-            data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points turn them
+            data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points rotate them
         if self.field_data is not None:
             data.GetFieldData().ShallowCopy(self.field_data)
         if self.wraps:

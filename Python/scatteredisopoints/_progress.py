@@ -13,10 +13,8 @@ Progress = Union[None, bool, Callable[[float], Any]]
 
 @contextlib.contextmanager
 def shown_progress(progress: Progress, title: str) -> Iterator[Optional[Callable[[float], Any]]]:
-    """What to call with the share that is done, or None.
-
-    Raises ImportError if a bar is wanted and there is no package for it.
-    """
+    """A function to call with the share done, or None. Raises ImportError if a bar is wanted and no package
+    for it is installed."""
     if progress is None or progress is False:
         yield None
     elif callable(progress):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The properties of the filters, as the XML of the ParaView plugin declares them."""
+"""The properties of the filters, as declared in the XML of the ParaView plugin."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Property:
         return snake_case(self.name)
 
     def clamped(self, value: Union[int, float]) -> Union[int, float]:
-        """The nearest value in the range; NaN stays as it is."""
+        """The nearest value in the range; NaN is unchanged."""
         if self.is_switch:
             return int(bool(value))
         value = type(self.default)(value)
@@ -42,7 +42,7 @@ def proxy_of(name: str) -> ElementTree.Element:
 
 
 def properties_of(name: str) -> list[Property]:
-    """The properties of a filter that have one number and a default."""
+    """The properties of a filter with one number and a default."""
     found = []
     for element in proxy_of(name):
         kind = {"IntVectorProperty": int, "DoubleVectorProperty": float}.get(element.tag)

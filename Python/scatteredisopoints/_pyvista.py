@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The accessor `scattered` of PyVista's data sets, which PyVista finds through the entry point group
-pyvista.accessors."""
+"""The accessor `scattered` of PyVista's data sets, found through the entry point group pyvista.accessors."""
 
 from __future__ import annotations
 
@@ -22,7 +21,7 @@ from ._splats import polygons_of
 class ScatteredAccessor:
     """Isosurfaces of points without a mesh: ``dataset.scattered.contour()``.
 
-    The cells of grids are not used: their points, or the centers of their cells, are the samples.
+    Ignores the cells of grids: points, or the centers of cells, are the samples.
     """
 
     def __init__(self, dataset: Any):
@@ -46,19 +45,18 @@ class ScatteredAccessor:
         isosurfaces : int | sequence[float], default: 10
             Number of isosurfaces, evenly spaced, or their values.
         scalars : str | array_like[float], optional
-            Name of an array of points or cells, or values for each of them. By default the active
-            scalars.
+            Name of an array of points or cells, or values for each of them. By default the active scalars.
         triangles : bool, default: True
-            Whether to connect points by triangles. ``False`` yields isopoints with normals and radii,
-            which :meth:`splats` turns into polygons.
+            Whether to connect points by triangles. ``False`` yields isopoints with normals and radii, which
+            :meth:`splats` turns into polygons.
         rng : sequence[float], optional
-            Least and greatest value of a number of isosurfaces. By default they are inside the range
-            of all samples, at whose ends there is no surface.
+            Least and greatest isovalue for a number of isosurfaces. By default they are inside the range of
+            all samples, because there is no surface at its ends.
         preference : str, default: "point"
-            Whether ``scalars`` names an array of points or cells, ``"point"`` or ``"cell"``, where
-            both have one.
+            Whether ``scalars`` names an array of points (``"point"``) or cells (``"cell"``) if there are
+            both.
         progress_bar : bool, default: False
-            Display a progress bar, for which tqdm or rich is needed.
+            Display a progress bar, which requires tqdm or rich.
         **options : dict, optional
             Options of :func:`scatteredisopoints.contour`, such as ``drop_gaps=False`` or
             ``regularize=False``.
@@ -71,8 +69,8 @@ class ScatteredAccessor:
         Notes
         -----
         The tree is kept: further isosurfaces of the same data take a fraction of the time. Samples are
-        loaded again when the data set or its scalars are changed as PyVista notices it, as by
-        ``mesh["a"] = ...`` or ``mesh.points[0] = ...``; call ``mesh.Modified()`` after other changes.
+        loaded again after changes of the data set or its scalars that PyVista notices, such as ``mesh["a"]
+        = ...`` or ``mesh.points[0] = ...``; call ``mesh.Modified()`` after other changes.
 
         Examples
         --------
@@ -96,7 +94,7 @@ class ScatteredAccessor:
         return surface.polydata
 
     def splats(self, scale: float = 1.0) -> pv.PolyData:
-        """Turn isopoints into the polygons that show them as a closed surface.
+        """Turn isopoints into polygons that show them as a closed surface.
 
         Parameters
         ----------
@@ -110,8 +108,8 @@ class ScatteredAccessor:
 
         Notes
         -----
-        Filters that keep the cells of points, such as ``clip`` and ``threshold``, keep their splats.
-        Points with normals alone become octagons.
+        Filters that keep the cells of points, such as ``clip`` and ``threshold``, keep their splats. Points
+        with only normals become octagons.
 
         Examples
         --------
@@ -140,7 +138,7 @@ def _loaded(samples: _datasets.DataSamples, progress: Progress) -> Samples:
 
 
 def _active_scalars(data: Any) -> tuple[str, str]:
-    """The name of the active scalars of the first data set that has some, and what they are of."""
+    """The name and the association of the active scalars of the first data set that has some."""
     for leaf in _datasets.leaves(data):
         info = leaf.active_scalars_info if isinstance(leaf, pv.DataSet) and leaf.n_points else None
         if info is not None and info.name is not None:
@@ -148,22 +146,22 @@ def _active_scalars(data: Any) -> tuple[str, str]:
     raise ValueError("There are no active scalars: give the name of an array as scalars.")
 
 
-# The trees of the data sets that were contoured last, by their ids. They are kept here rather than by the
-# accessors, which live as long as their data sets, until the garbage collector finds both.
+# The trees of the data sets contoured last, by id. Accessors cannot keep them: they and their data sets
+# live until garbage collection.
 _kept: OrderedDict[int, tuple[Any, Any, Samples]] = OrderedDict()
 _lock = threading.Lock()
 MOST_KEPT = 2
 
 
 def _forget(id_: int) -> Callable[[Any], None]:
-    """What to do when a data set is freed."""
+    """A callback for when a data set is freed."""
     def forget(_reference: Any) -> None:
         _kept.pop(id_, None)
     return forget
 
 
 def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) -> Samples:
-    """The samples of a data set, unless it has changed those of the last call."""
+    """The samples of a data set; reuses those of the last call if unchanged."""
     key = scalars, preference, _datasets.state_of(data)
     with _lock:
         kept = _kept.pop(id(data), None)

@@ -23,7 +23,7 @@ from ._progress import Progress, shown_progress
 
 @dataclass
 class Extracted:
-    """An isosurface, and what there is to say of it."""
+    """An isosurface with its messages."""
 
     isosurface: Isosurface
     messages: list[_library.Message]
@@ -32,10 +32,10 @@ class Extracted:
 
 
 class Samples:
-    """Scattered samples, and a tree that is kept between isovalues and time steps.
+    """Scattered samples with a tree that is kept between isovalues and time steps.
 
     Several threads may use one object: their calls take turns. Objects do not wait for each other.
-    Positions and arrays must not be changed as long as the object is used.
+    Positions and arrays must not be changed while the object is in use.
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ class Samples:
     values
         As in :func:`contour`.
     threads
-        How many to use at most; None: all cores that the process may use.
+        Maximum number of threads; None: all available cores.
     progress
-        As in :func:`contour`, of loading.
+        As in :func:`contour`, for loading.
 
     Raises
     ------
@@ -74,7 +74,7 @@ class Samples:
 
     @classmethod
     def _of(cls, samples: _datasets.DataSamples, **callbacks: Any) -> Samples:
-        """Those of a data object. Callbacks are those of _library.Callbacks."""
+        """Makes Samples of a data object. Callbacks are those of _library.Callbacks."""
         created = cls.__new__(cls)
         created._initialize(None)
         created._take(samples, **callbacks)
@@ -96,7 +96,7 @@ class Samples:
         self._maker: dict[str, Any] = {"scalars": "values"}
 
     def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
-        """Loads samples of a data object; of the same positions as before the tree is kept."""
+        """Loads the samples of a data object; keeps the tree if the positions are the same."""
         self._positions = samples.positions
         self._count = len(_datasets.numbers_of(samples.positions))
         self._excluded = samples.excluded
@@ -108,7 +108,7 @@ class Samples:
         self._load(readable("values", samples.values), **callbacks)
 
     def __len__(self) -> int:
-        """The number of samples, including those that are left out."""
+        """The number of samples, including skipped ones."""
         return self._count
 
     def __repr__(self) -> str:
@@ -117,7 +117,7 @@ class Samples:
 
     @property
     def range(self) -> tuple[float, float]:
-        """Least and greatest value of the samples that take part; NaN if there are none."""
+        """The least and the greatest value of the samples used; NaN if there are none."""
         return self._range
 
     def __reduce__(self) -> Any:
@@ -125,17 +125,17 @@ class Samples:
 
     @property
     def skipped(self) -> int:
-        """The number of samples that are left out, as they are not finite, masked or hidden."""
+        """The number of samples skipped because they are not finite, masked or hidden."""
         with self._exclusive():
             return _library.get_skipped_count(self._extractor)
 
     def replace_values(self, values: Any, *, progress: Progress = None) -> None:
-        """Gives the samples other values, of a later time step: the tree is kept.
+        """Replaces the values of the samples, for a later time step, and keeps the tree.
 
         Parameters
         ----------
         values
-            One for each sample, shape (n,), of any real type.
+            One per sample, shape (n,), of any real type.
         progress
             As in :func:`contour`.
         """
@@ -144,7 +144,7 @@ class Samples:
 
     @contextlib.contextmanager
     def _exclusive(self) -> Iterator[None]:
-        """Lets one thread at a time use the extractor."""
+        """Gives one thread at a time access to the extractor."""
         with self._lock:
             if self._is_in_call:
                 raise RuntimeError("A progress callback cannot use the samples that it is called for.")
@@ -172,7 +172,7 @@ class Samples:
             self._is_loaded = True
 
     def _current(self, name: str, array: Any) -> np.ndarray:
-        """An array of the samples as it is now: those of data sets may have been reallocated."""
+        """The current array of the samples: those of data sets may have been reallocated."""
         numbers = _datasets.numbers_of(array)
         if len(numbers) != self._count:
             raise ValueError(f"{name} of the data set have changed from {self._count} to {len(numbers)}"
@@ -190,7 +190,7 @@ class Samples:
     ) -> Isosurface:
         """Extracts isosurfaces: :func:`contour` describes parameters, result and errors.
 
-        The second call, and further ones, take a fraction of the time of the first.
+        Calls after the first one take a fraction of its time.
         """
         return self._contour(isovalues, triangles, arrays, progress, options, stacklevel=3)
 
@@ -202,7 +202,7 @@ class Samples:
         return extracted.isosurface
 
     def _extract(self, isovalues, triangles, arrays, options, **callbacks) -> Extracted:
-        """What contour() does, without warnings. Callbacks are those of _library.run()."""
+        """contour() without warnings. Callbacks are those of _library.Callbacks."""
         if arrays is not None and self._arrays is not None:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
@@ -274,7 +274,7 @@ class Samples:
 
 
 def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:
-    """The arrays that the library computes for each point, by the names that the filters give them."""
+    """The arrays that the library computes for each point, by the filters' names."""
     are_wanted = {
         "Normals": (_library.NORMALS, options.compute_normals),
         "Radius": (_library.RADII, options.compute_splats and not options.triangles),

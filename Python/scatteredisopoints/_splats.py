@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splats of points in a data set, as they leave the filters or behind others that keep them."""
+"""The splats of points in a data set, from the filters or after other filters that keep them."""
 
 from __future__ import annotations
 
@@ -12,16 +12,14 @@ from ._ghosts import cell_points
 from ._isosurface import Isosurface
 from ._polydata import PolyDataMaker
 
-# Octagons of the radius of their axis, as SplatPolygon describes them.
+# Octagons in units of the axis, in the format of SplatPolygon.
 _ANGLES = 2.0 * np.pi * np.arange(8) / 8
 OCTAGON = np.stack([np.cos(_ANGLES), np.sin(_ANGLES), *np.zeros((3, 8))], axis=-1).ravel()
 
 
 def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Isosurface:
-    """The triangles that show the points of a data set; see vtkIsopointSplatPolygons.
-
-    Raises ValueError if the points have no normals.
-    """
+    """The triangles that show the points of a data set; see vtkIsopointSplatPolygons. Raises ValueError if
+    the points have no normals."""
     if not data.IsA("vtkDataSet"):
         raise TypeError(f"A {data.GetClassName()} has no points of its own: pass its blocks, or combine"
                         " them first.")
@@ -55,7 +53,7 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
 
 
 def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
-    """Replaces octagons by the shapes of vertex cells, which files may have at the points."""
+    """Replaces octagons by the shapes of vertex cells, which files may store at the points."""
     cells, point = cell_points(data, _datasets.as_numpy)
     count = np.bincount(cells, minlength=data.GetNumberOfCells())
     is_vertex = count[cells] == 1
@@ -70,7 +68,7 @@ def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
 
 
 def _numbers(array: Any, count: int, components: int) -> Optional[np.ndarray]:
-    """Those of an array of this shape, None of others."""
+    """The numbers of an array if it has this shape, otherwise None."""
     is_usable = (array is not None and array.GetNumberOfTuples() == count
                  and array.GetNumberOfComponents() == components)
     return _datasets.as_numpy(array) if is_usable else None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The filters in Python, on the C library, for a VTK that the compiled classes are not for.
+"""The filters in Python, on the C library, for versions of VTK without the compiled classes.
 
-Methods, constants, defaults, ranges, output arrays and messages are those of the compiled classes, whose
-comments describe them. Differences: a vtkHyperTreeGrid is not accepted, strings are not carried to the
-output, each process contours its own samples, and C++ callers of GetErrorCode() see 0.
+Methods, constants, defaults, ranges, output arrays and messages are those of the compiled classes, which
+document them. Differences: no vtkHyperTreeGrid; strings are not copied to the output; each process contours
+its own samples; GetErrorCode() is 0 for C++ callers.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ UNKNOWN_ERROR = 40000 + 99  # vtkErrorCode::UnknownError
 
 
 def _with_properties(name: str, *others: str):
-    """Gives a class the methods SetX, GetX, XOn and XOff of all properties X of a proxy, except of some."""
+    """Gives a class the methods SetX, GetX, XOn and XOff of all properties X of a proxy, except some."""
 
     def add(cls: Any) -> Any:
         cls.PROPERTIES = {property_.name: property_ for property_ in properties_of(name)
@@ -64,14 +64,14 @@ def _add_methods(cls: type, property_: Property) -> None:
 
 
 def is_first_of_several() -> bool:
-    """Whether this process is the first one of several, by VTK's global controller."""
+    """Whether this process is the first of several, by VTK's global controller."""
     controller = vtkMultiProcessController.GetGlobalController()
     return (controller is not None and controller.GetNumberOfProcesses() > 1
             and controller.GetLocalProcessId() == 0)
 
 
 def _fill(output: Any, data: Any, make: Callable[[Any, int], Optional[vtkPolyData]]) -> None:
-    """Gives a composite the structure of another one, with what is made of each of its blocks."""
+    """Gives a composite the structure of another one, with a result for each of its blocks."""
     output.CopyStructure(data)
     iterator = data.NewIterator()
     iterator.InitTraversal()
@@ -83,7 +83,7 @@ def _fill(output: Any, data: Any, make: Callable[[Any, int], Optional[vtkPolyDat
 
 
 class _Algorithm(VTKPythonAlgorithmBase):
-    """What vtkPythonAlgorithm lacks of a filter of VTK."""
+    """Adds what VTK's filters in C++ have and vtkPythonAlgorithm lacks."""
 
     PROPERTIES: dict[str, Property] = {}
 
@@ -113,7 +113,7 @@ class _Algorithm(VTKPythonAlgorithmBase):
         return self._error_code
 
     def _set_output(self, info: Any, class_: type) -> Any:
-        """Makes the output one of a class, unless it is."""
+        """Makes the output an object of a class, unless it is one."""
         output = vtkDataObject.GetData(info, 0)
         if type(output) is not class_:
             output = class_()
@@ -121,7 +121,7 @@ class _Algorithm(VTKPythonAlgorithmBase):
         return output
 
     def _report(self, event: str, text: str) -> None:
-        """As VTK's macros do: to observers, or to the window of messages."""
+        """Reports to observers, otherwise to the output window, as VTK's macros do."""
         kind = "ERROR" if event == "ErrorEvent" else "Warning"
         described = f"{kind}: {type(self).__name__}: {text}\n\n"
         if self.HasObserver(event):
@@ -143,13 +143,13 @@ class _Contour(_Algorithm):
     """vtkScatteredContourFilter in Python."""
 
     _triangles = False
-    _has_polygons = False  # whether the output is the polygons of points
+    _has_polygons = False  # whether the output has the points' polygons
 
     def __init__(self):
         super().__init__(("vtkDataSet", "vtkCompositeDataSet"))
         self._contours = vtkContourValues()
         self._contours.SetValue(0, 0.0)
-        self._kept: dict[int, tuple[Any, Samples]] = {}  # by the number of the block
+        self._kept: dict[int, tuple[Any, Samples]] = {}  # by block number
         self._reported: set[str] = set()
         self._reported_of: Any = None
         self._counts = dict.fromkeys(("samples", "points", "skipped", "unprojected", "dropped"), 0)
@@ -173,7 +173,7 @@ class _Contour(_Algorithm):
         self._change_contours(self._contours.GenerateValues, number, *range_)
 
     def _change_contours(self, method: Any, *arguments: Any) -> None:
-        """GetMTime() cannot be overridden in Python."""
+        """Also calls Modified(), because GetMTime() cannot be overridden in Python."""
         before = self._contours.GetMTime()
         method(*arguments)
         if self._contours.GetMTime() != before:
@@ -276,7 +276,7 @@ class _Contour(_Algorithm):
         return surface.polydata
 
     def _samples(self, data: Any, number: int, progress: Any) -> Samples:
-        """Those of the last update, if nothing has changed."""
+        """The samples of the last update, unless something has changed."""
         info = self.GetInputArrayInformation(0)
         name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
         cells = info.Get(vtkDataObject.FIELD_ASSOCIATION()) == vtkDataObject.FIELD_ASSOCIATION_CELLS
@@ -294,7 +294,7 @@ class _Contour(_Algorithm):
         return self._kept[number][1]
 
     def _report_messages(self, messages: list[_library.Message]) -> None:
-        """Each cause once, as long as it lasts for this input."""
+        """Reports each cause once while it persists for the same input."""
         producer = self.GetInputAlgorithm() if self.GetNumberOfInputConnections(0) else None
         before = self._reported if self._reported_of is producer else set()
         self._reported_of, self._reported = producer, {message.text for message in messages}
@@ -322,10 +322,7 @@ for _constants in (CONSTANTS["projection"], CONSTANTS["normal_method"]):
 
 @_with_properties("IsopointSplatPolygons")
 class vtkIsopointSplatPolygons(_Algorithm):
-    """The triangles that show points, as data: see the compiled class of this name.
-
-    Points need normals.
-    """
+    """The triangles that show points, as data: see the compiled class of this name. Points need normals."""
 
     def __init__(self):
         super().__init__(("vtkDataSet", "vtkCompositeDataSet"))

@@ -30,33 +30,30 @@ def contour(
     Parameters
     ----------
     positions
-        The samples' positions, shape (n, 3), in any unit of length. Arrays of float32 and float64 of
-        the machine's byte order are not copied. Or a data set in place of arrays: of VTK, PyVista or
-        vedo, any grid or composite.
+        The samples' positions, shape (n, 3), in any unit of length. float32 and float64 arrays in native
+        byte order are not copied. Or a data set instead of arrays: any grid or composite of VTK, PyVista or
+        vedo.
     values
         The samples' values, shape (n,), of any real type; integers count as rounded. Samples with a
-        value that is not finite or masked are left out. Of a data set: the name of an array of its
-        points or cells, an array with one value for each point or cell, or None for the active
-        scalars of its points.
+        non-finite or masked value are skipped. For a data set: the name of a point or cell array, an array
+        with one value per point or cell, or None for the active scalars of its points.
     isovalues
         One or several (any iterable), in the unit of the values.
     triangles
-        Whether to connect points by triangles, rather than to give them radii.
+        Whether to connect points by triangles instead of giving them radii.
     arrays
-        Further arrays of the samples by name, shapes (n,) or (n, components), which are interpolated.
-        Not of a data set, which has its own.
+        Further arrays of the samples to interpolate, by name, with shapes (n,) or (n, components). Not for
+        a data set, which has its own.
     threads
-        How many to use at most; None: all cores that the process may use. The result does not depend
-        on it.
+        Maximum number of threads; None: all available cores. The result does not depend on it.
     progress
-        A function that is called with the share that is done, from 0 to 1; what it raises ends the
-        work. True: a bar, by tqdm or rich.
+        A function that is called with the share done, from 0 to 1; an exception in it ends the work. True:
+        a bar, by tqdm or rich.
     **options
-        Properties of the filters in snake case, as `drop_gaps=False`, `projection="CREASE_FIT"`,
-        `compute_gradients=True`. docs/properties.md lists them, and which are of points or of
-        triangles alone. On several ranks each process
-        contours its own samples, unless `controller` is given, which needs the compiled VTK classes:
-        then all ranks have to call this together, and an error is raised on the first one alone.
+        Properties of the filters in snake case, such as `drop_gaps=False`, `projection="CREASE_FIT"`,
+        `compute_gradients=True`. docs/properties.md lists them, and which apply only to points or to
+        triangles. With MPI, each process contours its own samples unless `controller` is given, which needs
+        the compiled VTK classes: then all ranks must make this call, and only the first one raises errors.
 
     Returns
     -------
@@ -66,8 +63,8 @@ def contour(
     Raises
     ------
     ValueError, TypeError
-        If arguments have a wrong shape or type, an option is unknown or out of its range, or there
-        are no samples.
+        If arguments have a wrong shape or type, an option is unknown or out of its range, or there are no
+        samples.
     MemoryError
         If there is not enough memory for the tree or the result.
     KeyboardInterrupt
@@ -76,7 +73,7 @@ def contour(
     Warns
     -----
     RuntimeWarning
-        Of samples that are left out, isovalues without a surface, and the like.
+        About skipped samples, isovalues without a surface, and the like.
 
     Examples
     --------
@@ -111,7 +108,7 @@ def _part(report: Optional[Callable[[float], Any]], begin: float) -> Progress:
 
 
 def compiled_filters() -> Optional[Any]:
-    """The module that runs the compiled filters, or None where they are not installed."""
+    """The module that runs the compiled filters, or None if they are not installed."""
     try:
         return importlib.import_module("._filters", __package__)
     except ImportError:
@@ -119,6 +116,6 @@ def compiled_filters() -> Optional[Any]:
 
 
 def _class_of_vtkmodules(name: str) -> Union[type, tuple]:
-    """A class of vtkmodules.vtkCommonDataModel, or none where nobody has imported that."""
+    """A class of vtkmodules.vtkCommonDataModel, or () if that has not been imported."""
     module = sys.modules.get("vtkmodules.vtkCommonDataModel")
     return getattr(module, name, ())

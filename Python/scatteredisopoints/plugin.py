@@ -20,21 +20,21 @@ def loaded_plugins() -> set[str]:
 
 
 def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
-    """
-    Loads the plugin into ParaView, and into the server if there is one, where it has to be under
-    the same path: the compiled one if this package was built with ParaView, otherwise that in
-    Python. paraview.simple then has ScatteredIsopoints, ScatteredIsosurface and
-    IsopointSplatPolygons. Does nothing if it is loaded.
+    """Loads the plugin into ParaView, and into a connected server, where it must have the same path.
+
+    Loads the compiled plugin if this package was built with ParaView, otherwise the plugin in Python.
+    paraview.simple then has ScatteredIsopoints, ScatteredIsosurface and IsopointSplatPolygons. Does nothing
+    if the plugin is loaded.
 
     Parameters
     ----------
     namespace
-        Where these are to be as well: globals() after `from paraview.simple import *`.
+        Another namespace for these: globals() after `from paraview.simple import *`.
 
     Raises
     ------
     ImportError
-        If this is not the Python of ParaView.
+        If this is not ParaView's Python.
     RuntimeError
         If the plugin cannot be loaded.
     """
@@ -42,7 +42,7 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
 
     from paraview import simple
 
-    if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 calls, and Python 3.11 lacks
+    if not hasattr(inspect, "getargspec"):  # ParaView 5.11 calls it, Python 3.11 lacks it
         setattr(inspect, "getargspec", inspect.getfullargspec)
     path = PLUGIN if PLUGIN.exists() else PYTHON_PLUGIN
     if not {"ScatteredIsopoints", "ScatteredIsopointsPython"} & loaded_plugins():

@@ -31,23 +31,23 @@ def ray_trace(
     view
         A render view of ParaView, a vtkRenderWindow (its first renderer) or a vtkRenderer.
     path
-        Name of a PNG file for the picture; None writes none.
+        Name of a PNG file for the picture, or None.
     samples
         Paths through each pixel (SamplesPerPixel).
     size
         Width and height in pixels; None: those of the view.
     options
-        Other properties of vtkIsopointRayTracer in snake case, as `ambient_light=0.3`.
+        Other properties of vtkIsopointRayTracer in snake case, such as `ambient_light=0.3`.
         docs/raytracing.md lists them.
 
     Returns
     -------
-    The picture: shape (height, width, 3), of uint8, its first row on top.
+    The picture: shape (height, width, 3), of uint8, first row on top.
 
     Raises
     ------
     TypeError
-        If the view is none, or an option is unknown.
+        If the view is none of these, or an option is unknown.
     RuntimeError
         With the ray tracer's message, if it reports an error.
     OSError
@@ -55,7 +55,7 @@ def ray_trace(
     """
     if path is not None:
         with open(path, "wb"):
-            pass  # fails before rays are traced rather than after
+            pass  # fail before tracing rather than after
     tracer = vtkIsopointRayTracer()
     tracer.SetSamplesPerPixel(samples)
     for name, value in options.items():
@@ -88,7 +88,7 @@ def ray_trace(
 def _renderer_of(view: Any) -> vtkRenderer:
     if isinstance(view, vtkRenderer):
         return view
-    if hasattr(view, "StillRender"):  # of ParaView
+    if hasattr(view, "StillRender"):  # a ParaView view
         view.StillRender()
         return view.GetRenderer()
     if hasattr(view, "GetRenderers") and view.GetRenderers().GetFirstRenderer():

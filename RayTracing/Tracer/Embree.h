@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Embree_h
-#define raytracing_Embree_h
+#pragma once
 
-// What differs between Embree 3 and 4. RAYTRACING_EMBREE_VERSION is set by CMake.
+// The differences between Embree 3 and 4. CMake sets RAYTRACING_EMBREE_VERSION.
 #if RAYTRACING_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
@@ -60,7 +59,7 @@ inline void occlude(RTCScene scene, Context& context, RTCRay& ray)
 }
 #endif
 
-/// Throws what Embree has last reported of a device, if it has.
+/// Throws the last error of a device, if any.
 /// @throws std::bad_alloc, std::runtime_error
 inline void check(RTCDevice device)
 {
@@ -75,7 +74,7 @@ inline void check(RTCDevice device)
   }
 }
 
-/// Releases a handle of Embree by rtcRelease...
+/// Releases an Embree handle by rtcRelease...
 template <auto Release>
 struct Releaser
 {
@@ -91,5 +90,3 @@ using SceneOwner = std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<rtc
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Releaser<rtcReleaseGeometry>>;
 
 } // namespace raytracing::embree
-
-#endif

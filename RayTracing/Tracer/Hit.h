@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Hit_h
-#define raytracing_Hit_h
+#pragma once
 
 #include "Tracer/Surface.h"
 #include "Tracer/Vector.h"
@@ -12,41 +11,38 @@
 namespace raytracing
 {
 
-/// Distance from the place that a ray departs from within which it meets nothing, for errors of
-/// rounding; scenes are of unit size.
+/// Rays meet nothing within this distance of their origin, because of rounding; scenes have size 1.
 constexpr float nearestDistance = 1e-5f;
 
 struct Ray
 {
   Vector origin;
-  Vector direction; // of unit length
+  Vector direction;
   float nearest = 0.0f;
   float farthest = std::numeric_limits<float>::infinity();
 
   Vector at(float distance) const { return this->origin + distance * this->direction; }
 };
 
-/// Where a ray meets a surface.
 struct Hit
 {
-  const Surface* surface = nullptr; // null: the ray meets none
+  const Surface* surface = nullptr; // null: the ray meets no surface
   float distance = std::numeric_limits<float>::infinity();
-  Vector normal; // of unit length, interpolated; to either side of the ray
-  /// From the place to the smooth surface that the triangle with its normals stands for, on the
-  /// ray's side: where shadow rays start.
+  Vector normal; // of unit length, interpolated; on either side of the ray
+  /// Offset from the hit to the smooth surface on the ray's side, where shadow rays start.
   Vector lift;
   Color color;
-  float opacity = 1.0f; // of the color, besides that of the material
+  float opacity = 1.0f; // opacity of the color; multiplies that of the material
 };
 
-/// Whether a ray that meets a surface has come through its inside.
+/// Whether a ray reaches its hit through the inside of a surface.
 inline bool comesFromInside(const Hit& hit, const Vector& direction)
 {
   return hit.surface->outward * dot(hit.normal, direction) > 0.0f;
 }
 
-/// The share of light in each color that is left at the end of a ray that meets a surface: all of
-/// it outside, and what Beer and Lambert's law leaves inside a dielectric.
+/// The share of light per color that reaches the origin of a ray from its hit: all outside, and by
+/// the law of Beer and Lambert inside a dielectric.
 inline Color absorption(const Hit& hit, const Vector& direction)
 {
   const Material& material = hit.surface->material;
@@ -61,5 +57,3 @@ inline Color absorption(const Hit& hit, const Vector& direction)
 }
 
 } // namespace raytracing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Lighting_h
-#define raytracing_Lighting_h
+#pragma once
 
 #include "Tracer/Sampler.h"
 #include "Tracer/Vector.h"
@@ -12,21 +11,21 @@
 namespace raytracing
 {
 
-/// A light, as VTK defines it, of some extent.
+/// A light as VTK defines it, but with an extent.
 struct Light
 {
   bool isPositional = false;
   Vector position;                    // of a positional light
-  Vector towards{ 0.0f, 0.0f, 1.0f }; // unit vector against the light's direction
-  Color diffuse{ 1.0f, 1.0f, 1.0f };  // with the intensity
+  Vector towards{ 0.0f, 0.0f, 1.0f }; // unit vector opposite to the light's direction
+  Color diffuse{ 1.0f, 1.0f, 1.0f };  // including the intensity
   Color specular{ 1.0f, 1.0f, 1.0f };
   Vector attenuation{ 1.0f, 0.0f, 0.0f }; // constant, linear, quadratic
   float coneCosine = -1.0f;               // of half the angle of a spot light; -1: no spot light
-  float exponent = 1.0f;                  // of the cosine in the cone
-  float extent = 0.0f; // directional: tangent of half the angle it is seen under; else its radius
+  float exponent = 1.0f;                  // of the cosine within the cone
+  float extent = 0.0f; // directional: tangent of half the apparent angle; otherwise its radius
 };
 
-/// Light that arrives at a place from one point of a light.
+/// The light that reaches a position from one point of a light.
 struct Illumination
 {
   Vector towards;
@@ -34,7 +33,7 @@ struct Illumination
   float strength = 0.0f;
 };
 
-/// @param place two random numbers, which choose the point of the light
+/// @param place two random numbers that select the point of the light
 inline Illumination illuminationOf(const Light& light, const Vector& position, const Pair& place)
 {
   const float radius = light.extent * std::sqrt(place.first);
@@ -67,7 +66,7 @@ inline Illumination illuminationOf(const Light& light, const Vector& position, c
   return result;
 }
 
-/// A picture that surrounds the scene or lies behind it.
+/// An image around or behind the scene.
 struct Texture
 {
   std::uint32_t width = 0;
@@ -76,7 +75,7 @@ struct Texture
 
   bool isEmpty() const { return this->pixels.empty(); }
 
-  /// The color at coordinates from 0 to 1, between those of the four nearest pixels.
+  /// The color at coordinates from 0 to 1, interpolated between pixels.
   Color at(float x, float y) const
   {
     const auto place = [](float coordinate, std::uint32_t size)
@@ -98,27 +97,24 @@ struct Texture
   }
 };
 
-/**
- * What surrounds the scene. Rays from the camera see the background as the window draws it. Rays
- * that were reflected or refracted see it as a panorama around the camera: in front of the camera
- * where the window shows it, mirrored behind, and continued above and below; or an image of all
- * directions, if there is one.
- */
+/// The surroundings of the scene. Rays from the camera see the background as the window draws it.
+/// Reflected and refracted rays see it as a panorama around the camera, mirrored behind the camera
+/// and continued above and below, or see an image of all directions, if there is one.
 struct Environment
 {
   Color bottom;
   Color top;
   Texture background; // instead of the colors
-  Texture panorama;   // of all directions: longitude and latitude; empty: the background is seen
+  Texture panorama;   // by longitude and latitude; if empty, the background is used
 
-  // The camera's directions, and the tangents of half the angles that the window spans.
+  // The camera's axes, and the tangents of half the window's angles.
   Vector right{ 1.0f, 0.0f, 0.0f };
   Vector up{ 0.0f, 1.0f, 0.0f };
   Vector ahead{ 0.0f, 0.0f, -1.0f };
   float tangentX = 0.5f;
   float tangentY = 0.5f;
 
-  /// The background at a place of the window, 0 to 1 from left to right and from bottom to top.
+  /// The background at window coordinates, 0 to 1 from left to right and from bottom to top.
   Color behind(float x, float y) const
   {
     return this->background.isEmpty() ? mixed(this->bottom, this->top, std::clamp(y, 0.0f, 1.0f))
@@ -143,13 +139,11 @@ struct Environment
   }
 };
 
-/// Light from all directions that nearby surfaces take away.
+/// Uniform light from all directions, reduced by nearby surfaces.
 struct AmbientLight
 {
   Color color;
-  float distance = 0.0f; // within which surfaces take it away; 0: none do
+  float distance = 0.0f; // within which surfaces block it; 0: none do
 };
 
 } // namespace raytracing
-
-#endif

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Material_h
-#define raytracing_Material_h
+#pragma once
 
 #include "Tracer/Vector.h"
 
 namespace raytracing
 {
 
-/// How a surface answers to light. Its own color comes with each hit.
+/// The optical properties of a surface. Each hit has its own color.
 struct Material
 {
-  /// Whether reflection and transmission are those of Fresnel; else those of Phong's model, without
-  /// reflections of other surfaces, and what is not opaque lets light pass straight.
+  /// Whether reflection and transmission follow Fresnel. Otherwise Phong's model applies, without
+  /// reflections of other surfaces, and light passes straight through translucent surfaces.
   bool isPhysical = false;
 
-  float opacity = 1.0f; // 0 to 1: the share of light that is not let through
+  float opacity = 1.0f; // 0 to 1: the share of light that is blocked
 
   // Of Phong's model.
   float ambient = 0.0f;
@@ -26,8 +25,8 @@ struct Material
   // Of physical materials.
   float metallic = 0.0f;           // 0 for dielectrics, 1 for metals, which reflect in their color
   float roughness = 0.0f;          // 0 for mirrors; the square root of GGX's alpha
-  float refractiveIndex = 1.5f;    // over that of the outside
-  float absorptionDistance = 1.0f; // within which light takes on the surface's color inside it
+  float refractiveIndex = 1.5f;    // relative to the outside
+  float absorptionDistance = 1.0f; // distance inside over which light takes on the surface's color
 
   float transmission() const
   {
@@ -38,7 +37,7 @@ struct Material
 
 /// The share of unpolarized light that a dielectric reflects.
 /// @param cosine of the angle between ray and normal, 0 to 1
-/// @param ratio of the refractive indices behind and before the surface
+/// @param ratio refractive index behind the surface over that before it
 inline float fresnelReflectance(float cosine, float ratio)
 {
   const float squaredSine = (1.0f - cosine * cosine) / (ratio * ratio);
@@ -52,14 +51,14 @@ inline float fresnelReflectance(float cosine, float ratio)
   return 0.5f * (parallel * parallel + orthogonal * orthogonal);
 }
 
-/// The color in which a metal reflects [Sch94].
+/// The reflectance of a metal [Sch94].
 inline Color metalReflectance(float cosine, const Color& color)
 {
   const float away = 1.0f - cosine;
   return mixed(color, { 1.0f, 1.0f, 1.0f }, away * away * away * away * away);
 }
 
-/// Microfacets whose slopes are distributed as in [WMLT07], in a frame whose z axis is the normal.
+/// Microfacets with the slope distribution of [WMLT07]; the z axis is the normal.
 class Microfacets
 {
 public:
@@ -68,7 +67,6 @@ public:
   {
   }
 
-  /// The density of the facets' normals.
   float density(float cosine) const
   {
     const float squared = this->Alpha * this->Alpha;
@@ -76,15 +74,14 @@ public:
     return squared / (3.14159265f * base * base);
   }
 
-  /// The share of the facets that are seen from a direction.
+  /// The share of facets visible from a direction.
   float visible(float cosine) const
   {
     const float squared = this->Alpha * this->Alpha;
     return 2.0f * cosine / (cosine + std::sqrt(squared + (1.0f - squared) * cosine * cosine));
   }
 
-  /// The normal of a facet seen from a direction above the surface, for two numbers from 0 to 1
-  /// [Hei18].
+  /// Samples the normal of a facet visible from above, by two numbers from 0 to 1 [Hei18].
   Vector seenFrom(const Vector& direction, float first, float second) const
   {
     const Vector stretched =
@@ -92,8 +89,8 @@ public:
     const Frame frame(stretched);
     const float radius = std::sqrt(first);
     const float angle = 6.2831853f * second;
-    // A point on the projection of a hemisphere: one half of its disk is shortened. It is shortened
-    // along the direction in which the hemisphere leans, which is chosen as the second axis here.
+    // A point on the projected hemisphere: one half of the disk is shortened along the second axis,
+    // the direction in which the hemisphere leans.
     const Vector side = directionOf(cross({ 0.0f, 0.0f, 1.0f }, stretched), frame.first);
     const Vector ahead = cross(stretched, side);
     const float x = radius * std::cos(angle);
@@ -111,5 +108,3 @@ private:
 };
 
 } // namespace raytracing
-
-#endif

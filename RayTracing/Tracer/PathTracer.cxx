@@ -12,7 +12,7 @@ namespace
 
 constexpr float pi = 3.14159265f;
 
-/// The decisions at one hit that random numbers take.
+/// The dimensions of random numbers at one hit.
 enum Decision : std::uint32_t
 {
   AmbientDirection,
@@ -21,19 +21,16 @@ enum Decision : std::uint32_t
   FirstLight // and one for each further light
 };
 
-/// Lights have no extent in mirrors: highlights of smooth surfaces are as wide as those of this
-/// roughness.
+/// Smoother surfaces have highlights of this roughness: in mirrors, lights have no extent.
 constexpr float leastRoughnessOfHighlights = 0.12f;
 
-/// Highlights seen by way of a rough surface are blurred by this much more than that surface blurs:
-/// few paths lead to a narrow one, which would make specks.
+/// Additional blur of highlights seen via a rough surface: narrow ones would appear as specks.
 constexpr float roughnessBehindRough = 0.25f;
 
-/// Contributions below half a step of the picture are not followed.
+/// Paths that contribute less than half a color step end.
 constexpr float leastImportance = 1.0f / 512.0f;
 
-/// Bounces up to which both what a surface reflects and what it refracts are followed, beyond which
-/// one of them by chance.
+/// Up to this bounce, both reflection and refraction are followed; beyond it, one at random.
 constexpr int branchingBounces = 2;
 
 Vector reflectedAt(const Vector& normal, const Vector& direction)
@@ -48,10 +45,10 @@ struct PathTracer::Path
 {
   Ray ray;
   const Sampler* sampler;
-  std::uint32_t name = 1; // which of the paths of a sample this is: chooses its random numbers
+  std::uint32_t name = 1; // number of the path within its sample; selects its random numbers
   int bounces = 0;
   bool isStraight = true; // from the camera
-  float roughness = 0.0f; // of the roughest surface that it was reflected at
+  float roughness = 0.0f; // the highest roughness that it was reflected at
   float importance = 1.0f;
 
   Pair pair(std::uint32_t decision) const
@@ -75,7 +72,6 @@ struct PathTracer::Path
   }
 };
 
-/// A place that is shaded.
 struct PathTracer::Shading
 {
   const Path& path;
@@ -83,10 +79,9 @@ struct PathTracer::Shading
   const Material& material;
   Vector position;
   Vector normal;  // on the ray's side
-  Vector towards; // against the ray
+  Vector towards; // opposite to the ray
 };
 
-//------------------------------------------------------------------------------
 Radiance PathTracer::along(const Ray& ray, const Sampler& sampler) const
 {
   Path path;
@@ -95,12 +90,11 @@ Radiance PathTracer::along(const Ray& ray, const Sampler& sampler) const
   return this->follow(path);
 }
 
-//------------------------------------------------------------------------------
 Radiance PathTracer::follow(const Path& path) const
 {
   if (path.bounces > this->Light.mostBounces || path.importance < leastImportance)
   {
-    return {}; // nothing arrives
+    return {};
   }
   const Hit hit = this->Surfaces.closest(path.ray);
   if (!hit.surface)
@@ -113,7 +107,6 @@ Radiance PathTracer::follow(const Path& path) const
   return radiance;
 }
 
-//------------------------------------------------------------------------------
 Radiance PathTracer::shade(const Path& path, const Hit& hit) const
 {
   const Material& material = hit.surface->material;
@@ -141,7 +134,6 @@ Radiance PathTracer::shade(const Path& path, const Hit& hit) const
   return result;
 }
 
-//------------------------------------------------------------------------------
 template <class Reflect>
 Color PathTracer::direct(const Shading& shading, const Reflect& reflect) const
 {
@@ -168,7 +160,6 @@ Color PathTracer::direct(const Shading& shading, const Reflect& reflect) const
   return sum;
 }
 
-//------------------------------------------------------------------------------
 Color PathTracer::ambient(const Shading& shading) const
 {
   const AmbientLight& light = this->Light.ambient;
@@ -194,7 +185,6 @@ Color PathTracer::ambient(const Shading& shading) const
   return this->Surfaces.transmittance(ray) * color * shading.hit.color;
 }
 
-//------------------------------------------------------------------------------
 Color PathTracer::shadePhong(const Shading& shading) const
 {
   const Material& material = shading.material;
@@ -213,7 +203,6 @@ Color PathTracer::shadePhong(const Shading& shading) const
   return this->direct(shading, reflect) + this->ambient(shading);
 }
 
-//------------------------------------------------------------------------------
 Color PathTracer::shadePhysical(const Shading& shading) const
 {
   const Material& material = shading.material;
@@ -249,7 +238,7 @@ Color PathTracer::shadePhysical(const Shading& shading) const
     sum += opaque * this->ambient(shading);
   }
 
-  // Reflection and refraction of what is around.
+  // Reflection and refraction of the surroundings.
   Vector facet = shading.normal;
   float visible = 1.0f;
   const Frame frame(shading.normal);
@@ -293,7 +282,6 @@ Color PathTracer::shadePhysical(const Shading& shading) const
   return sum;
 }
 
-//------------------------------------------------------------------------------
 Color PathTracer::refracted(
   const Shading& shading, const Vector& facet, float ratio, float importance) const
 {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_PathTracer_h
-#define raytracing_PathTracer_h
+#pragma once
 
 #include "Tracer/Lighting.h"
 #include "Tracer/Sampler.h"
@@ -12,27 +11,25 @@
 namespace raytracing
 {
 
-/// Everything around the surfaces that decides a picture's colors.
+/// Everything except surfaces that affects a picture's colors.
 struct Illuminants
 {
   std::vector<Light> lights;
   Environment environment;
   AmbientLight ambient;
   bool hasShadows = true;
-  int mostBounces = 8; // reflections and refractions of a path
+  int mostBounces = 8; // maximum number of reflections and refractions of a path
 };
 
-/// Light that arrives along a ray.
+/// The light that arrives along a ray.
 struct Radiance
 {
-  Color color;        // of the surfaces, times their coverage
-  float alpha = 1.0f; // coverage: what is left shows the background
+  Color color;        // of the surfaces, times alpha
+  float alpha = 1.0f; // coverage; the background shows through the rest
 };
 
-/**
- * Light along rays [Whi80]: direct light with shadows, ambient light, reflections and refractions.
- * Matte surfaces do not light each other.
- */
+/// Computes light along rays [Whi80]: direct light with shadows, ambient light, reflections and
+/// refractions. Matte surfaces do not illuminate each other.
 class PathTracer
 {
 public:
@@ -42,7 +39,7 @@ public:
   {
   }
 
-  /// Light along a ray from the camera; from any thread.
+  /// The light along a ray from the camera. From any thread.
   Radiance along(const Ray& ray, const Sampler& sampler) const;
 
 private:
@@ -63,5 +60,3 @@ private:
 };
 
 } // namespace raytracing
-
-#endif

@@ -22,13 +22,12 @@ bool isFinite(const Radiance& radiance)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Ray Camera::through(double x, double y, float& skipped) const
 {
   const isopoint::Vector origin = this->nearWindow.at(x, y);
   isopoint::Vector offset = isopoint::difference(this->farWindow.at(x, y), origin);
   const double length = isopoint::lengthOf(offset);
-  // The scene lies within a unit sphere around the origin: before that nothing is met.
+  // Starts at the unit sphere, which contains the scene.
   double along = -1.0;
   for (std::size_t axis = 0; axis < origin.size(); ++axis)
   {
@@ -46,7 +45,6 @@ Ray Camera::through(double x, double y, float& skipped) const
   return ray;
 }
 
-//------------------------------------------------------------------------------
 Picture::Picture(std::uint32_t width, std::uint32_t height, std::uint32_t samples)
   : Width(width)
   , Height(height)
@@ -56,7 +54,6 @@ Picture::Picture(std::uint32_t width, std::uint32_t height, std::uint32_t sample
 {
 }
 
-//------------------------------------------------------------------------------
 void Picture::addSample(
   const Camera& camera, const PathTracer& tracer, std::uint32_t sample, std::size_t row)
 {
@@ -66,7 +63,7 @@ void Picture::addSample(
     Sum& sum = this->Sums[index];
     if (sum.count > sample)
     {
-      continue; // has been added by a call that was ended
+      continue; // added before an abort
     }
     const Sampler sampler(static_cast<std::uint32_t>(index), sample, this->Samples);
     const Pair place = sampler.pair(0);
@@ -77,9 +74,9 @@ void Picture::addSample(
     Radiance radiance = tracer.along(ray, sampler);
     if (!isFinite(radiance))
     {
-      radiance = {}; // one such path would spoil the pixel
+      radiance = {}; // a single one would spoil the pixel
     }
-    // As it is displayed: one path to a light's highlight would outshine all others of a pixel.
+    // Clamped as for display: otherwise one path to a highlight would dominate the pixel.
     sum.color += { std::min(radiance.color.x, 1.0f), std::min(radiance.color.y, 1.0f),
       std::min(radiance.color.z, 1.0f) };
     sum.alpha += radiance.alpha;
@@ -87,7 +84,6 @@ void Picture::addSample(
   }
 }
 
-//------------------------------------------------------------------------------
 bool Picture::addSamples(const isopoint::Execution& execution, const Camera& camera,
   const PathTracer& tracer, std::uint32_t samples)
 {
@@ -124,7 +120,6 @@ bool Picture::addSamples(const isopoint::Execution& execution, const Camera& cam
   return true;
 }
 
-//------------------------------------------------------------------------------
 void Picture::findDistances(
   const isopoint::Execution& execution, const Camera& camera, const Scene& scene)
 {
@@ -144,7 +139,6 @@ void Picture::findDistances(
   isopoint::forRanges(execution, this->Height, 1, rows);
 }
 
-//------------------------------------------------------------------------------
 Radiance Picture::pixel(std::size_t index) const
 {
   const Sum& sum = this->Sums[index];

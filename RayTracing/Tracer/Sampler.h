@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Sampler_h
-#define raytracing_Sampler_h
+#pragma once
 
 #include <cstdint>
 
 namespace raytracing
 {
 
-/// A well-mixed function of an integer.
 inline std::uint32_t hashOf(std::uint32_t value)
 {
   value ^= value >> 16;
@@ -23,23 +21,21 @@ inline std::uint32_t hashOf(std::uint32_t a, std::uint32_t b)
   return hashOf(a ^ hashOf(b + 0x9e3779b9u));
 }
 
-/// Two numbers from 0 up to, but not including, 1.
+/// Two numbers in [0, 1).
 struct Pair
 {
   float first;
   float second;
 };
 
-/**
- * The random numbers of one sample of one pixel: functions of pixel, sample and dimension alone, so
- * that pictures do not depend on threads. In each dimension, which stands for one decision along a
- * path, the samples of a pixel are a shuffled lattice with a random shift, which covers the unit
- * square evenly.
- */
+/// The random numbers of one sample of one pixel. They depend only on pixel, sample and dimension,
+/// so pictures do not depend on threads. A dimension stands for one decision along a path. In each,
+/// a pixel's samples are a shuffled lattice with a random shift, which covers the unit square
+/// evenly.
 class Sampler
 {
 public:
-  /// @param count samples of each pixel, 1 or more
+  /// @param count samples per pixel, 1 or more
   Sampler(std::uint32_t pixel, std::uint32_t sample, std::uint32_t count)
     : Pixel(hashOf(pixel))
     , Sample(sample)
@@ -51,7 +47,7 @@ public:
   {
     const std::uint32_t seed = hashOf(this->Pixel, dimension);
     const std::uint32_t place = this->shuffled(seed);
-    constexpr std::uint32_t goldenRatio = 2654435769u; // of 2^32
+    constexpr std::uint32_t goldenRatio = 2654435769u; // times 2^32
     const auto step = static_cast<std::uint32_t>((std::uint64_t{ 1 } << 32) / this->Count);
     return { unit(place * step + hashOf(seed, 1)), unit(place * goldenRatio + hashOf(seed, 2)) };
   }
@@ -62,8 +58,8 @@ private:
     return static_cast<float>(value >> 8) * (1.0f / 16777216.0f);
   }
 
-  /// The place of this sample in a permutation of all of them: a bijection of the next power of
-  /// two, repeated until the place is one of a sample.
+  /// The index of this sample in a random permutation: a bijection of the next power of two,
+  /// repeated until the result is below the count.
   std::uint32_t shuffled(std::uint32_t seed) const
   {
     std::uint32_t mask = this->Count - 1;
@@ -91,5 +87,3 @@ private:
 };
 
 } // namespace raytracing
-
-#endif

@@ -52,7 +52,7 @@ struct Scene::Parts
         continue;
       }
       const embree::Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-      // Embree reads 16 bytes at a time: its own buffers are padded, as ours are not.
+      // Embree's own buffer has the padding that its 16-byte reads need.
       auto* const vertices = static_cast<Vector*>(rtcSetNewGeometryBuffer(geometry.get(),
         RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vector), surface->vertices.size()));
       embree::check(device.get());
@@ -78,7 +78,7 @@ struct Scene::Parts
 namespace
 {
 
-/// Attributes of the three vertices, at a place in the triangle.
+/// Interpolates an attribute of the three vertices in a triangle.
 template <class T, class Convert>
 auto interpolated(const std::vector<T>& ofVertices, const std::array<std::uint32_t, 3>& triangle,
   float u, float v, const Convert& convert)
@@ -104,10 +104,10 @@ void setColor(Hit& hit, const Surface& surface, const RTCHit& place)
   }
 }
 
-/// Triangles whose normals are interpolated would cast shadows on each other where the light comes
-/// in at a low angle. The smooth surface is taken to pass through the mean of the place's
-/// projections onto the tangential planes of the vertices, weighted as normals are, as far as they
-/// are in front of the triangle (J. Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II).
+/// Shading with interpolated normals makes triangles cast shadows on each other in grazing light.
+/// The smooth surface is assumed to pass through the mean of the position's projections onto the
+/// vertices' tangent planes, weighted like normals, if they are in front of the triangle (J.
+/// Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II).
 Vector liftOf(const Surface& surface, const RTCHit& place, const Vector& position, float side)
 {
   const auto& corners = surface.triangles[place.primID];
@@ -122,7 +122,7 @@ Vector liftOf(const Surface& surface, const RTCHit& place, const Vector& positio
   return lift;
 }
 
-/// What a surface lets through to the light behind it.
+/// The share of light that passes through a surface.
 Color passing(const Hit& hit, const Ray& ray)
 {
   const Material& material = hit.surface->material;
@@ -140,7 +140,6 @@ Color passing(const Hit& hit, const Ray& ray)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 {
   const bool hasTransparent = std::any_of(surfaces.begin(), surfaces.end(),
@@ -151,7 +150,6 @@ Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
 
 Scene::~Scene() = default;
 
-//------------------------------------------------------------------------------
 Hit Scene::closest(const Ray& ray, Mask mask) const
 {
   embree::Context context;
@@ -183,7 +181,6 @@ Hit Scene::closest(const Ray& ray, Mask mask) const
   return hit;
 }
 
-//------------------------------------------------------------------------------
 bool Scene::isOccluded(const Ray& ray) const
 {
   embree::Context context;
@@ -193,7 +190,6 @@ bool Scene::isOccluded(const Ray& ray) const
   return embree.tfar < 0.0f;
 }
 
-//------------------------------------------------------------------------------
 Color Scene::transmittance(const Ray& ray) const
 {
   if (this->isOccluded(ray))
@@ -202,7 +198,7 @@ Color Scene::transmittance(const Ray& ray) const
   }
   Color passed{ 1.0f, 1.0f, 1.0f };
   constexpr int mostSurfaces = 32;
-  constexpr float least = 1.0f / 512.0f; // half of a step of the picture
+  constexpr float least = 1.0f / 512.0f; // half of a color step
   Ray rest = ray;
   for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
        ++i)

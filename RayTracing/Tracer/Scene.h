@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Scene_h
-#define raytracing_Scene_h
+#pragma once
 
 #include "Tracer/Hit.h"
 #include "Tracer/Surface.h"
@@ -11,33 +10,31 @@
 namespace raytracing
 {
 
-/**
- * All surfaces, in coordinates in which they together are of about unit size around the origin, so
- * that single precision resolves them. Normals and colors are interpolated in the triangles.
- */
+/// All surfaces, scaled to about unit size around the origin, so that single precision suffices.
+/// Normals and colors are interpolated within triangles.
 class Scene
 {
 public:
-  /// Builds Embree's hierarchy; the surfaces are kept. Those without triangles are allowed.
+  /// Builds Embree's hierarchy, and keeps the surfaces. They may be empty.
   /// @throws std::bad_alloc, std::runtime_error
   explicit Scene(std::vector<std::shared_ptr<const Surface>> surfaces);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// The surfaces that a ray sees.
+  /// Selects the surfaces that a ray can hit.
   enum Mask : unsigned int
   {
-    Opaque = 1, // no light passes
+    Opaque = 1, // block all light
     Transparent = 2,
     All = Opaque | Transparent
   };
 
-  /// The nearest surface along a ray; from any thread.
+  /// The nearest surface along a ray. From any thread.
   Hit closest(const Ray& ray, Mask mask = All) const;
 
-  /// The share of light in each color that passes along a ray: not through opaque surfaces,
-  /// straight through transparent ones, without what these reflect and absorb.
+  /// The share of light per color that passes along a ray: none through opaque surfaces; straight
+  /// through transparent ones, minus reflection and absorption.
   Color transmittance(const Ray& ray) const;
 
 private:
@@ -49,5 +46,3 @@ private:
 };
 
 } // namespace raytracing
-
-#endif

@@ -17,7 +17,7 @@ double tripleProduct(const Vector& a, const Vector& b)
 
 float orientationOf(const Surface& surface)
 {
-  // Normals of vertices decide, since they are what rays are refracted at.
+  // Vertex normals decide, because they determine refraction.
   double volume = 0.0;
   for (const auto& triangle : surface.triangles)
   {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Surface_h
-#define raytracing_Surface_h
+#pragma once
 
 #include "Tracer/Material.h"
 #include "Tracer/Vector.h"
@@ -28,25 +27,23 @@ inline float opacityOf(const ColorBytes& bytes)
   return static_cast<float>(bytes[3]) / 255.0f;
 }
 
-/// A surface of triangles of shared vertices.
+/// Triangles with shared vertices.
 struct Surface
 {
   Material material;
   Color color{ 1.0f, 1.0f, 1.0f };
-  /// -1 where the normals of a closed surface point inwards, else 1; see orientationOf().
+  /// -1 for a closed surface with inward normals, otherwise 1; see orientationOf().
   float outward = 1.0f;
 
   std::vector<Vector> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Vector> normals;    // of the vertices; empty: the triangles are flat
-  std::vector<ColorBytes> colors; // of vertices or of triangles; empty: the surface's color
+  std::vector<Vector> normals;    // of vertices; if empty, triangles are flat
+  std::vector<ColorBytes> colors; // of vertices or triangles; if empty, the material's color
   bool colorsOfTriangles = false;
 };
 
-/// Which way the normals of a closed surface point: the sign of its volume.
-/// @returns 1 for outwards and for surfaces without volume, -1 for inwards
+/// The orientation of a closed surface's normals, by the sign of its volume.
+/// @returns 1 for outward normals and surfaces without volume, -1 for inward ones
 float orientationOf(const Surface& surface);
 
 } // namespace raytracing
-
-#endif

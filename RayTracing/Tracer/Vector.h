@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef raytracing_Vector_h
-#define raytracing_Vector_h
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +7,7 @@
 namespace raytracing
 {
 
-/// A position, direction or color in single precision, as Embree takes them.
+/// A position, direction or color in single precision, as Embree uses.
 struct Vector
 {
   float x = 0.0f;
@@ -16,7 +15,7 @@ struct Vector
   float z = 0.0f;
 };
 
-/// Red, green and blue as they are displayed; 1 is white.
+/// Red, green and blue as displayed; 1 is white.
 using Color = Vector;
 
 inline Vector operator+(const Vector& a, const Vector& b)
@@ -39,7 +38,7 @@ inline Vector operator*(float factor, const Vector& a)
   return { factor * a.x, factor * a.y, factor * a.z };
 }
 
-/// The product of each component, as of a light's and a surface's color.
+/// The componentwise product, as of a light's and a surface's color.
 inline Vector operator*(const Vector& a, const Vector& b)
 {
   return { a.x * b.x, a.y * b.y, a.z * b.z };
@@ -65,7 +64,7 @@ inline float lengthOf(const Vector& a)
   return std::sqrt(dot(a, a));
 }
 
-/// @returns the vector at length 1, or a substitute for one without direction
+/// @returns the vector scaled to length 1, or a substitute if it has no direction
 inline Vector directionOf(const Vector& a, const Vector& substitute = { 0.0f, 0.0f, 1.0f })
 {
   const float length = lengthOf(a);
@@ -82,7 +81,7 @@ inline float largestOf(const Vector& a)
   return std::max({ a.x, a.y, a.z });
 }
 
-/// Two unit vectors orthogonal to a unit vector and to each other.
+/// A unit vector with two unit vectors orthogonal to it and to each other.
 struct Frame
 {
   Vector first;
@@ -108,5 +107,3 @@ struct Frame
 };
 
 } // namespace raytracing
-
-#endif

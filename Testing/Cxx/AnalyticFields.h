@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef AnalyticFields_h
-#define AnalyticFields_h
+#pragma once
 
 #include "AnalyticSurface.h"
 
@@ -19,9 +18,7 @@ constexpr double pi = 3.14159265358979323846;
 /// The distance to the center.
 inline Surface sphere()
 {
-  Surface surface;
-  surface.name = "sphere";
-  surface.isovalue = 0.7;
+  Surface surface{ "sphere", 0.7 };
   surface.value = [](const Vector& p) { return length(p); };
   surface.gradient = [](const Vector& p) { return scaled(p, 1.0 / length(p)); };
   surface.footOf = [](const Vector& p)
@@ -39,9 +36,7 @@ inline Surface torus()
   const auto nearestOnCircle = [](const Vector& p) {
     return scaled(directionOf({ p[0], p[1], 0.0 }), circle);
   };
-  Surface surface;
-  surface.name = "torus";
-  surface.isovalue = 0.25;
+  Surface surface{ "torus", 0.25 };
   surface.value = [=](const Vector& p) { return length(difference(p, nearestOnCircle(p))); };
   surface.gradient = [=](const Vector& p)
   { return directionOf(difference(p, nearestOnCircle(p))); };
@@ -57,9 +52,7 @@ inline Surface torus()
 /// One period of the gyroid, saddle-shaped everywhere; it leaves the cube.
 inline Surface gyroid()
 {
-  Surface surface;
-  surface.name = "gyroid";
-  surface.isovalue = 0.0;
+  Surface surface{ "gyroid", 0.0 };
   surface.value = [](const Vector& p)
   {
     return std::sin(pi * p[0]) * std::cos(pi * p[1]) + std::sin(pi * p[1]) * std::cos(pi * p[2]) +
@@ -94,10 +87,7 @@ inline Surface marschnerLobb()
     return std::sin(2.0 * pi * frequency * std::cos(0.5 * pi * r)) * pi * pi * frequency *
            std::sin(0.5 * pi * r);
   };
-  Surface surface;
-  surface.name = "Marschner-Lobb";
-  surface.thickness = 0.04;
-  surface.isovalue = 0.5;
+  Surface surface{ "Marschner-Lobb", 0.5, 0.04 };
   surface.value = [=](const Vector& p)
   {
     return (1.0 - std::sin(0.5 * pi * p[2]) + amplitude * (1.0 + ripple(std::hypot(p[0], p[1])))) /
@@ -135,9 +125,7 @@ inline Surface gaussianMixture()
   const std::vector<Bell> bells{ { { 0.0, 0.1, 0.0 }, 0.35, 1.0 }, { { 0.4, 0.3, 0.1 }, 0.2, 0.8 },
     { { -0.4, 0.2, 0.3 }, 0.22, 0.9 }, { { 0.1, -0.5, -0.2 }, 0.25, 0.7 },
     { { -0.2, 0.0, -0.45 }, 0.18, 0.9 }, { { 0.35, -0.2, 0.4 }, 0.2, 0.8 } };
-  Surface surface;
-  surface.name = "Gaussian mixture";
-  surface.isovalue = 0.5;
+  Surface surface{ "Gaussian mixture", 0.5 };
   surface.value = [=](const Vector& p)
   {
     double total = 0.0;
@@ -177,16 +165,12 @@ inline Surface cube()
   };
   const auto greatest = [](const Vector& q)
   {
-    std::size_t found = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-    {
-      found = std::abs(q[i]) > std::abs(q[found]) ? i : found;
-    }
-    return found;
+    return static_cast<std::size_t>(
+      std::max_element(
+        q.begin(), q.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      q.begin());
   };
-  Surface surface;
-  surface.name = "cube";
-  surface.isovalue = half;
+  Surface surface{ "cube", half };
   surface.value = [=](const Vector& p)
   {
     const Vector q = along(p);
@@ -194,32 +178,25 @@ inline Surface cube()
   };
   surface.gradient = [=](const Vector& p)
   {
-    const Vector q = along(p);
-    const std::size_t i = greatest(q);
-    return scaled(axes[i], q[i] < 0.0 ? -1.0 : 1.0);
+    const std::size_t i = greatest(along(p));
+    return scaled(axes[i], dot(axes[i], p) < 0.0 ? -1.0 : 1.0);
   };
   surface.footOf = [=](const Vector& p)
   {
     const Vector q = along(p);
-    Vector foot;
+    Foot foot{ {}, 0.0, {} };
     for (std::size_t i = 0; i < 3; ++i)
     {
-      foot[i] = std::clamp(q[i], -half, half);
-    }
-    const std::size_t face = greatest(q);
-    foot[face] = q[face] < 0.0 ? -half : half;
-    Foot result = footAt(p, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
-    result.normals.clear();
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      result.point = sum(result.point, scaled(axes[i], foot[i]));
-      if (std::abs(foot[i]) == half)
+      const double own =
+        i == greatest(q) ? std::copysign(half, q[i]) : std::clamp(q[i], -half, half);
+      foot.point = sum(foot.point, scaled(axes[i], own));
+      if (std::abs(own) == half)
       {
-        result.normals.push_back(scaled(axes[i], foot[i] < 0.0 ? 1.0 : -1.0));
+        foot.normals.push_back(scaled(axes[i], own < 0.0 ? 1.0 : -1.0));
       }
     }
-    result.distance = length(difference(p, result.point));
-    return result;
+    foot.distance = length(difference(p, foot.point));
+    return foot;
   };
   return surface;
 }
@@ -231,10 +208,7 @@ inline Surface twoSheets(double separation)
 {
   constexpr double middle = 0.65;
   const double half = 0.5 * separation;
-  Surface surface;
-  surface.name = "two sheets";
-  surface.isovalue = half;
-  surface.thickness = separation;
+  Surface surface{ "two sheets", half, separation };
   surface.value = [](const Vector& p) { return std::abs(length(p) - middle); };
   surface.gradient = [](const Vector& p)
   { return scaled(directionOf(p), length(p) < middle ? -1.0 : 1.0); };
@@ -256,5 +230,3 @@ inline std::vector<Surface> allSurfaces(double spacing)
 }
 
 } // namespace analytic
-
-#endif

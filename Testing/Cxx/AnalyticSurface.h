@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef AnalyticSurface_h
-#define AnalyticSurface_h
+#pragma once
 
 #include "Random.h"
+
+#include "Core/Base/Vector.h"
 
 #include <algorithm>
 #include <array>
@@ -17,43 +18,25 @@
 namespace analytic
 {
 
-using Vector = std::array<double, 3>;
+using isopoint::cross;
+using isopoint::difference;
+using isopoint::directionOf;
+using isopoint::dot;
+using isopoint::Vector;
 
 inline Vector sum(const Vector& a, const Vector& b)
 {
-  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+  return isopoint::sum(a, 1.0, b);
 }
 
 inline Vector scaled(const Vector& a, double factor)
 {
-  return { factor * a[0], factor * a[1], factor * a[2] };
-}
-
-inline Vector difference(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-inline double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-inline Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+  return isopoint::scaled(factor, a);
 }
 
 inline double length(const Vector& a)
 {
-  return std::sqrt(dot(a, a));
-}
-
-/// @returns the vector at length 1, or the x axis for one of length 0
-inline Vector directionOf(const Vector& a)
-{
-  const double size = length(a);
-  return size > 0.0 ? scaled(a, 1.0 / size) : Vector{ 1.0, 0.0, 0.0 };
+  return isopoint::lengthOf(a);
 }
 
 /// Where a surface is closest to a position.
@@ -75,9 +58,9 @@ struct Surface
   std::string name;
   double isovalue = 0.0;
   double thickness = 0.2; // of the thinnest sheet or ripple: searches take shorter steps
-  std::function<double(const Vector&)> value;
-  std::function<Vector(const Vector&)> gradient;
-  std::function<Foot(const Vector&)> footOf; // may be called from any thread
+  std::function<double(const Vector&)> value{};
+  std::function<Vector(const Vector&)> gradient{};
+  std::function<Foot(const Vector&)> footOf{}; // may be called from any thread
 };
 
 /// Random points of an isosurface within a cube around the origin, uniform by area: where random
@@ -90,16 +73,12 @@ inline std::vector<Vector> randomSurfacePoints(
   clouds::Random random(seed);
   const auto inBall = [&random]()
   {
-    for (;;)
+    Vector p = random.inCube(2.0);
+    while (!(dot(p, p) <= 1.0 && dot(p, p) > 1e-4))
     {
-      const double x = 2.0 * random() - 1.0;
-      const double y = 2.0 * random() - 1.0;
-      const double z = 2.0 * random() - 1.0;
-      if (const double squared = x * x + y * y + z * z; squared <= 1.0 && squared > 1e-4)
-      {
-        return Vector{ x, y, z };
-      }
+      p = random.inCube(2.0);
     }
+    return p;
   };
   const double radius = halfSide * std::sqrt(3.0);
   const double step = surface.thickness / 8.0;
@@ -255,5 +234,3 @@ inline void findFeetByNewton(Surface& surface, double halfSide)
 }
 
 } // namespace analytic
-
-#endif

@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef BruteForce_h
-#define BruteForce_h
+#pragma once
 
 #include "Clouds.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <iterator>
-#include <map>
-#include <numeric>
-#include <set>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 /// The canonical result, written down from docs/algorithm.md alone, independently of the core: the
 /// whole tree by sorting, all pairs of cells, all angles. Quadratic. Sections are those of that
@@ -77,16 +65,9 @@ inline double meanOf(const std::vector<double>& values)
   {
     return values[0];
   }
-  double sum = 0.0;
-  double lowest = values[0];
-  double highest = values[0];
-  for (const double value : values)
-  {
-    sum = sum + value;
-    lowest = std::min(lowest, value);
-    highest = std::max(highest, value);
-  }
-  return std::min(std::max(sum / static_cast<double>(values.size()), lowest), highest);
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  return std::clamp(sum / static_cast<double>(values.size()), *lowest, *highest);
 }
 
 /// Section 3, step 5: the plane between the coordinates of the last sample of the lower child and
@@ -109,16 +90,15 @@ public:
     {
       return;
     }
-    std::vector<std::size_t> ids(cloud.size());
-    std::iota(ids.begin(), ids.end(), std::size_t{ 0 });
-    Region box{ this->positionOf(0), this->positionOf(0) };
-    for (const std::size_t id : ids)
+    std::vector<std::size_t> ids;
+    Region box{ cloud.at(0), cloud.at(0) };
+    for (std::size_t id = 0; id < cloud.size(); ++id)
     {
-      const Vector position = this->positionOf(id);
+      ids.push_back(id);
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        box.lower[axis] = std::min(box.lower[axis], position[axis]);
-        box.upper[axis] = std::max(box.upper[axis], position[axis]);
+        box.lower[axis] = std::min(box.lower[axis], cloud.at(id)[axis]);
+        box.upper[axis] = std::max(box.upper[axis], cloud.at(id)[axis]);
       }
     }
     this->build(ids, box, {});
@@ -127,16 +107,10 @@ public:
   std::vector<Cell> cells; // of the leaves from left to right, the lower child before the upper one
 
 private:
-  Vector positionOf(std::size_t id) const
-  {
-    return { this->Samples.positions[3 * id], this->Samples.positions[3 * id + 1],
-      this->Samples.positions[3 * id + 2] };
-  }
-
   /// Section 2: whether all three coordinates are equal; -0 and 0 are.
   bool coincide(std::size_t a, std::size_t b) const
   {
-    return this->positionOf(a) == this->positionOf(b);
+    return this->Samples.at(a) == this->Samples.at(b);
   }
 
   /// A node whose samples all coincide is a leaf; any other one is split.
@@ -152,7 +126,7 @@ private:
     this->sortAlong(axis, ids);
     const std::size_t lowerCount = this->lowerCountOf(ids);
     const double plane = planeBetween(
-      this->positionOf(ids[lowerCount - 1])[axis], this->positionOf(ids[lowerCount])[axis]);
+      this->Samples.at(ids[lowerCount - 1])[axis], this->Samples.at(ids[lowerCount])[axis]);
     Region lower = region;
     lower.upper[axis] = plane;
     Region upper = region;
@@ -175,7 +149,7 @@ private:
     {
       values.push_back(this->Samples.values[id]);
     }
-    this->cells.push_back({ region, this->positionOf(ids[0]), ids[0], meanOf(values), path });
+    this->cells.push_back({ region, this->Samples.at(ids[0]), ids[0], meanOf(values), path });
   }
 
   /// Step 1: the axis of the region's longest side, the lowest among equal ones.
@@ -197,7 +171,7 @@ private:
   {
     const auto keyOf = [this, a](std::size_t id)
     {
-      const Vector p = this->positionOf(id);
+      const Vector p = this->Samples.at(id);
       return std::make_tuple(p[a], p[(a + 1) % 3], p[(a + 2) % 3], id);
     };
     std::sort(ids.begin(), ids.end(),
@@ -229,15 +203,13 @@ private:
 /// Section 4: whether two cells share a point.
 inline bool touch(const Cell& c, const Cell& other)
 {
+  bool touch = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (!(c.region.lower[axis] <= other.region.upper[axis] &&
-          other.region.lower[axis] <= c.region.upper[axis]))
-    {
-      return false;
-    }
+    touch = touch && c.region.lower[axis] <= other.region.upper[axis] &&
+            other.region.lower[axis] <= c.region.upper[axis];
   }
-  return true;
+  return touch;
 }
 
 /// Section 4: the neighborhood of each cell, as indices of all other cells that touch it.
@@ -274,11 +246,11 @@ inline bool survives(const std::vector<Cell>& cells, const std::vector<std::size
   return angle == 0.0 || std::none_of(neighborsOfX.begin(), neighborsOfX.end(), drops);
 }
 
-/// Section 6: whether the end x of the edge {x, y} is crowded. It is if among all samples,
+/// Section 6: whether the end x of the edge {x, y} is dense. It is if among all samples,
 /// coincident ones once, at least so many lie in the cone behind x, nearer than the edge's length
 /// over the factor.
 /// @param cosine of the cone: C, of 54.7356 degrees
-inline bool isCrowded(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double factor,
+inline bool isDense(const std::vector<Cell>& cells, std::size_t x, std::size_t y, double factor,
   std::ptrdiff_t wanted, double cosine = 1.0 / 1.7320508075688772)
 {
   const Vector u = difference(cells[y].position, cells[x].position);
@@ -290,11 +262,11 @@ inline bool isCrowded(const std::vector<Cell>& cells, std::size_t x, std::size_t
   return std::count_if(cells.begin(), cells.end(), counts) >= wanted;
 }
 
-/// Section 6: the gap criterion drops an edge if both its ends are crowded.
+/// Section 6: the gap criterion drops an edge if both its ends are dense.
 inline bool isDroppedByGap(const std::vector<Cell>& cells, std::size_t x, std::size_t y,
   double factor, std::ptrdiff_t wanted)
 {
-  return isCrowded(cells, x, y, factor, wanted) && isCrowded(cells, y, x, factor, wanted);
+  return isDense(cells, x, y, factor, wanted) && isDense(cells, y, x, factor, wanted);
 }
 
 /// Section 6: the edges, pairs of cells, that are not in gaps. An edge is in a gap if it is over
@@ -377,5 +349,3 @@ inline std::vector<Isopoint> extract(
 }
 
 } // namespace bruteforce
-
-#endif

@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef Clouds_h
-#define Clouds_h
+#pragma once
 
 #include "Random.h"
 
+#include "Core/Base/Vector.h"
 #include "Core/IsosurfaceExtractor.h"
 
+// Also those that most tests need.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace clouds
 {
 
-/// How much a long test looks at: less under the thread sanitizer, where all takes twenty times as
-/// long.
+using isopoint::Vector;
+
+/// How much a long test looks at: less under the thread sanitizer, which is twenty times slower.
 constexpr std::size_t lessIfSlow(std::size_t count)
 {
 #ifdef __SANITIZE_THREAD__
@@ -36,15 +47,91 @@ struct Cloud
 
   std::size_t size() const { return this->values.size(); }
 
-  void add(double x, double y, double z, double value)
+  Vector at(std::size_t i) const
   {
-    for (const double coordinate : { x, y, z })
-    {
-      this->positions.push_back(coordinate);
-    }
+    return { this->positions[3 * i], this->positions[3 * i + 1], this->positions[3 * i + 2] };
+  }
+
+  void add(const Vector& position, double value)
+  {
+    this->positions.insert(this->positions.end(), position.begin(), position.end());
     this->values.push_back(value);
   }
+
+  void add(double x, double y, double z, double value) { this->add({ x, y, z }, value); }
 };
+
+/// The same samples with the values of a field of the position.
+template <class Field>
+Cloud withValuesOf(Cloud cloud, const Field& field)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    cloud.values[i] = field(cloud.at(i));
+  }
+  return cloud;
+}
+
+/// The same samples at other positions: move(double*) changes one.
+template <class Move>
+Cloud moved(Cloud cloud, Move move)
+{
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    move(cloud.positions.data() + 3 * i);
+  }
+  return cloud;
+}
+
+inline Cloud scaled(const Cloud& cloud, double x, double y, double z)
+{
+  return moved(cloud,
+    [=](double* p)
+    {
+      p[0] *= x;
+      p[1] *= y;
+      p[2] *= z;
+    });
+}
+
+/// The samples for whose positions a condition holds.
+template <class Condition>
+Cloud filtered(const Cloud& cloud, const Condition& condition)
+{
+  Cloud rest;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (condition(cloud.at(i)))
+    {
+      rest.add(cloud.at(i), cloud.values[i]);
+    }
+  }
+  return rest;
+}
+
+/// The samples in another order.
+inline Cloud permuted(const Cloud& cloud, const std::vector<std::size_t>& order)
+{
+  Cloud result;
+  for (const std::size_t id : order)
+  {
+    result.add(cloud.at(id), cloud.values[id]);
+  }
+  return result;
+}
+
+/// The numbers below a count in random order.
+inline std::vector<std::size_t> randomOrder(std::size_t count, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  for (std::size_t i = count - 1; i > 0; --i)
+  {
+    std::swap(order[i], order[static_cast<std::size_t>(random() * static_cast<double>(i + 1))]);
+  }
+  return order;
+}
 
 /// A smooth field with several sheets in the unit cube.
 inline double waves(double x, double y, double z)
@@ -58,9 +145,7 @@ inline Cloud uniform(std::size_t count, std::uint64_t seed)
   Cloud cloud;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const double x = random();
-    const double y = random();
-    const double z = random();
+    const auto [x, y, z] = random.place();
     cloud.add(x, y, z, waves(x, y, z));
   }
   return cloud;
@@ -74,9 +159,7 @@ inline Cloud clustered(std::size_t count, std::uint64_t seed)
   for (std::size_t i = 0; i < count; ++i)
   {
     const double scale = std::pow(10.0, -4.0 * random());
-    const double x = scale * (random() - 0.5);
-    const double y = scale * (random() - 0.5);
-    const double z = scale * (random() - 0.5);
+    const auto [x, y, z] = random.inCube(scale);
     cloud.add(x, y, z, waves(x / scale, y, z) + std::log(scale));
   }
   return cloud;
@@ -86,15 +169,12 @@ inline Cloud clustered(std::size_t count, std::uint64_t seed)
 inline Cloud lattice(int nx, int ny, int nz)
 {
   Cloud cloud;
-  for (int z = 0; z < nz; ++z)
+  for (int i = 0; i < nx * ny * nz; ++i)
   {
-    for (int y = 0; y < ny; ++y)
-    {
-      for (int x = 0; x < nx; ++x)
-      {
-        cloud.add(x, y, z, std::round(5.0 * waves(0.1 * x, 0.1 * y, 0.1 * z)));
-      }
-    }
+    const double x = i % nx;
+    const double y = i / nx % ny;
+    const double z = i / nx / ny;
+    cloud.add(x, y, z, std::round(5.0 * waves(0.1 * x, 0.1 * y, 0.1 * z)));
   }
   return cloud;
 }
@@ -104,28 +184,19 @@ inline Cloud coarse(std::size_t count, int steps, std::uint64_t seed)
 {
   Random random(seed);
   Cloud cloud;
-  const auto step = [&]() { return std::floor(steps * random()); };
   for (std::size_t i = 0; i < count; ++i)
   {
-    const double x = step();
-    const double y = step();
-    const double z = step();
-    cloud.add(x, y, z, std::floor(10.0 * random()));
+    const auto [x, y, z] = random.place();
+    cloud.add(std::floor(steps * x), std::floor(steps * y), std::floor(steps * z),
+      std::floor(10.0 * random()));
   }
   return cloud;
 }
 
 /// Keeps the first coordinates, as many as `dimensions`; the others become constant.
-inline Cloud flattened(Cloud cloud, int dimensions)
+inline Cloud flattened(const Cloud& cloud, int dimensions)
 {
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    for (int axis = dimensions; axis < 3; ++axis)
-    {
-      cloud.positions[3 * i + axis] = 0.25;
-    }
-  }
-  return cloud;
+  return moved(cloud, [dimensions](double* p) { std::fill(p + dimensions, p + 3, 0.25); });
 }
 
 /// Moves a share of the samples to one position.
@@ -173,10 +244,8 @@ inline Cloud layerBeforeOne(std::size_t count, std::uint64_t seed)
   cloud.add(depth, 0.5, 0.5, 1.0);
   for (std::size_t i = 1; i < count; ++i)
   {
-    const double x = i % 2 ? -depth * (1.0 + random()) : 4.0 + random();
-    const double y = random();
-    const double z = random();
-    cloud.add(x, y, z, i % 3 ? 0.0 : 1.0);
+    const auto [x, y, z] = random.place();
+    cloud.add(i % 2 ? -depth * (1.0 + x) : 4.0 + x, y, z, i % 3 ? 0.0 : 1.0);
   }
   return cloud;
 }
@@ -194,12 +263,11 @@ inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uin
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t line = i % lineCount;
-    double position[3];
-    position[line % 3] = place();
-    position[(line + 1) % 3] = offsets[2 * line];
-    position[(line + 2) % 3] = offsets[2 * line + 1];
-    cloud.add(position[0], position[1], position[2],
-      line % 2 ? random() - 0.25 : waves(position[0], position[1], position[2]));
+    Vector p;
+    p[line % 3] = place();
+    p[(line + 1) % 3] = offsets[2 * line];
+    p[(line + 2) % 3] = offsets[2 * line + 1];
+    cloud.add(p, line % 2 ? random() - 0.25 : waves(p[0], p[1], p[2]));
   }
   return cloud;
 }
@@ -231,18 +299,9 @@ inline Cloud curves(std::size_t count, std::uint64_t seed)
     const double x = std::cos(t);
     const double y = std::sin(t);
     const double value = std::sin(3.0 * t);
-    if (i % 3 == 0)
-    {
-      cloud.add(x, y, 0.0, value);
-    }
-    else if (i % 3 == 1)
-    {
-      cloud.add(1.0 + x, 0.0, y, -value);
-    }
-    else
-    {
-      cloud.add(0.0, 0.0, t - 3.14159, value + 0.5);
-    }
+    const Vector places[] = { { x, y, 0.0 }, { 1.0 + x, 0.0, y }, { 0.0, 0.0, t - 3.14159 } };
+    const double values[] = { value, -value, value + 0.5 };
+    cloud.add(places[i % 3], values[i % 3]);
   }
   return cloud;
 }
@@ -272,10 +331,7 @@ inline isopoint::Execution executionOn(std::size_t threads)
         helpers.emplace_back(work);
       }
       work();
-      for (std::thread& helper : helpers)
-      {
-        helper.join();
-      }
+      std::for_each(helpers.begin(), helpers.end(), [](std::thread& helper) { helper.join(); });
     };
   }
   return execution;
@@ -286,35 +342,75 @@ inline auto readerOf(const Cloud& cloud)
 {
   return [&cloud](std::size_t id, auto* position, auto& value)
   {
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      position[axis] = static_cast<std::decay_t<decltype(*position)>>(
-        cloud.positions[3 * id + static_cast<std::size_t>(axis)]);
+      position[axis] =
+        static_cast<std::decay_t<decltype(*position)>>(cloud.positions[3 * id + axis]);
     }
     value = static_cast<std::decay_t<decltype(value)>>(cloud.values[id]);
     return true;
   };
 }
 
-/// The isosurface of a loaded cloud.
-template <class TExtractor>
-isopoint::Isosurface extractFrom(TExtractor&& extractor, const isopoint::Execution& execution,
-  double isovalue, double angle = isopoint::defaultAngle, bool dropsGaps = false,
-  std::optional<isopoint::FitRequest> fit = std::nullopt)
+template <class TCoordinate = double, class TValue = double>
+isopoint::IsosurfaceExtractor loaded(const Cloud& cloud, std::size_t threads = 1)
+{
+  isopoint::IsosurfaceExtractor extractor;
+  extractor.load<TCoordinate, TValue>(executionOn(threads), cloud.size(), readerOf(cloud));
+  return extractor;
+}
+
+/// A request for points alone. Points move to their fits if an order is given.
+inline isopoint::ExtractionRequest requestOf(double isovalue,
+  std::optional<isopoint::FitOrder> order = std::nullopt, bool dropsGaps = false,
+  double angle = isopoint::defaultAngle)
 {
   isopoint::ExtractionRequest request;
-  request.isosurface = { isovalue, angle, dropsGaps, fit };
-  return extractor.extract(execution, request).surface;
+  request.isosurface = { isovalue, angle, dropsGaps, std::nullopt };
+  if (order)
+  {
+    request.isosurface.fit = isopoint::FitRequest{ order, true };
+  }
+  return request;
+}
+
+inline isopoint::ExtractionRequest withSplats(isopoint::ExtractionRequest request)
+{
+  request.splats = isopoint::SplatOptions();
+  return request;
+}
+
+inline isopoint::ExtractionRequest withTriangles(
+  isopoint::ExtractionRequest request, bool regularizes = false)
+{
+  request.triangles = true;
+  request.isosurface.regularizes = regularizes;
+  return request;
 }
 
 template <class TCoordinate = double, class TValue = double>
-isopoint::Isosurface extract(const Cloud& cloud, double isovalue, double angle,
-  std::size_t threads = 1, bool dropsGaps = false)
+isopoint::ExtractedIsosurface extracted(
+  const Cloud& cloud, const isopoint::ExtractionRequest& request, std::size_t threads = 1)
 {
   const isopoint::Execution execution = executionOn(threads);
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<TCoordinate, TValue>(execution, cloud.size(), readerOf(cloud));
-  return extractFrom(extractor, execution, isovalue, angle, dropsGaps);
+  return loaded<TCoordinate, TValue>(cloud, threads).extract(execution, request);
+}
+
+/// The isosurface of a loaded cloud.
+template <class TExtractor>
+isopoint::Isosurface extractFrom(TExtractor&& extractor, const isopoint::Execution& execution,
+  double isovalue, double angle = isopoint::defaultAngle)
+{
+  return extractor.extract(execution, requestOf(isovalue, std::nullopt, false, angle)).surface;
+}
+
+template <class TCoordinate = double, class TValue = double>
+isopoint::Isosurface extract(const Cloud& cloud, double isovalue,
+  double angle = isopoint::defaultAngle, std::size_t threads = 1, bool dropsGaps = false)
+{
+  return extracted<TCoordinate, TValue>(
+    cloud, requestOf(isovalue, std::nullopt, dropsGaps, angle), threads)
+    .surface;
 }
 
 /// Turns a position about two axes: what was on planes and spheres is so except for rounding.
@@ -328,18 +424,4 @@ inline void turn(double* p)
   p[2] = 0.96 * y + 0.28 * z;
 }
 
-/// The same samples with the values of a field of the position, an isopoint::Vector.
-template <class Field>
-Cloud withValuesOf(Cloud cloud, const Field& field)
-{
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    cloud.values[i] = field({ p[0], p[1], p[2] });
-  }
-  return cloud;
-}
-
 } // namespace clouds
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef FailingAllocator_h
-#define FailingAllocator_h
+#pragma once
 
 #include <cstddef>
 
@@ -21,5 +20,3 @@ void failAt(long n, bool andAllLater, std::size_t smallest = largeSize);
 long stop();
 
 } // namespace failingallocator
-
-#endif

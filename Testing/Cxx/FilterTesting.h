@@ -1,28 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef FilterTesting_h
-#define FilterTesting_h
+#pragma once
+
+#include "AnalyticSurface.h"
 
 #include "vtkScatteredIsopointFilter.h"
+#include "vtkScatteredIsosurfaceFilter.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
-/// Shared by the tests of the filter.
+/// Shared by the tests of the filters.
 namespace filtertesting
 {
+
+using analytic::dot;
+using analytic::length;
+using analytic::Vector;
+using Isopoints = vtkScatteredIsopointFilter;
+using Isosurface = vtkScatteredIsosurfaceFilter;
+using Sample = std::array<double, 4>; // x y z value
+using Samples = std::vector<Sample>;
+
+constexpr int ofPoints = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+constexpr int ofCells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 template <class TArray = vtkFloatArray>
 vtkSmartPointer<TArray> newArray(const char* name, vtkIdType tuples, int components = 1)
@@ -34,6 +61,65 @@ vtkSmartPointer<TArray> newArray(const char* name, vtkIdType tuples, int compone
   return array;
 }
 
+/// An array of numberAt(0), numberAt(1), ...
+template <class TArray = vtkDoubleArray, class NumberAt>
+vtkSmartPointer<TArray> arrayOf(const char* name, vtkIdType count, const NumberAt& numberAt)
+{
+  const auto array = newArray<TArray>(name, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    array->SetValue(i, static_cast<typename TArray::ValueType>(numberAt(i)));
+  }
+  return array;
+}
+
+/// An array of ghost bits.
+template <class BitsAt>
+vtkSmartPointer<vtkUnsignedCharArray> ghostsOf(vtkIdType count, const BitsAt& bitsAt)
+{
+  return arrayOf<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), count, bitsAt);
+}
+
+inline Vector placeOf(vtkDataSet* data, vtkIdType point)
+{
+  Vector place;
+  data->GetPoint(point, place.data());
+  return place;
+}
+
+inline Vector tupleOf(vtkDataArray* array, vtkIdType i)
+{
+  return { array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2) };
+}
+
+/// Replaces all positions by moved(position) and marks nothing as modified.
+inline void move(vtkPoints* points, const std::function<Vector(const Vector&)>& moved)
+{
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Vector place;
+    points->GetPoint(i, place.data());
+    points->SetPoint(i, moved(place).data());
+  }
+}
+
+/// Makes a field of the position the active scalars of the points.
+template <class TArray = vtkDoubleArray>
+vtkSmartPointer<TArray> setScalars(
+  vtkDataSet* data, const std::function<double(const Vector&)>& field, const char* name = "f")
+{
+  const auto scalars = arrayOf<TArray>(
+    name, data->GetNumberOfPoints(), [&](vtkIdType i) { return field(placeOf(data, i)); });
+  data->GetPointData()->SetScalars(scalars);
+  return scalars;
+}
+
+/// The values of newCloud().
+inline vtkDoubleArray* distancesOf(vtkDataSet* cloud)
+{
+  return vtkDoubleArray::SafeDownCast(cloud->GetPointData()->GetArray("distance"));
+}
+
 /// Random points in a cube of side 2 around the origin, with the arrays "distance" (to the origin,
 /// the active scalars), "x" and "position".
 inline vtkSmartPointer<vtkPolyData> newCloud(vtkIdType count, int pointType = VTK_FLOAT)
@@ -41,69 +127,189 @@ inline vtkSmartPointer<vtkPolyData> newCloud(vtkIdType count, int pointType = VT
   vtkNew<vtkPoints> points;
   points->SetDataType(pointType);
   points->SetNumberOfPoints(count);
-  const auto distance = newArray<vtkDoubleArray>("distance", count);
-  const auto x = newArray("x", count);
   const auto position = newArray("position", count, 3);
   std::mt19937 random(1);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    double p[3];
-    for (double& coordinate : p)
-    {
-      coordinate = static_cast<float>(random() * 0x1p-31 - 1.0);
-    }
-    points->SetPoint(i, p);
-    position->SetTuple(i, p);
-    x->SetValue(i, static_cast<float>(p[0]));
-    distance->SetValue(i, std::hypot(p[0], p[1], p[2]));
+    Vector p;
+    std::generate(
+      p.begin(), p.end(), [&]() { return static_cast<float>(random() * 0x1p-31 - 1.0); });
+    points->SetPoint(i, p.data());
+    position->SetTuple(i, p.data());
   }
   auto cloud = vtkSmartPointer<vtkPolyData>::New();
   cloud->SetPoints(points);
-  cloud->GetPointData()->SetScalars(distance);
-  cloud->GetPointData()->AddArray(x);
+  setScalars(
+    cloud, [](const Vector& p) { return std::hypot(p[0], p[1], p[2]); }, "distance");
+  cloud->GetPointData()->AddArray(
+    arrayOf<vtkFloatArray>("x", count, [&](vtkIdType i) { return position->GetComponent(i, 0); }));
   cloud->GetPointData()->AddArray(position);
   return cloud;
 }
 
-/// Counts a filter's errors and keeps the last message.
-class ErrorWatcher : public vtkCommand
+/// A cloud in double precision with the values "f".
+inline vtkSmartPointer<vtkPolyData> cloudOf(const Samples& samples)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Sample& sample : samples)
+  {
+    points->InsertNextPoint(sample.data());
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  cloud->GetPointData()->SetScalars(arrayOf("f", static_cast<vtkIdType>(samples.size()),
+    [&](vtkIdType i) { return samples[static_cast<std::size_t>(i)][3]; }));
+  return cloud;
+}
+
+/// newCloud() as a grid of vertices, whose arrays are those of its cells.
+inline vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
+{
+  const auto cloud = newCloud(count);
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(cloud->GetPoints());
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    grid->InsertNextCell(VTK_VERTEX, 1, &i);
+  }
+  grid->GetCellData()->ShallowCopy(cloud->GetPointData());
+  return grid;
+}
+
+inline vtkSmartPointer<vtkMultiBlockDataSet> blocksOf(
+  const std::vector<vtkSmartPointer<vtkDataObject>>& blocks)
+{
+  auto all = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (unsigned int i = 0; i < blocks.size(); ++i)
+  {
+    all->SetBlock(i, blocks[i]);
+  }
+  return all;
+}
+
+/// Keeps the messages of one event of a filter.
+class MessageWatcher : public vtkCommand
 {
 public:
-  static ErrorWatcher* New() { return new ErrorWatcher; }
+  static MessageWatcher* New() { return new MessageWatcher; }
 
   void Execute(vtkObject*, unsigned long, void* message) override
   {
-    ++this->Count;
-    this->Last = static_cast<const char*>(message);
+    this->All.emplace_back(static_cast<const char*>(message));
   }
 
-  int Count = 0;
-  std::string Last;
+  std::size_t count() const { return this->All.size(); }
+  std::string last() const { return this->All.empty() ? std::string() : this->All.back(); }
+
+  std::vector<std::string> All;
 };
 
-inline vtkSmartPointer<ErrorWatcher> watchErrors(vtkScatteredContourFilter* filter)
+inline vtkSmartPointer<MessageWatcher> watchMessages(
+  vtkScatteredContourFilter* filter, unsigned long event)
 {
-  const auto watcher = vtkSmartPointer<ErrorWatcher>::Take(ErrorWatcher::New());
-  filter->AddObserver(vtkCommand::ErrorEvent, watcher);
+  const auto watcher = vtkSmartPointer<MessageWatcher>::Take(MessageWatcher::New());
+  filter->AddObserver(event, watcher);
   return watcher;
+}
+
+inline vtkSmartPointer<MessageWatcher> watchErrors(vtkScatteredContourFilter* filter)
+{
+  return watchMessages(filter, vtkCommand::ErrorEvent);
+}
+
+template <class TFilter = Isopoints>
+vtkSmartPointer<TFilter> newFilter(vtkDataObject* input, double isovalue = 0.7)
+{
+  auto filter = vtkSmartPointer<TFilter>::New();
+  filter->SetInputDataObject(input);
+  filter->SetValue(0, isovalue);
+  return filter;
+}
+
+/// The output after an update.
+inline vtkPolyData* outputOf(vtkScatteredContourFilter* filter)
+{
+  filter->Update();
+  return filter->GetOutput();
+}
+
+/// An array of the points or, otherwise, of the cells.
+inline vtkDataArray* findArray(vtkPolyData* output, const char* name)
+{
+  vtkDataArray* const array = output->GetPointData()->GetArray(name);
+  return array ? array : output->GetCellData()->GetArray(name);
+}
+
+inline std::vector<double> numbersOf(vtkDataArray* array)
+{
+  std::vector<double> numbers;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    {
+      numbers.push_back(array->GetComponent(i, component));
+    }
+  }
+  return numbers;
 }
 
 inline std::vector<double> pointsOf(vtkPolyData* output)
 {
-  std::vector<double> coordinates;
-  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-  {
-    coordinates.insert(coordinates.end(), output->GetPoint(i), output->GetPoint(i) + 3);
-  }
-  return coordinates;
+  return output->GetPoints() ? numbersOf(output->GetPoints()->GetData()) : std::vector<double>();
 }
 
-inline void expectEmpty(vtkPolyData* output)
+/// All numbers of a surface or of blocks of surfaces: positions, arrays, and corners of cells.
+inline std::vector<double> everythingOf(vtkDataObject* output)
 {
-  EXPECT_EQ(output->GetNumberOfPoints(), 0);
-  EXPECT_EQ(output->GetNumberOfCells(), 0);
+  std::vector<double> all;
+  const auto append = [&all](const std::vector<double>& more)
+  { all.insert(all.end(), more.begin(), more.end()); };
+  if (auto* const surface = vtkPolyData::SafeDownCast(output))
+  {
+    append(pointsOf(surface));
+    for (const int association : { ofPoints, ofCells })
+    {
+      vtkDataSetAttributes* const attributes = surface->GetAttributes(association);
+      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+      {
+        append(numbersOf(attributes->GetArray(i)));
+      }
+    }
+    append(numbersOf(surface->GetVerts()->GetConnectivityArray()));
+    append(numbersOf(surface->GetPolys()->GetConnectivityArray()));
+  }
+  auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(output);
+  for (unsigned int i = 0; blocks && i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    append(everythingOf(blocks->GetBlock(i)));
+  }
+  return all;
+}
+
+/// The corners of all triangles.
+inline std::vector<std::array<vtkIdType, 3>> trianglesOf(vtkPolyData* surface)
+{
+  std::vector<std::array<vtkIdType, 3>> triangles;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < surface->GetNumberOfPolys(); ++i)
+  {
+    surface->GetPolys()->GetCellAtId(i, corners);
+    EXPECT_EQ(corners->GetNumberOfIds(), 3);
+    triangles.push_back({ corners->GetId(0), corners->GetId(1), corners->GetId(2) });
+  }
+  return triangles;
+}
+
+inline void expectEmpty(vtkDataObject* output)
+{
+  EXPECT_EQ(output->GetNumberOfElements(vtkDataObject::POINT), 0);
+  EXPECT_EQ(output->GetNumberOfElements(vtkDataObject::CELL), 0);
+}
+
+inline void expectContains(const std::string& text, const std::string& part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 } // namespace filtertesting
-
-#endif

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef FitDefinition_h
-#define FitDefinition_h
+#pragma once
+
+#include "Clouds.h"
 
 #include "Core/Fit/LocalFit.h"
 
-#include <Eigen/QR>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <vector>
+#include <Eigen/Dense>
 
 /// Fits as docs/algorithm.md defines them in 10.2 to 10.4, written down plainly and independently
 /// of the core: least squares by Householder's QR of the whole design, residuals of samples left
@@ -22,42 +15,41 @@ namespace fitdefinition
 {
 
 using Eigen::Index;
+using isopoint::difference;
 using isopoint::FitEdge;
 using isopoint::FitOrder;
 using isopoint::FitSample;
 using isopoint::Hessian;
+using isopoint::lengthOf;
+using isopoint::scaled;
+using isopoint::sum;
 using isopoint::Vector;
-
+using Samples = std::vector<FitSample>;
 using Weights = std::vector<double>;
+using Powers = std::array<int, 3>; // of x, y, z
 
-/// The powers of x, y, z that coefficients belong to, in the order of 10.3.
-inline const std::array<std::array<int, 3>, 20>& powers()
-{
-  static const std::array<std::array<int, 3>, 20> all{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 },
-    { 0, 0, 1 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 },
-    { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 },
-    { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
-  return all;
-}
+/// The powers that coefficients belong to, in the order of 10.3.
+constexpr std::array<Powers, 20> allPowers{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+  { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 3, 0, 0 },
+  { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 }, { 1, 0, 2 },
+  { 0, 1, 2 }, { 1, 1, 1 } } };
 
 inline std::size_t countOf(int degree)
 {
   return degree == 1 ? 4 : degree == 2 ? 10 : 20;
 }
 
-/// A derivative of x^a y^b z^c: of the orders given for each axis.
-inline double derivative(
-  const std::array<int, 3>& power, const Vector& place, const std::array<int, 3>& orders)
+/// A derivative of x^a y^b z^c, of the orders given for each axis.
+inline double derivative(const Powers& powers, const Vector& place, const Powers& orders)
 {
   double result = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    int left = power[axis];
     for (int i = 0; i < orders[axis]; ++i)
     {
-      result *= left;
-      --left;
+      result *= powers[axis] - i;
     }
+    const int left = powers[axis] - orders[axis];
     result *= left > 0 ? std::pow(place[axis], left) : 1.0;
   }
   return result;
@@ -67,67 +59,66 @@ struct Polynomial
 {
   Eigen::VectorXd coefficients;
 
-  double derivativeAt(const Vector& place, const std::array<int, 3>& orders) const
+  double at(const Vector& place, const Powers& orders = { 0, 0, 0 }) const
   {
     double total = 0.0;
     for (Index i = 0; i < this->coefficients.size(); ++i)
     {
       total +=
-        this->coefficients[i] * derivative(powers()[static_cast<std::size_t>(i)], place, orders);
+        this->coefficients[i] * derivative(allPowers[static_cast<std::size_t>(i)], place, orders);
     }
     return total;
   }
 
-  double valueAt(const Vector& place) const { return this->derivativeAt(place, { 0, 0, 0 }); }
-
   Vector gradientAt(const Vector& place) const
   {
-    return { this->derivativeAt(place, { 1, 0, 0 }), this->derivativeAt(place, { 0, 1, 0 }),
-      this->derivativeAt(place, { 0, 0, 1 }) };
+    return { this->at(place, { 1, 0, 0 }), this->at(place, { 0, 1, 0 }),
+      this->at(place, { 0, 0, 1 }) };
   }
 
   Hessian hessianAt(const Vector& place) const
   {
-    return { this->derivativeAt(place, { 2, 0, 0 }), this->derivativeAt(place, { 0, 2, 0 }),
-      this->derivativeAt(place, { 0, 0, 2 }), this->derivativeAt(place, { 1, 1, 0 }),
-      this->derivativeAt(place, { 1, 0, 1 }), this->derivativeAt(place, { 0, 1, 1 }) };
+    return { this->at(place, { 2, 0, 0 }), this->at(place, { 0, 2, 0 }),
+      this->at(place, { 0, 0, 2 }), this->at(place, { 1, 1, 0 }), this->at(place, { 1, 0, 1 }),
+      this->at(place, { 0, 1, 1 }) };
   }
 };
 
 /// Rows of weighted products, one for each sample.
-inline Eigen::MatrixXd designOf(
-  const std::vector<FitSample>& samples, const Weights& weights, int degree)
+inline Eigen::MatrixXd designOf(const Samples& samples, const Weights& weights, int degree)
 {
-  Eigen::MatrixXd design(static_cast<Index>(samples.size()), static_cast<Index>(countOf(degree)));
-  for (Index row = 0; row < design.rows(); ++row)
+  Eigen::MatrixXd design(samples.size(), countOf(degree));
+  for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    const auto i = static_cast<std::size_t>(row);
-    for (Index column = 0; column < design.cols(); ++column)
+    for (std::size_t k = 0; k < countOf(degree); ++k)
     {
-      design(row, column) =
-        std::sqrt(weights[i]) *
-        derivative(powers()[static_cast<std::size_t>(column)], samples[i].position, { 0, 0, 0 });
+      design(static_cast<Index>(i), static_cast<Index>(k)) =
+        std::sqrt(weights[i]) * derivative(allPowers[k], samples[i].position, { 0, 0, 0 });
     }
   }
   return design;
 }
 
+inline Polynomial solved(const Samples& samples, const Weights& weights, int degree)
+{
+  Eigen::VectorXd values(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    values[static_cast<Index>(i)] = std::sqrt(weights[i]) * samples[i].value;
+  }
+  return { designOf(samples, weights, degree).householderQr().solve(values) };
+}
+
 /// Weighted least squares (10.3); nothing if a pivot of the normal equations is at most 1e-7 of its
 /// diagonal element: pivots are the squares of the diagonal of R.
 inline std::optional<Polynomial> leastSquares(
-  const std::vector<FitSample>& samples, const Weights& weights, int degree)
+  const Samples& samples, const Weights& weights, int degree)
 {
-  if (samples.size() < countOf(degree))
+  if (4 * samples.size() < 5 * countOf(degree))
   {
     return std::nullopt;
   }
   const Eigen::MatrixXd design = designOf(samples, weights, degree);
-  Eigen::VectorXd values(design.rows());
-  for (Index i = 0; i < values.size(); ++i)
-  {
-    const auto sample = static_cast<std::size_t>(i);
-    values[i] = std::sqrt(weights[sample]) * samples[sample].value;
-  }
   const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(design);
   for (Index i = 0; i < design.cols(); ++i)
   {
@@ -137,16 +128,10 @@ inline std::optional<Polynomial> leastSquares(
       return std::nullopt;
     }
   }
-  return Polynomial{ decomposition.solve(values) };
+  return solved(samples, weights, degree);
 }
 
-/// At least 5 K / 4 samples are required.
-inline bool areEnough(std::size_t samples, int degree)
-{
-  return 4 * samples >= 5 * countOf(degree);
-}
-
-/// sigma, and the roots of the sums of l^2 and of |l'|^2 (10.3), over the first samples.
+/// sigma, and the roots of the sums of l^2 and of |l'|^2 (10.3), over the first 16 samples.
 struct Errors
 {
   double sigma;
@@ -156,9 +141,7 @@ struct Errors
 
 /// By fitting again: without each of the first samples, and to a value of 1 there alone. Nothing if
 /// one of them alone determines a coefficient.
-/// @param counted how many samples, the first ones, are looked at
-inline std::optional<Errors> errorsOf(const std::vector<FitSample>& samples, const Weights& weights,
-  int degree, std::size_t counted = 16)
+inline std::optional<Errors> errorsOf(const Samples& samples, const Weights& weights, int degree)
 {
   double squares = 0.0;
   double weightSquares = 0.0;
@@ -167,7 +150,7 @@ inline std::optional<Errors> errorsOf(const std::vector<FitSample>& samples, con
   const Eigen::MatrixXd whole = designOf(samples, weights, degree);
   const Eigen::MatrixXd orthogonal =
     whole.householderQr().householderQ() * Eigen::MatrixXd::Identity(whole.rows(), whole.cols());
-  for (std::size_t i = 0; i < std::min(counted, samples.size()); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(16, samples.size()); ++i)
   {
     if (1.0 - orthogonal.row(static_cast<Index>(i)).squaredNorm() <= 1e-7)
     {
@@ -175,32 +158,20 @@ inline std::optional<Errors> errorsOf(const std::vector<FitSample>& samples, con
     }
     Weights others = weights;
     others[i] = 0.0;
-    const Eigen::MatrixXd design = designOf(samples, others, degree);
-    Eigen::VectorXd values(design.rows());
-    for (Index row = 0; row < values.size(); ++row)
-    {
-      const auto sample = static_cast<std::size_t>(row);
-      values[row] = std::sqrt(others[sample]) * samples[sample].value;
-    }
-    const Polynomial without{ design.householderQr().solve(values) };
-    const double residual = samples[i].value - without.valueAt(samples[i].position);
+    const double residual =
+      samples[i].value - solved(samples, others, degree).at(samples[i].position);
     squares += weights[i] * residual * weights[i] * residual;
     weightSquares += weights[i] * weights[i];
-    std::vector<FitSample> unit = samples;
+    Samples unit = samples;
     for (FitSample& sample : unit)
     {
       sample.value = &sample == &unit[i] ? 1.0 : 0.0;
     }
-    const Polynomial effect = leastSquares(unit, weights, degree).value();
-    value += effect.coefficients[0] * effect.coefficients[0];
-    slope += effect.coefficients.segment(1, 3).squaredNorm();
+    const Eigen::VectorXd effect = solved(unit, weights, degree).coefficients;
+    value += effect[0] * effect[0];
+    slope += effect.segment(1, 3).squaredNorm();
   }
   return Errors{ std::sqrt(squares / weightSquares), std::sqrt(value), std::sqrt(slope) };
-}
-
-inline double lengthOf(const Vector& a)
-{
-  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
 /// The samples of both rings in the frame of an edge (10.2): those of the first ring by distance,
@@ -208,23 +179,22 @@ inline double lengthOf(const Vector& a)
 /// ring has fewer than 16, the nearest of the second one come next.
 struct Frame
 {
+  double length; // units
+  double value;
+  double valueError;
   Vector increasing; // r
-  std::vector<FitSample> samples;
-  double h;
+  Samples samples;
+  double h = 0.0;
 
-  /// @param more what the second ring adds to the first
-  Frame(const FitEdge& edge, double isovalue, const std::vector<FitSample>& first,
-    const std::vector<FitSample>& more = {})
+  /// @param more the samples that the second ring adds to the first
+  Frame(const FitEdge& edge, double isovalue, const Samples& first, const Samples& more = {})
+    : length(unitOf(lengthOf(edge.increasing)))
+    , value(unitOf(edge.increase))
+    , valueError(edge.valueError / this->value)
+    , increasing(scaled(1.0 / this->length, edge.increasing))
   {
-    this->Length = unitOf(lengthOf(edge.increasing));
-    this->Value = unitOf(edge.increase);
-    this->ValueError = edge.valueError / this->Value;
-    this->increasing = this->placeOf(edge.increasing, {});
-    this->samples = nearestOf(this->placed(first, edge.position, isovalue), 256, true);
-    const std::vector<FitSample> added = nearestOf(this->placed(more, edge.position, isovalue),
-      256 - this->samples.size(), this->samples.size() < 16);
-    this->samples.insert(this->samples.end(), added.begin(), added.end());
-    this->h = 0.0;
+    this->addNearest(first, edge.position, isovalue, true);
+    this->addNearest(more, edge.position, isovalue, this->samples.size() < 16);
     for (const FitSample& sample : this->samples)
     {
       this->h += lengthOf(sample.position) / static_cast<double>(this->samples.size());
@@ -232,47 +202,32 @@ struct Frame
   }
 
   /// sigma, which is no less than the error of values.
-  double residualOf(const Errors& errors) const { return std::max(errors.sigma, this->ValueError); }
+  double residualOf(const Errors& errors) const { return std::max(errors.sigma, this->valueError); }
 
   Weights steep() const { return this->weights(0.1, -3); }
   Weights mild() const { return this->weights(1.0, -1); }
 
-  double lengthUnit() const { return this->Length; }
-  double valueUnit() const { return this->Value; }
-
 private:
   static double unitOf(double number) { return std::exp2(std::floor(std::log2(number))); }
 
-  Vector placeOf(const Vector& position, const Vector& origin) const
+  /// Adds the nearest samples up to 256 in all: as they are if all are added, or by distance.
+  void addNearest(const Samples& ring, const Vector& origin, double isovalue, bool areSorted)
   {
-    return { (position[0] - origin[0]) / this->Length, (position[1] - origin[1]) / this->Length,
-      (position[2] - origin[2]) / this->Length };
-  }
-
-  std::vector<FitSample> placed(
-    const std::vector<FitSample>& ring, const Vector& origin, double isovalue) const
-  {
-    std::vector<FitSample> result;
+    Samples all;
     for (const FitSample& sample : ring)
     {
-      result.push_back(
-        { this->placeOf(sample.position, origin), (sample.value - isovalue) / this->Value });
+      all.push_back({ scaled(1.0 / this->length, difference(sample.position, origin)),
+        (sample.value - isovalue) / this->value });
     }
-    return result;
-  }
-
-  /// The nearest samples: as they are if they are no more, or by their distance.
-  static std::vector<FitSample> nearestOf(
-    std::vector<FitSample> all, std::size_t count, bool areSorted)
-  {
+    const std::size_t count = std::min(all.size(), 256 - this->samples.size());
     if (areSorted || all.size() > count)
     {
       std::stable_sort(all.begin(), all.end(),
         [](const FitSample& a, const FitSample& b)
         { return lengthOf(a.position) < lengthOf(b.position); });
     }
-    all.resize(std::min(all.size(), count));
-    return all;
+    this->samples.insert(
+      this->samples.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
   Weights weights(double offset, int power) const
@@ -285,35 +240,23 @@ private:
     }
     return all;
   }
-
-  double Length;
-  double Value;
-  double ValueError;
 };
 
 inline bool contradicts(const Vector& gradient, const Vector& r)
 {
-  const double product = gradient[0] * r[0] + gradient[1] * r[1] + gradient[2] * r[2];
-  return product <= -0.2 * lengthOf(gradient) * lengthOf(r);
+  return isopoint::dot(gradient, r) <= -0.2 * lengthOf(gradient) * lengthOf(r);
 }
 
-/// Where a polynomial holds (10.3).
+/// The zero of a polynomial that holds (10.3).
 inline std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& r)
 {
-  if (contradicts(polynomial.gradientAt({}), r))
-  {
-    return std::nullopt;
-  }
   Vector place{};
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8 && !contradicts(polynomial.gradientAt({}), r); ++i)
   {
     const Vector gradient = polynomial.gradientAt(place);
     const double slope = lengthOf(gradient);
-    const double factor = -polynomial.valueAt(place) / (slope * slope);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      place[axis] += factor * gradient[axis];
-    }
+    const double factor = -polynomial.at(place) / (slope * slope);
+    place = sum(place, factor, gradient);
     if (!(lengthOf(place) <= 0.5 * lengthOf(r)))
     {
       return std::nullopt;
@@ -334,7 +277,6 @@ struct Candidate
   int degree;
   Vector zero;
   Vector gradient;
-  double move; // m
   double s;
   double a;
 };
@@ -344,16 +286,13 @@ inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& w
 {
   for (int degree = highest; degree > 1; --degree)
   {
-    const auto polynomial = areEnough(frame.samples.size(), degree)
-                              ? leastSquares(frame.samples, weights, degree)
-                              : std::nullopt;
+    const auto polynomial = leastSquares(frame.samples, weights, degree);
     const auto zero = polynomial ? zeroOf(*polynomial, frame.increasing) : std::nullopt;
     const auto errors = zero ? errorsOf(frame.samples, weights, degree) : std::nullopt;
     if (errors)
     {
-      const Vector gradient = polynomial->gradientAt(*zero);
       const double relative = frame.residualOf(*errors) / lengthOf(polynomial->gradientAt({}));
-      return Candidate{ *polynomial, degree, *zero, gradient, lengthOf(*zero),
+      return Candidate{ *polynomial, degree, *zero, polynomial->gradientAt(*zero),
         relative * errors->value, relative * errors->slope };
     }
   }
@@ -365,25 +304,17 @@ inline Weights robustWeights(const Frame& frame)
 {
   const Weights steep = frame.steep();
   Weights weights = steep;
-  if (!areEnough(frame.samples.size(), 1))
-  {
-    return weights;
-  }
   for (int round = 0; round < 2; ++round)
   {
     const auto affine = leastSquares(frame.samples, weights, 1);
-    if (!affine)
-    {
-      return weights;
-    }
     std::vector<double> residuals;
-    for (const FitSample& sample : frame.samples)
+    for (const FitSample& sample : affine ? frame.samples : Samples())
     {
-      residuals.push_back(std::abs(sample.value - affine->valueAt(sample.position)));
+      residuals.push_back(std::abs(sample.value - affine->at(sample.position)));
     }
     std::vector<double> sorted = residuals;
     std::sort(sorted.begin(), sorted.end());
-    const double c = sorted[sorted.size() / 2];
+    const double c = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
     if (c == 0.0)
     {
       return weights;
@@ -400,14 +331,12 @@ inline Weights robustWeights(const Frame& frame)
 /// The polynomial with mild weights of 10.4, step 4, unless it contradicts the edge.
 inline std::optional<Polynomial> mildPolynomial(const Frame& frame, int degree)
 {
-  const auto polynomial = areEnough(frame.samples.size(), degree)
-                            ? leastSquares(frame.samples, frame.mild(), degree)
-                            : std::nullopt;
+  const auto polynomial = leastSquares(frame.samples, frame.mild(), degree);
   return polynomial && !contradicts(polynomial->gradientAt({}), frame.increasing) ? polynomial
                                                                                   : std::nullopt;
 }
 
-/// What the rule yields, in the units of positions and values.
+/// In the units of positions and values.
 struct Result
 {
   Vector position;
@@ -416,147 +345,105 @@ struct Result
   Hessian hessian{};
   bool isSmooth = false;
   std::optional<FitOrder> order;
+
+  void setDerivatives(const Frame& frame, const Polynomial& polynomial, const Vector& place)
+  {
+    this->gradient = scaled(frame.value / frame.length, polynomial.gradientAt(place));
+    this->isGradientFitted = true;
+    this->hessian = polynomial.hessianAt(place);
+    for (double& derivative : this->hessian)
+    {
+      derivative *= frame.value / frame.length / frame.length;
+    }
+  }
+
+  /// Moves by a share of the way to a zero, whose error is s.
+  void move(const Frame& frame, const Vector& zero, double s)
+  {
+    const double m = lengthOf(zero);
+    const double share = m > 0.0 ? m * m / (m * m + 0.1 * s * s) : 1.0;
+    this->position = sum(this->position, frame.length * share, zero);
+  }
 };
 
-namespace detail
-{
-
-inline Vector positionAt(const Frame& frame, const FitEdge& edge, const Vector& place, double share)
-{
-  Vector position = edge.position;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    position[axis] += frame.lengthUnit() * share * place[axis];
-  }
-  return position;
-}
-
-inline void setGradient(const Frame& frame, const Vector& gradient, Result& result)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    result.gradient[axis] = gradient[axis] * frame.valueUnit() / frame.lengthUnit();
-  }
-  result.isGradientFitted = true;
-}
-
-inline void setHessian(const Frame& frame, const Hessian& hessian, Result& result)
-{
-  for (std::size_t i = 0; i < hessian.size(); ++i)
-  {
-    result.hessian[i] = hessian[i] * frame.valueUnit() / frame.lengthUnit() / frame.lengthUnit();
-  }
-  result.isSmooth = true;
-}
-
+/// The result of a point that stays.
 inline Result stay(const Frame& frame, const FitEdge& edge)
 {
   Result result;
   result.position = edge.position;
   const double length = lengthOf(edge.increasing);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    result.gradient[axis] = edge.increase / length * edge.increasing[axis] / length;
-  }
+  result.gradient = scaled(edge.increase / length / length, edge.increasing);
   if (const auto affine = mildPolynomial(frame, 1))
   {
-    setGradient(frame, affine->gradientAt({}), result);
+    result.setDerivatives(frame, *affine, {});
   }
   return result;
-}
-
-inline double angleBetween(const Vector& a, const Vector& b)
-{
-  double squares = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double d = a[axis] / lengthOf(a) - b[axis] / lengthOf(b);
-    squares += d * d;
-  }
-  return std::sqrt(squares); // the chord
-}
-
-/// The share of the way to its zero that a point moves.
-inline double shareOf(double m, double s)
-{
-  return m > 0.0 ? m * m / (m * m + 0.1 * s * s) : 1.0;
 }
 
 /// Step 1: the result, if it is a clear case.
 inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
 {
-  const auto quadratic = areEnough(frame.samples.size(), 2)
-                           ? leastSquares(frame.samples, frame.steep(), 2)
-                           : std::nullopt;
+  const auto quadratic = leastSquares(frame.samples, frame.steep(), 2);
   const auto errors = quadratic ? errorsOf(frame.samples, frame.steep(), 2) : std::nullopt;
   if (!errors)
   {
     return std::nullopt;
   }
   const double relative = frame.residualOf(*errors) / lengthOf(quadratic->gradientAt({}));
-  if (relative <= 0.0002 * frame.h)
+  if (relative > 0.0002 * frame.h)
   {
-    const auto zero = zeroOf(*quadratic, frame.increasing);
-    if (!zero)
-    {
-      return std::nullopt;
-    }
-    Result result;
-    result.position =
-      positionAt(frame, edge, *zero, shareOf(lengthOf(*zero), relative * errors->value));
-    setGradient(frame, quadratic->gradientAt(*zero), result);
-    setHessian(frame, quadratic->hessianAt(*zero), result);
-    result.order = FitOrder::Quadratic;
-    return result;
+    return relative * errors->slope > 1.0 ? std::optional<Result>(stay(frame, edge)) : std::nullopt;
   }
-  return relative * errors->slope > 1.0 ? std::optional<Result>(stay(frame, edge)) : std::nullopt;
-}
-
-} // namespace detail
-
-/// The polynomial of step 3 of the rule, if one holds.
-inline std::optional<Candidate> takenIn(const Frame& frame, FitOrder highest)
-{
-  const int degree = highest == FitOrder::Quadratic ? 2 : 3;
-  const auto robust = candidateOf(frame, robustWeights(frame), degree);
-  return robust ? robust : candidateOf(frame, frame.steep(), degree);
+  const auto zero = zeroOf(*quadratic, frame.increasing);
+  if (!zero)
+  {
+    return std::nullopt;
+  }
+  Result result;
+  result.position = edge.position;
+  result.move(frame, *zero, relative * errors->value);
+  result.setDerivatives(frame, *quadratic, *zero);
+  result.isSmooth = true;
+  result.order = FitOrder::Quadratic;
+  return result;
 }
 
 /// The rule (10.4) for the orders 2 and 3.
-/// @param more what the second ring adds to the first
-inline Result fit(const FitEdge& edge, double isovalue, const std::vector<FitSample>& first,
-  const std::vector<FitSample>& more, FitOrder highest)
+/// @param more the samples that the second ring adds to the first
+inline Result fit(
+  const FitEdge& edge, double isovalue, const Samples& first, const Samples& more, FitOrder highest)
 {
-  if (const auto clear = detail::clearCase(Frame(edge, isovalue, first), edge))
+  if (const auto clear = clearCase(Frame(edge, isovalue, first), edge))
   {
     return *clear;
   }
   const Frame frame(edge, isovalue, first, more);
-  const std::optional<Candidate> taken = takenIn(frame, highest);
+  const int most = highest == FitOrder::Quadratic ? 2 : 3;
+  const auto robust = candidateOf(frame, robustWeights(frame), most);
+  const auto taken = robust ? robust : candidateOf(frame, frame.steep(), most);
   if (!taken)
   {
-    return detail::stay(frame, edge);
+    return stay(frame, edge);
   }
   Result result;
-  result.position =
-    detail::positionAt(frame, edge, taken->zero, detail::shareOf(taken->move, taken->s));
+  result.position = edge.position;
+  result.move(frame, taken->zero, taken->s);
   result.order = static_cast<FitOrder>(taken->degree);
   for (const int degree : { 1, 2 })
   {
     const auto mild = mildPolynomial(frame, degree);
-    if (mild && detail::angleBetween(mild->gradientAt({}), taken->gradient) < 2.0 * taken->a)
+    const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
+    if (mild && lengthOf(difference(isopoint::directionOf(gradient),
+                  isopoint::directionOf(taken->gradient))) < 2.0 * taken->a) // the chord
     {
-      detail::setGradient(frame, mild->gradientAt({}), result);
-      detail::setHessian(frame, mild->hessianAt({}), result);
+      result.setDerivatives(frame, *mild, {});
       result.isSmooth = degree > 1;
       return result;
     }
   }
-  detail::setGradient(frame, taken->gradient, result);
-  detail::setHessian(frame, taken->polynomial.hessianAt(taken->zero), result);
+  result.setDerivatives(frame, taken->polynomial, taken->zero);
+  result.isSmooth = true;
   return result;
 }
 
 } // namespace fitdefinition
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef IsopointTesting_h
-#define IsopointTesting_h
+#pragma once
 
 #include "BruteForce.h"
 
@@ -31,5 +30,3 @@ inline void expectSameIsopoints(const std::vector<bruteforce::Isopoint>& expecte
 }
 
 } // namespace isopointtesting
-
-#endif

@@ -1,74 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints a hash of all that the core yields for each of several clouds and requests. What it prints
-// is to be the same for all compilers, libraries and processors: Utilities/compile_elsewhere.sh.
-// Fields are polynomials and their maxima, which no library of functions takes part in.
-#include "Random.h"
+// Prints a hash of all that the core yields for each of several clouds and requests. The output is
+// the same for all compilers, libraries and processors: Utilities/compile_elsewhere.sh. So fields
+// are polynomials and their maxima, without functions of libraries.
+#include "Clouds.h"
 
-#include "Core/IsosurfaceExtractor.h"
-
-#include <algorithm>
-#include <array>
 #include <cinttypes>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <optional>
-#include <type_traits>
-#include <vector>
 
 namespace
 {
 
+using clouds::Cloud;
 using isopoint::FitOrder;
 using isopoint::Vector;
 
-using Field = double (*)(double x, double y, double z);
-
-double smooth(double x, double y, double z)
+double smooth(const Vector& p)
 {
+  const auto& [x, y, z] = p;
   return x * x + 0.7 * y * y + z * z * z - x * y * z - 0.06;
 }
 
-double sharp(double x, double y, double z)
+double sharp(const Vector& p)
 {
-  return std::max({ std::abs(x), std::abs(y), std::abs(z) }) - 0.3;
+  return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 0.3;
 }
 
-/// Around the origin.
-struct Cloud
-{
-  std::vector<Vector> positions;
-  std::vector<double> values;
-
-  void add(const Vector& position, Field field)
-  {
-    this->positions.push_back(position);
-    this->values.push_back(field(position[0], position[1], position[2]));
-  }
-};
-
-Cloud randomCloud(Field field)
+Cloud randomCloud(double (*field)(const Vector&))
 {
   clouds::Random random(7);
   Cloud cloud;
   for (int i = 0; i < 6000; ++i)
   {
-    const double x = random() - 0.5;
-    const double y = random() - 0.5;
-    cloud.add({ x, y, random() - 0.5 }, field);
+    const Vector p = random.inCube(1.0);
+    cloud.add(p, field(p));
   }
   return cloud;
 }
 
-Cloud lattice(Field field)
+Cloud lattice(double (*field)(const Vector&))
 {
   constexpr int side = 17;
   Cloud cloud;
   for (int i = 0; i < side * side * side; ++i)
   {
-    cloud.add(
-      { (i % side - 8) / 16.0, (i / side % side - 8) / 16.0, (i / side / side - 8) / 16.0 }, field);
+    const Vector p{ (i % side - 8) / 16.0, (i / side % side - 8) / 16.0,
+      (i / side / side - 8) / 16.0 };
+    cloud.add(p, field(p));
   }
   return cloud;
 }
@@ -150,37 +127,22 @@ std::uint64_t hashOf(const isopoint::ExtractedIsosurface& found)
 template <class TCoordinate, class TValue>
 void print(const char* name, const Cloud& cloud)
 {
-  constexpr std::array names{ "linear", "quadratic", "cubic", "crease" };
-  const isopoint::Execution execution;
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<TCoordinate, TValue>(execution, cloud.values.size(),
-    [&cloud](std::size_t id, auto* position, auto& value)
-    {
-      std::copy(cloud.positions[id].begin(), cloud.positions[id].end(), position);
-      value = static_cast<std::decay_t<decltype(value)>>(cloud.values[id]);
-      return true;
-    });
-  for (const std::optional<FitOrder> order : { std::optional<FitOrder>(),
-         std::optional(FitOrder::Linear), std::optional(FitOrder::Quadratic),
-         std::optional(FitOrder::Cubic), std::optional(FitOrder::Crease) })
+  constexpr std::array names{ "no fit", "linear", "quadratic", "cubic", "crease" };
+  constexpr std::array kinds{ "splats", "triangles", "regularized triangles" };
+  isopoint::IsosurfaceExtractor extractor = clouds::loaded<TCoordinate, TValue>(cloud);
+  for (std::size_t i = 0; i < names.size() * kinds.size(); ++i)
   {
-    constexpr std::array kinds{ "splats", "triangles", "regularized triangles" };
-    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
-    {
-      isopoint::ExtractionRequest request;
-      request.isosurface.isovalue = 0.0;
-      request.isosurface.dropsGaps = true;
-      request.isosurface.fit =
-        order ? std::optional(isopoint::FitRequest{ *order, true }) : std::nullopt;
-      request.isosurface.partsCreases = order == FitOrder::Crease;
-      request.splats = isopoint::SplatOptions();
-      request.triangles = kind > 0;
-      request.isosurface.regularizes = kind > 1;
-      const isopoint::ExtractedIsosurface found = extractor.extract(execution, request);
-      std::printf("%s %s %s: %zu points, %zu triangles, %016" PRIx64 "\n", name,
-        order ? names[static_cast<std::size_t>(*order) - 1] : "no fit", kinds[kind],
-        found.surface.size(), found.triangles.size(), hashOf(found));
-    }
+    const std::size_t kind = i % kinds.size();
+    const auto order = static_cast<FitOrder>(i / kinds.size());
+    isopoint::ExtractionRequest request = clouds::withSplats(clouds::requestOf(
+      0.0, i < kinds.size() ? std::nullopt : std::optional<FitOrder>(order), true));
+    request.isosurface.partsCreases = order == FitOrder::Crease;
+    request.triangles = kind > 0;
+    request.isosurface.regularizes = kind > 1;
+    const isopoint::ExtractedIsosurface found = extractor.extract({}, request);
+    std::printf("%s %s %s: %zu points, %zu triangles, %016" PRIx64 "\n", name,
+      names[i / kinds.size()], kinds[kind], found.surface.size(), found.triangles.size(),
+      hashOf(found));
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef Random_h
-#define Random_h
+#pragma once
 
+#include <array>
 #include <cstdint>
 #include <random>
 
@@ -19,10 +19,17 @@ public:
 
   double operator()() { return static_cast<double>(this->Generator() >> 11) * 0x1p-53; }
 
+  /// A position in the unit cube.
+  std::array<double, 3> place() { return { (*this)(), (*this)(), (*this)() }; }
+
+  /// A position in a cube around the origin.
+  std::array<double, 3> inCube(double side)
+  {
+    return { side * ((*this)() - 0.5), side * ((*this)() - 0.5), side * ((*this)() - 0.5) };
+  }
+
 private:
   std::mt19937_64 Generator;
 };
 
 } // namespace clouds
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RandomClouds_h
-#define RandomClouds_h
+#pragma once
 
 #include "Clouds.h"
 
@@ -73,5 +72,3 @@ inline std::uint64_t numberFrom(const char* name, std::uint64_t usual)
 }
 
 } // namespace clouds
-
-#endif

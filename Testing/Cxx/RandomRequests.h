@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RandomRequests_h
-#define RandomRequests_h
+#pragma once
 
 #include "RandomClouds.h"
 
@@ -43,5 +42,3 @@ inline isopoint::ExtractionRequest randomRequest(Dice& dice)
 }
 
 } // namespace clouds
-
-#endif

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RankTesting_h
-#define RankTesting_h
+#pragma once
 
 #include "Clouds.h"
 #include "ThreadRanks.h"
 
-#include "Core/Base/Team.h"
-#include "Core/IsosurfaceExtractor.h"
-
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstring>
-#include <string>
-#include <vector>
 
 namespace ranks
 {
+
+using Extracted = isopoint::ExtractedIsosurface;
+using Request = isopoint::ExtractionRequest;
 
 /// Clouds of every kind, of up to a few thousand samples.
 inline std::vector<clouds::Cloud> variousClouds()
@@ -30,7 +23,7 @@ inline std::vector<clouds::Cloud> variousClouds()
     clouds::layerBeforeOne(900, 11) };
 }
 
-/// How a cloud is dealt out. Ids count through the ranks: the cloud of one process is that of all
+/// How a cloud is dealt out. Ids count through the ranks: the cloud of one rank is that of all
 /// ranks in their order.
 enum class Deal
 {
@@ -42,13 +35,14 @@ enum class Deal
   Spatial     // by x
 };
 
-constexpr Deal allDeals[] = { Deal::Even, Deal::RoundRobin, Deal::First, Deal::Last, Deal::Skewed,
-  Deal::Spatial };
+const std::vector<Deal> allDeals{ Deal::Even, Deal::RoundRobin, Deal::First, Deal::Last,
+  Deal::Skewed, Deal::Spatial };
 
 inline std::size_t rankOf(
   const clouds::Cloud& cloud, std::size_t sample, std::size_t size, Deal deal)
 {
   const std::size_t count = cloud.size();
+  std::size_t rank = 0;
   switch (deal)
   {
     case Deal::Even:
@@ -60,21 +54,15 @@ inline std::size_t rankOf(
     case Deal::Last:
       return size - 1;
     case Deal::Skewed:
-    {
-      std::size_t rank = 0;
       for (std::size_t left = count / 2; sample > left && rank + 1 < size;
            left += (count - left) / 2)
       {
         ++rank;
       }
       return rank;
-    }
     default:
-    {
-      const double x = 4.0 * cloud.positions[3 * sample];
-      const auto slab = static_cast<std::size_t>(std::abs(std::floor(std::clamp(x, -1e6, 1e6))));
-      return slab % size;
-    }
+      const double slab = std::floor(std::clamp(4.0 * cloud.at(sample)[0], -1e6, 1e6));
+      return static_cast<std::size_t>(std::abs(slab)) % size;
   }
 }
 
@@ -83,9 +71,7 @@ inline std::vector<clouds::Cloud> dealOut(const clouds::Cloud& cloud, std::size_
   std::vector<clouds::Cloud> pieces(size);
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
-    const double* const position = cloud.positions.data() + 3 * i;
-    pieces[rankOf(cloud, i, size, deal)].add(
-      position[0], position[1], position[2], cloud.values[i]);
+    pieces[rankOf(cloud, i, size, deal)].add(cloud.at(i), cloud.values[i]);
   }
   return pieces;
 }
@@ -102,69 +88,51 @@ inline clouds::Cloud concatenated(const std::vector<clouds::Cloud>& pieces)
 }
 
 /// All that is known of one isopoint, as text to compare: every number by its bits.
-inline std::string described(const isopoint::ExtractedIsosurface& extracted, std::size_t i)
+inline std::string described(const Extracted& extracted, std::size_t i)
 {
   std::string text;
-  const auto put = [&text](const auto& value)
-  { text.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  const auto put = [&text](const auto&... values)
+  { (text.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...); };
   const isopoint::Isosurface& surface = extracted.surface;
-  for (std::size_t edge = surface.edgeBegin(i); edge < surface.edgeBegin(i + 1); ++edge)
+  put(surface.positions[i], surface.decreasingEdges[i]);
+  for (std::size_t k = surface.edgeBegin(i); k < surface.edgeBegin(i + 1); ++k)
   {
-    put(surface.edges[edge].first);
-    put(surface.edges[edge].second);
-    put(surface.edges[edge].parameter);
+    const isopoint::IsopointEdge& edge = surface.edges[k];
+    put(edge.first, edge.second, edge.parameter);
+    for (const std::uint64_t id : { edge.first, edge.second })
+    {
+      if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))
+      {
+        text.append("coincident");
+        std::for_each(group->ids.begin(), group->ids.end(), put);
+      }
+    }
   }
-  put(surface.positions[i]);
-  put(surface.decreasingEdges[i]);
-  const auto putPlane = [&](const isopoint::CreasePlane& plane)
-  {
-    put(plane.inward);
-    put(plane.distance);
-    put(plane.turn);
-  };
   if (!surface.fits.empty())
   {
     const isopoint::LocalFit& fit = surface.fits[i];
-    put(fit.position);
-    put(fit.gradient);
-    put(fit.isGradientFitted);
-    put(fit.hessian);
-    put(fit.isSmooth);
-    put(fit.spacing);
-    put(fit.order ? static_cast<int>(*fit.order) : 0);
-    std::for_each(fit.creases.begin(), fit.creases.end(), putPlane);
+    put(fit.position, fit.gradient, fit.isGradientFitted, fit.hessian, fit.isSmooth, fit.spacing,
+      fit.order ? static_cast<int>(*fit.order) : 0);
+    for (const isopoint::CreasePlane& plane : fit.creases)
+    {
+      put(plane.inward, plane.distance, plane.turn);
+    }
   }
   if (!extracted.splats.empty())
   {
     const isopoint::Splat& splat = extracted.splats[i];
-    put(splat.normal);
-    put(splat.radius);
-    put(splat.axis);
-    put(splat.corners);
+    put(splat.normal, splat.radius, splat.axis, splat.corners);
   }
   if (!extracted.normals.empty())
   {
     put(extracted.normals[i]);
-  }
-  for (std::size_t end = 2 * surface.edgeBegin(i); end < 2 * surface.edgeBegin(i + 1); ++end)
-  {
-    const isopoint::IsopointEdge& edge = surface.edges[end / 2];
-    const std::uint64_t id = end % 2 == 0 ? edge.first : edge.second;
-    if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))
-    {
-      text.append("coincident");
-      for (const std::uint64_t other : group->ids)
-      {
-        put(other);
-      }
-    }
   }
   return text;
 }
 
 using Description = std::vector<std::string>;
 
-inline Description described(const isopoint::ExtractedIsosurface& extracted)
+inline Description described(const Extracted& extracted)
 {
   Description all;
   for (std::size_t i = 0; i < extracted.surface.size(); ++i)
@@ -172,6 +140,53 @@ inline Description described(const isopoint::ExtractedIsosurface& extracted)
     all.push_back(described(extracted, i));
   }
   return all;
+}
+
+/// Each triangle by all that is known of its vertices, in order.
+inline Description describedTriangles(const Extracted& extracted)
+{
+  const Description vertices = described(extracted);
+  Description all;
+  for (const auto& [a, b, c] : extracted.triangles)
+  {
+    all.push_back(vertices[a] + vertices[b] + vertices[c]);
+  }
+  return all;
+}
+
+/// The points that are counted, and the triangles, of several ranks: each kind ordered.
+inline std::pair<Description, Description> contentsOf(const std::vector<Extracted>& ranks)
+{
+  Description points;
+  Description triangles;
+  for (const Extracted& rank : ranks)
+  {
+    for (std::size_t i = 0; i < rank.surface.size(); ++i)
+    {
+      if (rank.areElsewhere.empty() || !rank.areElsewhere[i])
+      {
+        points.push_back(described(rank, i));
+      }
+    }
+    const Description own = describedTriangles(rank);
+    triangles.insert(triangles.end(), own.begin(), own.end());
+  }
+  std::sort(points.begin(), points.end());
+  std::sort(triangles.begin(), triangles.end());
+  return { points, triangles };
+}
+
+/// Does work on ranks that are threads: work(processes) on each of them.
+template <class Work>
+void onRanks(std::size_t size, const Work& work)
+{
+  ThreadRanks threads(static_cast<int>(size));
+  threads.run(
+    [&](isopoint::Communicator& communicator)
+    {
+      isopoint::ProcessGroup processes(communicator);
+      processes.together([&]() { work(processes, static_cast<std::size_t>(processes.rank())); });
+    });
 }
 
 /// Whether the values are there from the beginning, or replace others after an extraction.
@@ -191,36 +206,22 @@ inline clouds::Cloud withOtherValues(clouds::Cloud cloud)
   return cloud;
 }
 
-/// Does work on ranks that are threads: work(team) on each of them.
-template <class Work>
-void onRanks(std::size_t size, const Work& work)
-{
-  ThreadRanks threads(static_cast<int>(size));
-  threads.run(
-    [&](isopoint::Communicator& communicator)
-    {
-      isopoint::Team team(communicator);
-      team.together([&]() { work(team); });
-    });
-}
-
-/// Extracts, one after the other, on ranks that are threads. @returns the points of all ranks, by
-/// request
+/// Extracts, one after the other, on ranks that are threads.
+/// @returns by request what each rank has
 template <class TCoordinate = double, class TValue = double>
-std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces,
-  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1,
-  Values values = Values::Loaded)
+std::vector<std::vector<Extracted>> extractOnRanks(const std::vector<clouds::Cloud>& pieces,
+  const std::vector<Request>& requests, std::size_t threads = 1, Values values = Values::Loaded)
 {
-  std::vector<Description> all(requests.size());
-  std::mutex mutex;
+  std::vector<std::vector<Extracted>> all(requests.size(), std::vector<Extracted>(pieces.size()));
   onRanks(pieces.size(),
-    [&](isopoint::Team& team)
+    [&](isopoint::ProcessGroup& processes, std::size_t rank)
     {
-      const clouds::Cloud& piece = pieces[static_cast<std::size_t>(team.rank())];
+      const clouds::Cloud& piece = pieces[rank];
       const isopoint::Execution execution = clouds::executionOn(threads);
       isopoint::IsosurfaceExtractor extractor;
       const clouds::Cloud first = values == Values::Loaded ? piece : withOtherValues(piece);
-      extractor.load<TCoordinate, TValue>(execution, team, first.size(), clouds::readerOf(first));
+      extractor.load<TCoordinate, TValue>(
+        execution, processes, first.size(), clouds::readerOf(first));
       if (values == Values::Replaced)
       {
         extractor.extract(execution, requests.front());
@@ -230,68 +231,41 @@ std::vector<Description> extractOnRanks(const std::vector<clouds::Cloud>& pieces
       }
       for (std::size_t i = 0; i < requests.size(); ++i)
       {
-        const isopoint::ExtractedIsosurface extracted = extractor.extract(execution, requests[i]);
-        // Vertices on creases of triangles follow behind all others.
-        EXPECT_TRUE(requests[i].triangles ||
-                    std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end()));
-        const Description own = described(extracted);
-        const std::lock_guard<std::mutex> lock(mutex);
-        all[i].insert(all[i].end(), own.begin(), own.end());
+        all[i][rank] = extractor.extract(execution, requests[i]);
       }
     });
   return all;
 }
 
-/// What one rank has, and its ghosts.
-struct RankPoints
-{
-  isopoint::ExtractedIsosurface own;
-  isopoint::ExtractedIsosurface ghosts;
-};
-
-/// Extracts with ghosts, on ranks that are threads. @returns what each rank has
-inline std::vector<RankPoints> extractWithGhosts(
-  const std::vector<clouds::Cloud>& pieces, const isopoint::ExtractionRequest& request)
-{
-  std::vector<RankPoints> all(pieces.size());
-  onRanks(pieces.size(),
-    [&](isopoint::Team& team)
-    {
-      const auto rank = static_cast<std::size_t>(team.rank());
-      isopoint::IsosurfaceExtractor extractor;
-      extractor.load<double, double>(
-        isopoint::Execution(), team, pieces[rank].size(), clouds::readerOf(pieces[rank]));
-      all[rank].own = extractor.extract(isopoint::Execution(), request, &all[rank].ghosts);
-    });
-  return all;
-}
-
+/// Expects the points and triangles of one rank on several, each once and in order.
 template <class TCoordinate = double, class TValue = double>
-void expectSameAsOneProcess(const clouds::Cloud& cloud, int size, Deal deal,
-  const std::vector<isopoint::ExtractionRequest>& requests, std::size_t threads = 1,
-  Values values = Values::Loaded)
+void expectSameAsOneRank(const clouds::Cloud& cloud, std::size_t size, Deal deal,
+  const std::vector<Request>& requests, std::size_t threads = 1, Values values = Values::Loaded)
 {
-  const std::vector<clouds::Cloud> pieces = dealOut(cloud, static_cast<std::size_t>(size), deal);
-  const clouds::Cloud all = concatenated(pieces);
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<TCoordinate, TValue>(isopoint::Execution(), all.size(), clouds::readerOf(all));
-  std::vector<Description> found =
-    extractOnRanks<TCoordinate, TValue>(pieces, requests, threads, values);
+  const std::vector<clouds::Cloud> pieces = dealOut(cloud, size, deal);
+  auto extractor = clouds::loaded<TCoordinate, TValue>(concatenated(pieces));
+  const auto found = extractOnRanks<TCoordinate, TValue>(pieces, requests, threads, values);
   for (std::size_t i = 0; i < requests.size(); ++i)
   {
-    Description expected = described(extractor.extract(isopoint::Execution(), requests[i]));
-    std::sort(expected.begin(), expected.end());
-    std::sort(found[i].begin(), found[i].end());
-    ASSERT_EQ(expected.size(), found[i].size()) << "request " << i;
-    std::size_t differing = 0;
-    for (std::size_t point = 0; point < expected.size(); ++point)
+    SCOPED_TRACE(
+      testing::Message() << size << " ranks, deal " << static_cast<int>(deal) << ", request " << i);
+    const auto [expectedPoints, expectedTriangles] =
+      contentsOf({ extractor.extract({}, requests[i]) });
+    const auto [points, triangles] = contentsOf(found[i]);
+    ASSERT_EQ(points.size(), expectedPoints.size());
+    ASSERT_TRUE(points == expectedPoints);
+    ASSERT_EQ(triangles.size(), expectedTriangles.size());
+    ASSERT_TRUE(triangles == expectedTriangles);
+    for (const Extracted& rank : found[i])
     {
-      differing += expected[point] != found[i][point] ? 1 : 0;
+      EXPECT_TRUE(std::is_sorted(rank.triangles.begin(), rank.triangles.end()));
+      EXPECT_EQ(rank.ghostTriangles, 0u);
+      EXPECT_EQ(rank.areElsewhere.size(), requests[i].triangles ? rank.surface.size() : 0u);
+      // Vertices on creases of triangles follow behind all others.
+      EXPECT_TRUE(requests[i].triangles ||
+                  std::is_sorted(rank.surface.edges.begin(), rank.surface.edges.end()));
     }
-    ASSERT_EQ(0u, differing) << "of " << expected.size() << ", request " << i;
   }
 }
 
 } // namespace ranks
-
-#endif

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RingDefinition_h
-#define RingDefinition_h
+#pragma once
 
 #include "BruteForce.h"
 
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <utility>
-#include <vector>
 
 /// The samples around edges, and their spacing, as docs/algorithm.md defines them in 10.1: from all
 /// pairs of cells, independently of the core. Quadratic.
@@ -112,26 +103,22 @@ private:
     const auto offsetTo = [&](std::size_t cell)
     { return bruteforce::difference(this->All[cell].position, this->All[end].position); };
     const auto distanceTo = [&](std::size_t cell) { return isopoint::lengthOf(offsetTo(cell)); };
+    const auto towards = [&](std::size_t cell) { return isopoint::directionOf(offsetTo(cell)); };
     std::stable_sort(taken.begin(), taken.end(),
       [&](std::size_t a, std::size_t b) { return distanceTo(a) < distanceTo(b); });
     const std::size_t rank = 2 * (taken.size() + 1) / 5;
     const double usual = rank > 0 ? distanceTo(taken[rank - 1]) : 0.0;
-    const auto first = isopoint::directionOf(offsetTo(taken[0]));
+    const auto first = towards(taken[0]);
     const auto second = std::find_if(taken.begin() + 1, taken.end(),
       [&](std::size_t cell)
-      {
-        return std::abs(isopoint::dot(isopoint::directionOf(offsetTo(cell)), first)) <
-               0.86602540378443865;
-      });
+      { return std::abs(isopoint::dot(towards(cell), first)) < 0.86602540378443865; });
     if (second == taken.end())
     {
       return usual;
     }
-    const auto normal =
-      isopoint::directionOf(isopoint::cross(isopoint::directionOf(offsetTo(*second)), first));
+    const auto normal = isopoint::directionOf(isopoint::cross(towards(*second), first));
     const auto third = std::find_if(second + 1, taken.end(),
-      [&](std::size_t cell)
-      { return std::abs(isopoint::dot(isopoint::directionOf(offsetTo(cell)), normal)) > 0.5; });
+      [&](std::size_t cell) { return std::abs(isopoint::dot(towards(cell), normal)) > 0.5; });
     return third == taken.end() ? usual : std::min(usual, 1.2 * distanceTo(*third));
   }
 
@@ -162,11 +149,8 @@ private:
   {
     const std::vector<bool>& one = this->All[a].path;
     const std::vector<bool>& other = this->All[b].path;
-    const std::size_t count = std::min(one.size(), other.size());
     return static_cast<std::size_t>(
-      std::mismatch(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin())
-        .first -
-      one.begin());
+      std::mismatch(one.begin(), one.end(), other.begin(), other.end()).first - one.begin());
   }
 
   /// By the ancestor whose plane is between, the nearest first, and then by the order of the tree.
@@ -230,7 +214,9 @@ private:
     return bruteforce::dot(diagonal, diagonal) < 0.2 * 0.2 * bruteforce::dot(nearest, nearest);
   }
 
-  void addRepresentatives(std::size_t cell, const Node& node, Cells& found) const
+  /// @param isOne whether only the first cell that touches is wanted
+  void addRepresentatives(
+    std::size_t cell, const Node& node, Cells& found, bool isOne = false) const
   {
     if (node.end - node.begin == 1)
     {
@@ -240,24 +226,14 @@ private:
     const auto [lower, upper] = this->childrenOf(node);
     const bool touchesLower = this->touches(cell, lower);
     const bool touchesUpper = this->touches(cell, upper);
-    if (touchesLower && touchesUpper && this->isSmall(cell, node))
-    {
-      Node leaf = node;
-      while (leaf.end - leaf.begin > 1)
-      {
-        const auto [low, up] = this->childrenOf(leaf);
-        leaf = this->touches(cell, low) ? low : up;
-      }
-      found.push_back(leaf.begin);
-      return;
-    }
     if (touchesLower)
     {
-      this->addRepresentatives(cell, lower, found);
+      this->addRepresentatives(
+        cell, lower, found, isOne || (touchesUpper && this->isSmall(cell, node)));
     }
-    if (touchesUpper)
+    if (touchesUpper && !(touchesLower && (isOne || this->isSmall(cell, node))))
     {
-      this->addRepresentatives(cell, upper, found);
+      this->addRepresentatives(cell, upper, found, isOne);
     }
   }
 
@@ -290,5 +266,3 @@ private:
 };
 
 } // namespace ringdefinition
-
-#endif

@@ -9,54 +9,32 @@ namespace
 
 using analytic::difference;
 using analytic::dot;
-using analytic::Foot;
 using analytic::length;
 using analytic::sum;
-using analytic::Surface;
 using analytic::Vector;
 
-constexpr double separation = 0.08;
-
-class Random : public clouds::Random
-{
-public:
-  using clouds::Random::Random;
-
-  Vector inCube(double halfSide)
-  {
-    const double x = (*this)() - 0.5;
-    const double y = (*this)() - 0.5;
-    const double z = (*this)() - 0.5;
-    return { 2.0 * halfSide * x, 2.0 * halfSide * y, 2.0 * halfSide * z };
-  }
-};
-
-std::vector<Vector> pointsOf(const Surface& surface, std::size_t count)
-{
-  return randomSurfacePoints(surface, count, 1.0, 3);
-}
+const std::vector<analytic::Surface> surfaces = analytic::allSurfaces(0.04);
 
 } // namespace
 
 TEST(AnalyticFields, GradientsEqualDifferencesOfValues)
 {
-  constexpr double step = 1e-6;
-  for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
+  for (const analytic::Surface& surface : surfaces)
   {
     SCOPED_TRACE(surface.name);
-    Random random(1);
+    constexpr double step = 1e-6;
+    clouds::Random random(1);
     for (int i = 0; i < 2000; ++i)
     {
-      const Vector p = random.inCube(1.0);
+      const Vector p = random.inCube(2.0);
       const Vector gradient = surface.gradient(p);
       Vector found;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        Vector ahead = p;
-        Vector behind = p;
-        ahead[axis] += step;
-        behind[axis] -= step;
-        found[axis] = (surface.value(ahead) - surface.value(behind)) / (2.0 * step);
+        Vector offset{};
+        offset[axis] = step;
+        found[axis] =
+          (surface.value(sum(p, offset)) - surface.value(difference(p, offset))) / (2.0 * step);
       }
       ASSERT_LT(length(difference(found, gradient)), 1e-6 * (1.0 + length(gradient)));
     }
@@ -65,10 +43,10 @@ TEST(AnalyticFields, GradientsEqualDifferencesOfValues)
 
 TEST(AnalyticFields, SurfacePointsHaveTheIsovalueAndAreTheirOwnFeet)
 {
-  for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
+  for (const analytic::Surface& surface : surfaces)
   {
     SCOPED_TRACE(surface.name);
-    for (const Vector& p : pointsOf(surface, 5000))
+    for (const Vector& p : randomSurfacePoints(surface, 5000, 1.0, 3))
     {
       ASSERT_NEAR(surface.value(p), surface.isovalue, 1e-12);
       ASSERT_LT(surface.footOf(p).distance, 1e-8);
@@ -78,19 +56,19 @@ TEST(AnalyticFields, SurfacePointsHaveTheIsovalueAndAreTheirOwnFeet)
 
 TEST(AnalyticFields, FeetLieOnTheSurfaceAndNormalsPointToDecreasingValues)
 {
-  for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
+  for (const analytic::Surface& surface : surfaces)
   {
     SCOPED_TRACE(surface.name);
-    Random random(2);
+    clouds::Random random(2);
     for (int i = 0; i < 2000; ++i)
     {
-      const Vector p = random.inCube(1.0);
-      const Foot foot = surface.footOf(p);
+      const Vector p = random.inCube(2.0);
+      const analytic::Foot foot = surface.footOf(p);
       const Vector way = difference(p, foot.point);
       ASSERT_NEAR(surface.value(foot.point), surface.isovalue, 1e-9);
       ASSERT_NEAR(foot.distance, length(way), 1e-12);
       ASSERT_FALSE(foot.normals.empty());
-      Vector inwards{ 0.0, 0.0, 0.0 };
+      Vector inwards{};
       for (const Vector& normal : foot.normals)
       {
         ASSERT_NEAR(length(normal), 1.0, 1e-12);
@@ -112,18 +90,18 @@ TEST(AnalyticFields, FeetLieOnTheSurfaceAndNormalsPointToDecreasingValues)
 
 TEST(AnalyticFields, FeetAreTheNearestPointsOfTheSurface)
 {
-  constexpr double beyond = 1.6; // feet may lie outside of the cube
-  for (const Surface& surface : analytic::allSurfaces(0.5 * separation))
+  for (const analytic::Surface& surface : surfaces)
   {
     SCOPED_TRACE(surface.name);
-    const std::vector<Vector> dense = randomSurfacePoints(surface, 30000, beyond, 4);
-    Random random(3);
+    // Feet may lie outside of the cube.
+    const std::vector<Vector> dense = randomSurfacePoints(surface, 30000, 1.6, 4);
+    clouds::Random random(3);
     double largestExcess = 0.0;
     for (int i = 0; i < 300; ++i)
     {
       // Half of the positions anywhere, half near the surface.
-      Vector p = i % 2 ? random.inCube(1.0) : dense[97 * static_cast<std::size_t>(i)];
-      p = sum(p, random.inCube(0.04));
+      Vector p = i % 2 ? random.inCube(2.0) : dense[97 * static_cast<std::size_t>(i)];
+      p = sum(p, random.inCube(0.08));
       double nearest = 10.0;
       for (const Vector& q : dense)
       {

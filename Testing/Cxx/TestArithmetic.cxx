@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arithmetic that is the same to the last bit for all compilers and libraries.
-#include "Random.h"
+#include "Clouds.h"
 
 #include "Core/Base/Cosine.h"
 #include "Core/Base/Hash.h"
@@ -8,13 +8,6 @@
 #include "Core/Fit/Lanes.h"
 
 #include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <set>
-#include <vector>
 
 namespace
 {
@@ -35,13 +28,11 @@ std::vector<double> calculate(const std::array<double, 8>& a, const std::array<d
   for (const Eight& result : { first + second, first - second, first * second, first / second,
          2.0 - first * second / (first + second) })
   {
-    for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      results.push_back(result[i]);
-    }
-    results.push_back(sumOfSquares(result));
     std::array<double, 8> stored;
     result.store(stored.data());
+    results.insert(results.end(), stored.begin(), stored.end());
+    results.push_back(result[3]);
+    results.push_back(sumOfSquares(result));
     results.push_back(sumOf(Four::load(stored.data() + 2)));
   }
   return results;
@@ -56,11 +47,8 @@ TEST(Arithmetic, LanesAreThoseOfPlainNumbers)
   {
     std::array<double, 8> a;
     std::array<double, 8> b;
-    for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      a[i] = random() - 0.5;
-      b[i] = std::ldexp(random() - 0.5, round % 40);
-    }
+    std::generate(a.begin(), a.end(), [&]() { return random() - 0.5; });
+    std::generate(b.begin(), b.end(), [&]() { return std::ldexp(random() - 0.5, round % 40); });
     EXPECT_EQ(calculate<isopoint::RegisterPair>(a, b), calculate<isopoint::PlainPair>(a, b));
   }
 }
@@ -86,10 +74,12 @@ TEST(Arithmetic, CosinesAreRoundedToNearest)
   EXPECT_EQ(cosineOf(0.0), 1.0);
   EXPECT_EQ(cosineOf(pi), -1.0);
   // By exact rational numbers: within 0.0003 units of the last place of the middle of two doubles.
-  EXPECT_EQ(cosineOf(10.084 * pi / 180.0), 0.9845521132153076);
-  EXPECT_EQ(cosineOf(16.352 * pi / 180.0), 0.9595501716964175);
-  EXPECT_EQ(cosineOf(17.235 * pi / 180.0), 0.9550975461310681);
-  EXPECT_EQ(cosineOf(18.463 * pi / 180.0), 0.9485283638628962);
+  for (const auto& [degrees, cosine] :
+    { std::pair(10.084, 0.9845521132153076), std::pair(16.352, 0.9595501716964175),
+      std::pair(17.235, 0.9550975461310681), std::pair(18.463, 0.9485283638628962) })
+  {
+    EXPECT_EQ(cosineOf(degrees * pi / 180.0), cosine);
+  }
   EXPECT_NEAR(cosineOf(pi / 2.0), 6.123233995736766e-17, 0x1p-99);
   for (int tenths = 0; tenths <= 1800; ++tenths)
   {

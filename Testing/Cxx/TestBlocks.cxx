@@ -2,38 +2,44 @@
 // Composite data: all blocks as one cloud, or each separately.
 #include "InputTesting.h"
 
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkTable.h"
+
 using namespace inputtesting;
 
 namespace
 {
 
+using Blocks = std::vector<vtkSmartPointer<vtkDataSet>>;
+
 /// Adjacent blocks of several kinds: the points of shared faces are in two of them.
-std::vector<vtkSmartPointer<vtkDataSet>> abuttingBlocks()
+Blocks abuttingBlocks()
 {
-  auto second = rectilinearOf(newImage(4, 0.25, 0.0, -1.0, -1.0));
-  vtkSmartPointer<vtkDataSet> third = unstructuredOf(newImage(4, 0.25, -1.0, 0.0, -1.0));
-  std::vector<vtkSmartPointer<vtkDataSet>> blocks{ newImage(4, 0.25, -1.0, -1.0, -1.0), second,
-    third };
+  const std::array<int, 3> cells{ 4, 4, 4 };
+  const Blocks blocks{ newImage(cells, 0.25),
+    rectilinearOf(newImage(cells, 0.25, { 0.0, -1.0, -1.0 })),
+    unstructuredOf(newImage(cells, 0.25, { -1.0, 0.0, -1.0 })) };
   for (vtkDataSet* const block : blocks)
   {
-    addPointField(block);
+    addField(block, ofPoints);
+    addField(block, ofCells);
   }
   return blocks;
 }
 
-Samples samplesOfAll(const std::vector<vtkSmartPointer<vtkDataSet>>& blocks)
+Samples samplesOfAll(const Blocks& blocks, int association = ofPoints)
 {
   Samples samples;
   for (vtkDataSet* const block : blocks)
   {
-    append(samples, pointSamples(block));
+    append(samples, samplesOf(block, association));
   }
   return samples;
 }
 
 /// The same blocks in every composite that is a tree.
-std::vector<vtkSmartPointer<vtkCompositeDataSet>> everyTree(
-  const std::vector<vtkSmartPointer<vtkDataSet>>& blocks)
+std::vector<vtkSmartPointer<vtkCompositeDataSet>> everyTree(const Blocks& blocks)
 {
   auto flat = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   auto nested = vtkSmartPointer<vtkMultiBlockDataSet>::New();
@@ -55,41 +61,26 @@ std::vector<vtkSmartPointer<vtkCompositeDataSet>> everyTree(
 
 TEST(Blocks, AllBlocksFormOneCloud)
 {
-  const auto blocks = abuttingBlocks();
+  const Blocks blocks = abuttingBlocks();
   for (vtkCompositeDataSet* const composite : everyTree(blocks))
   {
     SCOPED_TRACE(composite->GetClassName());
-    expectSame(composite, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesOfAll(blocks));
+    expectSame(composite, ofPoints, samplesOfAll(blocks));
+    expectSame(composite, ofCells, samplesOfAll(blocks, ofCells));
   }
 }
 
-TEST(Blocks, CellDataOfAllBlocksFormOneCloud)
+namespace
 {
-  auto blocks = abuttingBlocks();
-  Samples samples;
-  for (vtkDataSet* const block : blocks)
-  {
-    addCellField(block);
-    for (vtkIdType cell = 0; cell < block->GetNumberOfCells(); ++cell)
-    {
-      samples.add(meanOfCorners(block, cell).data(),
-        block->GetCellData()->GetArray("f")->GetComponent(cell, 0));
-    }
-  }
-  for (vtkCompositeDataSet* const composite : everyTree(blocks))
-  {
-    SCOPED_TRACE(composite->GetClassName());
-    expectSame(composite, vtkDataObject::FIELD_ASSOCIATION_CELLS, samples);
-  }
-}
 
-TEST(Blocks, ContouringEachBlockKeepsTheStructure)
+template <class TFilter>
+void expectStructureKept()
 {
-  const auto blocks = abuttingBlocks();
+  const Blocks blocks = abuttingBlocks();
   for (vtkCompositeDataSet* const composite : everyTree(blocks))
   {
     SCOPED_TRACE(composite->GetClassName());
-    const auto filter = newFilter(composite);
+    const auto filter = filterOf<TFilter>(composite);
     filter->ContourBlocksOn();
     filter->Update();
     auto* const output = vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(0));
@@ -101,88 +92,77 @@ TEST(Blocks, ContouringEachBlockKeepsTheStructure)
     {
       auto* const surface = vtkPolyData::SafeDownCast(output->GetDataSet(iterator));
       ASSERT_TRUE(surface);
-      const auto alone = newFilter(blocks[block++]);
-      alone->Update();
       EXPECT_GT(surface->GetNumberOfPoints(), 0);
-      EXPECT_EQ(everythingOf(surface), everythingOf(alone->GetOutput()));
+      EXPECT_EQ(everythingOf(surface), everythingOf(outputOf(filterOf<TFilter>(blocks[block++]))));
     }
     EXPECT_EQ(block, blocks.size());
 
     filter->ContourBlocksOff();
-    filter->Update();
-    ASSERT_TRUE(filter->GetOutput());
-    const auto together = newFilter(cloudOf(samplesOfAll(blocks)));
-    together->Update();
-    EXPECT_EQ(everythingOf(filter->GetOutput()), everythingOf(together->GetOutput()));
+    EXPECT_EQ(everythingOf(outputOf(filter)),
+      everythingOf(outputOf(filterOf<TFilter>(cloudOf(samplesOfAll(blocks))))));
   }
+}
+
+} // namespace
+
+TEST(Blocks, ContouringEachBlockKeepsTheStructure)
+{
+  expectStructureKept<Isopoints>();
+  expectStructureKept<Isosurface>();
 }
 
 TEST(Blocks, OnlyArraysOfAllBlocksAreInTheOutput)
 {
-  const auto blocks = abuttingBlocks();
-  const auto addTo = [&](std::size_t block, vtkAbstractArray* array, const char* name)
+  const Blocks blocks = abuttingBlocks();
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    array->SetName(name);
-    array->SetNumberOfTuples(blocks[block]->GetNumberOfPoints());
-    blocks[block]->GetPointData()->AddArray(array);
-  };
-  for (std::size_t block = 0; block < 3; ++block)
-  {
+    vtkDataSet* const block = blocks[i];
+    const vtkIdType count = block->GetNumberOfPoints();
+    vtkPointData* const data = block->GetPointData();
     vtkNew<vtkStringArray> names;
-    addTo(block, names, "names");
-    vtkNew<vtkDoubleArray> everywhere;
-    addTo(block, everywhere, "everywhere");
-    for (vtkIdType i = 0; i < blocks[block]->GetNumberOfPoints(); ++i)
+    names->SetName("names");
+    names->SetNumberOfTuples(count);
+    data->AddArray(names);
+    data->AddArray(arrayOf(
+      "everywhere", count, [&](vtkIdType point) { return 2.0 * block->GetPoint(point)[0]; }));
+    data->AddArray(newArray(i == 1 ? "somewhere" : "short", i == 1 ? count : 2));
+    vtkSmartPointer<vtkDataArray> mixed = newArray("of several types", count);
+    if (i < 2)
     {
-      names->SetValue(i, std::string(1, static_cast<char>('a' + block)));
-      everywhere->SetValue(i, 2.0 * blocks[block]->GetPoint(i)[0]);
+      mixed = newArray<vtkIntArray>("of several types", count);
     }
+    data->AddArray(mixed);
   }
-  vtkNew<vtkDoubleArray> somewhere;
-  addTo(1, somewhere, "somewhere");
-  vtkNew<vtkIntArray> whole;
-  addTo(0, whole, "of several types");
-  addTo(1, whole, "of several types");
-  vtkNew<vtkFloatArray> real;
-  addTo(2, real, "of several types");
-  const auto tooShort = newArray("short", 2);
-  for (vtkDataSet* const block : blocks)
-  {
-    block->GetPointData()->AddArray(tooShort);
-  }
-
-  const auto filter = newFilter(everyTree(blocks)[0]);
+  const auto filter = filterOf(everyTree(blocks)[0]);
   // Arrays are interpolated along edges; projected points do not lie on these.
-  filter->SetProjection(vtkScatteredIsopointFilter::NO_PROJECTION);
+  filter->SetProjection(Isopoints::NO_PROJECTION);
   const auto errors = watchErrors(filter);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 0);
-  vtkPolyData* const output = filter->GetOutput();
+  vtkPolyData* const output = outputOf(filter);
+  EXPECT_EQ(errors->count(), 0u);
   ASSERT_GT(output->GetNumberOfPoints(), 20);
-  vtkPointData* const data = output->GetPointData();
   for (const char* const name : { "somewhere", "of several types", "short" })
   {
-    EXPECT_FALSE(data->HasArray(name)) << name;
+    EXPECT_FALSE(output->GetPointData()->HasArray(name)) << name;
   }
-  ASSERT_TRUE(data->GetArray("everywhere") && data->GetAbstractArray("names"));
+  EXPECT_TRUE(output->GetPointData()->GetAbstractArray("names"));
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     ASSERT_NEAR(
-      data->GetArray("everywhere")->GetComponent(i, 0), 2.0 * output->GetPoint(i)[0], 1e-14);
+      findArray(output, "everywhere")->GetComponent(i, 0), 2.0 * output->GetPoint(i)[0], 1e-14);
   }
 }
 
 TEST(Blocks, BlocksWithoutTheArrayTakeNoPartAndAreCounted)
 {
-  auto blocks = abuttingBlocks();
+  Blocks blocks = abuttingBlocks();
   const vtkIdType count = blocks[1]->GetNumberOfPoints();
   blocks[1]->GetPointData()->RemoveArray("f");
   const auto composite = everyTree(blocks)[1];
-  const auto filter = newFilter(composite);
+  const auto filter = filterOf(composite);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSkippedSamples(), count);
   blocks.erase(blocks.begin() + 1);
-  expectSame(composite, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesOfAll(blocks));
+  expectSame(composite, ofPoints, samplesOfAll(blocks));
 
   filter->ContourBlocksOn();
   filter->Update();
@@ -205,151 +185,106 @@ TEST(Blocks, BlocksWithoutTheArrayTakeNoPartAndAreCounted)
   {
     filter->SetContourBlocks(byBlock);
     filter->Update();
-    EXPECT_EQ(
-      vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(0)) != nullptr, byBlock);
-    EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
+    vtkDataObject* const empty = filter->GetOutputDataObject(0);
+    EXPECT_EQ(vtkCompositeDataSet::SafeDownCast(empty) != nullptr, byBlock);
+    expectEmpty(empty);
   }
-  EXPECT_EQ(errors->Count, 2);
-  EXPECT_NE(errors->Last.find("no point array named \"f\""), std::string::npos);
+  EXPECT_EQ(errors->count(), 2u);
 }
 
 TEST(Blocks, EachStepOfATimeSeriesIsAsIfComputedAlone)
 {
-  std::vector<vtkSmartPointer<vtkDataSet>> blocks = abuttingBlocks();
-  for (vtkDataSet* const block : blocks)
-  {
-    addCellField(block);
-  }
-  const auto kept = newFilter(everyTree(blocks)[0]);
-  const auto expectFresh = [&](int association)
-  {
-    SCOPED_TRACE(association);
-    for (const bool byBlock : { false, true, false })
+  Blocks blocks = abuttingBlocks();
+  const auto kept = filterOf(everyTree(blocks)[0]);
+  const std::vector<std::function<void()>> steps{
+    []() {},
+    [&]() { kept->SetValue(0, 0.1); },
+    [&]()
     {
-      kept->SetContourBlocks(byBlock);
-      kept->SetInputArrayToProcess(0, 0, 0, association, "f");
-      kept->SetInputData(everyTree(blocks)[0]);
-      kept->Update();
-      const auto fresh = newFilter(everyTree(blocks)[0], association);
-      fresh->SetContourBlocks(byBlock);
+      // Values change in place, in one block only.
+      for (vtkDataArray* const f :
+        { blocks[1]->GetPointData()->GetArray("f"), blocks[2]->GetCellData()->GetArray("f") })
+      {
+        for (vtkIdType i = 0; i < f->GetNumberOfTuples(); i += 3)
+        {
+          f->SetComponent(i, 0, 0.8 * f->GetComponent(i, 0) - 0.05);
+        }
+        f->Modified();
+      }
+    },
+    [&]()
+    {
+      vtkPoints* const points = vtkPointSet::SafeDownCast(blocks[2])->GetPoints();
+      move(points, [](const Vector& p) { return Vector{ p[0] + 0.1 * p[2], 1.25 * p[1], p[2] }; });
+      points->Modified();
+    },
+    [&]()
+    {
+      blocks[0]->GetPointData()->AddArray(ghostsOf(
+        blocks[0]->GetNumberOfPoints(), [](vtkIdType i) { return i < 30 ? duplicatePoint : 0; }));
+    },
+    [&]() { std::swap(blocks[0], blocks[2]); },
+    [&]() { blocks.pop_back(); },
+  };
+  for (std::size_t step = 0; step < steps.size(); ++step)
+  {
+    steps[step]();
+    for (const int run : { 0, 1, 2, 3, 4, 5 })
+    {
+      SCOPED_TRACE(testing::Message() << "step " << step << ", run " << run);
+      const int association = run < 3 ? ofPoints : ofCells;
+      const auto update = [&](Isopoints* filter)
+      {
+        filter->SetInputArrayToProcess(0, 0, 0, association, "f");
+        filter->SetInputData(everyTree(blocks)[0]);
+        filter->SetContourBlocks(run % 3 == 1);
+        filter->Update();
+        return everythingOf(filter->GetOutputDataObject(0));
+      };
+      const auto fresh = filterOf(nullptr);
       fresh->SetValue(0, kept->GetValue(0));
-      fresh->Update();
-      if (!byBlock)
-      {
-        EXPECT_GT(fresh->GetOutput()->GetNumberOfPoints(), 0);
-        EXPECT_EQ(everythingOf(kept->GetOutput()), everythingOf(fresh->GetOutput()));
-        continue;
-      }
-      auto* const found = vtkMultiBlockDataSet::SafeDownCast(kept->GetOutputDataObject(0));
-      auto* const expected = vtkMultiBlockDataSet::SafeDownCast(fresh->GetOutputDataObject(0));
-      ASSERT_EQ(found->GetNumberOfBlocks(), expected->GetNumberOfBlocks());
-      for (unsigned int i = 0; i < found->GetNumberOfBlocks(); i += 2)
-      {
-        EXPECT_EQ(everythingOf(vtkPolyData::SafeDownCast(found->GetBlock(i))),
-          everythingOf(vtkPolyData::SafeDownCast(expected->GetBlock(i))));
-      }
+      const std::vector<double> expected = update(fresh);
+      EXPECT_FALSE(expected.empty());
+      EXPECT_EQ(update(kept), expected);
     }
-  };
-  const auto expectFreshForBoth = [&]()
-  {
-    expectFresh(vtkDataObject::FIELD_ASSOCIATION_POINTS);
-    expectFresh(vtkDataObject::FIELD_ASSOCIATION_CELLS);
-  };
-  expectFreshForBoth();
-  kept->SetValue(0, 0.1);
-  expectFreshForBoth();
-
-  // Values change in place, in one block only.
-  for (vtkDataArray* const f :
-    { blocks[1]->GetPointData()->GetArray("f"), blocks[2]->GetCellData()->GetArray("f") })
-  {
-    for (vtkIdType i = 0; i < f->GetNumberOfTuples(); i += 3)
-    {
-      f->SetComponent(i, 0, 0.8 * f->GetComponent(i, 0) - 0.05);
-    }
-    f->Modified();
   }
-  expectFreshForBoth();
-
-  // Positions change in place, in one block only.
-  vtkPoints* const points = vtkPointSet::SafeDownCast(blocks[2])->GetPoints();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    const double* const p = points->GetPoint(i);
-    points->SetPoint(i, p[0] + 0.1 * p[2], 1.25 * p[1], p[2]);
-  }
-  points->Modified();
-  expectFreshForBoth();
-
-  // Samples become ghosts; blocks are exchanged; one is removed.
-  const auto ghosts = newGhosts(blocks[0]->GetNumberOfPoints());
-  blocks[0]->GetPointData()->AddArray(ghosts);
-  for (vtkIdType i = 0; i < 30; ++i)
-  {
-    ghosts->SetValue(i, vtkDataSetAttributes::DUPLICATEPOINT);
-  }
-  expectFreshForBoth();
-  std::swap(blocks[0], blocks[2]);
-  expectFreshForBoth();
-  blocks.pop_back();
-  expectFreshForBoth();
 }
 
 TEST(Blocks, MixedTypesOfPointsAndScalarsLoseNoPrecision)
 {
-  auto cloud = newCloud(4000);
-  cloud->GetPointData()->GetArray("distance")->SetName("f");
-  vtkNew<vtkPolyData> lower;
+  const auto cloud = newCloud(4000);
   vtkNew<vtkPolyData> upper;
-  Samples samples;
-  vtkNew<vtkPoints> doubles;
-  doubles->SetDataTypeToDouble();
   vtkNew<vtkPoints> floats;
-  floats->SetDataTypeToFloat();
   vtkNew<vtkIntArray> whole;
   whole->SetName("f");
-  vtkNew<vtkDoubleArray> real;
-  real->SetName("f");
+  Samples lower;
+  Samples all;
   for (vtkIdType i = 0; i < 4000; ++i)
   {
-    double p[3];
-    cloud->GetPoint(i, p);
-    const double value = cloud->GetPointData()->GetArray("f")->GetComponent(i, 0);
+    const Vector p = placeOf(cloud, i);
+    const double value = distancesOf(cloud)->GetValue(i);
     if (i < 2000)
     {
-      p[0] += 1e-12;
-      doubles->InsertNextPoint(p);
-      real->InsertNextValue(value);
-      samples.add(p, value);
+      lower.push_back({ p[0] + 1e-12, p[1], p[2], value });
+      continue;
     }
-    else
-    {
-      floats->InsertNextPoint(p);
-      whole->InsertNextValue(value > 0.7 ? 1 : 0);
-      samples.add(p, value > 0.7 ? 1.0 : 0.0);
-    }
+    const int rounded = value > 0.7 ? 1 : 0;
+    floats->InsertNextPoint(p.data());
+    whole->InsertNextValue(rounded);
+    all.push_back({ p[0], p[1], p[2], static_cast<double>(rounded) });
   }
-  lower->SetPoints(doubles);
-  lower->GetPointData()->SetScalars(real);
   upper->SetPoints(floats);
   upper->GetPointData()->SetScalars(whole);
-  vtkNew<vtkPartitionedDataSet> blocks;
-  blocks->SetPartition(0, lower);
-  blocks->SetPartition(1, upper);
-  expectSame(blocks, vtkDataObject::FIELD_ASSOCIATION_POINTS, samples);
+  all.insert(all.begin(), lower.begin(), lower.end());
+  expectSame(blocksOf({ cloudOf(lower), upper.Get() }), ofPoints, all);
 }
 
 TEST(Blocks, ACompositeWithoutPointsYieldsOneError)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
   vtkNew<vtkPolyData> nothing;
   vtkNew<vtkTable> table;
-  blocks->SetBlock(0, nothing);
-  blocks->SetBlock(1, table);
-  const auto filter = newFilter(blocks);
+  const auto filter = filterOf(blocksOf({ nothing.Get(), table.Get() }));
   const auto errors = watchErrors(filter);
-  filter->Update();
-  EXPECT_EQ(errors->Count, 1);
-  EXPECT_NE(errors->Last.find("no points"), std::string::npos);
-  expectEmpty(filter->GetOutput());
+  expectEmpty(outputOf(filter));
+  EXPECT_EQ(errors->count(), 1u);
 }

@@ -8,9 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <numeric>
-
 namespace
 {
 
@@ -34,17 +31,16 @@ std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isova
   return count;
 }
 
-clouds::Cloud roundedToFloat(clouds::Cloud cloud)
+clouds::Cloud timesPositions(double factor, const clouds::Cloud& cloud, double offset = 0.0)
 {
-  for (double& coordinate : cloud.positions)
-  {
-    coordinate = static_cast<float>(coordinate);
-  }
-  for (double& value : cloud.values)
-  {
-    value = static_cast<float>(value);
-  }
-  return cloud;
+  return clouds::moved(cloud,
+    [=](double* p) { std::for_each(p, p + 3, [=](double& c) { c = offset + factor * c; }); });
+}
+
+/// A cloud around the origin at any scale.
+clouds::Cloud scaledCloud(double scale, std::uint64_t seed)
+{
+  return timesPositions(scale, timesPositions(1.0, clouds::uniform(400, seed), -0.5));
 }
 
 } // namespace
@@ -55,20 +51,13 @@ TEST(CanonicalResult, Uniform)
   {
     EXPECT_GT(compare(clouds::uniform(700, seed), { -0.5, 0.3 }), 0u);
   }
-}
-
-TEST(CanonicalResult, UniformLargeEnoughForEveryPathOfSplitting)
-{
+  // Large enough for every path of splitting.
   EXPECT_GT(compare(clouds::uniform(12000, 4), { 0.4 }, { isopoint::defaultAngle }), 0u);
 }
 
-TEST(CanonicalResult, Clustered)
+TEST(CanonicalResult, ClusteredOrInALattice)
 {
   EXPECT_GT(compare(clouds::clustered(1500, 5), { -4.0, 0.0 }), 0u);
-}
-
-TEST(CanonicalResult, Lattice)
-{
   EXPECT_GT(compare(clouds::lattice(9, 10, 11), { 0.0, 2.0, 2.5 }), 0u);
   EXPECT_GT(compare(clouds::lattice(8, 8, 8), { 1.0 }), 0u);
 }
@@ -79,27 +68,15 @@ TEST(CanonicalResult, SharedPlanesLinesAndPositions)
   {
     EXPECT_GT(compare(clouds::coarse(600, steps, 6), { 4.5, 5.0 }), 0u);
   }
-}
-
-TEST(CanonicalResult, CoplanarAndCollinear)
-{
   EXPECT_GT(compare(clouds::flattened(clouds::uniform(500, 7), 2), { 0.4 }), 0u);
   EXPECT_GT(compare(clouds::flattened(clouds::uniform(500, 8), 1), { 0.9 }), 0u);
   EXPECT_GT(compare(clouds::flattened(clouds::coarse(500, 7, 9), 2), { 5.0 }), 0u);
   EXPECT_GT(compare(clouds::flattened(clouds::coarse(500, 50, 9), 1), { 5.0 }), 0u);
-}
-
-TEST(CanonicalResult, CoincidentSamples)
-{
   for (const double share : { 0.3, 0.6, 0.9 })
   {
     EXPECT_GT(compare(clouds::coincident(clouds::uniform(500, 10), share), { 0.3 }), 0u);
   }
   EXPECT_EQ(compare(clouds::coincident(clouds::uniform(50, 10), 1.0), { 0.3 }), 0u);
-}
-
-TEST(CanonicalResult, NestedCoincidentSamples)
-{
   EXPECT_GT(compare(clouds::nestedCoincident(4096), { 2.0, 3.5 }), 0u);
 }
 
@@ -121,11 +98,12 @@ TEST(CanonicalResult, NeighborhoodsThatAddUpToMoreThanCanBeListed)
 {
   const auto sumOfLargeNeighborhoods = [](const clouds::Cloud& cloud)
   {
-    const bruteforce::Tree tree(cloud);
-    const auto neighborhoods = bruteforce::neighborhoods(tree.cells);
-    return std::accumulate(neighborhoods.begin(), neighborhoods.end(), std::size_t{ 0 },
-      [](std::size_t sum, const auto& neighbors)
-      { return sum + (neighbors.size() > 64 ? neighbors.size() : 0); });
+    std::size_t sum = 0;
+    for (const auto& neighbors : bruteforce::neighborhoods(bruteforce::Tree(cloud).cells))
+    {
+      sum += neighbors.size() > 64 ? neighbors.size() : 0;
+    }
+    return sum;
   };
   clouds::Random random(20);
   const auto anyAngles = [&random]() -> std::vector<double>
@@ -153,29 +131,22 @@ TEST(CanonicalResult, NeighborhoodsThatAddUpToMoreThanCanBeListed)
   }
 }
 
-TEST(CanonicalResult, NearTheLimitsOfDouble)
+TEST(CanonicalResult, ExtremeCoordinates)
 {
-  for (const double scale : { 1e-310, 1e-160, 1e150, 1e307 })
+  for (const double scale : { 1e-310, 1e-160, 1e-30, 1e-9, 1e9, 1e30, 1e150, 1e307 })
   {
-    clouds::Cloud cloud = clouds::uniform(300, 18);
-    for (double& coordinate : cloud.positions)
-    {
-      coordinate = scale * (coordinate - 0.5);
-    }
-    EXPECT_GT(compare(cloud, { 0.3 }), 0u) << scale;
+    EXPECT_GT(compare(scaledCloud(scale, 18), { 0.3 }), 0u) << scale;
   }
+  EXPECT_GT(compare(timesPositions(1e-2, clouds::uniform(400, 13), 1e9), { 0.3 }), 0u);
 }
 
 TEST(CanonicalResult, SignedZerosCoincide)
 {
   clouds::Cloud cloud = clouds::coarse(300, 3, 19);
-  for (std::size_t i = 0; i < cloud.size(); ++i)
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      double& coordinate = cloud.positions[3 * i + axis];
-      coordinate = i % 2 && coordinate == 0.0 ? -0.0 : coordinate;
-    }
+    double& coordinate = cloud.positions[i];
+    coordinate = i / 3 % 2 && coordinate == 0.0 ? -0.0 : coordinate;
   }
   EXPECT_GT(compare(cloud, { 5.0 }), 0u);
 }
@@ -206,34 +177,18 @@ TEST(CanonicalResult, SortedInput)
 
 TEST(CanonicalResult, EverySampleLayout)
 {
-  const clouds::Cloud cloud = roundedToFloat(clouds::uniform(800, 11));
+  clouds::Cloud cloud = clouds::uniform(800, 11);
+  for (std::vector<double>* const numbers : { &cloud.positions, &cloud.values })
+  {
+    std::for_each(numbers->begin(), numbers->end(),
+      [](double& number) { number = static_cast<float>(number); });
+  }
   const auto expected = bruteforce::extract(cloud, 0.25, isopoint::defaultAngle);
   EXPECT_FALSE(expected.empty());
-  const auto check = [&](const isopoint::Isosurface& found)
-  { expectSameIsopoints(expected, found.edges); };
-  check(clouds::extract<float, float>(cloud, 0.25, isopoint::defaultAngle));
-  check(clouds::extract<float, double>(cloud, 0.25, isopoint::defaultAngle));
-  check(clouds::extract<double, float>(cloud, 0.25, isopoint::defaultAngle));
-  check(clouds::extract<double, double>(cloud, 0.25, isopoint::defaultAngle));
-}
-
-TEST(CanonicalResult, ExtremeCoordinates)
-{
-  for (const double scale : { 1e-30, 1e-9, 1e9, 1e30 })
-  {
-    clouds::Cloud cloud = clouds::uniform(400, 12);
-    for (double& coordinate : cloud.positions)
-    {
-      coordinate = scale * (coordinate - 0.5);
-    }
-    EXPECT_GT(compare(cloud, { 0.3 }), 0u);
-  }
-  clouds::Cloud far = clouds::uniform(400, 13);
-  for (double& coordinate : far.positions)
-  {
-    coordinate = 1e9 + 1e-2 * coordinate;
-  }
-  EXPECT_GT(compare(far, { 0.3 }), 0u);
+  expectSameIsopoints(expected, clouds::extract<float, float>(cloud, 0.25).edges);
+  expectSameIsopoints(expected, clouds::extract<float, double>(cloud, 0.25).edges);
+  expectSameIsopoints(expected, clouds::extract<double, float>(cloud, 0.25).edges);
+  expectSameIsopoints(expected, clouds::extract<double, double>(cloud, 0.25).edges);
 }
 
 TEST(CanonicalResult, IsovaluesThatNoEdgeCrosses)
@@ -243,6 +198,6 @@ TEST(CanonicalResult, IsovaluesThatNoEdgeCrosses)
   for (const double isovalue :
     { 1e9, -1e9, infinity, -infinity, std::numeric_limits<double>::quiet_NaN() })
   {
-    EXPECT_TRUE(clouds::extract(cloud, isovalue, isopoint::defaultAngle).edges.empty());
+    EXPECT_TRUE(clouds::extract(cloud, isovalue).edges.empty());
   }
 }

@@ -2,29 +2,13 @@
 // Coverage by splats: the measure itself against a test of all splats; the filter's splats after
 // thinning, for samples on lines and at edges; how far splats extend over borders.
 #include "AnalyticFields.h"
-#include "FilterTesting.h"
 #include "SplatCoverage.h"
 
-#include "vtkCellData.h"
-#include "vtkDataSetAttributes.h"
-#include "vtkFloatArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
+using namespace filtertesting;
 
 namespace
 {
 
-using analytic::dot;
-using analytic::length;
-using analytic::Vector;
 using splatcoverage::Coverage;
 using splatcoverage::Splat;
 
@@ -37,17 +21,18 @@ Vector randomVector(clouds::Random& random)
   return { x, y, 2.0 * random() - 1.0 };
 }
 
-/// Polygons on circles whose sizes vary a thousandfold.
+/// Polygons on circles whose sizes vary a thousandfold, seen along one direction.
 std::vector<Splat> randomSplats(std::size_t count)
 {
   clouds::Random random(1);
+  const Vector normal = analytic::directionOf(randomVector(random));
+  const Vector first = analytic::directionOf(analytic::cross(normal, randomVector(random)));
+  const Vector second = analytic::cross(normal, first);
   std::vector<Splat> splats(count);
   for (Splat& splat : splats)
   {
     splat.center = randomVector(random);
-    splat.normal = analytic::directionOf(randomVector(random));
-    const Vector first = analytic::directionOf(analytic::cross(splat.normal, randomVector(random)));
-    const Vector second = analytic::cross(splat.normal, first);
+    splat.normal = normal;
     const double radius = std::pow(10.0, -3.0 * random());
     for (int i = 0; i < 64; ++i)
     {
@@ -101,62 +86,30 @@ double farthestRim(vtkPolyData* isopoints, const Distance& distanceOf)
   return farthest;
 }
 
-/// Samples on vertical lines that are several times farther apart than samples on a line, with
-/// "distance" from the origin.
-vtkSmartPointer<vtkPolyData> newLines(int lines, int samplesOnEach, int seed)
+/// Samples on vertical lines that are several times farther apart than samples on a line.
+vtkSmartPointer<vtkPolyData> newLines(const analytic::Surface& surface, int seed)
 {
   clouds::Random random(static_cast<std::uint64_t>(seed));
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> distances;
-  distances->SetName("distance");
-  for (int line = 0; line < lines; ++line)
+  Samples samples;
+  for (int line = 0; line < 640; ++line)
   {
     const double x = 2.0 * random() - 1.0;
     const double y = 2.0 * random() - 1.0;
     const double phase = random();
-    for (int i = 0; i < samplesOnEach; ++i)
+    for (int i = 0; i < 100; ++i)
     {
-      const Vector place{ x, y, 2.0 * (i + phase) / samplesOnEach - 1.0 };
-      points->InsertNextPoint(place.data());
-      distances->InsertNextValue(static_cast<float>(length(place)));
+      const double z = 2.0 * (i + phase) / 100 - 1.0;
+      samples.push_back({ x, y, z, surface.value({ x, y, z }) });
     }
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  cloud->GetPointData()->SetScalars(distances);
-  return cloud;
-}
-
-/// Sets the scalars to the values of a field.
-void setValues(vtkPolyData* cloud, const std::function<double(const Vector&)>& field)
-{
-  vtkNew<vtkFloatArray> values;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    Vector place;
-    cloud->GetPoint(i, place.data());
-    values->InsertNextValue(static_cast<float>(field(place)));
-  }
-  cloud->GetPointData()->SetScalars(values);
+  return cloudOf(samples);
 }
 
 } // namespace
 
 TEST(Coverage, AgreesWithATestOfAllSplats)
 {
-  std::vector<Splat> splats = randomSplats(300);
-  for (Splat& splat : splats) // all are seen along one direction
-  {
-    splat.normal = splats[0].normal;
-    const std::vector<Vector> corners = splat.corners;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-    {
-      const Vector along = analytic::difference(splats[0].corners[i], splats[0].center);
-      splat.corners[i] =
-        analytic::sum(splat.center, analytic::scaled(analytic::directionOf(along),
-                                      length(analytic::difference(corners[i], splat.center))));
-    }
-  }
+  const std::vector<Splat> splats = randomSplats(300);
   const Coverage coverage(splats, tolerance);
   clouds::Random random(2);
   int covered = 0;
@@ -180,20 +133,13 @@ TEST(Coverage, AgreesWithATestOfAllSplats)
 
 TEST(Coverage, SplatsAreReadFromTheArrays)
 {
-  vtkNew<vtkPolyData> cloud;
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(1.0, 2.0, 3.0);
-  cloud->SetPoints(points);
+  const auto cloud = cloudOf({ { 1.0, 2.0, 3.0, 0.0 } });
   EXPECT_TRUE(splatcoverage::splatsOf(cloud).empty());
-
-  const auto add =
-    [](vtkDataSetAttributes* attributes, const char* name, std::initializer_list<float> tuple)
+  const auto add = [](vtkDataSetAttributes* data, const char* name, const std::vector<float>& tuple)
   {
-    vtkNew<vtkFloatArray> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(static_cast<int>(tuple.size()));
-    array->InsertNextTuple(tuple.begin());
-    attributes->AddArray(array);
+    const auto array = newArray(name, 1, static_cast<int>(tuple.size()));
+    array->SetTypedTuple(0, tuple.data());
+    data->AddArray(array);
   };
   add(cloud->GetPointData(), "Normals", { 0.0f, 0.0f, 1.0f });
   cloud->GetPointData()->SetActiveNormals("Normals");
@@ -206,54 +152,41 @@ TEST(Coverage, SplatsAreReadFromTheArrays)
   EXPECT_EQ(fan.at(0).corners,
     (std::vector<Vector>{ { 1.0, 4.0, 3.5 }, { 0.0, 2.0, 3.0 }, { 2.0, 1.0, 3.0 } }));
   const Coverage coverage(fan, 0.1);
-  const auto beside = [&](double x, double y) {
-    return analytic::sum(fan[0].center, Vector{ x, y, 0.0 });
+  const auto covers = [&](double x, double y) {
+    return coverage.covers(analytic::sum(fan[0].center, { x, y, 0.0 }), { 0.0, 0.0, 1.0 });
   };
-  EXPECT_TRUE(coverage.covers(beside(0.0, 0.9), { 0.0, 0.0, 1.0 }));
-  EXPECT_FALSE(coverage.covers(beside(0.9, 0.9), { 0.0, 0.0, 1.0 }));
-  EXPECT_TRUE(coverage.covers(beside(0.9, -0.9), { 0.0, 0.0, 1.0 }));
+  EXPECT_TRUE(covers(0.0, 0.9));
+  EXPECT_FALSE(covers(0.9, 0.9));
+  EXPECT_TRUE(covers(0.9, -0.9));
 }
 
 TEST(Coverage, ThinnedPointsCoverASphere)
 {
   const analytic::Surface sphere = analytic::sphere();
   constexpr vtkIdType samples = 50000;
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(filtertesting::newCloud(samples));
-  filter->SetValue(0, sphere.isovalue);
-  filter->Update();
-  const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
-  for (const int projection :
-    { vtkScatteredIsopointFilter::NO_PROJECTION, vtkScatteredIsopointFilter::CUBIC_FIT })
+  const auto filter = newFilter(newCloud(samples), sphere.isovalue);
+  const vtkIdType all = outputOf(filter)->GetNumberOfPoints();
+  for (const int projection : { Isopoints::NO_PROJECTION, Isopoints::CUBIC_FIT })
   {
     filter->SetProjection(projection);
     for (const double minimumSpacing : { 0.25, 0.5, 0.75 })
     {
       SCOPED_TRACE(testing::Message() << projection << ", " << minimumSpacing);
       filter->SetMinimumSpacing(minimumSpacing);
-      filter->Update();
-      EXPECT_LT(filter->GetOutput()->GetNumberOfPoints(), 0.75 * all);
-      const int uncovered =
-        countUncovered(filter->GetOutput(), 2.0 / std::cbrt(static_cast<double>(samples)), sphere);
-      EXPECT_LE(uncovered, minimumSpacing > 0.5 ? 150 : 25); // of 50,000
+      EXPECT_LT(outputOf(filter)->GetNumberOfPoints(), 0.75 * all);
+      EXPECT_LE(countUncovered(filter->GetOutput(), 2.0 / std::cbrt(samples), sphere),
+        minimumSpacing > 0.5 ? 150 : 25); // of 50,000
     }
   }
 }
 
 TEST(Coverage, SamplesInLinesCoverASphere)
 {
-  constexpr int lines = 640;
-  constexpr int samplesOnEach = 100;
   const analytic::Surface sphere = analytic::sphere();
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetValue(0, sphere.isovalue);
   for (int seed = 1; seed <= 6; ++seed)
   {
-    filter->SetInputData(newLines(lines, samplesOnEach, seed));
-    filter->Update();
-    EXPECT_LT(
-      countUncovered(filter->GetOutput(), 2.0 / std::cbrt(lines * samplesOnEach), sphere), 150)
-      << seed; // of 50,000
+    const auto filter = newFilter(newLines(sphere, seed), sphere.isovalue);
+    EXPECT_LT(countUncovered(outputOf(filter), 0.05, sphere), 150) << seed; // of 50,000
   }
 }
 
@@ -261,22 +194,20 @@ TEST(Coverage, SplatsMeetAtACubesEdges)
 {
   constexpr int places = 400000;
   const analytic::Surface cube = analytic::cube();
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetValue(0, cube.isovalue);
-  filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
-  const auto uncoveredOf = [&](vtkPolyData* cloud)
+  const auto countUncoveredOf = [&](vtkPolyData* cloud)
   {
-    setValues(cloud, cube.value);
-    filter->SetInputData(cloud);
-    filter->Update();
-    return countUncovered(filter->GetOutput(), 0.05, cube, places);
+    const auto filter = newFilter(cloud, cube.isovalue);
+    filter->SetProjection(Isopoints::CREASE_FIT);
+    return countUncovered(outputOf(filter), 0.05, cube, places);
   };
   for (const vtkIdType samples : { 100000, 150000, 200000 })
   {
-    EXPECT_LT(uncoveredOf(filtertesting::newCloud(samples)), places / 800) << samples;
+    const auto cloud = newCloud(samples);
+    setScalars(cloud, cube.value);
+    EXPECT_LT(countUncoveredOf(cloud), places / 800) << samples;
   }
-  EXPECT_LT(uncoveredOf(newLines(640, 100, 1)), places / 150);
-  EXPECT_LT(uncoveredOf(newLines(640, 100, 2)), places / 150);
+  EXPECT_LT(countUncoveredOf(newLines(cube, 1)), places / 150);
+  EXPECT_LT(countUncoveredOf(newLines(cube, 2)), places / 150);
 }
 
 // At the border of a ball of samples, one per unit of volume, parallel sheets close to a splat's
@@ -285,26 +216,17 @@ TEST(Coverage, SplatsDoNotExtendFarOverABorderBesideOtherSheets)
 {
   constexpr double ball = 14.0;
   clouds::Random random(5);
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> waves;
-  while (points->GetNumberOfPoints() < 11494)
+  Samples samples;
+  while (samples.size() < 11494)
   {
-    const Vector place = analytic::scaled(randomVector(random), ball);
-    if (length(place) < ball)
+    const Vector p = analytic::scaled(randomVector(random), ball);
+    if (length(p) < ball)
     {
-      points->InsertNextPoint(place.data());
-      waves->InsertNextValue(static_cast<float>(std::sin(0.25 * 3.14159265358979 * place[2])));
+      samples.push_back({ p[0], p[1], p[2], std::sin(0.25 * analytic::pi * p[2]) });
     }
   }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  cloud->GetPointData()->SetScalars(waves);
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(cloud);
-  filter->SetValue(0, 0.0);
-  filter->Update();
-  const double farthest =
-    farthestRim(filter->GetOutput(), [](const Vector& place) { return length(place) - ball; });
+  const double farthest = farthestRim(outputOf(newFilter(cloudOf(samples), 0.0)),
+    [](const Vector& place) { return length(place) - ball; });
   EXPECT_GT(farthest, 0.0);
   EXPECT_LT(farthest, 4.5);
 }
@@ -314,25 +236,20 @@ TEST(Coverage, SplatsDoNotExtendFarOverABorderBesideOtherSheets)
 TEST(Coverage, SplatsDoNotExtendFarBeyondTheSamples)
 {
   constexpr vtkIdType samples = 20000;
-  const auto cloud = filtertesting::newCloud(samples);
-  setValues(cloud,
+  const auto cloud = newCloud(samples);
+  setScalars(cloud,
     [](const Vector& p)
     {
       return std::sin(5.0 * p[0]) * std::cos(5.0 * p[1]) +
              std::sin(5.0 * p[1]) * std::cos(5.0 * p[2]) +
              std::sin(5.0 * p[2]) * std::cos(5.0 * p[0]);
     });
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(cloud);
-  filter->SetValue(0, 0.0);
-  filter->Update();
-  const double spacing = 2.0 / std::cbrt(static_cast<double>(samples));
-  const double farthest = farthestRim(filter->GetOutput(),
+  const double farthest = farthestRim(outputOf(newFilter(cloud, 0.0)),
     [](const Vector& p) {
       return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 1.0;
     });
   EXPECT_GT(farthest, 0.0);
-  EXPECT_LT(farthest, 2.3 * spacing);
+  EXPECT_LT(farthest, 2.3 * 2.0 / std::cbrt(samples));
 }
 
 // Most cells that touch those of a wall of two layers of samples are of other walls.
@@ -340,38 +257,25 @@ TEST(Coverage, SplatsOfThinWallsDoNotReachAcrossVoids)
 {
   constexpr double distance = 10.0; // of walls, in spacings
   clouds::Random random(7);
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> heights;
-  for (int wall = 0; wall < 4; ++wall)
+  Samples samples;
+  for (int i = 0; i < 4 * 2 * 40 * 40; ++i)
   {
-    for (int i = 0; i < 2 * 40 * 40; ++i)
-    {
-      const auto jittered = [&random](int k) { return k + 0.3 * (random() - 0.5); };
-      const Vector place{ jittered(i / 2 % 40), distance * wall + jittered(i % 2),
-        jittered(i / 80) };
-      points->InsertNextPoint(place.data());
-      heights->InsertNextValue(static_cast<float>(place[2] + 0.2 * place[0]));
-    }
+    const auto jittered = [&random](int k) { return k + 0.3 * (random() - 0.5); };
+    const double x = jittered(i / 2 % 40);
+    const double y = distance * (i / 3200 % 4) + jittered(i % 2);
+    const double z = jittered(i / 80 % 40);
+    samples.push_back({ x, y, z, z + 0.2 * x });
   }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  cloud->GetPointData()->SetScalars(heights);
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(cloud);
-  filter->SetValue(0, 23.3);
-  filter->Update();
-  const auto toWall = [](const Vector& p)
+  const std::vector<Splat> splats =
+    splatcoverage::splatsOf(outputOf(newFilter(cloudOf(samples), 23.3)));
+  const auto isOutside = [](const Vector& p)
   {
     const double wall = std::clamp(std::round((p[1] - 0.5) / distance), 0.0, 3.0);
-    return std::abs(p[1] - 0.5 - distance * wall) - 0.5;
+    return std::abs(p[1] - 0.5 - distance * wall) - 0.5 > 1.0;
   };
-  const std::vector<Splat> splats = splatcoverage::splatsOf(filter->GetOutput());
   const auto outside = std::count_if(splats.begin(), splats.end(),
     [&](const Splat& splat)
-    {
-      return std::any_of(splat.corners.begin(), splat.corners.end(),
-        [&](const Vector& corner) { return toWall(corner) > 1.0; });
-    });
+    { return std::any_of(splat.corners.begin(), splat.corners.end(), isOutside); });
   EXPECT_GT(splats.size(), 300u);
   EXPECT_LT(outside, 0.1 * static_cast<double>(splats.size()));
 }

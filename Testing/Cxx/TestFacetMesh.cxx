@@ -16,21 +16,34 @@ namespace
 const Vector up{ 0.0, 0.0, 1.0 };
 
 /// A fan around vertex 0, in the plane, whose rim is 1 to 6.
-std::vector<Facet> fan()
+struct Fan
 {
+  std::vector<Vector> positions;
   std::vector<Facet> facets;
-  for (std::size_t i = 0; i < 6; ++i)
-  {
-    facets.push_back({ { 0, 1 + i, 1 + (i + 1) % 6 }, up });
-  }
-  return facets;
-}
+  std::vector<bool> areInner = std::vector<bool>(8, true);
 
-std::vector<Vector> fanPositions(const Vector& center)
-{
-  return { center, { 1.0, 0.0, 0.0 }, { 0.5, 0.9, 0.0 }, { -0.5, 0.9, 0.0 }, { -1.0, 0.0, 0.0 },
-    { -0.5, -0.9, 0.0 }, { 0.5, -0.9, 0.0 } };
-}
+  explicit Fan(const Vector& center)
+    : positions{ center, { 1.0, 0.0, 0.0 }, { 0.5, 0.9, 0.0 }, { -0.5, 0.9, 0.0 },
+      { -1.0, 0.0, 0.0 }, { -0.5, -0.9, 0.0 }, { 0.5, -0.9, 0.0 } }
+  {
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+      this->facets.push_back({ { 0, 1 + i, 1 + (i + 1) % 6 }, up });
+    }
+  }
+
+  /// Adds a facet beyond the edge from 1 to 2.
+  void addApex()
+  {
+    this->positions.push_back({ 1.2, 0.9, 0.0 });
+    this->facets.push_back({ { 2, 1, 7 }, up });
+  }
+
+  FacetMesh mesh() const { return { this->positions, this->areInner, this->facets }; }
+};
+
+// The center lies beyond the edge from 1 to 2.
+const Vector beyond{ 0.85, 0.6, 0.0 };
 
 double areaOf(const FacetMesh& mesh)
 {
@@ -46,45 +59,34 @@ double areaOf(const FacetMesh& mesh)
 
 TEST(FacetMesh, AnEdgeIsFlippedWhereAFacetLooksTheWrongWay)
 {
-  // The center lies beyond the edge from 1 to 2.
-  const std::vector<Vector> positions = fanPositions({ 0.85, 0.6, 0.0 });
-  const std::vector<bool> isInner(positions.size(), true);
-  FacetMesh mesh(positions, isInner, fan());
+  Fan fan(beyond);
+  FacetMesh mesh = fan.mesh();
   EXPECT_EQ(mesh.invertedFacets().size(), 1u);
   const double area = areaOf(mesh);
   mesh.untangle(); // the rim has no facets beyond: nothing can be flipped there
   EXPECT_NEAR(areaOf(mesh), area, 1e-12);
-
-  std::vector<Facet> more = fan();
-  std::vector<Vector> withApex = positions;
-  withApex.push_back({ 1.2, 0.9, 0.0 });
-  more.push_back({ { 2, 1, 7 }, up });
-  const std::vector<bool> areInner(withApex.size(), true);
-  FacetMesh larger(withApex, areInner, more);
+  fan.addApex();
+  FacetMesh larger = fan.mesh();
   EXPECT_EQ(larger.invertedFacets().size(), 1u);
   larger.untangle();
   EXPECT_TRUE(larger.invertedFacets().empty());
-  EXPECT_EQ(larger.facets().size(), more.size());
+  EXPECT_EQ(larger.facets().size(), fan.facets.size());
 }
 
 TEST(FacetMesh, EdgesAtTheBorderOfWhatIsKnownStay)
 {
-  std::vector<Facet> more = fan();
-  std::vector<Vector> positions = fanPositions({ 0.85, 0.6, 0.0 });
-  positions.push_back({ 1.2, 0.9, 0.0 });
-  more.push_back({ { 2, 1, 7 }, up });
-  std::vector<bool> isInner(positions.size(), true);
-  isInner[7] = false;
-  FacetMesh mesh(positions, isInner, more);
+  Fan fan(beyond);
+  fan.addApex();
+  fan.areInner[7] = false;
+  FacetMesh mesh = fan.mesh();
   mesh.untangle();
   EXPECT_EQ(mesh.invertedFacets().size(), 1u);
 }
 
 TEST(FacetMesh, AVertexIsMergedWithANeighbor)
 {
-  const std::vector<Vector> positions = fanPositions({ 0.0, 0.0, 0.0 });
-  const std::vector<bool> isInner(positions.size(), true);
-  FacetMesh mesh(positions, isInner, fan());
+  const Fan fan({ 0.0, 0.0, 0.0 });
+  FacetMesh mesh = fan.mesh();
   const double area = areaOf(mesh);
   EXPECT_EQ(mesh.neighborsOf(0), (std::vector<std::size_t>{ 1, 2, 3, 4, 5, 6 }));
   EXPECT_FALSE(mesh.collapse(0, 1, [](const Facet&) { return false; }));

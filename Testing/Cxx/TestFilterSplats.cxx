@@ -1,178 +1,109 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter's splat arrays: axes and clip planes.
+// The filter's arrays of splats: axes and polygons.
 #include "FilterTesting.h"
 
-#include "vtkAbstractArray.h"
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 using namespace filtertesting;
 
 namespace
 {
 
-/// Samples with a spacing of 1 whose scalars are 0 on the faces of a cube.
-vtkSmartPointer<vtkPolyData> newCubeCloud(const std::array<double, 3>& center)
+/// A corner of a splat in its frame: along the axis, across it, and along the normal, in radii.
+Vector cornerOf(vtkPolyData* output, vtkIdType point, int corner)
 {
-  const auto cloud = newCloud(64000, VTK_DOUBLE);
-  const auto height = newArray<vtkDoubleArray>("height", cloud->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    cloud->GetPoint(i, p);
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      p[axis] = 20.0 * p[axis] + center[axis];
-      largest = std::max(largest, std::abs(p[axis] - center[axis]));
-    }
-    cloud->GetPoints()->SetPoint(i, p);
-    height->SetValue(i, 12.0 - largest);
-  }
-  cloud->GetPointData()->SetScalars(height);
-  return cloud;
+  vtkDataArray* const polygons = output->GetCellData()->GetArray("SplatPolygon");
+  const auto number = [&](int i) { return polygons->GetComponent(point, 5 * corner + i); };
+  return { number(0), number(1), number(2) };
 }
 
-/// The number of an isopoint's array at a corner of its splat.
-double cornerNumber(vtkPolyData* data, vtkIdType point, int corner, int number)
+Vector axisOf(vtkPolyData* output, vtkIdType point)
 {
-  return data->GetCellData()->GetArray("SplatPolygon")->GetComponent(point, 5 * corner + number);
+  return tupleOf(output->GetCellData()->GetArray("SplatAxis"), point);
+}
+
+Vector normalOf(vtkPolyData* output, vtkIdType point)
+{
+  return tupleOf(output->GetPointData()->GetNormals(), point);
+}
+
+double radiusOf(vtkPolyData* output, vtkIdType point)
+{
+  return output->GetPointData()->GetArray("Radius")->GetComponent(point, 0);
 }
 
 } // namespace
 
 TEST(FilterSplats, ArraysArePresentIfRequested)
 {
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(newCloud(5000));
-  filter->SetValue(0, 0.7);
-  const char* const shapes[] = { "SplatAxis", "SplatPolygon" };
-  for (const int method : { vtkScatteredIsopointFilter::NORMALS_FROM_FIELD,
-         vtkScatteredIsopointFilter::NORMALS_FROM_PLANES })
+  const auto filter = newFilter(newCloud(5000));
+  for (const int method : { Isopoints::NORMALS_FROM_FIELD, Isopoints::NORMALS_FROM_PLANES })
   {
     filter->SetNormalMethod(method);
-    filter->Update();
-    vtkPointData* const data = filter->GetOutput()->GetPointData();
-    ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
-    EXPECT_FALSE(data->HasArray("Gradients"));
-    vtkCellData* const cells = filter->GetOutput()->GetCellData();
+    vtkPolyData* const output = outputOf(filter);
+    const vtkIdType count = output->GetNumberOfPoints();
+    ASSERT_GT(count, 100);
+    EXPECT_FALSE(output->GetPointData()->HasArray("Gradients"));
+    vtkCellData* const cells = output->GetCellData();
     EXPECT_EQ(cells->GetArray("SplatPolygon")->GetNumberOfComponents(), 40);
     EXPECT_EQ(cells->GetVectors(), cells->GetArray("SplatAxis"));
-    for (const char* const name : shapes)
+    for (const char* const name : { "SplatAxis", "SplatPolygon" })
     {
-      EXPECT_FALSE(data->HasArray(name)) << name;
-      vtkDataArray* const array = cells->GetArray(name);
-      EXPECT_EQ(array->GetNumberOfTuples(), filter->GetOutput()->GetNumberOfPoints());
-      EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
+      EXPECT_FALSE(output->GetPointData()->HasArray(name)) << name;
+      EXPECT_EQ(cells->GetArray(name)->GetNumberOfTuples(), count);
+      EXPECT_EQ(cells->GetArray(name)->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1);
     }
     vtkIdType hidden = 0;
-    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    for (vtkIdType i = 0; i < count; ++i)
     {
-      double axis[3];
-      double normal[3];
-      cells->GetArray("SplatAxis")->GetTuple(i, axis);
-      data->GetNormals()->GetTuple(i, normal);
-      const double radius = data->GetArray("Radius")->GetComponent(i, 0);
-      ASSERT_NEAR(std::hypot(axis[0], axis[1], axis[2]), radius, 1e-6);
-      ASSERT_NEAR(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2], 0.0, 1e-6);
+      const Vector axis = axisOf(output, i);
+      ASSERT_NEAR(length(axis), radiusOf(output, i), 1e-6);
+      ASSERT_NEAR(dot(axis, normalOf(output, i)), 0.0, 1e-6);
       double farthest = 0.0;
       double doubleArea = 0.0; // of the fan, in its plane
       for (int k = 0; k < 8; ++k)
       {
-        const auto number = [&](int corner, int j)
-        { return cornerNumber(filter->GetOutput(), i, corner % 8, j); };
-        farthest = std::max(farthest, std::hypot(number(k, 0), number(k, 1), number(k, 2)));
-        doubleArea += number(k, 0) * number(k + 1, 1) - number(k, 1) * number(k + 1, 0);
+        const Vector a = cornerOf(output, i, k);
+        const Vector b = cornerOf(output, i, (k + 1) % 8);
+        farthest = std::max(farthest, length(a));
+        doubleArea += a[0] * b[1] - a[1] * b[0];
       }
-      if (radius == 0.0)
-      {
-        ++hidden;
-        ASSERT_EQ(farthest, 0.0);
-        continue;
-      }
-      ASSERT_NEAR(farthest, 1.0, 1e-6);
-      ASSERT_GT(doubleArea, 0.1);
+      const bool isHidden = radiusOf(output, i) == 0.0;
+      hidden += isHidden ? 1 : 0;
+      ASSERT_NEAR(farthest, isHidden ? 0.0 : 1.0, isHidden ? 0.0 : 1e-6);
+      ASSERT_TRUE(isHidden || doubleArea > 0.1);
     }
-    EXPECT_LT(hidden, filter->GetOutput()->GetNumberOfPoints() / 10);
+    EXPECT_LT(hidden, count / 10);
   }
   filter->ComputeSplatsOff();
-  filter->Update();
-  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Radius"));
+  EXPECT_FALSE(outputOf(filter)->GetPointData()->HasArray("Radius"));
   EXPECT_EQ(filter->GetOutput()->GetCellData()->GetNumberOfArrays(), 0);
-}
-
-// The arrays of shapes are those of their points in each piece, too.
-TEST(FilterSplats, ArePartOfPieces)
-{
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(newCloud(5000));
-  filter->SetValue(0, 0.7);
-  filter->Update();
-  vtkNew<vtkPolyData> whole;
-  whole->ShallowCopy(filter->GetOutput());
-  constexpr int pieces = 3;
-  vtkIdType done = 0;
-  for (int piece = 0; piece < pieces; ++piece)
-  {
-    filter->UpdatePiece(piece, pieces, 0);
-    vtkPolyData* const part = filter->GetOutput();
-    const vtkIdType count = part->GetNumberOfPoints();
-    ASSERT_GT(count, 10);
-    for (const char* const name : { "SplatAxis", "SplatPolygon" })
-    {
-      vtkDataArray* const array = part->GetCellData()->GetArray(name);
-      vtkDataArray* const all = whole->GetCellData()->GetArray(name);
-      ASSERT_EQ(array->GetNumberOfTuples(), count);
-      EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
-      for (vtkIdType i = 0; i < count * array->GetNumberOfComponents(); ++i)
-      {
-        ASSERT_EQ(array->GetVariantValue(i).ToFloat(),
-          all->GetVariantValue(done * array->GetNumberOfComponents() + i).ToFloat());
-      }
-    }
-    done += count;
-  }
-  EXPECT_EQ(done, whole->GetNumberOfPoints());
 }
 
 TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
 {
-  using Filter = vtkScatteredIsopointFilter;
-  vtkNew<Filter> filter;
-  filter->SetInputData(newCloud(5000));
-  filter->SetValue(0, 0.7);
+  const auto filter = newFilter(newCloud(5000));
   const auto normals = [&filter](int method)
   {
     filter->SetNormalMethod(method);
-    filter->Update();
-    vtkDataArray* const array = filter->GetOutput()->GetPointData()->GetNormals();
-    std::vector<double> all;
-    for (vtkIdType i = 0; i < 3 * array->GetNumberOfTuples(); ++i)
-    {
-      all.push_back(array->GetComponent(i / 3, static_cast<int>(i % 3)));
-    }
-    return all;
+    return numbersOf(outputOf(filter)->GetPointData()->GetNormals());
   };
   const auto expectAutomatic = [&normals](int method, int other)
   {
-    const std::vector<double> automatic = normals(Filter::AUTOMATIC_NORMALS);
+    const std::vector<double> automatic = normals(Isopoints::AUTOMATIC_NORMALS);
     EXPECT_EQ(automatic, normals(method));
     EXPECT_NE(automatic, normals(other));
   };
-  EXPECT_EQ(filter->GetNormalMethod(), Filter::AUTOMATIC_NORMALS);
-  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
-  filter->SetProjection(Filter::NO_PROJECTION);
-  expectAutomatic(Filter::NORMALS_FROM_PLANES, Filter::NORMALS_FROM_FIELD);
+  EXPECT_EQ(filter->GetNormalMethod(), Isopoints::AUTOMATIC_NORMALS);
+  expectAutomatic(Isopoints::NORMALS_FROM_FIELD, Isopoints::NORMALS_FROM_PLANES);
+  filter->SetProjection(Isopoints::NO_PROJECTION);
+  expectAutomatic(Isopoints::NORMALS_FROM_PLANES, Isopoints::NORMALS_FROM_FIELD);
   filter->ComputeGradientsOn();
-  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
+  expectAutomatic(Isopoints::NORMALS_FROM_FIELD, Isopoints::NORMALS_FROM_PLANES);
   filter->ComputeGradientsOff();
   filter->SetMinimumSpacing(0.5);
-  expectAutomatic(Filter::NORMALS_FROM_FIELD, Filter::NORMALS_FROM_PLANES);
+  expectAutomatic(Isopoints::NORMALS_FROM_FIELD, Isopoints::NORMALS_FROM_PLANES);
 }
 
 // Far from the origin, coordinates in single precision have errors of several sample spacings;
@@ -180,39 +111,37 @@ TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
 // edges.
 TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
 {
-  for (const std::array<double, 3> center :
-    { std::array<double, 3>{ 0.0, 0.0, 0.0 }, std::array<double, 3>{ 1e8, 2e8, -1e8 } })
+  for (const Vector center : { Vector{ 0.0, 0.0, 0.0 }, Vector{ 1e8, 2e8, -1e8 } })
   {
-    vtkNew<vtkScatteredIsopointFilter> filter;
-    filter->SetInputData(newCubeCloud(center));
-    filter->SetValue(0, 0.0);
-    filter->SetProjection(vtkScatteredIsopointFilter::CREASE_FIT);
-    filter->Update();
-    vtkPointData* const data = filter->GetOutput()->GetPointData();
+    // Samples with a spacing of 1 whose scalars are 0 on the faces of a cube.
+    const auto cloud = newCloud(64000, VTK_DOUBLE);
+    const auto toCenter = [](const Vector& p) {
+      return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
+    };
+    move(cloud->GetPoints(),
+      [&](const Vector& p) { return analytic::sum(analytic::scaled(p, 20.0), center); });
+    setScalars(
+      cloud, [&](const Vector& p) { return 12.0 - toCenter(analytic::difference(p, center)); });
+    const auto filter = newFilter(cloud, 0.0);
+    filter->SetProjection(Isopoints::CREASE_FIT);
+    vtkPolyData* const output = outputOf(filter);
     int corners = 0;
     int astray = 0;
-    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
-      double axis[3];
-      double normal[3];
-      double point[3];
-      filter->GetOutput()->GetCellData()->GetArray("SplatAxis")->GetTuple(i, axis);
-      data->GetNormals()->GetTuple(i, normal);
-      filter->GetOutput()->GetPoint(i, point);
-      const double across[3]{ normal[1] * axis[2] - normal[2] * axis[1],
-        normal[2] * axis[0] - normal[0] * axis[2], normal[0] * axis[1] - normal[1] * axis[0] };
-      const double radius = data->GetArray("Radius")->GetComponent(i, 0);
+      const Vector axis = axisOf(output, i);
+      const Vector normal = normalOf(output, i);
+      const Vector frame[3]{ axis, analytic::cross(normal, axis),
+        analytic::scaled(normal, radiusOf(output, i)) };
       for (int k = 0; k < 8; ++k)
       {
-        double largest = 0.0;
-        for (int j = 0; j < 3; ++j)
+        const Vector corner = cornerOf(output, i, k);
+        Vector place = analytic::difference(placeOf(output, i), center);
+        for (std::size_t j = 0; j < 3; ++j)
         {
-          const double offset = cornerNumber(filter->GetOutput(), i, k, 0) * axis[j] +
-                                cornerNumber(filter->GetOutput(), i, k, 1) * across[j] +
-                                cornerNumber(filter->GetOutput(), i, k, 2) * radius * normal[j];
-          largest = std::max(largest, std::abs(point[j] - center[j] + offset));
+          place = analytic::sum(place, analytic::scaled(frame[j], corner[j]));
         }
-        astray += std::abs(largest - 12.0) > 0.05 ? 1 : 0;
+        astray += std::abs(toCenter(place) - 12.0) > 0.05 ? 1 : 0;
         ++corners;
       }
     }
@@ -225,30 +154,20 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
 // nothing bounds a cell, samples show that the surface is not there.
 TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
 {
-  constexpr int half = 10;
-  constexpr int size = 2 * half + 1;
-  vtkNew<vtkPoints> points;
-  const auto values = newArray<vtkDoubleArray>("f", size * size * size);
+  constexpr int size = 21;
+  Samples samples;
   for (int i = 0; i < size * size * size; ++i)
   {
-    const double x = i % size - half;
-    const double y = i / size % size - half;
-    const double z = i / size / size - half;
-    points->InsertNextPoint(x, y, z);
-    values->SetValue(i, 200.0 * std::exp(-(x * x + y * y + z * z) / 100.0) +
-                          10.0 * std::sin(3.0 * x) + 18.0 * std::sin(1.5 * y) +
-                          5.0 * std::cos(2.0 * z));
+    const Vector p{ i % size - 10.0, i / size % size - 10.0, i / size / size % size - 10.0 };
+    samples.push_back({ p[0], p[1], p[2],
+      200.0 * std::exp(-dot(p, p) / 100.0) + 10.0 * std::sin(3.0 * p[0]) +
+        18.0 * std::sin(1.5 * p[1]) + 5.0 * std::cos(2.0 * p[2]) });
   }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  cloud->GetPointData()->SetScalars(values);
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(cloud);
+  const auto filter = newFilter(cloudOf(samples));
   for (const double isovalue : { 100.0, 140.0 })
   {
     filter->SetValue(0, isovalue);
-    filter->Update();
-    vtkDataArray* const radii = filter->GetOutput()->GetPointData()->GetArray("Radius");
+    vtkDataArray* const radii = findArray(outputOf(filter), "Radius");
     ASSERT_GT(radii->GetNumberOfTuples(), 500);
     EXPECT_LT(radii->GetRange()[1], 2.2); // 1.3 spacings at borders, and overlaps
   }

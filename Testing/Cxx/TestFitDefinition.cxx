@@ -5,14 +5,6 @@
 #include "FitTesting.h"
 #include "RingDefinition.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 using namespace fittesting;
 
 namespace
@@ -28,11 +20,6 @@ struct Steps
   std::size_t rough = 0; // with the gradient of the affine function
   std::size_t stayed = 0;
 };
-
-void expectNear(const Vector& expected, const Vector& found, double tolerance)
-{
-  EXPECT_LE(lengthOf(difference(expected, found)), tolerance);
-}
 
 /// @param tolerance of positions and gradients, beside edges and slopes
 Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder highest,
@@ -64,8 +51,8 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     EXPECT_EQ(expected.isSmooth, found.isSmooth);
     EXPECT_EQ(expected.isGradientFitted, found.isGradientFitted);
     EXPECT_EQ(edge.spacing, found.spacing);
-    expectNear(expected.position, found.position, tolerance * lengthOf(r));
-    expectNear(expected.gradient, found.gradient, tolerance * slope);
+    EXPECT_LE(lengthOf(difference(expected.position, found.position)), tolerance * lengthOf(r));
+    EXPECT_LE(lengthOf(difference(expected.gradient, found.gradient)), tolerance * slope);
     for (std::size_t j = 0; j < expected.hessian.size(); ++j)
     {
       EXPECT_NEAR(expected.hessian[j], found.hessian[j], 10.0 * tolerance * slope / lengthOf(r));
@@ -76,12 +63,6 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     steps.stayed += found.order ? 0 : 1;
   }
   return steps;
-}
-
-clouds::Cloud noisy(const Field& field, std::size_t count, double side, double noise)
-{
-  clouds::Random random(17);
-  return cloudOf([&](const Vector& p) { return field(p) + noise * (random() - 0.5); }, count, side);
 }
 
 double distance(const Vector& p)
@@ -107,7 +88,11 @@ TEST(FitDefinition, OnSmoothFields)
 TEST(FitDefinition, OnNoise)
 {
   const auto stepsOf = [](double noise, FitOrder highest)
-  { return expectTheDefinition(noisy(distance, 500, 8.0, noise), 3.0, highest); };
+  {
+    clouds::Random random(17);
+    const auto noisy = [&](const Vector& p) { return lengthOf(p) + noise * (random() - 0.5); };
+    return expectTheDefinition(cloudOf(noisy, 500, 8.0), 3.0, highest);
+  };
   EXPECT_GT(stepsOf(0.02, FitOrder::Cubic).cubic, 150u);
   EXPECT_GT(stepsOf(0.2, FitOrder::Cubic).rough, 80u);
   EXPECT_GT(stepsOf(0.2, FitOrder::Quadratic).rough, 50u);
@@ -126,13 +111,11 @@ TEST(FitDefinition, OnDetailOfFewSamples)
 
 TEST(FitDefinition, OnRoundedValues)
 {
-  const auto stairs = [](double step)
+  const auto stepsOf = [](double step)
   {
-    return cloudOf(
-      [step](const Vector& p) { return step * std::round(lengthOf(p) / step); }, 500, 8.0);
-  };
-  const auto stepsOf = [&](double step) {
-    return expectTheDefinition(stairs(step), 3.01, FitOrder::Cubic, 1e-6, step / std::sqrt(12.0));
+    const auto stairs = [step](const Vector& p) { return step * std::round(lengthOf(p) / step); };
+    return expectTheDefinition(
+      cloudOf(stairs, 500, 8.0), 3.01, FitOrder::Cubic, 1e-6, step / std::sqrt(12.0));
   };
   EXPECT_GT(stepsOf(0.02).cubic, 150u);
   EXPECT_GT(stepsOf(0.4).rough, 80u);
@@ -153,21 +136,10 @@ TEST(FitDefinition, OnStepsAndCreases)
 
 TEST(FitDefinition, OnClustersSlicesAndCoincidentSamples)
 {
-  const auto withField = [](clouds::Cloud cloud)
-  {
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-    {
-      const double* const p = cloud.positions.data() + 3 * i;
-      cloud.values[i] = clouds::waves(p[0], p[1], p[2]);
-    }
-    return cloud;
-  };
+  const clouds::Cloud slices = clouds::withValuesOf(
+    clouds::moved(clouds::uniform(500, 19), [](double* p) { p[2] = std::floor(4.0 * p[2]) / 4.0; }),
+    [](const Vector& p) { return clouds::waves(p[0], p[1], p[2]); });
   expectTheDefinition(clouds::clustered(500, 18), -4.0, FitOrder::Cubic);
-  clouds::Cloud slices = clouds::uniform(500, 19);
-  for (std::size_t i = 0; i < slices.size(); ++i)
-  {
-    slices.positions[3 * i + 2] = std::floor(4.0 * slices.positions[3 * i + 2]) / 4.0;
-  }
-  expectTheDefinition(withField(slices), 0.5, FitOrder::Cubic);
+  expectTheDefinition(slices, 0.5, FitOrder::Cubic);
   expectTheDefinition(clouds::coincident(clouds::uniform(500, 20), 0.2), 0.5, FitOrder::Cubic);
 }

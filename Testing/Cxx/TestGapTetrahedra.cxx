@@ -1,61 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The crossing tetrahedra in gaps: against a search of CGAL's tetrahedrization, and against clouds
-// with and without gaps.
+// The crossing tetrahedra in gaps: against a search of CGAL's tetrahedralization, and against
+// clouds with and without gaps.
 #include "BruteForce.h"
 #include "RandomClouds.h"
 #include "TriangleTesting.h"
-
-#include "Core/Triangles/GapTetrahedra.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <random>
-#include <vector>
 
 namespace
 {
 
 using clouds::Cloud;
-using clouds::Random;
+using clouds::Vector;
 using triangles::Corners;
 
-/// The corners of the tetrahedra in gaps, ordered.
 std::vector<Corners> foundInGaps(const Cloud& cloud, double isovalue, std::size_t threads = 1)
 {
-  using TSample = isopoint::WideSample;
-  const isopoint::Execution execution = clouds::executionOn(threads);
-  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
-  const isopoint::NeighborhoodCache<TSample::Id> none;
-  isopoint::IsosurfaceRequest request;
-  request.isovalue = isovalue;
-  isopoint::SingleRank<TSample> rank(tree);
-  std::unique_ptr<isopoint::Band> band;
-  isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-    execution, tree, rank, none, band, request);
-  auto tetrahedra = extraction.tetrahedra(execution);
-  const std::vector<char> isInGap =
-    isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
-      execution, tree, rank, tetrahedra)
-      .find();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < tetrahedra.size(); ++i)
-  {
-    if (isInGap[i])
-    {
-      tetrahedra[count++] = tetrahedra[i];
-    }
-  }
-  tetrahedra.resize(count);
-  return triangles::cornersOf(tree, tetrahedra);
+  return triangles::TetrahedraSearch<>(cloud, threads).inGaps(isovalue);
 }
 
-/// A crossing tetrahedron of the whole tetrahedrization.
+double shareInGaps(const Cloud& cloud, double isovalue)
+{
+  const auto all = triangles::FullTetrahedralization(cloud).tetrahedra(isovalue);
+  return static_cast<double>(foundInGaps(cloud, isovalue).size()) / static_cast<double>(all.size());
+}
+
+/// A crossing tetrahedron of the whole tetrahedralization.
 struct Tetrahedron
 {
   Corners corners;
@@ -68,78 +36,53 @@ struct Tetrahedron
 /// Whether the edge {x, y} leaves the body at x.
 bool leavesBody(const std::vector<bruteforce::Cell>& cells, std::size_t x, std::size_t y)
 {
-  return bruteforce::isCrowded(cells, y, x, 2.0, 2) &&
-         bruteforce::isCrowded(cells, x, y, 4.0, 3, 0.0) &&
-         !bruteforce::isCrowded(cells, x, y, 0.5, 2);
+  return bruteforce::isDense(cells, y, x, 2.0, 2) &&
+         bruteforce::isDense(cells, x, y, 4.0, 3, 0.0) && !bruteforce::isDense(cells, x, y, 0.5, 2);
 }
 
 std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
 {
-  const std::vector<triangles::Site> sites = triangles::sitesOf(cloud);
-  const triangles::FullTetrahedrization full = triangles::fullTetrahedrization(sites);
-  const bruteforce::Tree tree(cloud);
+  const triangles::FullTetrahedralization full(cloud);
+  const std::vector<bruteforce::Cell> cells = bruteforce::Tree(cloud).cells;
   std::map<std::uint64_t, std::size_t> cellOf; // by id
-  for (std::size_t i = 0; i < tree.cells.size(); ++i)
+  for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    cellOf[tree.cells[i].id] = i;
+    cellOf[cells[i].id] = i;
   }
-  // Of the finite corners but one.
-  const auto isCrossing = [&](const auto& cell, int without)
+  std::map<triangles::Delaunay::Cell_handle, std::size_t> numberOf;
+  if (full.cells.dimension() == 3)
   {
-    int below = 0;
-    int finite = 0;
-    for (int i = 0; i < 4; ++i)
+    for (const auto cell : full.cells.finite_cell_handles())
     {
-      if (i != without && !full.is_infinite(cell->vertex(i)))
+      if (full.isCrossing(cell, isovalue))
       {
-        ++finite;
-        below += sites[cell->vertex(i)->info()].value < isovalue ? 1 : 0;
+        numberOf.emplace(cell, numberOf.size());
       }
     }
-    return below > 0 && below < finite;
-  };
-  std::vector<Tetrahedron> result;
-  if (full.dimension() < 3)
-  {
-    return result;
   }
-  std::map<triangles::FullTetrahedrization::Cell_handle, std::size_t> numberOf;
-  for (const auto cell : full.finite_cell_handles())
-  {
-    if (isCrossing(cell, -1))
-    {
-      numberOf.emplace(cell, numberOf.size());
-    }
-  }
-  result.resize(numberOf.size());
+  std::vector<Tetrahedron> result(numberOf.size());
   for (const auto& [cell, number] : numberOf)
   {
     Tetrahedron& tetrahedron = result[number];
+    tetrahedron.corners = full.cornersOf(cell);
     for (int i = 0; i < 4; ++i)
     {
-      tetrahedron.corners[static_cast<std::size_t>(i)] = sites[cell->vertex(i)->info()].id;
-      if (isCrossing(cell, i))
+      const std::size_t x = cellOf.at(full.idOf(cell->vertex(i)));
+      for (int j = 0; j < i; ++j)
       {
-        if (full.is_infinite(cell->neighbor(i)))
-        {
-          tetrahedron.isAtHull = true;
-        }
-        else
+        const std::size_t y = cellOf.at(full.idOf(cell->vertex(j)));
+        tetrahedron.isWeak |= bruteforce::isDroppedByGap(cells, x, y, 2.0, 2) ||
+                              leavesBody(cells, x, y) || leavesBody(cells, y, x);
+        tetrahedron.isStrong |= bruteforce::isDroppedByGap(cells, x, y, 4.0, 3);
+      }
+      if (full.isCrossing(cell, isovalue, i))
+      {
+        const bool isAtHull = full.cells.is_infinite(cell->neighbor(i));
+        tetrahedron.isAtHull |= isAtHull;
+        if (!isAtHull)
         {
           tetrahedron.neighbors.push_back(numberOf.at(cell->neighbor(i)));
         }
-      }
-    }
-    std::sort(tetrahedron.corners.begin(), tetrahedron.corners.end());
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      for (std::size_t j = i + 1; j < 4; ++j)
-      {
-        const std::size_t x = cellOf.at(tetrahedron.corners[i]);
-        const std::size_t y = cellOf.at(tetrahedron.corners[j]);
-        tetrahedron.isWeak |= bruteforce::isDroppedByGap(tree.cells, x, y, 2.0, 2) ||
-                              leavesBody(tree.cells, x, y) || leavesBody(tree.cells, y, x);
-        tetrahedron.isStrong |= bruteforce::isDroppedByGap(tree.cells, x, y, 4.0, 3);
       }
     }
   }
@@ -216,42 +159,9 @@ std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue)
   return result;
 }
 
-/// Values become a distance, or the like.
-template <class Field>
-Cloud withField(Cloud cloud, const Field& field)
+double fromMiddle(const Vector& p)
 {
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    cloud.values[i] = field(p[0], p[1], p[2]);
-  }
-  return cloud;
-}
-
-double fromMiddle(double x, double y, double z)
-{
-  return std::hypot(x - 0.5, y - 0.5, z - 0.5);
-}
-
-double fromRing(double x, double y, double z)
-{
-  return std::hypot(std::hypot(x - 0.5, y - 0.5) - 0.3, z - 0.5);
-}
-
-/// Blades of random samples with void between them, joined along one side.
-Cloud comb(std::size_t count, std::uint64_t seed)
-{
-  const Cloud cube = clouds::uniform(count, seed);
-  Cloud result;
-  for (std::size_t i = 0; i < cube.size(); ++i)
-  {
-    const double* const p = cube.positions.data() + 3 * i;
-    if (p[0] < 0.2 || std::fmod(p[1], 0.4) < 0.2)
-    {
-      result.add(p[0], p[1], p[2], p[2]);
-    }
-  }
-  return result;
+  return std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5);
 }
 
 } // namespace
@@ -264,7 +174,12 @@ TEST(GapTetrahedra, AreThoseOfTheDefinition)
     EXPECT_TRUE(foundInGaps(cloud, isovalue) == expected);
     return expected.size();
   };
-  EXPECT_GT(expectSame(comb(3000, 1), 0.5), 100u);
+  // Blades of random samples with void between them, joined along one side.
+  const Cloud comb =
+    clouds::withValuesOf(clouds::filtered(clouds::uniform(3000, 1), [](const Vector& p)
+                           { return p[0] < 0.2 || std::fmod(p[1], 0.4) < 0.2; }),
+      [](const Vector& p) { return p[2]; });
+  EXPECT_GT(expectSame(comb, 0.5), 100u);
   expectSame(clouds::clustered(1500, 2), -4.0);
   EXPECT_GT(expectSame(clouds::lines(1500, 20, 0, 3), 0.3), 0u);
   expectSame(clouds::uniform(2000, 4), 0.3);
@@ -283,20 +198,20 @@ TEST(GapTetrahedra, AreThoseOfTheDefinition)
 
 TEST(GapTetrahedra, AreNoneOfClosedSurfacesAmidSamples)
 {
+  const auto fromRing = [](const Vector& p)
+  { return std::hypot(std::hypot(p[0] - 0.5, p[1] - 0.5) - 0.3, p[2] - 0.5); };
   for (const std::size_t count : { 20000, 200000 })
   {
     const Cloud cloud = clouds::uniform(count, 6);
-    EXPECT_TRUE(foundInGaps(withField(cloud, fromMiddle), 0.35, 2).empty());
-    EXPECT_TRUE(foundInGaps(withField(cloud, fromRing), 0.1, 2).empty());
+    EXPECT_TRUE(foundInGaps(clouds::withValuesOf(cloud, fromMiddle), 0.35, 2).empty());
+    EXPECT_TRUE(foundInGaps(clouds::withValuesOf(cloud, fromRing), 0.1, 2).empty());
     Cloud normal;
     std::mt19937_64 random(7);
     std::normal_distribution<double> distribution;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const double x = distribution(random);
-      const double y = distribution(random);
-      const double z = distribution(random);
-      normal.add(x, y, z, std::hypot(x, y, z));
+      const Vector p{ distribution(random), distribution(random), distribution(random) };
+      normal.add(p, isopoint::lengthOf(p));
     }
     EXPECT_TRUE(foundInGaps(normal, 1.0, 2).empty());
     EXPECT_TRUE(foundInGaps(normal, 2.0, 2).empty());
@@ -309,19 +224,11 @@ TEST(GapTetrahedra, AreAllAcrossAVoidAllAround)
 {
   const auto inGaps = [](double width)
   {
-    const Cloud cube = clouds::uniform(20000, 8);
-    Cloud cloud;
-    for (std::size_t i = 0; i < cube.size(); ++i)
-    {
-      const double* const p = cube.positions.data() + 3 * i;
-      const double r = fromMiddle(p[0], p[1], p[2]);
-      if (std::abs(r - 0.3) > 0.5 * width)
-      {
-        cloud.add(p[0], p[1], p[2], r);
-      }
-    }
-    const auto all = static_cast<double>(triangles::fullTetrahedra(cloud, 0.3).size());
-    return static_cast<double>(foundInGaps(cloud, 0.3).size()) / all;
+    const auto isOutside = [width](const Vector& p)
+    { return std::abs(fromMiddle(p) - 0.3) > 0.5 * width; };
+    return shareInGaps(
+      clouds::withValuesOf(clouds::filtered(clouds::uniform(20000, 8), isOutside), fromMiddle),
+      0.3);
   };
   EXPECT_EQ(inGaps(0.01), 0.0);
   EXPECT_GT(inGaps(0.3), 0.99);
@@ -331,33 +238,25 @@ TEST(GapTetrahedra, AreAllAcrossAVoidAllAround)
 /// it cannot agree on the spacing.
 TEST(GapTetrahedra, AreThoseBetweenABodyAndASheet)
 {
-  Random random(9);
+  clouds::Random random(9);
   Cloud cloud;
   for (int i = 0; i < 8600; ++i)
   {
-    const double x = random();
-    const double y = random();
-    const double z = i < 8000 ? 0.5 * random() : 1.0 + 0.02 * random();
+    const auto [x, y, height] = random.place();
+    const double z = i < 8000 ? 0.5 * height : 1.0 + 0.02 * height;
     cloud.add(x, y, z, z);
   }
-  const auto all = static_cast<double>(triangles::fullTetrahedra(cloud, 0.75).size());
-  EXPECT_GT(static_cast<double>(foundInGaps(cloud, 0.75).size()), 0.97 * all);
+  EXPECT_GT(shareInGaps(cloud, 0.75), 0.97);
 }
 
 /// The last of several slices is no farther from the next one than these are apart.
 TEST(GapTetrahedra, AreFewBetweenSlices)
 {
-  const Cloud cube = clouds::uniform(6000, 10);
-  Cloud cloud;
-  for (std::size_t i = 0; i < cube.size(); ++i)
-  {
-    const double* const p = cube.positions.data() + 3 * i;
-    const double z = std::floor(5.0 * p[2]) / 5.0;
-    cloud.add(p[0], p[1], z, z + 0.2 * p[0]);
-  }
+  const Cloud cloud = clouds::withValuesOf(clouds::moved(clouds::uniform(6000, 10), [](double* p)
+                                             { p[2] = std::floor(5.0 * p[2]) / 5.0; }),
+    [](const Vector& p) { return p[2] + 0.2 * p[0]; });
   for (const double isovalue : { 0.1, 0.5, 0.9 })
   {
-    const auto all = static_cast<double>(triangles::fullTetrahedra(cloud, isovalue).size());
-    EXPECT_LT(static_cast<double>(foundInGaps(cloud, isovalue).size()), 0.05 * all) << isovalue;
+    EXPECT_LT(shareInGaps(cloud, isovalue), 0.05) << isovalue;
   }
 }

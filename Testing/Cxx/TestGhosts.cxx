@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of ghost cells: which of them are samples if only the cells have a ghost array.
+// Ghost and hidden points and cells: which of them are samples, and when they are found again.
 #include "InputTesting.h"
 
 #include "vtkObjectFactory.h"
@@ -11,42 +11,24 @@ using namespace inputtesting;
 namespace
 {
 
-/// Gives each cell of a box of 8 x 8 x 8 the ghost bits of its index along x.
-void addCellGhosts(vtkDataSet* input, const std::array<unsigned char, 8>& bitsAlongX)
+/// Expects the accepted samples, and that the others are counted.
+void expectSamples(
+  vtkDataSet* input, int association, const std::function<bool(vtkIdType)>& isSample)
 {
-  const auto ghosts = newGhosts(input->GetNumberOfCells());
-  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
-  {
-    ghosts->SetValue(cell, bitsAlongX[static_cast<std::size_t>(cell % 8)]);
-  }
-  input->GetCellData()->AddArray(ghosts);
-}
-
-/// The points of a box of 9 x 9 x 9 that are samples, by their index along x.
-Samples samplesAlongX(vtkDataSet* input, const std::array<bool, 9>& isSample)
-{
-  Samples samples;
-  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
-  {
-    if (isSample[static_cast<std::size_t>(i % 9)])
-    {
-      samples.add(input->GetPoint(i), fieldAt(input->GetPoint(i)));
-    }
-  }
-  return samples;
-}
-
-void expectSkipped(vtkDataSet* input, vtkIdType count)
-{
-  const auto filter = newFilter(input);
+  const Samples samples = samplesOf(input, association, isSample);
+  expectSame(input, association, samples);
+  const auto filter = filterOf(input, association);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), count);
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(),
+    input->GetNumberOfElements(association) - static_cast<vtkIdType>(samples.size()));
 }
 
-constexpr unsigned char duplicate = vtkDataSetAttributes::DUPLICATECELL;
-constexpr unsigned char hidden = vtkDataSetAttributes::HIDDENCELL;
-constexpr unsigned char refined = vtkDataSetAttributes::REFINEDCELL;
-constexpr vtkIdType layer = 81; // points of one index along x
+void addGhosts(
+  vtkDataSet* input, int association, const std::function<unsigned char(vtkIdType)>& bitsAt)
+{
+  input->GetAttributes(association)
+    ->AddArray(ghostsOf(input->GetNumberOfElements(association), bitsAt));
+}
 
 /// A grid that counts how often the points of its cells are read, and aborts a filter at a cell.
 class CountingGrid : public vtkUnstructuredGrid
@@ -72,22 +54,14 @@ public:
 
 vtkStandardNewMacro(CountingGrid);
 
-/// A box of cells with ghosts on one side, and with arrays of points and cells.
+/// A box of cells with duplicates on one side, and with arrays of points and cells.
 vtkSmartPointer<CountingGrid> newCountingGrid(int cells)
 {
   const auto grid = vtkSmartPointer<CountingGrid>::New();
-  grid->ShallowCopy(unstructuredOf(newImage(cells, 2.0 / cells, -1.0, -1.0, -1.0)));
-  addPointField(grid);
-  addCellField(grid);
-  const auto ghosts = newGhosts(grid->GetNumberOfCells());
-  for (vtkIdType cell = 0; cell < ghosts->GetNumberOfValues(); cell += cells)
-  {
-    ghosts->SetValue(cell, duplicate);
-  }
-  grid->GetCellData()->AddArray(ghosts);
-  const auto hidden = newGhosts(grid->GetNumberOfPoints());
-  hidden->SetValue(5, vtkDataSetAttributes::HIDDENPOINT);
-  grid->GetPointData()->AddArray(hidden);
+  grid->ShallowCopy(unstructuredOf(newImage({ cells, cells, cells }, 2.0 / cells)));
+  addField(grid, ofPoints);
+  addField(grid, ofCells);
+  addGhosts(grid, ofCells, [cells](vtkIdType cell) { return cell % cells == 0 ? duplicate : 0; });
   return grid;
 }
 
@@ -95,23 +69,21 @@ vtkSmartPointer<CountingGrid> newCountingGrid(int cells)
 
 TEST(Ghosts, OfPointsAndCellsAreKeptWhileNothingTheyComeFromChanges)
 {
-  for (const int association :
-    { vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataObject::FIELD_ASSOCIATION_CELLS })
+  for (const int association : { ofPoints, ofCells })
   {
     const auto grid = newCountingGrid(8);
-    if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS)
+    if (association == ofCells) // with a ghost array of the points duplicate cells have no say
     {
-      // Otherwise the ghosts of cells that are duplicates have no say.
-      grid->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+      addGhosts(grid, ofPoints, [](vtkIdType i) { return i == 5 ? hiddenPoint : 0; });
     }
     grid->Reads = 0;
-    const auto filter = newFilter(grid, association);
+    const auto filter = filterOf(grid, association);
     filter->Update();
     EXPECT_GE(grid->Reads, grid->GetNumberOfCells());
     const vtkIdType skipped = filter->GetNumberOfSkippedSamples();
     EXPECT_GT(skipped, 0);
     grid->Reads = 0;
-    filter->SetValue(0, isovalue + 0.1);
+    filter->SetValue(0, 0.4);
     filter->Update();
     EXPECT_EQ(grid->Reads, 0);
     EXPECT_EQ(filter->GetNumberOfSkippedSamples(), skipped);
@@ -120,89 +92,103 @@ TEST(Ghosts, OfPointsAndCellsAreKeptWhileNothingTheyComeFromChanges)
     filter->Modified();
     filter->Update();
     EXPECT_GE(grid->Reads, grid->GetNumberOfCells());
-    const auto fresh = newFilter(grid, association);
-    fresh->SetValue(0, isovalue + 0.1);
-    fresh->Update();
+    const auto fresh = filterOf(grid, association);
+    fresh->SetValue(0, 0.4);
+    EXPECT_EQ(everythingOf(filter->GetOutput()), everythingOf(outputOf(fresh)));
     EXPECT_EQ(filter->GetNumberOfSkippedSamples(), fresh->GetNumberOfSkippedSamples());
-    EXPECT_EQ(everythingOf(filter->GetOutput()), everythingOf(fresh->GetOutput()));
   }
 }
 
 TEST(Ghosts, AnAbortEndsTheSearchForThem)
 {
   const auto grid = newCountingGrid(80);
-  grid->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  const auto filter = newFilter(grid);
+  const auto filter = filterOf(grid);
   grid->Aborted = filter;
   grid->Reads = 0;
   grid->AbortAt = 1000;
-  filter->Update();
+  expectEmpty(outputOf(filter));
   EXPECT_LT(grid->Reads, grid->GetNumberOfCells());
-  expectEmpty(filter->GetOutput());
   filter->SetAbortExecute(0);
   filter->Modified();
-  filter->Update();
-  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_GT(outputOf(filter)->GetNumberOfPoints(), 0);
 }
 
-TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOutAndCounted)
+// Of each point on the way along x through a box with these ghost bits of cells.
+TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
 {
-  for (vtkDataSet* const input : everyGrid())
+  struct Case
   {
-    SCOPED_TRACE(input->GetClassName());
-    addPointField(input);
-    addCellGhosts(input, { 0, 0, 0, 0, 0, duplicate, duplicate, duplicate });
-    const std::array<bool, 9> isSample{ true, true, true, true, true, true, false, false, false };
-    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
-    expectSkipped(input, 3 * layer);
-  }
-}
-
-TEST(Ghosts, PointsOfCellsWithDifferentGhostBitsAreLeftOut)
-{
-  for (vtkDataSet* const input : everyGrid())
+    std::array<unsigned char, 8> bitsOfCells;
+    bool hasGhostsOfPoints; // the first point is a duplicate
+    std::array<bool, 9> areSamples;
+  };
+  const std::vector<Case> cases{
+    { { 0, 0, 0, 0, 0, duplicate, duplicate, duplicate }, false,
+      { true, true, true, true, true, true, false, false, false } },
+    { { duplicate, hidden, 0, 0, 0, 0, duplicate, refined }, false,
+      { false, false, true, true, true, true, true, false, false } },
+    { { 0, 0, 0, 0, refined, refined, refined, refined }, false,
+      { true, true, true, true, true, false, false, false, false } },
+    // A ghost array of the points determines the duplicates.
+    { { duplicate, duplicate, 0, 0, 0, duplicate, hidden, hidden }, true,
+      { false, true, true, true, true, true, true, false, false } },
+  };
+  for (const Case& along : cases)
   {
-    SCOPED_TRACE(input->GetClassName());
-    addPointField(input);
-    addCellGhosts(input, { duplicate, hidden, 0, 0, 0, 0, duplicate, refined });
-    const std::array<bool, 9> isSample{ false, false, true, true, true, true, true, false, false };
-    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
-    expectSkipped(input, 4 * layer);
-  }
-}
-
-TEST(Ghosts, AGhostArrayOfThePointsDeterminesTheDuplicates)
-{
-  for (vtkDataSet* const input : everyGrid())
-  {
-    SCOPED_TRACE(input->GetClassName());
-    addPointField(input);
-    addCellGhosts(input, { duplicate, duplicate, 0, 0, 0, duplicate, hidden, hidden });
-    const auto ghosts = newGhosts(input->GetNumberOfPoints());
-    for (vtkIdType i = 0; i < input->GetNumberOfPoints(); i += 9)
+    for (vtkDataSet* const input : everyGrid())
     {
-      ghosts->SetValue(i, vtkDataSetAttributes::DUPLICATEPOINT);
+      SCOPED_TRACE(
+        testing::Message() << input->GetClassName() << ", case " << &along - cases.data());
+      const auto at = [](const auto& values, vtkIdType id)
+      { return values[static_cast<std::size_t>(id) % values.size()]; };
+      addField(input, ofPoints);
+      addGhosts(input, ofCells, [&](vtkIdType cell) { return at(along.bitsOfCells, cell); });
+      if (along.hasGhostsOfPoints)
+      {
+        addGhosts(input, ofPoints, [](vtkIdType i) { return i % 9 == 0 ? duplicatePoint : 0; });
+      }
+      expectSamples(input, ofPoints, [&](vtkIdType i) { return at(along.areSamples, i); });
     }
-    input->GetPointData()->AddArray(ghosts);
-    const std::array<bool, 9> isSample{ false, true, true, true, true, true, true, false, false };
-    expectSame(input, vtkDataObject::FIELD_ASSOCIATION_POINTS, samplesAlongX(input, isSample));
-    expectSkipped(input, 3 * layer);
   }
 }
 
 TEST(Ghosts, PointsOfNoCellAreSamples)
 {
-  const auto grid = unstructuredOf(newImage(8, 0.25, -1.0, -1.0, -1.0));
-  addCellGhosts(grid,
-    { duplicate, duplicate, duplicate, duplicate, duplicate, duplicate, duplicate, duplicate });
-  Samples samples;
-  const auto cloud = newCloud(1000, VTK_DOUBLE);
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  const auto grid = unstructuredOf(newImage({ 8, 8, 8 }, 0.25));
+  const vtkIdType count = grid->GetNumberOfPoints();
+  addGhosts(grid, ofCells, [](vtkIdType) { return duplicate; });
+  for (const Sample& sample : samplesOf(newCloud(1000, VTK_DOUBLE), ofPoints))
   {
-    grid->GetPoints()->InsertNextPoint(cloud->GetPoint(i));
-    samples.add(cloud->GetPoint(i), fieldAt(cloud->GetPoint(i)));
+    grid->GetPoints()->InsertNextPoint(sample.data());
   }
-  addPointField(grid);
-  expectSame(grid, vtkDataObject::FIELD_ASSOCIATION_POINTS, samples);
-  expectSkipped(grid, 9 * layer);
+  addField(grid, ofPoints);
+  expectSamples(grid, ofPoints, [count](vtkIdType i) { return i >= count; });
+}
+
+TEST(Ghosts, GhostAndHiddenCellsAreLeftOut)
+{
+  for (const unsigned char bit : { duplicate, hidden, refined })
+  {
+    for (vtkDataSet* const input : everyGrid())
+    {
+      SCOPED_TRACE(testing::Message() << input->GetClassName() << " " << int(bit));
+      addField(input, ofCells);
+      addGhosts(input, ofCells, [bit](vtkIdType cell) { return cell % 5 == 2 ? bit : 0; });
+      expectSamples(input, ofCells, [](vtkIdType cell) { return cell % 5 != 2; });
+    }
+  }
+}
+
+TEST(Ghosts, CellsWithAHiddenPointAreLeftOut)
+{
+  const auto image = newImage({ 8, 8, 8 }, 0.25);
+  addField(image, ofCells);
+  addGhosts(image, ofPoints, [](vtkIdType i) { return i == 100 ? hiddenPoint : 0; });
+  expectSamples(image, ofCells,
+    [&](vtkIdType cell)
+    {
+      vtkNew<vtkIdList> corners;
+      image->GetCellPoints(cell, corners);
+      return corners->IsId(100) < 0;
+    });
 }

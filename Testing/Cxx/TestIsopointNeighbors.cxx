@@ -9,12 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <set>
-#include <vector>
-
 namespace
 {
 
@@ -23,14 +17,12 @@ using Cache = isopoint::NeighborhoodCache<TSample::Id>;
 
 bool doTouch(const isopoint::Region& a, const isopoint::Region& b)
 {
+  bool touch = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis])
-    {
-      return false;
-    }
+    touch = touch && a.lower[axis] <= b.upper[axis] && b.lower[axis] <= a.upper[axis];
   }
-  return true;
+  return touch;
 }
 
 /// A surface, and the tree that it was extracted from.
@@ -44,13 +36,9 @@ struct Extracted
     : tree(isopoint::loadSamples<TSample>(
         clouds::executionOn(1), cloud.size(), clouds::readerOf(cloud)))
   {
-    isopoint::IsosurfaceRequest request{};
-    request.isovalue = 0.3;
-    request.angle = isopoint::defaultAngle;
-    const isopoint::Execution execution = clouds::executionOn(1);
     isopoint::SingleRank<TSample> rank(this->tree);
     this->surface =
-      isopoint::extractIsosurface(execution, this->tree, rank, this->known, cloud.size(), request);
+      isopoint::extractIsosurface({}, this->tree, rank, this->known, cloud.size(), { 0.3 });
     for (const isopoint::EdgeLeaves& leaves : this->surface.leaves)
     {
       this->Ends.push_back({ leaves.first, leaves.second });
@@ -67,7 +55,7 @@ struct Extracted
     Isopoints found;
     for (std::size_t i = 0; i < this->surface.size(); ++i)
     {
-      for (const std::size_t end : this->endsOf(i))
+      for (const std::size_t end : this->Ends[i])
       {
         if (doTouch(regionOf(end), regionOf(leaf)))
         {
@@ -84,7 +72,7 @@ struct Extracted
     Isopoints found; // first those whose edges begin in the same leaf
     for (std::size_t i = 0; i < this->surface.size(); ++i)
     {
-      if (this->endsOf(i)[0] == this->endsOf(isopoint)[0])
+      if (this->Ends[i][0] == this->Ends[isopoint][0])
       {
         found.insert(i);
       }
@@ -94,7 +82,7 @@ struct Extracted
       std::set<std::size_t> ends;
       for (const std::size_t other : found)
       {
-        ends.insert(this->endsOf(other).begin(), this->endsOf(other).end());
+        ends.insert(this->Ends[other].begin(), this->Ends[other].end());
       }
       for (const std::size_t end : ends)
       {
@@ -105,11 +93,6 @@ struct Extracted
   }
 
 private:
-  const std::array<std::size_t, 2>& endsOf(std::size_t isopoint) const
-  {
-    return this->Ends[isopoint];
-  }
-
   std::vector<std::array<std::size_t, 2>> Ends; // of the isopoints' edges, leaves
 };
 

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists that threads make together, against their definitions.
+// Lists that threads make together, and selection, against their definitions.
 #include "Clouds.h"
 
-#include "Core/Base/Collected.h"
-#include "Core/Base/ItemLists.h"
+#include "Core/Base/Lists.h"
+#include "Core/Fit/Selection.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <utility>
-#include <vector>
 
 namespace
 {
@@ -110,4 +103,40 @@ TEST(NeighborhoodCache, KnowsWhatWasAdded)
   }
   EXPECT_EQ(cache.room(20), 5u);
   EXPECT_EQ(cache.room(10), 0u);
+}
+
+TEST(Selection, IsThatOfSorting)
+{
+  for (const std::size_t count : { 1, 2, 7, 8, 9, 10, 16, 17, 64, 108, 257, 1000 })
+  {
+    for (const double distinct : { 1.0, 2.0, 5.0, 1e3, 1e15 }) // different numbers, about
+    {
+      clouds::Random random(count);
+      std::vector<double> numbers(count);
+      std::generate(
+        numbers.begin(), numbers.end(), [&]() { return std::floor(distinct * random()) - 3.0; });
+      std::vector<double> sorted = numbers;
+      std::sort(sorted.begin(), sorted.end());
+      const std::vector<double> descending(sorted.rbegin(), sorted.rend());
+      for (std::size_t place = 0; place < count; place += 1 + count / 17)
+      {
+        for (std::vector<double> reordered : { numbers, sorted, descending })
+        {
+          EXPECT_EQ(sorted[place], isopoint::numberOfRank(reordered.data(), count, place));
+          std::sort(reordered.begin(), reordered.end());
+          EXPECT_EQ(sorted, reordered);
+        }
+      }
+    }
+  }
+}
+
+TEST(Selection, EndsWithNumbersThatAreNone)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> infinite(50, infinity);
+  EXPECT_EQ(infinity, isopoint::numberOfRank(infinite.data(), infinite.size(), 25));
+  std::vector<double> numbers(50, none);
+  EXPECT_TRUE(std::isnan(isopoint::numberOfRank(numbers.data(), numbers.size(), 25)));
 }

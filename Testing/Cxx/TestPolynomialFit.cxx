@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What samples determine of a polynomial, and what they do not. TestFitDefinition compares whole
 // fits.
-#include "Random.h"
+#include "Clouds.h"
 
 #include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/NormalEquations.h"
 #include "Core/Fit/PolynomialFit.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <vector>
 
 namespace
 {
@@ -37,25 +30,16 @@ struct Case
   }
 };
 
-/// Random places in a cube of side 4.
-std::vector<Vector> randomPlaces(std::size_t count, std::uint64_t seed)
+/// Samples at random places of a cube of side 4, moved, of the value 0 and the weight 1.
+Case randomCase(
+  std::size_t count, std::uint64_t seed, const std::function<Vector(const Vector&)>& moved = {})
 {
   clouds::Random random(seed);
-  std::vector<Vector> places;
+  Case result;
   for (std::size_t i = 0; i < count; ++i)
   {
-    places.push_back({ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 4.0 * random() - 2.0 });
-  }
-  return places;
-}
-
-/// Samples at random places, of the value 0 and the weight 1.
-Case randomCase(std::size_t count, std::uint64_t seed)
-{
-  Case result;
-  for (const Vector& place : randomPlaces(count, seed))
-  {
-    result.add(place, 0.0, 1.0);
+    const Vector place = random.inCube(4.0);
+    result.add(moved ? moved(place) : place, 0.0, 1.0);
   }
   return result;
 }
@@ -66,20 +50,14 @@ TEST(NormalEquations, DetermineWhatTheSamplesDo)
 {
   const auto determined = [](std::size_t count, const std::function<Vector(const Vector&)>& moved)
   {
-    Case sampled;
-    for (const Vector& place : randomPlaces(count, 3))
-    {
-      sampled.add(moved(place), 0.0, 1.0);
-    }
+    const Case sampled = randomCase(count, 3, moved);
     return isopoint::NormalEquations<3>(sampled.samples, sampled.weights).determinedDegree();
   };
-  const auto stay = [](const Vector& p) { return p; };
-  EXPECT_EQ(determined(3, stay), 0);
-  EXPECT_EQ(determined(4, stay), 1);
-  EXPECT_EQ(determined(9, stay), 1);
-  EXPECT_EQ(determined(10, stay), 2);
-  EXPECT_EQ(determined(19, stay), 2);
-  EXPECT_EQ(determined(30, stay), 3);
+  for (const auto& [count, degree] : { std::pair(3, 0), std::pair(4, 1), std::pair(9, 1),
+         std::pair(10, 2), std::pair(19, 2), std::pair(30, 3) })
+  {
+    EXPECT_EQ(determined(static_cast<std::size_t>(count), {}), degree);
+  }
   EXPECT_EQ(determined(30, [](const Vector& p) { return Vector{ p[0], p[1], 0.3 * p[0] }; }), 0);
   EXPECT_EQ(determined(30, [](const Vector&) { return Vector{ 1.0, 1.0, 1.0 }; }), 0);
   const auto onPlanes = [](double count)
@@ -88,11 +66,11 @@ TEST(NormalEquations, DetermineWhatTheSamplesDo)
       return Vector{ p[0], p[1], std::floor(0.25 * count * (p[2] + 2.0)) };
     };
   };
-  EXPECT_EQ(determined(60, onPlanes(2.0)), 1);
-  EXPECT_EQ(determined(60, onPlanes(3.0)), 2);
-  EXPECT_EQ(determined(60, onPlanes(4.0)), 3);
-  const auto onSphere = [](const Vector& p) { return isopoint::directionOf(p); };
-  EXPECT_EQ(determined(60, onSphere), 1);
+  for (const int count : { 2, 3, 4 })
+  {
+    EXPECT_EQ(determined(60, onPlanes(count)), count - 1);
+  }
+  EXPECT_EQ(determined(60, isopoint::directionOf), 1);
 }
 
 // The limit: a plane of samples with one off it, whose share of z^2 is the pivot of z.
@@ -101,17 +79,12 @@ TEST(NormalEquations, APivotDecidesOnWhatIsDetermined)
   const auto isDetermined = [](double share)
   {
     Case sampled;
-    const double z = 1.0;
-    for (const double x : { -1.0, 1.0 })
+    // The mean of z is 1, its variance that of both signs; twice, since four samples are too few.
+    for (int i = 0; i < 8; ++i)
     {
-      for (const double y : { -1.0, 1.0 })
-      {
-        // The mean of z is z, its variance that of both signs.
-        for (const double weight : { 0.3, 0.7 }) // twice, since four samples are too few
-        {
-          sampled.add({ x, y, z + std::sqrt(share) * x * y }, 0.0, weight);
-        }
-      }
+      const double x = i % 2 ? 1.0 : -1.0;
+      const double y = i / 2 % 2 ? 1.0 : -1.0;
+      sampled.add({ x, y, 1.0 + std::sqrt(share) * x * y }, 0.0, i < 4 ? 0.3 : 0.7);
     }
     return isopoint::leastSquares(sampled.samples, sampled.weights, 1).has_value();
   };
@@ -144,8 +117,10 @@ TEST(PolynomialFit, DoesNotHoldWhereASampleAloneDeterminesACoefficient)
   {
     Case sampled;
     sampled.add({ 0.3, 0.2, 0.45 }, 0.45, 1.0);
-    for (const Vector& p : randomPlaces(60, 11))
+    clouds::Random random(11);
+    for (int i = 0; i < 60; ++i)
     {
+      const Vector p = random.inCube(4.0);
       const double z = std::floor(0.25 * planes * (p[2] + 2.0)) - 0.5;
       sampled.add({ p[0], p[1], z }, z + 0.1 * p[0] * p[1], 1.0);
     }
@@ -156,8 +131,9 @@ TEST(PolynomialFit, DoesNotHoldWhereASampleAloneDeterminesACoefficient)
     return isopoint::fitPolynomial(sampled.samples, sampled.weights, { 0.0, 0.0, 2.0 }, degree)
       .has_value();
   };
-  EXPECT_FALSE(isDetermined(3.0, false, 3));
-  EXPECT_TRUE(isDetermined(3.0, true, 3));
-  EXPECT_FALSE(isDetermined(2.0, false, 2));
-  EXPECT_TRUE(isDetermined(2.0, true, 2));
+  for (const int degree : { 2, 3 })
+  {
+    EXPECT_FALSE(isDetermined(degree, false, degree));
+    EXPECT_TRUE(isDetermined(degree, true, degree));
+  }
 }

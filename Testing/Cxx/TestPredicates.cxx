@@ -2,15 +2,10 @@
 // Predicates in doubles agree with CGAL's exact ones, where coordinates have a common unit.
 #include "Clouds.h"
 
-#include "Core/Tetrahedra/BandKernel.h"
 #include "Core/Tetrahedra/CoordinateUnit.h"
+#include "Core/Tetrahedra/TriangulationKernel.h"
 
 #include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 
 namespace
 {
@@ -54,10 +49,9 @@ void expectSameInLattice(double below, double step, double offset, std::uint64_t
     CoordinateUnit unit;
     for (Vector& position : positions)
     {
-      for (double& coordinate : position)
-      {
-        coordinate = step * std::floor(below * random()) + offset;
-      }
+      position = random.place();
+      std::for_each(position.begin(), position.end(),
+        [=](double& coordinate) { coordinate = step * std::floor(below * coordinate) + offset; });
       unit.add(position);
     }
     ASSERT_LE(step, unit.value());
@@ -95,18 +89,14 @@ TEST(CoordinateUnit, IsNoneWhereItIsOfNoUse)
   EXPECT_EQ(0.5, unit.value());
 }
 
-// Of so few places many are coplanar or on one sphere.
+// Of few places many are coplanar or on one sphere. With more bits the doubles just suffice, or no
+// longer do.
 TEST(Predicates, AreThoseOfCgalInLattices)
 {
   expectSameInLattice(3.0, 1.0, 0.0, 1);
   expectSameInLattice(6.0, 0.125, 1000.0, 2);
   expectSameInLattice(20.0, 0x1p-60, 0.0, 3);
   expectSameInLattice(20.0, 0x1p60, 0.0, 4);
-}
-
-// Where the doubles just suffice, and where they no longer do.
-TEST(Predicates, AreThoseOfCgalForMoreBits)
-{
   for (const int bits : { 8, 9, 10, 12, 16, 17, 20, 26 })
   {
     expectSameInLattice(std::ldexp(1.0, bits) + 1.0, 1.0, 0.0, static_cast<std::uint64_t>(bits));
@@ -116,30 +106,24 @@ TEST(Predicates, AreThoseOfCgalForMoreBits)
 // The fifth place is on the sphere of radius 105 through the others, or one unit off it.
 TEST(Predicates, SeeOneUnitOnLargeSpheres)
 {
-  const std::array<Vector, 4> corners{ { { 105.0, 0.0, 0.0 }, { 30.0, 45.0, 90.0 },
-    { 0.0, 105.0, 0.0 }, { -90.0, 30.0, 45.0 } } };
   for (const double x : { -105.0, -104.0, -106.0 })
   {
     CoordinateUnit unit;
     unit.add({ 1.0, 1.0, 1.0 });
-    expectSameAnswers(unit, { corners[0], corners[1], corners[2], corners[3], { x, 0.0, 0.0 } });
+    expectSameAnswers(unit, { { { 105.0, 0.0, 0.0 }, { 30.0, 45.0, 90.0 }, { 0.0, 105.0, 0.0 },
+                              { -90.0, 30.0, 45.0 }, { x, 0.0, 0.0 } } });
   }
 }
 
 TEST(Predicates, DoWithoutAUnit)
 {
   Random random(5);
-  const CoordinateUnit none(1.0);
-  CoordinateUnit unit = none;
+  CoordinateUnit unit(1.0);
   unit.add({ 0.1, 0.1, 0.1 });
   ASSERT_EQ(0.0, unit.value());
   for (int round = 0; round < 1000; ++round)
   {
-    std::array<Vector, 5> positions;
-    for (Vector& position : positions)
-    {
-      position = { random(), random(), random() };
-    }
-    expectSameAnswers(unit, positions);
+    expectSameAnswers(
+      unit, { random.place(), random.place(), random.place(), random.place(), random.place() });
   }
 }

@@ -1,223 +1,252 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whatever ranks a cloud is dealt out to, they yield together what one process does.
+// Whatever ranks a cloud is dealt out to, they yield together what one rank does.
+#include "RandomRequests.h"
 #include "RankTesting.h"
 
-#include "Core/Base/Offset.h"
-#include "Core/Base/Vector.h"
+#include "Core/Triangles/SurfacePart.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
+namespace
+{
 
 using clouds::Cloud;
-using ranks::variousClouds;
+using clouds::requestOf;
+using clouds::withSplats;
+using isopoint::FitOrder;
+using ranks::Deal;
+using ranks::Extracted;
+using ranks::Request;
 
-TEST(Ranks, YieldThePointsOfOneProcess)
+Request triangles(double isovalue, std::optional<FitOrder> order = std::nullopt,
+  bool dropsGaps = false, bool regularizes = false)
 {
-  for (const Cloud& cloud : variousClouds())
+  return clouds::withTriangles(withSplats(requestOf(isovalue, order, dropsGaps)), regularizes);
+}
+
+Request partingCreases(Request request)
+{
+  request.isosurface.partsCreases = true;
+  return request;
+}
+
+/// The normals of points that are fitted but do not move.
+Request withUnmovedFits(double isovalue)
+{
+  Request request = requestOf(isovalue);
+  request.isosurface.fit = isopoint::FitRequest{ std::nullopt, false };
+  return request;
+}
+
+Request withoutFieldNormals(Request request)
+{
+  request.splats->fieldNormals = false;
+  return request;
+}
+
+Request thinned(Request request)
+{
+  request.minimumSpacing = 0.5;
+  return request;
+}
+
+void expectSameAsOneRank(const std::vector<Cloud>& clouds, const std::vector<std::size_t>& sizes,
+  const std::vector<Deal>& deals, const std::vector<Request>& requests,
+  ranks::Values values = ranks::Values::Loaded)
+{
+  for (std::size_t i = 0; i < clouds.size(); ++i)
   {
-    for (const int size : { 2, 3, 4, 7 })
+    SCOPED_TRACE(testing::Message() << "cloud " << i);
+    for (const std::size_t size : sizes)
     {
-      for (const ranks::Deal deal : ranks::allDeals)
+      for (const Deal deal : deals)
       {
-        SCOPED_TRACE(
-          std::to_string(size) + " ranks, deal " + std::to_string(static_cast<int>(deal)));
-        isopoint::ExtractionRequest request;
-        request.isosurface.isovalue = 0.3;
-        ranks::expectSameAsOneProcess(cloud, size, deal, { request });
+        ranks::expectSameAsOneRank(clouds[i], size, deal, requests, 1, values);
       }
     }
   }
 }
 
-TEST(Ranks, MoreThanSamples)
-{
-  for (std::size_t count = 0; count < 6; ++count)
-  {
-    isopoint::ExtractionRequest request;
-    request.isosurface.isovalue = 0.3;
-    ranks::expectSameAsOneProcess(
-      clouds::uniform(count, 12), 7, ranks::Deal::RoundRobin, { request });
-  }
-}
-
-TEST(Ranks, GapsAndAnglesAndFurtherIsovalues)
-{
-  for (const Cloud& cloud : variousClouds())
-  {
-    std::vector<isopoint::ExtractionRequest> requests(3);
-    requests[0].isosurface = { 0.1, 0.0, false, std::nullopt };
-    requests[1].isosurface = { 0.9, 54.7, true, std::nullopt };
-    requests[2].isosurface = { -0.4, 120.0, true, std::nullopt };
-    for (const int size : { 2, 5 })
-    {
-      ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::Skewed, requests);
-    }
-  }
-}
-
-TEST(Ranks, YieldTheFitsOfOneProcess)
-{
-  std::vector<isopoint::ExtractionRequest> requests(3);
-  requests[0].isosurface = { 0.3, 54.7, false,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, true,
-    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
-  requests[2].isosurface = { 0.5, 54.7, false, isopoint::FitRequest{ std::nullopt, false } };
-  for (const Cloud& cloud : variousClouds())
-  {
-    for (const int size : { 2, 7 })
-    {
-      ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::RoundRobin, requests);
-    }
-  }
-}
-
-TEST(Ranks, YieldTheSplatsOfOneProcess)
-{
-  std::vector<isopoint::ExtractionRequest> requests(4);
-  requests[0].isosurface = { 0.3, 54.7, false,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[1].isosurface = { -0.2, 54.7, true,
-    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
-  requests[1].minimumSpacing = 0.5;
-  requests[2].isosurface = { 0.5, 54.7, false, isopoint::FitRequest{ std::nullopt, false } };
-  requests[3].isosurface = { 0.3, 54.7, false, std::nullopt };
-  for (isopoint::ExtractionRequest& request : requests)
-  {
-    request.splats = isopoint::SplatOptions();
-  }
-  requests[2].splats->fieldNormals = false;
-  for (const Cloud& cloud : variousClouds())
-  {
-    for (const int size : { 2, 7 })
-    {
-      ranks::expectSameAsOneProcess(cloud, size, ranks::Deal::RoundRobin, requests);
-    }
-  }
-}
-
-namespace
-{
-
 using Ends = std::pair<std::uint64_t, std::uint64_t>;
-
-Ends endsOf(const isopoint::IsopointEdge& edge)
-{
-  return { edge.first, edge.second };
-}
 
 /// Ghosts are points of other ranks, known as well as there, each once and in order.
 /// @returns how many there are
-std::size_t expectGhostsOfOthers(
-  const Cloud& cloud, int size, const isopoint::ExtractionRequest& request)
+std::size_t expectGhostsOfOthers(const Cloud& cloud, std::size_t size, const Request& request)
 {
-  const std::vector<Cloud> pieces =
-    ranks::dealOut(cloud, static_cast<std::size_t>(size), ranks::Deal::RoundRobin);
-  const Cloud all = ranks::concatenated(pieces);
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<double, double>(isopoint::Execution(), all.size(), clouds::readerOf(all));
-  const isopoint::ExtractedIsosurface whole = extractor.extract(isopoint::Execution(), request);
-  std::map<Ends, std::string> known;
-  for (std::size_t i = 0; i < whole.surface.size(); ++i)
+  const std::vector<Cloud> pieces = ranks::dealOut(cloud, size, Deal::RoundRobin);
+  const Extracted whole = clouds::extracted(ranks::concatenated(pieces), request);
+  const auto knownOf = [](const Extracted& extracted)
   {
-    known[endsOf(whole.surface.edges[i])] = ranks::described(whole, i);
-  }
-  std::size_t count = 0;
-  for (const ranks::RankPoints& rank : ranks::extractWithGhosts(pieces, request))
-  {
-    std::set<Ends> own;
-    for (std::size_t i = 0; i < rank.own.surface.size(); ++i)
+    std::map<Ends, std::string> known;
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      const Ends ends = endsOf(rank.own.surface.edges[i]);
-      own.insert(ends);
-      EXPECT_EQ(known[ends], ranks::described(rank.own, i));
+      const isopoint::IsopointEdge& edge = extracted.surface.edges[i];
+      known[{ edge.first, edge.second }] = ranks::described(extracted, i);
     }
-    Ends former{ 0, 0 };
-    for (std::size_t i = 0; i < rank.ghosts.surface.size(); ++i)
+    return known;
+  };
+  const std::map<Ends, std::string> all = knownOf(whole);
+  std::atomic<std::size_t> count{ 0 };
+  ranks::onRanks(size,
+    [&](isopoint::ProcessGroup& processes, std::size_t rank)
     {
-      const Ends ends = endsOf(rank.ghosts.surface.edges[i]);
-      EXPECT_LT(former, ends);
-      EXPECT_EQ(own.count(ends), 0u);
-      EXPECT_EQ(known[ends], ranks::described(rank.ghosts, i));
-      former = ends;
-      ++count;
-    }
-  }
+      isopoint::IsosurfaceExtractor extractor;
+      extractor.load<double, double>(
+        {}, processes, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+      Extracted ghosts;
+      std::map<Ends, std::string> known = knownOf(extractor.extract({}, request, &ghosts));
+      const std::size_t ownCount = known.size();
+      known.merge(knownOf(ghosts));
+      EXPECT_EQ(known.size(), ownCount + ghosts.surface.size());
+      EXPECT_TRUE(std::includes(all.begin(), all.end(), known.begin(), known.end()));
+      EXPECT_TRUE(std::is_sorted(ghosts.surface.edges.begin(), ghosts.surface.edges.end()));
+      count += ghosts.surface.size();
+    });
   return count;
 }
 
 } // namespace
 
-TEST(Ranks, GhostsAreKnownAsWellAsOnTheRanksThatHaveThem)
+TEST(Ranks, YieldThePointsOfOneRank)
 {
-  std::vector<isopoint::ExtractionRequest> requests(5);
-  requests[0].isosurface = { 0.3, 54.7, false, std::nullopt };
-  requests[1].isosurface = { 0.3, 54.7, false,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  requests[2] = requests[1];
-  requests[2].splats = isopoint::SplatOptions();
-  requests[3].isosurface = { -0.2, 54.7, true,
-    isopoint::FitRequest{ isopoint::FitOrder::Crease, true } };
-  requests[3].minimumSpacing = 0.5;
-  requests[3].splats = isopoint::SplatOptions();
-  requests[4] = requests[2];
-  requests[4].splats->fieldNormals = false;
-  for (const isopoint::ExtractionRequest& request : requests)
+  expectSameAsOneRank(ranks::variousClouds(), { 2, 3, 4, 7 }, ranks::allDeals, { requestOf(0.3) });
+  expectSameAsOneRank(ranks::variousClouds(), { 2, 5 }, { Deal::Skewed },
+    { requestOf(0.1, std::nullopt, false, 0.0), requestOf(0.9, std::nullopt, true),
+      requestOf(-0.4, std::nullopt, true, 120.0) });
+}
+
+TEST(Ranks, YieldTheFitsAndSplatsOfOneRank)
+{
+  const Request cubic = requestOf(0.3, FitOrder::Cubic);
+  const Request crease = requestOf(-0.2, FitOrder::Crease, true);
+  const Request unmoved = withUnmovedFits(0.5);
+  expectSameAsOneRank(ranks::variousClouds(), { 2, 7 }, { Deal::RoundRobin },
+    { cubic, crease, unmoved, withSplats(cubic), withSplats(thinned(crease)),
+      withoutFieldNormals(withSplats(unmoved)), withSplats(requestOf(0.3)) });
+}
+
+TEST(Ranks, YieldTheTrianglesOfOneRank)
+{
+  expectSameAsOneRank(ranks::variousClouds(), { 2, 3, 5 }, { Deal::RoundRobin },
+    { triangles(0.3), triangles(-0.4, std::nullopt, true), triangles(0.5, FitOrder::Cubic),
+      triangles(0.5, FitOrder::Cubic, true, true), triangles(99.0) });
+  expectSameAsOneRank({ clouds::uniform(4000, 12) }, { 3 }, ranks::allDeals,
+    { triangles(0.3), triangles(-0.2, FitOrder::Cubic, true),
+      triangles(-0.2, FitOrder::Cubic, true, true) });
+}
+
+TEST(Ranks, YieldTheCreasesOfOneRank)
+{
+  const Cloud cube = clouds::withValuesOf(clouds::uniform(6000, 14),
+    [](const isopoint::Vector& p) {
+      return std::max({ std::abs(p[0] - 0.5), std::abs(p[1] - 0.5), std::abs(p[2] - 0.5) });
+    });
+  const std::vector<Request> requests{ triangles(0.3, FitOrder::Crease),
+    partingCreases(triangles(0.3, FitOrder::Crease)), triangles(0.3, FitOrder::Cubic),
+    partingCreases(triangles(0.3, FitOrder::Crease, false, true)) };
+  std::vector<std::size_t> counts;
+  for (const Request& request : requests)
+  {
+    counts.push_back(clouds::extracted(cube, request).triangles.size());
+  }
+  EXPECT_EQ(counts[0], counts[1]);
+  EXPECT_GT(counts[0], counts[2] + counts[2] / 20) << "edges have vertices of their own";
+  expectSameAsOneRank({ cube }, { 3 }, ranks::allDeals, requests);
+}
+
+TEST(Ranks, MayBeMoreThanSamples)
+{
+  for (std::size_t count = 0; count < 8; ++count)
+  {
+    expectSameAsOneRank({ clouds::uniform(count, 12) }, { 7 }, { Deal::RoundRobin },
+      { requestOf(0.3), triangles(0.3, FitOrder::Cubic) });
+  }
+}
+
+TEST(Ranks, KeepTheTreeForNewValuesAtTheSamePositions)
+{
+  expectSameAsOneRank(ranks::variousClouds(), { 2, 5 }, { Deal::Skewed },
+    { withSplats(requestOf(0.3, FitOrder::Cubic)), withSplats(requestOf(0.7, FitOrder::Cubic)) },
+    ranks::Values::Replaced);
+}
+
+TEST(Ranks, SendManySamplesInSlices)
+{
+  ranks::expectSameAsOneRank<float, float>(
+    clouds::uniform(1 << 20, 41), 2, Deal::RoundRobin, { requestOf(0.3) });
+}
+
+/// The environment variables RANKS_FIRST_SEED and RANKS_SEEDS choose other clouds, options and
+/// ranks than the first hundred.
+TEST(Ranks, YieldTheRandomPointsOfOneRank)
+{
+  const std::uint64_t first = clouds::numberFrom("RANKS_FIRST_SEED", 1);
+  const std::uint64_t count = clouds::numberFrom("RANKS_SEEDS", 100);
+  for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    clouds::Dice dice(seed);
+    const Cloud cloud = clouds::randomCloud(dice, seed);
+    const Deal deal = ranks::allDeals[dice(6)];
+    const std::size_t size = 2 + dice(dice(4) == 0 ? 12 : 5);
+    std::vector<Request> requests(1 + dice(3));
+    std::generate(requests.begin(), requests.end(), [&]() { return clouds::randomRequest(dice); });
+    const std::size_t threads = 1 + dice(2);
+    const auto values = dice(3) == 0 ? ranks::Values::Replaced : ranks::Values::Loaded;
+    const auto expectSame = dice(2) == 0 ? ranks::expectSameAsOneRank<float, float>
+                                         : ranks::expectSameAsOneRank<double, double>;
+    expectSame(cloud, size, deal, requests, threads, values);
+  }
+}
+
+TEST(Ranks, YieldTheTrianglesOfAnyCloud)
+{
+  for (std::uint64_t seed = 1; seed <= clouds::lessIfSlow(150); ++seed)
+  {
+    SCOPED_TRACE(seed);
+    clouds::Dice dice(seed);
+    const Cloud cloud = clouds::randomCloud(dice, seed);
+    const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
+    const std::size_t size = 2 + dice(4);
+    Request crease = triangles(isovalue, FitOrder::Crease);
+    crease.isosurface.partsCreases = seed % 2 == 0;
+    ranks::expectSameAsOneRank(cloud, size, Deal::RoundRobin,
+      { triangles(isovalue, FitOrder::Cubic), crease,
+        triangles(isovalue, std::nullopt, dice(2) == 0),
+        triangles(isovalue, FitOrder::Cubic, false, true),
+        triangles(isovalue, std::nullopt, dice(2) == 0, true) });
+  }
+}
+
+TEST(Ranks, KnowGhostsAsWellAsTheRanksThatHaveThem)
+{
+  const Request cubic = requestOf(0.3, FitOrder::Cubic);
+  for (const Request& request : { requestOf(0.3), cubic, withSplats(cubic),
+         withSplats(thinned(requestOf(-0.2, FitOrder::Crease, true))),
+         withoutFieldNormals(withSplats(cubic)) })
   {
     std::size_t count = 0;
-    for (const Cloud& cloud : variousClouds())
+    for (const Cloud& cloud : ranks::variousClouds())
     {
       count += expectGhostsOfOthers(cloud, 4, request);
     }
     EXPECT_GT(count, 1000u);
   }
-  EXPECT_EQ(expectGhostsOfOthers(clouds::uniform(0, 1), 3, requests[2]), 0u);
+  EXPECT_EQ(expectGhostsOfOthers(Cloud(), 3, withSplats(cubic)), 0u);
 }
 
-TEST(Ranks, NewValuesAtTheSamePositionsKeepTheTree)
+TEST(Ranks, SendFewerBytesOfNewValuesThanOfSamples)
 {
-  isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, false,
-    isopoint::FitRequest{ isopoint::FitOrder::Cubic, true } };
-  request.splats = isopoint::SplatOptions();
-  isopoint::ExtractionRequest another = request;
-  another.isosurface.isovalue = 0.7;
-  for (const Cloud& cloud : variousClouds())
-  {
-    for (const int size : { 2, 5 })
-    {
-      ranks::expectSameAsOneProcess(
-        cloud, size, ranks::Deal::Skewed, { request, another }, 1, ranks::Values::Replaced);
-    }
-  }
-}
-
-TEST(Ranks, NewValuesAreFewerBytesThanSamples)
-{
-  const std::vector<Cloud> pieces =
-    ranks::dealOut(clouds::uniform(20000, 31), 3, ranks::Deal::RoundRobin);
+  const std::vector<Cloud> pieces = ranks::dealOut(clouds::uniform(20000, 31), 3, Deal::RoundRobin);
   ranks::onRanks(3,
-    [&](isopoint::Team& team)
+    [&](isopoint::ProcessGroup& processes, std::size_t rank)
     {
-      const auto rank = static_cast<std::size_t>(team.rank());
       const Cloud& piece = pieces[rank];
       isopoint::IsosurfaceExtractor extractor;
-      extractor.load<float, float>(
-        isopoint::Execution(), team, piece.size(), clouds::readerOf(piece));
-      const std::uint64_t loading = team.traffic().sent;
+      extractor.load<float, float>({}, processes, piece.size(), clouds::readerOf(piece));
+      const std::uint64_t loading = processes.traffic().sent;
       const auto replace = [&](const Cloud& cloud)
-      {
-        return extractor.replaceValues<float, float>(
-          isopoint::Execution(), cloud.size(), clouds::readerOf(cloud));
-      };
+      { return extractor.replaceValues<float, float>({}, cloud.size(), clouds::readerOf(cloud)); };
       EXPECT_TRUE(replace(ranks::withOtherValues(piece)));
-      EXPECT_LT(team.traffic().sent - loading, loading / 2);
+      EXPECT_LT(processes.traffic().sent - loading, loading / 2);
       // One sample that moves, leaves or changes its type on one rank is enough.
       Cloud moved = piece;
       Cloud fewer = piece;
@@ -231,16 +260,78 @@ TEST(Ranks, NewValuesAreFewerBytesThanSamples)
       Cloud mirrored = piece;
       std::swap(mirrored.positions[0], mirrored.positions[3]);
       EXPECT_FALSE(replace(mirrored));
-      EXPECT_FALSE((extractor.replaceValues<double, float>(
-        isopoint::Execution(), piece.size(), clouds::readerOf(piece))));
+      EXPECT_FALSE(
+        (extractor.replaceValues<double, float>({}, piece.size(), clouds::readerOf(piece))));
       EXPECT_TRUE(replace(piece));
     });
 }
 
-TEST(Ranks, ManySamplesAreSentInSlices)
+/// A ring of ghosts is all triangles of other ranks with a vertex in the part within.
+TEST(Ranks, HaveGhostTrianglesInRings)
 {
-  isopoint::ExtractionRequest request;
-  request.isosurface = { 0.3, 54.7, false, std::nullopt };
-  ranks::expectSameAsOneProcess<float, float>(
-    clouds::uniform(1 << 20, 41), 2, ranks::Deal::RoundRobin, { request });
+  const std::vector<Cloud> pieces = ranks::dealOut(clouds::uniform(6000, 15), 4, Deal::RoundRobin);
+  const Extracted all = clouds::extracted(ranks::concatenated(pieces), triangles(0.3));
+  const ranks::Description everywhere = ranks::describedTriangles(all);
+  std::vector<Request> requests(4, triangles(0.3));
+  for (int rings = 0; rings < 4; ++rings)
+  {
+    requests[static_cast<std::size_t>(rings)].ghostRings = rings;
+  }
+  const auto found = ranks::extractOnRanks(pieces, requests);
+  for (std::size_t rank = 0; rank < pieces.size(); ++rank)
+  {
+    EXPECT_GT(found[0][rank].surface.size(), found[0][rank].countHere()) << "a seam";
+    const ranks::Description own = ranks::describedTriangles(found[0][rank]);
+    std::set<std::string> inside(own.begin(), own.end()); // triangles
+    for (std::size_t rings = 1; rings < requests.size(); ++rings)
+    {
+      std::set<std::size_t> reached; // vertices
+      for (std::size_t i = 0; i < everywhere.size(); ++i)
+      {
+        if (inside.count(everywhere[i]) > 0)
+        {
+          reached.insert(all.triangles[i].begin(), all.triangles[i].end());
+        }
+      }
+      for (std::size_t i = 0; i < everywhere.size(); ++i)
+      {
+        const auto& [a, b, c] = all.triangles[i];
+        if (reached.count(a) + reached.count(b) + reached.count(c) > 0)
+        {
+          inside.insert(everywhere[i]);
+        }
+      }
+      const Extracted& withGhosts = found[rings][rank];
+      const ranks::Description described = ranks::describedTriangles(withGhosts);
+      EXPECT_GT(withGhosts.ghostTriangles, 0u);
+      ASSERT_EQ(described.size(), own.size() + withGhosts.ghostTriangles);
+      EXPECT_TRUE(std::equal(own.begin(), own.end(), described.begin()));
+      EXPECT_TRUE(std::set<std::string>(described.begin(), described.end()) == inside);
+    }
+  }
+}
+
+/// The part of a rank is its triangles with their vertices, renumbered, then rings of others.
+TEST(Ranks, RenumberTheirPartsOfTriangles)
+{
+  // A strip: 0 1 2, 1 3 2, 2 3 4, 3 5 4.
+  using Triangles = std::vector<isopoint::SurfaceTriangle>;
+  const Triangles strip{ { 0, 1, 2 }, { 1, 3, 2 }, { 2, 3, 4 }, { 3, 5, 4 } };
+  const std::vector<std::size_t> ranks{ 0, 0, 0, 1, 1, 1 };
+  const auto partOf = [&](std::size_t rank, int rings)
+  { return isopoint::SurfacePartChoice(strip, ranks, rank).choose(rings); };
+  const isopoint::SurfacePart own = partOf(1, 0);
+  EXPECT_EQ(own.vertices, (std::vector<std::size_t>{ 3, 4, 5 }));
+  EXPECT_EQ(own.triangles, (Triangles{ { 0, 2, 1 } }));
+  EXPECT_EQ(own.ghostCount, 0u);
+  // Vertex 3 belongs to this rank, but the first triangle that has it does not.
+  EXPECT_EQ(own.areElsewhere, (std::vector<bool>{ true, true, false }));
+  const isopoint::SurfacePart ring = partOf(1, 1);
+  EXPECT_EQ(ring.vertices, (std::vector<std::size_t>{ 1, 2, 3, 4, 5 }));
+  EXPECT_EQ(ring.ghostCount, 2u);
+  ASSERT_EQ(ring.triangles.size(), 3u);
+  EXPECT_EQ(ring.triangles[0], (isopoint::SurfaceTriangle{ 2, 4, 3 }));
+  EXPECT_EQ(ring.triangles[1], (isopoint::SurfaceTriangle{ 0, 2, 1 }));
+  EXPECT_EQ(partOf(1, 9).triangles.size(), 4u);
+  EXPECT_EQ(partOf(0, 0).areElsewhere, std::vector<bool>(5, false));
 }

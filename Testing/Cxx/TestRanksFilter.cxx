@@ -5,16 +5,8 @@
 #include "FilterTesting.h"
 #include "ThreadController.h"
 
-#include "vtkScatteredIsosurfaceFilter.h"
-
-#include "vtkIdTypeArray.h"
-#include "vtkStringArray.h"
-
 #include <atomic>
-#include <functional>
 #include <mutex>
-#include <string>
-#include <vector>
 
 using namespace filtertesting;
 
@@ -35,8 +27,8 @@ vtkSmartPointer<vtkPolyData> newPart(vtkPolyData* cloud, int rank)
   for (vtkIdType i = rank; i < cloud->GetNumberOfPoints(); i += ranks)
   {
     points->InsertNextPoint(cloud->GetPoint(i));
-    distance->InsertNextTuple1(cloud->GetPointData()->GetScalars()->GetTuple1(i));
-    position->InsertNextTuple(cloud->GetPointData()->GetArray("position")->GetTuple(i));
+    distance->InsertNextValue(distancesOf(cloud)->GetValue(i));
+    position->InsertNextTuple(findArray(cloud, "position")->GetTuple(i));
     names->InsertNextValue(std::to_string(i % 97));
   }
   auto part = vtkSmartPointer<vtkPolyData>::New();
@@ -52,28 +44,29 @@ using Outputs = std::vector<std::vector<double>>;
 
 struct Result
 {
-  Outputs failed; // of the update with a failure
-  Outputs next;   // of the next one
-  std::atomic<int> errors{ 0 };
-  std::string message;
-  std::atomic<bool> wasReached{ false };
+  Outputs failed{ ranks }; // of the update with a failure
+  Outputs next{ ranks };   // of the next one
+  std::vector<std::string> errors;
+  bool wasReached = false;
 };
 
 /// Updates the filter on all ranks while the n-th large allocation fails, then again.
 template <class TFilter>
-void updateFailing(long n, const std::vector<vtkSmartPointer<vtkPolyData>>& parts, Result& result)
+Result updateFailing(long n, vtkPolyData* cloud)
 {
-  result.failed.assign(ranks, {});
-  result.next.assign(ranks, {});
+  Result result;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  for (int rank = 0; rank < ranks; ++rank)
+  {
+    parts.push_back(newPart(cloud, rank));
+  }
   std::mutex mutex;
   onThreadControllers(ranks,
     [&](vtkMultiProcessController* controller)
     {
       const auto rank = static_cast<std::size_t>(controller->GetLocalProcessId());
-      vtkNew<TFilter> filter;
+      const auto filter = newFilter<TFilter>(parts[rank]);
       filter->SetController(controller);
-      filter->SetInputData(parts[rank]);
-      filter->SetValue(0, 0.7);
       const auto errors = watchErrors(filter);
       controller->Barrier();
       if (rank == 0 && n > 0)
@@ -89,51 +82,38 @@ void updateFailing(long n, const std::vector<vtkSmartPointer<vtkPolyData>>& part
       }
       controller->Barrier();
       result.failed[rank] = pointsOf(filter->GetOutput());
-      result.errors += errors->Count;
-      if (errors->Count > 0)
       {
         const std::lock_guard<std::mutex> lock(mutex);
-        result.message = errors->Last;
+        result.errors.insert(result.errors.end(), errors->All.begin(), errors->All.end());
       }
       filter->Modified();
-      filter->Update();
-      result.next[rank] = pointsOf(filter->GetOutput());
+      result.next[rank] = pointsOf(outputOf(filter));
     });
+  return result;
 }
 
 template <class TFilter>
 void failEach()
 {
-  const vtkSmartPointer<vtkPolyData> cloud = newCloud(1500);
-  std::vector<vtkSmartPointer<vtkPolyData>> parts;
-  for (int rank = 0; rank < ranks; ++rank)
-  {
-    parts.push_back(newPart(cloud, rank));
-  }
-  Result undisturbed;
-  updateFailing<TFilter>(0, parts, undisturbed);
+  const auto cloud = newCloud(1500);
+  const Result undisturbed = updateFailing<TFilter>(0, cloud);
   const Outputs expected = undisturbed.next;
   ASSERT_EQ(undisturbed.failed, expected);
-  ASSERT_EQ(undisturbed.errors, 0);
+  ASSERT_TRUE(undisturbed.errors.empty());
   int failures = 0;
   bool wasReached = true;
   for (long n = 1; wasReached; n += n < 40 ? 1 : 17)
   {
     SCOPED_TRACE(n);
-    Result result;
-    updateFailing<TFilter>(n, parts, result);
+    const Result result = updateFailing<TFilter>(n, cloud);
     wasReached = result.wasReached;
-    if (result.errors == 0)
-    {
-      // No allocation failed, or only one of what would speed a later update up.
-      ASSERT_EQ(result.failed, expected);
-    }
-    else
+    // Without an error no allocation failed, or only one of what would speed a later update up.
+    ASSERT_EQ(result.failed, result.errors.empty() ? expected : Outputs(ranks));
+    if (!result.errors.empty())
     {
       ++failures;
-      ASSERT_EQ(result.errors, 1) << result.message;
-      ASSERT_NE(result.message.find("Out of memory"), std::string::npos) << result.message;
-      ASSERT_EQ(result.failed, Outputs(ranks));
+      ASSERT_EQ(result.errors.size(), 1u) << testing::PrintToString(result.errors);
+      expectContains(result.errors[0], "memory");
     }
     ASSERT_EQ(result.next, expected);
   }
@@ -144,85 +124,78 @@ void failEach()
 
 TEST(RanksFilter, LackOfMemoryOnOneRankEndsTheUpdateOfAll)
 {
-  failEach<vtkScatteredIsopointFilter>();
+  failEach<Isopoints>();
 }
 
 TEST(RanksFilter, LackOfMemoryOnOneRankEndsTheTrianglesOfAll)
 {
-  failEach<vtkScatteredIsosurfaceFilter>();
+  failEach<Isosurface>();
 }
-
-namespace
-{
-
-/// The number of errors of all ranks, of which each makes a filter.
-int errorsOf(const std::function<vtkSmartPointer<vtkScatteredContourFilter>(int rank)>& newFilter)
-{
-  const vtkSmartPointer<vtkPolyData> cloud = newCloud(300);
-  std::atomic<int> errors{ 0 };
-  onThreadControllers(ranks,
-    [&](vtkMultiProcessController* controller)
-    {
-      const int rank = controller->GetLocalProcessId();
-      const vtkSmartPointer<vtkScatteredContourFilter> filter = newFilter(rank);
-      filter->SetController(controller);
-      filter->SetInputData(newPart(cloud, rank));
-      filter->SetValue(0, 0.7);
-      const auto watcher = watchErrors(filter);
-      filter->Update();
-      errors += watcher->Count;
-    });
-  return errors;
-}
-
-} // namespace
 
 TEST(RanksFilter, DifferentOptionsAreOneError)
 {
-  const auto newPoints = []() { return vtkSmartPointer<vtkScatteredIsopointFilter>::New(); };
-  EXPECT_EQ(errorsOf(
-              [&](int rank)
-              {
-                const auto filter = newPoints();
-                filter->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0);
-                return filter;
-              }),
-    0);
-  EXPECT_EQ(errorsOf(
-              [&](int rank)
-              {
-                const auto filter = newPoints();
-                filter->SetAngle(30.0 + rank);
-                return filter;
-              }),
-    1);
-  EXPECT_EQ(errorsOf(
-              [](int rank)
-              {
-                const auto filter = vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New();
-                filter->SetRegularize(rank == 0);
-                return filter;
-              }),
-    1);
-  EXPECT_EQ(errorsOf(
-              [&](int rank)
-              {
-                const auto filter = newPoints();
-                filter->SetInputArrayToProcess(0, 0, 0,
-                  rank == 1 ? vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS
-                            : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-                  "distance");
-                return filter;
-              }),
-    1);
-  EXPECT_EQ(errorsOf(
-              [&](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
-              {
-                if (rank == 1)
-                {
-                  return vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New();
-                }
-                return newPoints();
-              }),
-    1);
+  const auto points = [](const std::function<void(Isopoints*, int)>& prepare)
+  {
+    return [prepare](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
+    {
+      const auto filter = newFilter(nullptr);
+      prepare(filter, rank);
+      return filter;
+    };
+  };
+  struct Case
+  {
+    const char* name;
+    std::function<vtkSmartPointer<vtkScatteredContourFilter>(int rank)> newFilterOn;
+    int errors;
+  };
+  const std::vector<Case> cases{
+    { "both zeros",
+      points([](auto* filter, int rank) { filter->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0); }),
+      0 },
+    { "angles", points([](auto* filter, int rank) { filter->SetAngle(30.0 + rank); }), 1 },
+    { "associations",
+      points(
+        [](auto* filter, int rank)
+        {
+          filter->SetInputArrayToProcess(0, 0, 0,
+            rank == 1 ? vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS : ofPoints, "distance");
+        }),
+      1 },
+    { "switches",
+      [](int rank)
+      {
+        const auto filter = newFilter<Isosurface>(nullptr);
+        filter->SetRegularize(rank == 0);
+        return filter;
+      },
+      1 },
+    { "filters",
+      [](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
+      {
+        if (rank == 1)
+        {
+          return newFilter<Isosurface>(nullptr);
+        }
+        return newFilter(nullptr);
+      },
+      1 },
+  };
+  const auto cloud = newCloud(300);
+  for (const Case& different : cases)
+  {
+    std::atomic<std::size_t> errors{ 0 };
+    onThreadControllers(ranks,
+      [&](vtkMultiProcessController* controller)
+      {
+        const int rank = controller->GetLocalProcessId();
+        const auto filter = different.newFilterOn(rank);
+        filter->SetController(controller);
+        filter->SetInputData(newPart(cloud, rank));
+        const auto watcher = watchErrors(filter);
+        filter->Update();
+        errors += watcher->count();
+      });
+    EXPECT_EQ(errors, static_cast<std::size_t>(different.errors)) << different.name;
+  }
 }

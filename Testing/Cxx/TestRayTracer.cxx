@@ -1,20 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ray tracer without VTK: random numbers, materials, where rays meet surfaces, and pictures.
-#include "TracedSphere.h"
-
 #include "Core/Base/Threads.h"
 #include "Tracer/Picture.h"
+#include "Tracer/Surface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
+#include <cstdint>
+#include <memory>
 #include <set>
 
 using namespace raytracing;
 
 namespace
 {
+
+/// The triangles of a sphere around the origin, with its normals: rows from pole to pole of twice
+/// as many columns.
+std::shared_ptr<Surface> tracedSphere(std::uint32_t rows, float radius)
+{
+  auto sphere = std::make_shared<Surface>();
+  const std::uint32_t columns = 2 * rows;
+  for (std::uint32_t row = 0; row <= rows; ++row)
+  {
+    for (std::uint32_t column = 0; column < columns; ++column)
+    {
+      const float height = 3.14159265f * static_cast<float>(row) / static_cast<float>(rows);
+      const float turn = 6.2831853f * static_cast<float>(column) / static_cast<float>(columns);
+      const Vector normal{ std::sin(height) * std::cos(turn), std::sin(height) * std::sin(turn),
+        std::cos(height) };
+      sphere->normals.push_back(normal);
+      sphere->vertices.push_back(radius * normal);
+      if (row < rows)
+      {
+        const std::uint32_t first = row * columns;
+        const std::uint32_t next = (column + 1) % columns;
+        const std::uint32_t below = first + columns;
+        sphere->triangles.push_back({ first + column, below + column, below + next });
+        sphere->triangles.push_back({ first + column, below + next, first + next });
+      }
+    }
+  }
+  return sphere;
+}
 
 Scene sceneOf(const std::shared_ptr<const Surface>& surface)
 {
@@ -30,6 +59,22 @@ std::shared_ptr<Surface> squareOf(float side, float height)
     { -half, half, height } };
   square->triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
   return square;
+}
+
+Illuminants whiteSurroundings(int mostBounces)
+{
+  Illuminants illuminants;
+  illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
+  illuminants.mostBounces = mostBounces;
+  return illuminants;
+}
+
+Illuminants oneLight(const Vector& diffuse = { 1.0f, 1.0f, 1.0f })
+{
+  Illuminants illuminants;
+  illuminants.lights.emplace_back();
+  illuminants.lights[0].diffuse = diffuse;
+  return illuminants;
 }
 
 /// A camera that looks along -z at a square of this width.
@@ -198,9 +243,7 @@ TEST(Absorption, IsThatOfBeerAndLambert)
 TEST(PathTracer, WhiteSurroundingsStayWhite)
 {
   // What glass and mirrors reflect and refract adds up to all light.
-  Illuminants illuminants;
-  illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
-  illuminants.mostBounces = 40;
+  const Illuminants illuminants = whiteSurroundings(40);
   for (const float metallic : { 0.0f, 1.0f })
   {
     const auto sphere = tracedSphere(60, 0.5f);
@@ -220,27 +263,21 @@ TEST(PathTracer, WhiteSurroundingsStayWhite)
 
 TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
 {
-  Illuminants illuminants;
-  illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
-  illuminants.mostBounces = 0;
   const auto sphere = tracedSphere(40, 0.5f);
   sphere->material.isPhysical = true;
   sphere->material.metallic = 1.0f;
   const Scene scene = sceneOf(sphere);
   const Sampler sampler(0, 0, 1);
   const Ray ray{ { 0.0f, 0.0f, 2.0f }, { 0.0f, 0.0f, -1.0f } };
-  EXPECT_EQ(PathTracer(scene, illuminants).along(ray, sampler).color.x, 0.0f);
-  illuminants.mostBounces = 1;
-  EXPECT_NEAR(PathTracer(scene, illuminants).along(ray, sampler).color.x, 1.0f, 1e-3f);
+  EXPECT_EQ(PathTracer(scene, whiteSurroundings(0)).along(ray, sampler).color.x, 0.0f);
+  EXPECT_NEAR(PathTracer(scene, whiteSurroundings(1)).along(ray, sampler).color.x, 1.0f, 1e-3f);
 }
 
 TEST(Picture, NoSampleOutshinesTheOthers)
 {
   // Half of the pixel shows a surface a hundred times as bright as white.
   const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
-  Illuminants illuminants;
-  illuminants.lights.emplace_back();
-  illuminants.lights[0].diffuse = { 100.0f, 100.0f, 100.0f };
+  const Illuminants illuminants = oneLight({ 100.0f, 100.0f, 100.0f });
   Picture picture(1, 1, 400);
   picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 400);
   EXPECT_NEAR(picture.pixel(0).color.x, picture.pixel(0).alpha, 1e-4f);
@@ -250,9 +287,7 @@ TEST(Picture, NoSampleOutshinesTheOthers)
 TEST(Picture, APathWithoutAColorSpoilsNoPixel)
 {
   const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
-  Illuminants illuminants;
-  illuminants.lights.emplace_back();
-  illuminants.lights[0].diffuse = { std::nanf(""), 1.0f, 1.0f };
+  const Illuminants illuminants = oneLight({ std::nanf(""), 1.0f, 1.0f });
   Picture picture(1, 1, 16);
   picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 16);
   const Radiance pixel = picture.pixel(0);
@@ -264,8 +299,7 @@ TEST(Picture, EndsAndGoesOn)
 {
   const auto sphere = tracedSphere(40, 0.5f);
   const Scene scene = sceneOf(sphere);
-  Illuminants illuminants;
-  illuminants.lights.emplace_back();
+  const Illuminants illuminants = oneLight();
   const PathTracer tracer(scene, illuminants);
   Picture whole(64, 64, 200);
   EXPECT_TRUE(whole.addSamples({}, cameraOf(1.2), tracer, 200));

@@ -3,16 +3,6 @@
 // side.
 #include "FilterTesting.h"
 
-#include "vtkScatteredIsosurfaceFilter.h"
-
-#include "vtkCellData.h"
-#include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <thread>
 
 using namespace filtertesting;
@@ -41,42 +31,26 @@ public:
   std::size_t AbortAt = std::numeric_limits<std::size_t>::max();
 };
 
-vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
+vtkSmartPointer<ProgressWatcher> watchProgress(vtkScatteredContourFilter* filter)
 {
-  const auto cloud = newCloud(count);
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->SetPoints(cloud->GetPoints());
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    grid->InsertNextCell(VTK_VERTEX, 1, &i);
-  }
-  grid->GetCellData()->ShallowCopy(cloud->GetPointData());
-  return grid;
+  const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
+  filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+  return watcher;
 }
 
 /// Filters with inputs of points, of cells and of blocks, and the one of triangles.
 std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filtersOfEveryInput()
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, newVertexCells(12000));
-  blocks->SetBlock(1, newVertexCells(8000));
-  std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filters;
-  const std::vector<vtkSmartPointer<vtkDataObject>> inputs{ newCloud(20000), newVertexCells(20000),
-    blocks, blocks };
-  for (vtkDataObject* const input : inputs)
+  const auto blocks = blocksOf({ newVertexCells(12000), newVertexCells(8000) });
+  const std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filters{ newFilter(newCloud(20000)),
+    newFilter<Isosurface>(newCloud(20000)), newFilter(newVertexCells(20000)), newFilter(blocks),
+    newFilter(blocks) };
+  for (std::size_t i = 0; i < filters.size(); ++i)
   {
-    filters.push_back(vtkSmartPointer<vtkScatteredIsopointFilter>::New());
-    filters.back()->SetInputData(input);
-    filters.back()->SetInputArrayToProcess(0, 0, 0,
-      input->IsA("vtkPolyData") ? vtkDataObject::FIELD_ASSOCIATION_POINTS
-                                : vtkDataObject::FIELD_ASSOCIATION_CELLS,
-      "distance");
-    filters.back()->GenerateValues(3, 0.5, 0.8);
+    filters[i]->SetInputArrayToProcess(0, 0, 0, i < 2 ? ofPoints : ofCells, "distance");
+    filters[i]->GenerateValues(3, 0.5, 0.8);
   }
   filters.back()->ContourBlocksOn();
-  filters.push_back(vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New());
-  filters.back()->SetInputData(inputs[0]);
-  filters.back()->GenerateValues(3, 0.5, 0.8);
   return filters;
 }
 
@@ -86,8 +60,7 @@ TEST(Robustness, ProgressIncreasesFromZeroToOneInEachUpdate)
 {
   for (vtkScatteredContourFilter* const filter : filtersOfEveryInput())
   {
-    const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
-    filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+    const auto watcher = watchProgress(filter);
     for (int update = 0; update < 3; ++update)
     {
       watcher->Seen.clear();
@@ -108,26 +81,22 @@ TEST(Robustness, ProgressIncreasesFromZeroToOneInEachUpdate)
 
 TEST(Robustness, ProgressGivesEachBlockTheSameShare)
 {
-  constexpr unsigned int count = 11;
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  for (unsigned int i = 0; i < count; ++i)
+  constexpr int count = 11;
+  std::vector<vtkSmartPointer<vtkDataObject>> clouds;
+  for (int i = 1; i <= count; ++i)
   {
-    blocks->SetBlock(i, newCloud(500 * (i + 1)));
+    clouds.emplace_back(newCloud(500 * i));
   }
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(blocks);
+  const auto filter = newFilter(blocksOf(clouds));
   filter->ContourBlocksOn();
-  filter->SetValue(0, 0.7);
-  const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
-  filter->AddObserver(vtkCommand::ProgressEvent, watcher);
+  const auto watcher = watchProgress(filter);
   filter->Update();
   const std::vector<double>& seen = watcher->Seen;
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
-  for (unsigned int i = 1; i <= count; ++i)
+  for (int i = 1; i <= count; ++i)
   {
-    EXPECT_GT(std::count_if(seen.begin(), seen.end(),
-                [i](double share) { return std::abs(share - i / double{ count }) < 1e-12; }),
-      0)
+    EXPECT_TRUE(std::any_of(seen.begin(), seen.end(),
+      [i](double share) { return std::abs(share - i / double{ count }) < 1e-12; }))
       << i;
   }
 }
@@ -136,12 +105,13 @@ TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
 {
   for (vtkScatteredContourFilter* const filter : filtersOfEveryInput())
   {
-    const auto watcher = vtkSmartPointer<ProgressWatcher>::Take(ProgressWatcher::New());
+    const auto watcher = watchProgress(filter);
     const auto errors = watchErrors(filter);
-    filter->AddObserver(vtkCommand::ProgressEvent, watcher);
     filter->KeepTreeOff(); // so that each update builds its tree
     filter->Update();
-    const vtkIdType expected = filter->GetOutputDataObject(0)->GetNumberOfElements(0);
+    const auto countPoints = [filter]()
+    { return filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT); };
+    const vtkIdType expected = countPoints();
     EXPECT_GT(expected, 500);
     // The last two events report the end of the update.
     ASSERT_GT(watcher->Seen.size(), 4u);
@@ -152,108 +122,72 @@ TEST(Robustness, AnAbortAtAnyTimeGivesAnEmptyOutputAndAReusableFilter)
       watcher->Seen.clear();
       watcher->AbortAt = event;
       filter->Update();
-      EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(0), 0) << event;
+      EXPECT_EQ(countPoints(), 0) << event;
       EXPECT_EQ(filter->GetErrorCode(), 0u);
       watcher->AbortAt = std::numeric_limits<std::size_t>::max();
       filter->SetAbortExecute(0);
       filter->Modified();
       filter->Update();
-      EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(0), expected);
+      EXPECT_EQ(countPoints(), expected);
     }
-    EXPECT_EQ(errors->Count, 0);
+    EXPECT_EQ(errors->count(), 0u);
   }
 }
 
-TEST(Robustness, AnInputMayBeFreedBetweenUpdates)
+TEST(Robustness, AnInputMayBeFreedOrShrinkBetweenUpdates)
 {
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetValue(0, 0.7);
-  std::vector<double> expected;
-  for (int update = 0; update < 4; ++update)
+  const auto filter = newFilter(nullptr);
+  for (const vtkIdType count : { 10000, 10000, 100, 10000 })
   {
-    auto cloud = newCloud(10000);
-    filter->SetInputData(cloud);
-    cloud = nullptr;
-    filter->Update();
-    const std::vector<double> found = pointsOf(filter->GetOutput());
-    EXPECT_FALSE(found.empty());
-    expected = expected.empty() ? found : expected;
-    EXPECT_EQ(found, expected);
+    const std::vector<double> expected = pointsOf(outputOf(newFilter(newCloud(count))));
+    EXPECT_FALSE(expected.empty());
+    filter->SetInputData(newCloud(count));
+    EXPECT_EQ(pointsOf(outputOf(filter)), expected);
     filter->SetInputData(nullptr);
   }
+  const auto cloud = newCloud(10000);
+  filter->SetInputData(cloud);
+  filter->Update();
+  cloud->ShallowCopy(newCloud(100));
+  EXPECT_EQ(pointsOf(outputOf(filter)), pointsOf(outputOf(newFilter(newCloud(100)))));
 }
 
 // A kept tree holds no reference to an array of the input.
 TEST(Robustness, AnInputIsNotReferencedAfterAnUpdate)
 {
-  for (const bool ofCells : { false, true })
+  for (const int association : { ofPoints, ofCells })
   {
     const auto input = newVertexCells(1000);
     input->GetPointData()->ShallowCopy(input->GetCellData());
-    vtkDataArray* const array = input->GetPointData()->GetArray("distance");
     vtkDataArray* const points = input->GetPoints()->GetData();
-    const int arrayReferences = array->GetReferenceCount();
+    const int arrayReferences = distancesOf(input)->GetReferenceCount();
     const int pointReferences = points->GetReferenceCount();
-    vtkNew<vtkScatteredIsopointFilter> filter;
-    filter->SetInputData(input);
-    filter->SetInputArrayToProcess(0, 0, 0,
-      ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-      "distance");
-    filter->SetValue(0, 0.7);
-    filter->Update();
-    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(array->GetReferenceCount(), arrayReferences);
+    const auto filter = newFilter(input);
+    filter->SetInputArrayToProcess(0, 0, 0, association, "distance");
+    EXPECT_GT(outputOf(filter)->GetNumberOfPoints(), 0);
+    EXPECT_EQ(distancesOf(input)->GetReferenceCount(), arrayReferences);
     EXPECT_EQ(points->GetReferenceCount(), pointReferences);
   }
 }
 
-TEST(Robustness, AnInputThatShrinksIsReadAgain)
-{
-  const auto cloud = newCloud(10000);
-  vtkNew<vtkScatteredIsopointFilter> filter;
-  filter->SetInputData(cloud);
-  filter->SetValue(0, 0.7);
-  filter->Update();
-  cloud->ShallowCopy(newCloud(100));
-  filter->Update();
-  vtkNew<vtkScatteredIsopointFilter> fresh;
-  fresh->SetInputData(newCloud(100));
-  fresh->SetValue(0, 0.7);
-  fresh->Update();
-  EXPECT_GT(fresh->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
-}
-
 TEST(Robustness, FiltersRunSideBySideInThreads)
 {
-  vtkNew<vtkScatteredIsopointFilter> alone;
-  alone->SetInputData(newCloud(30000));
-  alone->SetValue(0, 0.7);
-  alone->Update();
-  const std::vector<double> expected = pointsOf(alone->GetOutput());
-  EXPECT_FALSE(expected.empty());
-  // Each has a data set of its own, as VTK demands; arrays are shared.
   const auto cloud = newCloud(30000);
-  std::vector<vtkSmartPointer<vtkPolyData>> inputs;
+  const std::vector<double> expected = pointsOf(outputOf(newFilter(cloud)));
+  EXPECT_FALSE(expected.empty());
   std::vector<std::vector<double>> found(3);
-  for (std::size_t i = 0; i < found.size(); ++i)
-  {
-    inputs.push_back(vtkSmartPointer<vtkPolyData>::New());
-    inputs.back()->ShallowCopy(cloud);
-  }
   std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (std::vector<double>& points : found)
   {
+    // Each has a data set of its own, as VTK demands; arrays are shared.
+    auto input = vtkSmartPointer<vtkPolyData>::New();
+    input->ShallowCopy(cloud);
     threads.emplace_back(
-      [input = inputs[i].Get(), &points = found[i]]()
+      [input, &points]()
       {
         for (int update = 0; update < 3; ++update)
         {
-          vtkNew<vtkScatteredIsopointFilter> filter;
-          filter->SetInputData(input);
-          filter->SetValue(0, 0.7);
-          filter->Update();
-          points = pointsOf(filter->GetOutput());
+          points = pointsOf(outputOf(newFilter(input)));
         }
       });
   }
@@ -270,21 +204,16 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
 TEST(Robustness, AFilterMayBeFreedWhileAnotherSharesItsInput)
 {
   const auto cloud = newCloud(10000);
-  vtkNew<vtkScatteredIsopointFilter> kept;
-  kept->SetInputData(cloud);
-  kept->SetValue(0, 0.7);
+  const auto kept = newFilter(cloud);
   {
-    vtkNew<vtkScatteredIsopointFilter> freed;
-    freed->SetInputData(cloud);
-    freed->SetValue(0, 0.7);
+    const auto freed = newFilter(cloud);
     freed->Update();
     kept->Update();
   }
   const std::vector<double> before = pointsOf(kept->GetOutput());
+  EXPECT_FALSE(before.empty());
   kept->SetAngle(50.0);
   kept->Update();
   kept->SetAngle(54.7);
-  kept->Update();
-  EXPECT_FALSE(before.empty());
-  EXPECT_EQ(pointsOf(kept->GetOutput()), before);
+  EXPECT_EQ(pointsOf(outputOf(kept)), before);
 }

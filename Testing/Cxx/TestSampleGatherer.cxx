@@ -9,13 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <set>
-#include <vector>
-
 namespace
 {
 
@@ -26,12 +19,9 @@ using ringdefinition::Rings;
 
 void expectSame(const std::vector<FitSample>& expected, const std::vector<FitSample>& found)
 {
-  ASSERT_EQ(expected.size(), found.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-  {
-    ASSERT_EQ(expected[i].position, found[i].position) << i;
-    ASSERT_EQ(expected[i].value, found[i].value) << i;
-  }
+  ASSERT_TRUE(std::equal(expected.begin(), expected.end(), found.begin(), found.end(),
+    [](const FitSample& a, const FitSample& b)
+    { return a.position == b.position && a.value == b.value; }));
 }
 
 /// What a cloud's edges have in common.
@@ -109,14 +99,8 @@ Cloud skewLines(std::size_t count, int steps, std::uint64_t seed)
   {
     const double any = random();
     const double place = steps > 0 ? std::floor(steps * any) / steps : any;
-    if (i % 2 == 0)
-    {
-      cloud.add(0.55, place, 0.8, -random());
-    }
-    else
-    {
-      cloud.add(place, 0.45, 0.2, 1.0 + random());
-    }
+    i % 2 == 0 ? cloud.add(0.55, place, 0.8, -random())
+               : cloud.add(place, 0.45, 0.2, 1.0 + random());
   }
   return cloud;
 }
@@ -143,23 +127,14 @@ TEST(SampleGatherer, FollowsTheDefinition)
 TEST(SampleGatherer, FollowsTheDefinitionOfMoreEndsThanAreKept)
 {
   Cloud cloud = clouds::uniform(9000, 6);
-  clouds::Random random(7);
-  for (double& value : cloud.values)
-  {
-    value = random();
-  }
+  std::generate(cloud.values.begin(), cloud.values.end(), clouds::Random(7));
   EXPECT_GT(expectTheDefinition(cloud, 0.5).edges, 10000u);
 }
 
-TEST(SampleGatherer, FollowsTheDefinitionWhereOneEndHasTooManyNeighbors)
+TEST(SampleGatherer, FollowsTheDefinitionWhereEndsHaveTooManyNeighbors)
 {
-  const Seen seen = expectTheDefinition(clouds::layerBeforeOne(900, 4), 0.5);
-  EXPECT_GT(seen.oneEnded, 10u);
-}
-
-TEST(SampleGatherer, FollowsTheDefinitionWhereBothEndsHaveTooManyNeighbors)
-{
-  std::size_t representatives = 0;
+  EXPECT_GT(expectTheDefinition(clouds::layerBeforeOne(900, 4), 0.5).oneEnded, 10u);
+  std::size_t representatives = 0; // at both ends
   for (const std::uint64_t seed : { 3, 4, 5 })
   {
     representatives += expectTheDefinition(skewLines(1200, 0, seed), 0.1).representatives;

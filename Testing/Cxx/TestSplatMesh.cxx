@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles of splats against analytic shapes and brute force.
-#include "Random.h"
+#include "Clouds.h"
 
 #include "Core/SplatMesh/SplatMesh.h"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <numeric>
-#include <set>
-#include <thread>
-#include <vector>
 
 namespace
 {
@@ -86,11 +74,6 @@ Splats tiles(std::size_t rows, double side = 1.0, const Vector& origin = { 0.0, 
   return splats;
 }
 
-Vector randomVector(clouds::Random& random)
-{
-  return { 2.0 * random() - 1.0, 2.0 * random() - 1.0, 2.0 * random() - 1.0 };
-}
-
 /// Splats of random shapes, sizes and slopes, a few of which have crossed corners, repeated points
 /// or no shape.
 Splats randomSplats(std::size_t count, std::uint64_t seed)
@@ -101,7 +84,7 @@ Splats randomSplats(std::size_t count, std::uint64_t seed)
   Splats splats;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Vector normal = isopoint::unitNormal(randomVector(random));
+    const Vector normal = isopoint::unitNormal(random.inCube(2.0));
     const double radius = std::pow(10.0, -3.0 * random());
     const Vector axis = isopoint::scaled(radius, isopoint::TangentFrame(normal).first);
     const std::size_t corners = 3 + static_cast<std::size_t>(6.0 * random());
@@ -117,11 +100,11 @@ Splats randomSplats(std::size_t count, std::uint64_t seed)
     {
       fan = { fan.front() };
     }
-    splats.add(randomVector(random), normal, axis, fan);
+    splats.add(random.inCube(2.0), normal, axis, fan);
     if (random() < 0.4) // corners that meet those of another splat, or lie a little too far away
     {
       const double farthest = 3e-6 * radius;
-      const Vector moved = isopoint::sum(splats.positions.back(), farthest, randomVector(random));
+      const Vector moved = isopoint::sum(splats.positions.back(), farthest, random.inCube(2.0));
       splats.add(moved, normal, axis, fan);
     }
   }
@@ -130,14 +113,14 @@ Splats randomSplats(std::size_t count, std::uint64_t seed)
 
 bool areOne(const isopoint::SplatVertex& a, const isopoint::SplatVertex& b)
 {
-  bool areClose = true;
+  const float tolerance = std::min(a.tolerance, b.tolerance);
+  bool areClose = tolerance > 0.0f;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    areClose = areClose && std::abs(a.position[axis] - b.position[axis]) <= a.tolerance &&
-               std::abs(a.position[axis] - b.position[axis]) <= b.tolerance &&
+    areClose = areClose && std::abs(a.position[axis] - b.position[axis]) <= tolerance &&
                std::abs(a.normal[axis] - b.normal[axis]) <= 1e-3f;
   }
-  return areClose && a.tolerance > 0.0f && b.tolerance > 0.0f;
+  return areClose;
 }
 
 /// The first vertex of each group of those that are one, by comparing all with all.
@@ -159,21 +142,15 @@ std::vector<std::size_t> bruteForceGroups(const std::vector<isopoint::SplatVerte
   return group;
 }
 
-std::vector<double> numbersOfVertices(const SplatMesh& mesh)
-{
-  std::vector<double> numbers;
-  for (const isopoint::SplatVertex& vertex : mesh.vertices)
-  {
-    numbers.insert(numbers.end(), vertex.position.begin(), vertex.position.end());
-    numbers.insert(numbers.end(), vertex.normal.begin(), vertex.normal.end());
-    numbers.push_back(vertex.tolerance);
-  }
-  return numbers;
-}
-
 void expectSame(const SplatMesh& expected, const SplatMesh& mesh)
 {
-  EXPECT_EQ(numbersOfVertices(expected), numbersOfVertices(mesh));
+  ASSERT_EQ(expected.vertices.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+  {
+    EXPECT_EQ(expected.vertices[i].position, mesh.vertices[i].position);
+    EXPECT_EQ(expected.vertices[i].normal, mesh.vertices[i].normal);
+    EXPECT_EQ(expected.vertices[i].tolerance, mesh.vertices[i].tolerance);
+  }
   EXPECT_EQ(expected.pointOfVertex, mesh.pointOfVertex);
   EXPECT_EQ(expected.triangles, mesh.triangles);
   EXPECT_EQ(expected.meetsAt, mesh.meetsAt);
@@ -186,26 +163,6 @@ Vector areaOf(const SplatMesh& mesh, std::size_t triangle)
   return isopoint::scaled(
     0.5, isopoint::cross(isopoint::difference(mesh.vertices[b].position, first),
            isopoint::difference(mesh.vertices[c].position, first)));
-}
-
-/// Runs ranges on threads of its own, the last ones first.
-Execution onThreads()
-{
-  Execution execution;
-  execution.threads = 4;
-  execution.parallelFor = [](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
-  {
-    const std::size_t length = std::max(grain, (count + 3) / 4);
-    std::vector<std::thread> threads;
-    for (std::size_t end = count; end > 0;)
-    {
-      const std::size_t begin = (end - 1) / length * length;
-      threads.emplace_back([&task, begin, end]() { task(begin, end); });
-      end = begin;
-    }
-    std::for_each(threads.begin(), threads.end(), [](std::thread& thread) { thread.join(); });
-  };
-  return execution;
 }
 
 } // namespace
@@ -239,23 +196,19 @@ TEST(SplatMesh, SquaresHaveTheirCornersAndArea)
 
 TEST(SplatMesh, FlatFansHaveNoVertexInTheMiddle)
 {
-  const auto counts = [](float height, float slope, double scale)
+  // The slope along the diagonal is greater by the square root of 2.
+  for (const auto& [height, slope, scale, isFlat] :
+    { std::tuple(0.029f, 0.0f, 1.0, true), std::tuple(-0.031f, 0.0f, 1.0, false),
+      std::tuple(0.0f, 0.0211f, 1.0, true), std::tuple(0.0f, 0.0213f, 1.0, false),
+      std::tuple(0.0f, 0.0211f, 1.01, false), std::tuple(0.0f, 1.0f, 0.01, true) })
   {
     Splats splats;
     splats.scale = scale;
     splats.add({ 1.0, 2.0, 3.0 }, up, { 1.0, 0.0, 0.0 }, squareCorners(height, slope));
     const SplatMesh mesh = splats.mesh();
-    return std::vector<std::size_t>{ mesh.vertices.size(), mesh.triangles.size() };
-  };
-  const std::vector<std::size_t> flat{ 4, 2 };
-  const std::vector<std::size_t> bent{ 5, 4 };
-  EXPECT_EQ(counts(0.029f, 0.0f, 1.0), flat);
-  EXPECT_EQ(counts(-0.031f, 0.0f, 1.0), bent);
-  // The slope along the diagonal is greater by the square root of 2.
-  EXPECT_EQ(counts(0.0f, 0.0211f, 1.0), flat);
-  EXPECT_EQ(counts(0.0f, 0.0213f, 1.0), bent);
-  EXPECT_EQ(counts(0.0f, 0.0211f, 1.01), bent);
-  EXPECT_EQ(counts(0.0f, 1.0f, 0.01), flat);
+    EXPECT_EQ(mesh.vertices.size(), isFlat ? 4u : 5u);
+    EXPECT_EQ(mesh.triangles.size(), isFlat ? 2u : 4u);
+  }
 }
 
 TEST(SplatMesh, CornersOfAParaboloidAreOnIt)
@@ -273,8 +226,7 @@ TEST(SplatMesh, CornersOfAParaboloidAreOnIt)
     {
       const auto [x, y, z] = vertex.position;
       EXPECT_NEAR(z, 0.5 * (x * x + y * y), 1e-6);
-      const double length = std::sqrt(1.0 + x * x + y * y);
-      const Vector normal{ -x / length, -y / length, 1.0 / length };
+      const Vector normal = isopoint::directionOf({ -x, -y, 1.0 });
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         EXPECT_NEAR(vertex.normal[axis], normal[axis], 1e-6);
@@ -453,13 +405,7 @@ TEST(SplatMesh, MeansAreThoseOfAllThatMeet)
 TEST(SplatMesh, PermutedPointsGiveThePermutedMesh)
 {
   const Splats splats = randomSplats(1000, 6);
-  std::vector<std::size_t> order(splats.size());
-  std::iota(order.begin(), order.end(), 0);
-  clouds::Random random(7);
-  for (std::size_t i = order.size(); i > 1; --i)
-  {
-    std::swap(order[i - 1], order[static_cast<std::size_t>(static_cast<double>(i) * random())]);
-  }
+  const std::vector<std::size_t> order = clouds::randomOrder(splats.size(), 7);
   const SplatMesh mesh = splats.mesh();
   const SplatMesh permuted = isopoint::buildSplatMesh(
     {}, splats.size(), [&](std::size_t i) { return splats.fanAt(order[i]); });
@@ -502,10 +448,10 @@ TEST(SplatMesh, PermutedPointsGiveThePermutedMesh)
 TEST(SplatMesh, IsTheSameOnThreads)
 {
   const Splats splats = randomSplats(8000, 8);
-  expectSame(splats.mesh(), splats.mesh(onThreads()));
+  expectSame(splats.mesh(), splats.mesh(clouds::executionOn(4)));
 }
 
-TEST(SplatMesh, StopsAtAnyTime)
+TEST(SplatMesh, ReportsProgressAndStopsAtAnyTime)
 {
   const Splats splats = randomSplats(20000, 9);
   std::vector<double> shares; // done whenever it is asked
@@ -520,6 +466,10 @@ TEST(SplatMesh, StopsAtAnyTime)
   static_cast<void>(splats.mesh(execution));
   const std::size_t most = shares.size();
   EXPECT_GT(most, 4);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.back(), shares.front());
+  EXPECT_GE(shares.front(), 0.0);
+  EXPECT_LE(share, 1.0);
   EXPECT_GT(shares.back(), 0.67) << "even while vertices are united";
   for (std::size_t at = 1; at <= most; at += 1 + most / 4)
   {
@@ -528,17 +478,4 @@ TEST(SplatMesh, StopsAtAnyTime)
     EXPECT_THROW(static_cast<void>(splats.mesh(execution)), isopoint::Aborted);
     EXPECT_EQ(asked, at) << "work goes on";
   }
-}
-
-TEST(SplatMesh, ProgressRises)
-{
-  std::vector<double> shares;
-  Execution execution;
-  execution.progress = [&shares](double share) { shares.push_back(share); };
-  static_cast<void>(randomSplats(5000, 10).mesh(execution));
-  ASSERT_GE(shares.size(), 3);
-  EXPECT_LT(shares[0], shares[1]);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_GE(shares.front(), 0.0);
-  EXPECT_LE(shares.back(), 1.0);
 }

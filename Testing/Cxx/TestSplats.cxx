@@ -1,21 +1,290 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Splats: normals, and shapes where there is no crease.
-#include "SplatTesting.h"
+// Splats of points whose surface is known: normals, shapes, coverage, creases.
+#include "Clouds.h"
 
-#include "Core/Splat/MutualSides.h"
+#include "Core/Splat/SharedSides.h"
+#include "Core/Splat/SplatGeometry.h"
 
-using namespace splattesting;
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using isopoint::cross;
+using isopoint::difference;
+using isopoint::dot;
+using isopoint::FitOrder;
+using isopoint::lengthOf;
+using isopoint::scaled;
+using isopoint::Splat;
+using isopoint::SplatCorner;
+using isopoint::sum;
+using isopoint::Vector;
+
+constexpr Vector up{ 0.0, 0.0, 1.0 };
+constexpr Vector down{ 0.0, 0.0, -1.0 };
+
+/// Samples that end at the plane x = 0.
+struct HalfSpace
+{
+  double at(const isopoint::ExtentQuery& query) const
+  {
+    const double along = query.direction[0];
+    return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
+  }
+  const isopoint::WideSample* nearest(const isopoint::ExtentQuery&) const { return nullptr; }
+  const isopoint::WideSample* nearestTo(const Vector&, double) const { return nullptr; }
+};
+
+/// Isopoints, one entry each. Without fits that list is empty.
+struct Points
+{
+  std::vector<Vector> positions;
+  std::vector<Vector> decreasingEdges;
+  std::vector<isopoint::LocalFit> fits;
+
+  void addUnfitted(const Vector& position, const Vector& edge)
+  {
+    this->positions.push_back(position);
+    this->decreasingEdges.push_back(edge);
+  }
+
+  isopoint::LocalFit& add(const Vector& position, std::optional<FitOrder> order,
+    const Vector& gradient, double spacing = 1.0)
+  {
+    this->addUnfitted(position, scaled(-1.0, gradient));
+    isopoint::LocalFit& fit = this->fits.emplace_back();
+    fit.order = order;
+    fit.isGradientFitted = true;
+    fit.isSmooth = order >= FitOrder::Quadratic;
+    fit.gradient = gradient;
+    fit.spacing = spacing;
+    return fit;
+  }
+
+  /// Adds a point on one of two planes that meet at the y axis at a right angle. A fit with a
+  /// crease has the other one.
+  void addOnWedge(bool top, double along, double off, FitOrder order, const Vector& tilt = {})
+  {
+    const Vector place = top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off };
+    isopoint::LocalFit& fit =
+      this->add(place, order, sum(top ? down : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+    if (order == FitOrder::Crease)
+    {
+      fit.creases = { { top ? Vector{ -1.0, 0.0, 0.0 } : down, -off, -1.0 } };
+    }
+  }
+
+  /// Negates the field.
+  void negate()
+  {
+    for (std::size_t i = 0; i < this->positions.size(); ++i)
+    {
+      this->fits[i].gradient = scaled(-1.0, this->fits[i].gradient);
+      this->decreasingEdges[i] = scaled(-1.0, this->decreasingEdges[i]);
+      for (isopoint::CreasePlane& crease : this->fits[i].creases)
+      {
+        crease.turn = -crease.turn;
+      }
+    }
+  }
+};
+
+/// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.
+class NearestAround
+{
+public:
+  explicit NearestAround(const std::vector<Vector>& positions)
+    : Positions(positions)
+  {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      this->At[positions[i]].push_back(i);
+    }
+  }
+
+  bool isAcrossGap(std::size_t, const isopoint::WideSample&, double) const { return false; }
+
+  class Finder
+  {
+  public:
+    explicit Finder(const NearestAround& around)
+      : Around(around)
+    {
+    }
+
+    const std::vector<std::size_t>& find(std::size_t point, int rings)
+    {
+      std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
+      for (const auto& [position, points] : this->Around.At)
+      {
+        near.emplace_back(lengthOf(difference(position, this->Around.Positions[point])), &points);
+      }
+      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
+      std::nth_element(
+        near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
+      this->Found.clear();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        this->Found.insert(this->Found.end(), near[i].second->begin(), near[i].second->end());
+      }
+      return this->Found;
+    }
+
+  private:
+    const NearestAround& Around;
+    std::vector<std::size_t> Found;
+  };
+
+private:
+  const std::vector<Vector>& Positions;
+  std::map<Vector, std::vector<std::size_t>> At;
+};
+
+std::vector<Splat> splatsOf(const Points& points, const HalfSpace* extents = nullptr,
+  const isopoint::SplatOptions& options = {})
+{
+  isopoint::AllPoints all(points.positions.size());
+  const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
+    { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
+    extents, options, all);
+  EXPECT_EQ(splats.size(), points.positions.size());
+  return splats;
+}
+
+/// The corners of a splat, each once: those that repeat the last one are left out.
+std::vector<SplatCorner> cornersOf(const Splat& splat)
+{
+  const auto areSame = [](const SplatCorner& a, const SplatCorner& b)
+  { return a.along == b.along && a.across == b.across && a.height == b.height; };
+  std::vector<SplatCorner> corners(splat.corners.begin(), splat.corners.end());
+  while (corners.size() > 1 && areSame(corners.back(), corners[corners.size() - 2]))
+  {
+    corners.pop_back();
+  }
+  return corners;
+}
+
+/// The offset of a corner from its splat's point.
+Vector offsetOf(const Splat& splat, const SplatCorner& corner)
+{
+  const Vector across = cross(splat.normal, splat.axis);
+  const Vector inPlane = sum(scaled(corner.along, splat.axis), corner.across, across);
+  return sum(inPlane, corner.height * splat.radius, splat.normal);
+}
+
+/// The area of a splat's triangles.
+double areaOf(const Splat& splat)
+{
+  double area = 0.0;
+  const std::vector<SplatCorner> corners = cornersOf(splat);
+  Vector before = offsetOf(splat, corners.back());
+  for (const SplatCorner& corner : corners)
+  {
+    area += 0.5 * lengthOf(cross(before, offsetOf(splat, corner)));
+    before = offsetOf(splat, corner);
+  }
+  return area;
+}
+
+/// Whether a place lies within one of the splats, seen along its normal.
+/// @param step only one of so many splats is looked at, from the first one on
+bool isCovered(
+  const Vector& place, const Points& points, const std::vector<Splat>& splats, std::size_t step)
+{
+  constexpr double tolerance = 1e-6;
+  for (std::size_t i = 0; i < splats.size(); i += step)
+  {
+    const Splat& splat = splats[i];
+    const Vector offset =
+      scaled(1.0 / splat.radius / splat.radius, difference(place, points.positions[i]));
+    const double x = dot(offset, splat.axis);
+    const double y = dot(offset, cross(splat.normal, splat.axis));
+    const std::vector<SplatCorner> corners = cornersOf(splat);
+    SplatCorner a = corners.back();
+    for (const SplatCorner& b : corners)
+    {
+      if (a.along * y - a.across * x >= -tolerance && x * b.across - y * b.along >= -tolerance &&
+          (b.along - a.along) * (y - a.across) - (b.across - a.across) * (x - a.along) >=
+            -tolerance)
+      {
+        return true;
+      }
+      a = b;
+    }
+  }
+  return false;
+}
+
+/// How far the corners of a splat reach along an axis.
+double reachAlong(const Splat& splat, std::size_t axis)
+{
+  double farthest = -1e9;
+  for (const SplatCorner& corner : cornersOf(splat))
+  {
+    farthest = std::max(farthest, offsetOf(splat, corner)[axis]);
+  }
+  return farthest;
+}
+
+/// Random points of the unit sphere, scaled and moved, with oblique edges that decrease outwards.
+Points sphere(std::size_t count, double scale = 1.0, double offset = 0.0)
+{
+  clouds::Random random(3);
+  Points points;
+  while (points.positions.size() < count)
+  {
+    const Vector v = random.inCube(2.0);
+    const double length = std::sqrt(dot(v, v));
+    if (length > 0.1 && length < 1.0)
+    {
+      const Vector n = scaled(scale / length, v);
+      const double oblique = 1.2 * scale * (random() - 0.5);
+      points.addUnfitted(sum({ offset, offset, offset }, 1.0, n),
+        scaled(0.1, { n[0] + oblique, n[1], n[2] - oblique }));
+    }
+  }
+  return points;
+}
+
+Points fittedSphere(std::size_t count, double spacing)
+{
+  Points points;
+  for (const Vector& p : sphere(count).positions)
+  {
+    points.add(p, FitOrder::Quadratic, scaled(-1.0, p), spacing).hessian = { -1.0, -1.0, -1.0, 0.0,
+      0.0, 0.0 };
+  }
+  return points;
+}
+
+/// Points of two planes that meet at the y axis at a right angle, in turn, with fits of one order
+/// on each.
+Points wedge(FitOrder topOrder, FitOrder sideOrder)
+{
+  Points points;
+  clouds::Random random(7);
+  for (int i = 0; i < 800; ++i)
+  {
+    const double along = 10.0 * random();
+    points.addOnWedge(i % 2 == 0, along, -4.0 * random(), i % 2 == 0 ? topOrder : sideOrder);
+  }
+  return points;
+}
+
+} // namespace
 
 TEST(Splats, NormalsPointToDecreasingValues)
 {
   for (const double scale : { 1.0, 1e-20, 1e20 })
   {
-    const Sphere sphere(5000, scale, scale);
-    const std::vector<Splat> splats = splatsOf(sphere.positions, sphere.edges);
+    const Points points = sphere(5000, scale, scale);
+    const std::vector<Splat> splats = splatsOf(points);
     for (std::size_t i = 0; i < splats.size(); ++i)
     {
       ASSERT_NEAR(dot(splats[i].normal, splats[i].normal), 1.0, 1e-12);
-      ASSERT_GT(dot(splats[i].normal, sphere.outwards[i]), 0.98);
+      const Vector outwards = difference(points.positions[i], { scale, scale, scale });
+      ASSERT_GT(dot(splats[i].normal, outwards), 0.98 * scale);
     }
   }
 }
@@ -23,30 +292,27 @@ TEST(Splats, NormalsPointToDecreasingValues)
 // The corners lie on the sphere, have its normals, and are those of neighboring splats.
 TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
 {
-  const Sphere sphere(800, 1.0, 0.0);
-  Points points;
-  for (const Vector& p : sphere.positions)
-  {
-    addFitted(points, p, isopoint::FitOrder::Quadratic, isopoint::scaled(-1.0, p));
-    points.fits.back().hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
-    points.fits.back().spacing = 0.12;
-  }
+  const Points points = fittedSphere(800, 0.12);
   const std::vector<Splat> splats = splatsOf(points);
   double area = 0.0;
   double heights = 0.0;
   std::vector<Vector> corners;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    if (!(splats[i].radius > 0.0))
+    const Splat& splat = splats[i];
+    if (!(splat.radius > 0.0))
     {
       continue; // another one represents it
     }
-    area += areaOf(splats[i]);
-    for (const isopoint::SplatCorner& corner : cornersOf(splats[i]))
+    area += areaOf(splat);
+    const Vector along = scaled(1.0 / splat.radius, splat.axis);
+    for (const SplatCorner& corner : cornersOf(splat))
     {
-      const Vector place = isopoint::sum(points.positions[i], 1.0, offsetOf(splats[i], corner));
+      const Vector place = sum(points.positions[i], 1.0, offsetOf(splat, corner));
       ASSERT_NEAR(lengthOf(place), 1.0, 0.002);
-      ASSERT_GT(dot(normalAt(splats[i], corner), place), 0.9995);
+      const Vector normal = sum(sum(splat.normal, corner.slopeAlong, along), corner.slopeAcross,
+        cross(splat.normal, along));
+      ASSERT_GT(dot(isopoint::directionOf(normal), place), 0.9995);
       heights = std::max(heights, std::abs(static_cast<double>(corner.height)));
       corners.push_back(place);
     }
@@ -54,64 +320,46 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
   EXPECT_GT(heights, 0.04);
   const double sphereArea = 4.0 * std::acos(-1.0);
   EXPECT_NEAR(area, sphereArea, 0.02 * sphereArea);
-  std::size_t shared = 0; // by three splats or more
-  for (const Vector& a : corners)
-  {
-    shared += std::count_if(corners.begin(), corners.end(),
-                [&](const Vector& b) { return lengthOf(difference(a, b)) < 1e-6; }) >= 3
-                ? 1
-                : 0;
-  }
-  EXPECT_GT(shared, corners.size() * 97 / 100);
+  const auto shared = std::count_if(corners.begin(), corners.end(), // by three splats or more
+    [&](const Vector& a)
+    {
+      return std::count_if(corners.begin(), corners.end(),
+               [&](const Vector& b) { return lengthOf(difference(a, b)) < 1e-6; }) >= 3;
+    });
+  EXPECT_GT(static_cast<std::size_t>(shared), corners.size() * 97 / 100);
 }
 
 // Rows ten times farther apart than points in a row: the nearest points all lie in one row.
 TEST(Splats, CoverTheGapsBetweenRows)
 {
-  std::vector<Vector> positions;
-  for (int row = 0; row < 20; ++row)
-  {
-    for (int i = 0; i < 200; ++i)
-    {
-      positions.push_back({ 0.1 * i, static_cast<double>(row), 0.0 });
-    }
-  }
   Points points;
-  points.positions = positions;
-  points.decreasingEdges.assign(positions.size(), { 0.0, 0.0, 1.0 });
-  points.fits.assign(
-    positions.size(), fitAmong(1.0, isopoint::FitOrder::Linear, { 0.0, 0.0, -1.0 }));
-  const std::vector<Splat> splats = splatsOf(points);
-  const auto& inside = splats[10 * 200 + 100];
-  EXPECT_EQ(inside.normal, (Vector{ 0.0, 0.0, 1.0 }));
+  for (int i = 0; i < 20 * 200; ++i)
+  {
+    points.add({ 0.1 * (i % 200), static_cast<double>(i / 200), 0.0 }, FitOrder::Linear, down);
+  }
+  const Splat inside = splatsOf(points)[10 * 200 + 100];
+  EXPECT_EQ(inside.normal, up);
   EXPECT_GT(inside.radius, 0.5);
   EXPECT_LT(inside.radius, 0.7);
 }
 
 TEST(Splats, OfAnIsolatedPointStaySmall)
 {
-  Sphere sphere(800, 1.0, 0.0);
-  sphere.positions.push_back({ 50.0, 0.0, 0.0 });
-  sphere.edges.push_back({ 0.1, 0.0, 0.0 });
-  EXPECT_LT(splatsOf(sphere.positions, sphere.edges).back().radius, 0.12);
+  Points points = sphere(800);
+  points.addUnfitted({ 50.0, 0.0, 0.0 }, { 0.1, 0.0, 0.0 });
+  EXPECT_LT(splatsOf(points).back().radius, 0.12);
 }
 
 // Where a coarse lattice meets a fine one, many isopoints crowd at one coarse sample. Their splats
 // cover what lies between that and the next.
 TEST(Splats, CoverTheGapsBetweenCrowds)
 {
-  const Vector gradient{ 0.0, 0.0, -1.0 };
   Points points;
-  for (int i = -4; i <= 4; ++i)
+  for (int i = 0; i < 9 * 9 * 14; ++i)
   {
-    for (int k = -4; k <= 4; ++k)
-    {
-      for (int n = 0; n < 14; ++n)
-      {
-        addFitted(points, { i + 0.001 * std::cos(n), k + 0.001 * std::sin(n), 0.0 }, std::nullopt,
-          gradient);
-      }
-    }
+    const int n = i % 14;
+    points.add({ i / 14 / 9 - 4 + 0.001 * std::cos(n), i / 14 % 9 - 4 + 0.001 * std::sin(n), 0.0 },
+      std::nullopt, down);
   }
   const std::vector<Splat> splats = splatsOf(points);
   double farthest = 0.0; // of the splats at the middle
@@ -123,35 +371,27 @@ TEST(Splats, CoverTheGapsBetweenCrowds)
   EXPECT_LT(farthest, 1.5);
 }
 
+// A wavy sheet: planes through more points are flatter.
 TEST(Splats, PlanesAreFittedToAsManyPointsAsRequested)
 {
-  // A wavy sheet: planes through more points are flatter.
   Points points;
-  for (int i = 0; i < 41; ++i)
+  for (int i = 0; i < 41 * 41; ++i)
   {
-    for (int k = 0; k < 41; ++k)
-    {
-      points.positions.push_back({ 1.0 * i, 1.0 * k, (i + k) % 2 == 0 ? 0.2 * (k % 3) : 0.0 });
-      points.decreasingEdges.push_back({ 0.0, 0.0, 1.0 });
-    }
+    const int x = i / 41;
+    const int y = i % 41;
+    points.addUnfitted({ 1.0 * x, 1.0 * y, (x + y) % 2 == 0 ? 0.2 * (y % 3) : 0.0 }, up);
   }
   const auto worstSlope = [&](int count)
   {
     isopoint::SplatOptions options;
     options.neighborCount = count;
     options.fieldNormals = false;
-    isopoint::AllPoints all(points.positions.size());
-    const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
-      { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
-      static_cast<const HalfSpace*>(nullptr), options, all);
+    const std::vector<Splat> splats = splatsOf(points, nullptr, options);
     double slope = 0.0;
-    for (int i = 15; i <= 25; ++i)
+    for (std::size_t i = 0; i < 11 * 11; ++i)
     {
-      for (int k = 15; k <= 25; ++k)
-      {
-        slope =
-          std::max(slope, std::hypot(splats[41 * i + k].normal[0], splats[41 * i + k].normal[1]));
-      }
+      const Vector& normal = splats[41 * (15 + i / 11) + 15 + i % 11].normal;
+      slope = std::max(slope, std::hypot(normal[0], normal[1]));
     }
     return slope;
   };
@@ -164,17 +404,7 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
 {
   for (const std::size_t count : { 8, 14, 40 })
   {
-    const Sphere sphere(count, 1.0, 0.0);
-    Points points;
-    points.positions = sphere.positions;
-    points.decreasingEdges = sphere.edges;
-    for (const Vector& p : sphere.positions)
-    {
-      points.fits.push_back(
-        fitAmong(2.0, isopoint::FitOrder::Quadratic, isopoint::scaled(-1.0, p)));
-      points.fits.back().hessian = { -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
-    }
-    for (const Splat& splat : splatsOf(points))
+    for (const Splat& splat : splatsOf(fittedSphere(count, 2.0)))
     {
       EXPECT_LT(splat.radius, 1.8);
     }
@@ -184,23 +414,18 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
 // At the border of a sheet cells are bounded far outside, by other points of the border only.
 TEST(Splats, EndSoonBeyondTheSamples)
 {
-  const Vector gradient{ 0.0, 0.0, -1.0 };
   Points points;
-  const HalfSpace samples;
   clouds::Random random(5);
   for (int i = 0; i < 1000; ++i)
   {
-    addFitted(
-      points, { -10.0 * random(), 40.0 * random(), 0.0 }, isopoint::FitOrder::Quadratic, gradient);
+    points.add({ -10.0 * random(), 40.0 * random(), 0.0 }, FitOrder::Quadratic, down);
   }
+  const HalfSpace samples;
   const std::vector<Splat> splats = splatsOf(points, &samples);
   double farthest = 0.0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    for (const isopoint::SplatCorner& corner : cornersOf(splats[i]))
-    {
-      farthest = std::max(farthest, points.positions[i][0] + offsetOf(splats[i], corner)[0]);
-    }
+    farthest = std::max(farthest, points.positions[i][0] + reachAlong(splats[i], 0));
   }
   EXPECT_GT(farthest, 0.1);
   EXPECT_LT(farthest, 1.5);
@@ -209,20 +434,16 @@ TEST(Splats, EndSoonBeyondTheSamples)
 // The splats of a plane cover it once, wherever fits held.
 TEST(Splats, OfPointsWithAndWithoutSmoothFitsDoNotOverlap)
 {
-  const Vector gradient{ 0.0, 0.0, -1.0 };
-  clouds::Random random(3);
-  Points points;
   constexpr int half = 12;
   constexpr double distance = 0.4;
-  for (int i = -half; i <= half; ++i)
+  clouds::Random random(3);
+  Points points;
+  for (int i = 0; i < 25 * 25; ++i)
   {
-    for (int k = -half; k <= half; ++k)
-    {
-      const double x = distance * (i + 0.4 * random());
-      const double y = distance * (k + 0.4 * random());
-      addFitted(points, { x, y, 0.0 },
-        random() < 0.5 ? std::optional(isopoint::FitOrder::Quadratic) : std::nullopt, gradient);
-    }
+    const double x = distance * (i / 25 - half + 0.4 * random());
+    const double y = distance * (i % 25 - half + 0.4 * random());
+    points.add(
+      { x, y, 0.0 }, random() < 0.5 ? std::optional(FitOrder::Quadratic) : std::nullopt, down);
   }
   const std::vector<Splat> splats = splatsOf(points);
   double area = 0.0;
@@ -243,39 +464,34 @@ TEST(Splats, OfPointsWithAndWithoutSmoothFitsDoNotOverlap)
 // leave: rounding decides which of them cut. Shapes do not depend on that.
 TEST(Splats, ShapesDoNotDependOnRounding)
 {
-  const auto splatsTurnedBy = [](double angle, double noise)
+  const auto middleTurnedBy = [](double angle, double noise)
   {
     clouds::Random random(2);
     Points points;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    for (int i = -6; i <= 6; ++i)
+    for (int i = 0; i < 13 * 13; ++i)
     {
-      for (int k = -6; k <= 6; ++k)
-      {
-        const double x = 0.8 * i + noise * random();
-        const double y = 0.5 * k + noise * random();
-        addFitted(points, { c * x - s * y, s * x + c * y, noise * random() },
-          isopoint::FitOrder::Quadratic, { 0.0, 0.0, -1.0 });
-        points.fits.back().hessian = { 0.1 * c * c, 0.1 * s * s, 0.0, 0.1 * c * s, 0.0, 0.0 };
-      }
+      const double x = 0.8 * (i / 13 - 6) + noise * random();
+      const double y = 0.5 * (i % 13 - 6) + noise * random();
+      points.add({ c * x - s * y, s * x + c * y, noise * random() }, FitOrder::Quadratic, down)
+        .hessian = { 0.1 * c * c, 0.1 * s * s, 0.0, 0.1 * c * s, 0.0, 0.0 };
     }
-    return splatsOf(points);
+    return splatsOf(points)[84];
   };
-  const std::vector<Splat> expected = splatsTurnedBy(0.0, 0.0);
-  const std::size_t middle = expected.size() / 2;
+  const Splat expected = middleTurnedBy(0.0, 0.0);
   for (int i = 0; i < 50; ++i)
   {
-    const std::vector<Splat> splats = splatsTurnedBy(0.1 * i, i % 2 == 0 ? 0.0 : 1e-12);
-    EXPECT_NEAR(splats[middle].radius, expected[middle].radius, 1e-9) << i;
-    EXPECT_NEAR(areaOf(splats[middle]), areaOf(expected[middle]), 1e-6) << i;
+    const Splat splat = middleTurnedBy(0.1 * i, i % 2 == 0 ? 0.0 : 1e-12);
+    EXPECT_NEAR(splat.radius, expected.radius, 1e-9) << i;
+    EXPECT_NEAR(areaOf(splat), areaOf(expected), 1e-6) << i;
   }
 }
 
 // A corner is listed once, however many cuts pass through it, and cuts that miss the cell leave it.
 TEST(Splats, CellsListEachCornerOnce)
 {
-  isopoint::TangentCell cell({ 0.0, 0.0, 1.0 }, 4.0);
+  isopoint::TangentPolygon cell(up, 4.0);
   for (const double x : { -1.0, 1.0 })
   {
     cell.cut(x, 0.0, 1.0, 1);
@@ -302,34 +518,33 @@ TEST(Splats, CellsListEachCornerOnce)
 // Of many corners those at the shortest sides become one; nothing else changes.
 TEST(Splats, CellsLoseTheirShortestSides)
 {
-  isopoint::TangentCell cell({ 0.0, 0.0, 1.0 }, 1.0);
+  isopoint::TangentPolygon cell(up, 1.0);
   cell.cut(1.0, 0.0, 0.99, 7);
   cell.cut(0.0, 1.0, 0.999, 8);
   EXPECT_EQ(cell.end() - cell.begin(), 10);
-  cell.reduceTo(8);
-  EXPECT_EQ(cell.end() - cell.begin(), 8);
-  for (const isopoint::TangentCell::Corner& corner : cell)
+  for (int i = 0; i < 2; ++i)
   {
-    EXPECT_EQ(corner.side, isopoint::TangentCell::limit);
+    cell.reduceTo(8);
+    EXPECT_EQ(cell.end() - cell.begin(), 8);
+  }
+  for (const isopoint::TangentPolygon::Corner& corner : cell)
+  {
+    EXPECT_EQ(corner.side, isopoint::TangentPolygon::limit);
     EXPECT_NEAR(std::hypot(corner.x, corner.y), 1.0, 0.011);
   }
-  cell.reduceTo(8);
-  EXPECT_EQ(cell.end() - cell.begin(), 8);
 }
 
 // Samples whose value equals the isovalue have many isopoints at their own position.
 TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
 {
-  const Sphere sphere(800, 1.0, 0.0);
-  const std::vector<Splat> expected = splatsOf(sphere.positions, sphere.edges);
-  std::vector<Vector> positions;
-  std::vector<Vector> edges;
-  for (std::size_t i = 0; i < sphere.positions.size(); ++i)
+  const Points points = sphere(800);
+  const std::vector<Splat> expected = splatsOf(points);
+  Points repeated;
+  for (std::size_t i = 0; i < 30 * expected.size(); ++i)
   {
-    positions.insert(positions.end(), 30, sphere.positions[i]);
-    edges.insert(edges.end(), 30, sphere.edges[i]);
+    repeated.addUnfitted(points.positions[i / 30], points.decreasingEdges[i / 30]);
   }
-  const std::vector<Splat> splats = splatsOf(positions, edges);
+  const std::vector<Splat> splats = splatsOf(repeated);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     const bool isFirst = i % 30 == 0;
@@ -342,27 +557,22 @@ TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
 // Points in lines, each closer to the next one than points may be: a visible one is close to each.
 TEST(Splats, AreHiddenBesideVisibleOnesAlone)
 {
-  constexpr double step = 0.02;
   constexpr double closeness = 0.05; // see HiddenPoints
   clouds::Random random(7);
-  std::vector<Vector> positions;
-  for (int line = 0; line < 6; ++line)
+  Points points;
+  for (int i = 0; i < 600; ++i)
   {
-    for (int i = 0; i < 100; ++i)
-    {
-      const double along = step * (i + 0.4 * random());
-      positions.push_back({ along, static_cast<double>(line), 0.0 });
-    }
+    points.addUnfitted(
+      { 0.02 * (i % 100 + 0.4 * random()), static_cast<double>(i / 100), 0.0 }, scaled(2.0, up));
   }
-  const std::vector<Splat> splats =
-    splatsOf(positions, std::vector<Vector>(positions.size(), { 0.0, 0.0, 2.0 }));
+  const std::vector<Splat> splats = splatsOf(points);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     double nearest = closeness; // visible point
     for (std::size_t k = 0; k < splats.size(); ++k)
     {
-      const double distance = isopoint::lengthOf(isopoint::difference(positions[i], positions[k]));
+      const double distance = lengthOf(difference(points.positions[i], points.positions[k]));
       nearest = splats[k].radius > 0.0 ? std::min(nearest, distance) : nearest;
     }
     EXPECT_LT(nearest, closeness) << i;
@@ -375,30 +585,29 @@ TEST(Splats, AreHiddenBesideVisibleOnesAlone)
 // The second cell reaches over the side of the first one, the third one does not.
 TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
 {
-  using isopoint::SplatCell;
+  using isopoint::VoronoiCell;
   const std::vector<Vector> positions{ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 } };
-  const std::vector<Vector> planes(3, { 0.0, 0.0, 1.0 });
+  const std::vector<Vector> planes(3, up);
   const std::vector<isopoint::LocalFit> noFits;
-  const isopoint::TangentFrame frame(planes[0]);
+  const isopoint::TangentFrame frame(up);
   const auto cellOf = [&](double reach, std::size_t right, std::size_t top)
   {
     // Counterclockwise from the corner before the side on the right.
-    SplatCell cell{ {}, 0, 1.0, {} };
+    VoronoiCell cell{ {}, 0, 1.0, {} };
     const std::array<std::pair<Vector, std::size_t>, 4> corners{ { { { reach, -reach, 0 }, right },
-      { { reach, reach, 0 }, top }, { { -reach, reach, 0 }, SplatCell::none },
-      { { -reach, -reach, 0 }, SplatCell::none } } };
+      { { reach, reach, 0 }, top }, { { -reach, reach, 0 }, VoronoiCell::none },
+      { { -reach, -reach, 0 }, VoronoiCell::none } } };
     for (const auto& [place, beyond] : corners)
     {
-      cell.corners[cell.count++] = { isopoint::dot(place, frame.first),
-        isopoint::dot(place, frame.second), beyond };
+      cell.corners[cell.count++] = { dot(place, frame.first), dot(place, frame.second), beyond };
     }
     return cell;
   };
-  isopoint::RawArray<SplatCell> cells;
+  isopoint::RawArray<VoronoiCell> cells;
   cells.resize(3);
   cells[0] = cellOf(1.0, 1, 2);
-  cells[1] = cellOf(1.5, SplatCell::none, SplatCell::none);
-  cells[2] = cellOf(0.9, SplatCell::none, SplatCell::none);
+  cells[1] = cellOf(1.5, VoronoiCell::none, VoronoiCell::none);
+  cells[2] = cellOf(0.9, VoronoiCell::none, VoronoiCell::none);
   EXPECT_EQ(isopoint::missedPoints({}, { positions, positions, noFits }, planes, cells),
     std::vector<isopoint::MissedPoint>{ isopoint::MissedPoint(1, 0) });
 }
@@ -406,34 +615,30 @@ TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
 // The sides before and after it are parallel: they do not meet.
 TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
 {
-  using isopoint::SplatCell;
+  using isopoint::VoronoiCell;
   for (const std::size_t cornersOfOther : { 7, 8 })
   {
-    isopoint::RawArray<SplatCell> cells;
+    isopoint::RawArray<VoronoiCell> cells;
     cells.resize(4);
-    std::fill_n(cells.data(), cells.size(), SplatCell{});
-    SplatCell& cell = cells[0];
-    cell.corners = { { { -1, -1, SplatCell::none }, { 1, -1, 2 }, { 1, 1, 1 }, { -1, 1, 3 } } };
-    cell.count = 4;
-    SplatCell& other = cells[1];
-    other.count = cornersOfOther;
-    for (std::size_t i = 0; i < other.count; ++i)
+    std::fill_n(cells.data(), cells.size(), VoronoiCell{});
+    cells[0].corners = { { { -1, -1, VoronoiCell::none }, { 1, -1, 2 }, { 1, 1, 1 },
+      { -1, 1, 3 } } };
+    cells[0].count = 4;
+    cells[1].count = cornersOfOther;
+    for (std::size_t i = 0; i < cornersOfOther; ++i)
     {
-      other.corners[i].beyond = i == 4 ? 3 : i == 5 ? 2 : SplatCell::none;
+      cells[1].corners[i].beyond = i == 4 ? 3 : i == 5 ? 2 : VoronoiCell::none;
     }
-    for (const std::size_t beside : { 2, 3 })
-    {
-      cells[beside].corners[0].beyond = 0;
-      cells[beside].count = 1;
-    }
-    const SplatCell mutual = isopoint::withMutualSides(cells, 0);
+    cells[2].count = cells[3].count = 1;
+    cells[2].corners[0].beyond = cells[3].corners[0].beyond = 0;
+    const VoronoiCell mutual = isopoint::withSharedSides(cells, 0);
+    const auto countOf = [&](const auto& condition)
+    { return std::count_if(mutual.begin(), mutual.end(), condition); };
     const bool isDropped = cornersOfOther == isopoint::mostCorners;
     EXPECT_EQ(mutual.count, isDropped ? 3 : 4);
-    EXPECT_EQ(std::count_if(mutual.begin(), mutual.end(),
-                [](const SplatCell::Corner& corner) { return corner.overlaps; }),
+    EXPECT_EQ(countOf([](const VoronoiCell::Corner& corner) { return corner.overlaps; }),
       isDropped ? 0 : 1);
-    EXPECT_EQ(std::count_if(mutual.begin(), mutual.end(),
-                [](const SplatCell::Corner& corner)
+    EXPECT_EQ(countOf([](const VoronoiCell::Corner& corner)
                 { return corner.x == 0.0 && corner.y == 1.0 && corner.beyond == 3; }),
       isDropped ? 1 : 0);
   }
@@ -442,20 +647,20 @@ TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
 // Each of four cells around a corner has a short side for the one across it.
 TEST(Splats, SidesThatCrossBecomeOneCorner)
 {
-  using isopoint::SplatCell;
-  isopoint::RawArray<SplatCell> cells;
+  using isopoint::VoronoiCell;
+  isopoint::RawArray<VoronoiCell> cells;
   cells.resize(4);
   for (std::size_t i = 0; i < 4; ++i)
   {
     // Counterclockwise around the corner: the cells i + 1, i + 2 and i + 3.
     cells[i] = {};
     cells[i].corners = { { { 0.0, 0.0, (i + 1) % 4 }, { 2.0, 1.9, (i + 2) % 4 },
-      { 1.9, 2.0, (i + 3) % 4 }, { 0.0, 1.0, SplatCell::none } } };
+      { 1.9, 2.0, (i + 3) % 4 }, { 0.0, 1.0, VoronoiCell::none } } };
     cells[i].count = 4;
   }
   for (std::size_t i = 0; i < 4; ++i)
   {
-    const SplatCell cell = isopoint::withMutualSides(cells, i);
+    const VoronoiCell cell = isopoint::withSharedSides(cells, i);
     ASSERT_EQ(cell.count, 3);
     EXPECT_EQ(cell.corners[1].beyond, (i + 3) % 4);
     EXPECT_EQ(cell.corners[1].x, 1.95);
@@ -465,47 +670,162 @@ TEST(Splats, SidesThatCrossBecomeOneCorner)
 
 TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
 {
-  const Vector edge{ 0.0, 2.0, 0.0 };
   for (const std::vector<Vector>& positions :
-    { std::vector<Vector>{ { 1, 1, 1 } }, std::vector<Vector>{ { 1, 1, 1 }, { 1, 1, 1 } },
-      std::vector<Vector>{ { 0, 0, 0 }, { 1, 0, 0 } },
-      std::vector<Vector>{ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 0, 0 } } })
+    { std::vector<Vector>{}, { { 1, 1, 1 } }, { { 1, 1, 1 }, { 1, 1, 1 } },
+      { { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 0, 0 } } })
   {
-    const std::vector<Splat> splats =
-      splatsOf(positions, std::vector<Vector>(positions.size(), edge));
+    Points points;
+    points.positions = positions;
+    points.decreasingEdges.assign(positions.size(), { 0.0, 2.0, 0.0 });
+    const std::vector<Splat> splats = splatsOf(points);
     for (std::size_t i = 0; i < splats.size(); ++i)
     {
       EXPECT_EQ(splats[i].normal, (Vector{ 0.0, 1.0, 0.0 }));
-      if (i > 0 && positions[i] == positions[0])
-      {
-        EXPECT_EQ(splats[i].radius, 0.0);
-      }
-      else
-      {
-        EXPECT_GE(splats[i].radius, 0.9);
-      }
+      const bool isHidden = i > 0 && positions[i] == positions[0];
+      EXPECT_TRUE(isHidden ? splats[i].radius == 0.0 : splats[i].radius >= 0.9);
     }
   }
-  EXPECT_TRUE(splatsOf({}, {}).empty());
 }
 
 // Two sheets that decrease to opposite sides, closer to each other than the points of one.
 TEST(Splats, NormalsOfSheetsCloseByPointToTheirOwnDecreasingSide)
 {
   clouds::Random random(5);
-  std::vector<Vector> positions;
-  std::vector<Vector> edges;
+  Points points;
   for (int i = 0; i < 4000; ++i)
   {
     const double side = i % 2 ? 1.0 : -1.0;
-    positions.push_back({ random(), random(), 0.004 * side });
-    edges.push_back({ 0.02 * (random() - 0.5), 0.02 * (random() - 0.5), 0.02 * side });
+    points.positions.push_back({ random(), random(), 0.004 * side });
+    points.decreasingEdges.push_back(
+      { 0.02 * (random() - 0.5), 0.02 * (random() - 0.5), 0.02 * side });
   }
-  const std::vector<Splat> splats = splatsOf(positions, edges);
-  int wrong = 0;
+  const std::vector<Splat> splats = splatsOf(points);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    wrong += dot(splats[i].normal, edges[i]) > 0.0 ? 0 : 1;
+    EXPECT_GT(dot(splats[i].normal, points.decreasingEdges[i]), 0.0);
   }
-  EXPECT_EQ(wrong, 0);
+}
+
+// Crease fits on both planes: each splat that reaches the other plane ends there.
+TEST(SplatCreases, EndAtTheOtherSide)
+{
+  const Points points = wedge(FitOrder::Crease, FitOrder::Crease);
+  const std::vector<Splat> splats = splatsOf(points);
+  int ending = 0;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    const std::size_t across = i % 2 == 0 ? 0 : 2;
+    const double beyond = points.positions[i][across] + reachAlong(splats[i], across);
+    ASSERT_LT(beyond, 1e-6) << i;
+    ending += beyond > -1e-6 ? 1 : 0;
+  }
+  EXPECT_GT(ending, 20);
+}
+
+// At a corner the splat ends at both creases.
+TEST(SplatCreases, OfOnePointAllCount)
+{
+  Points points;
+  clouds::Random random(4);
+  for (int i = 0; i < 500; ++i)
+  {
+    const Vector place{ -3.0 * random(), -3.0 * random(), 0.0 };
+    points.add(place, FitOrder::Crease, down).creases = { { { -1.0, 0.0, 0.0 }, -place[0], -1.0 },
+      { { 0.0, -1.0, 0.0 }, -place[1], -1.0 } };
+  }
+  const std::vector<Splat> splats = splatsOf(points);
+  int ending = 0;
+  for (std::size_t i = 0; i < 2 * splats.size(); ++i)
+  {
+    const double beyond = points.positions[i / 2][i % 2] + reachAlong(splats[i / 2], i % 2);
+    ASSERT_LT(beyond, 1e-6);
+    ending += beyond > -1e-6 ? 1 : 0;
+  }
+  EXPECT_GT(ending, 40);
+}
+
+// Also if there are crease fits on one side only.
+TEST(SplatCreases, CoverAFaceUpToItsCrease)
+{
+  for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
+  {
+    const Points points = wedge(order, FitOrder::Crease);
+    const std::vector<Splat> splats = splatsOf(points);
+    clouds::Random random(8);
+    for (int k = 0; k < 4000; ++k)
+    {
+      const Vector place{ -0.5 * random(), 1.0 + 8.0 * random(), 0.0 };
+      ASSERT_TRUE(isCovered(place, points, splats, 2)) << place[0] << ' ' << place[1];
+    }
+  }
+}
+
+TEST(SplatCreases, OfPointsOnACreaseCoverTheirOwnSide)
+{
+  for (const bool isNegated : { false, true })
+  {
+    Points points = wedge(FitOrder::Crease, FitOrder::Crease);
+    for (std::size_t i = 0; i < 40; ++i)
+    {
+      points.positions[i] = { 0.0, 0.25 * static_cast<double>(i), 0.0 };
+      points.fits[i].creases[0].distance = 0.0;
+    }
+    if (isNegated)
+    {
+      points.negate();
+    }
+    const std::vector<Splat> splats = splatsOf(points);
+    std::size_t hidden = 0; // behind a point close by
+    for (std::size_t i = 0; i < 40; ++i)
+    {
+      const bool isHidden = splats[i].radius == 0.0;
+      hidden += isHidden ? 1 : 0;
+      EXPECT_TRUE(isHidden || splats[i].radius > 0.1) << i;
+      EXPECT_NEAR(reachAlong(splats[i], i % 2 == 0 ? 0 : 2), 0.0, 1e-6) << i;
+    }
+    EXPECT_LE(hidden, 2u);
+  }
+}
+
+// A field and its negative have the same surface; only the directions of normals differ.
+TEST(SplatCreases, OfTheNegatedFieldHaveTheSameShape)
+{
+  Points points;
+  clouds::Random random(6);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const bool top = i % 2 == 0;
+    const auto [along, off, tilt] = random.place();
+    const double turn = 0.05 * (tilt - 0.5);
+    points.addOnWedge(top, 10.0 * along, -3.0 * off, FitOrder::Crease,
+      top ? Vector{ turn, 0.0, 0.0 } : Vector{ 0.0, 0.0, turn });
+  }
+  const std::vector<Splat> splats = splatsOf(points);
+  points.negate();
+  const std::vector<Splat> turned = splatsOf(points);
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    ASSERT_EQ(turned[i].normal, scaled(-1.0, splats[i].normal));
+    ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
+    ASSERT_NEAR(areaOf(turned[i]), areaOf(splats[i]), 1e-6) << i;
+  }
+}
+
+// A single wrong crease fit in a plane leaves no hole there.
+TEST(SplatCreases, OfASingleWrongFitHarmNoOthers)
+{
+  Points points;
+  clouds::Random random(4);
+  points.add({ 0.0, 0.0, 0.0 }, FitOrder::Crease, { -1.0, 0.0, -1.0 }).creases = { { down, 0.0,
+    -1.0 } };
+  for (int i = 1; i < 500; ++i)
+  {
+    points.add({ 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 }, FitOrder::Quadratic, down);
+  }
+  const std::vector<Splat> splats = splatsOf(points);
+  for (int k = 0; k < 4000; ++k)
+  {
+    const Vector place{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 0.0 };
+    ASSERT_TRUE(isCovered(place, points, splats, 1)) << place[0] << ' ' << place[1];
+  }
 }

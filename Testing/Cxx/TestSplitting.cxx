@@ -7,9 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <optional>
-
 namespace
 {
 
@@ -80,21 +77,20 @@ TEST(Splitting, AnyOrder)
   for (const std::size_t count : { 2, 3, 5, 383, 384, 385, 1000, 4096, 50001 })
   {
     SCOPED_TRACE(count);
-    const double n = static_cast<double>(count);
     clouds::Random random(count);
-    expectHalvedByDefinition(samplesOf(count, [&](std::size_t, int) { return random(); }));
-    expectHalvedByDefinition(samplesOf(
-      count, [&](std::size_t i, int axis) { return axis == 0 ? double(i) : n - double(i); }));
-    expectHalvedByDefinition(
-      samplesOf(count, [&](std::size_t i, int) { return double(std::min(i, count - i)); }));
-    expectHalvedByDefinition(
-      samplesOf(count, [&](std::size_t i, int axis) { return axis == 1 ? double(i) : 1.0; }));
-    expectHalvedByDefinition(
-      samplesOf(count, [&](std::size_t, int) { return std::floor(3.0 * random()); }));
-    expectHalvedByDefinition(
-      samplesOf(count, [&](std::size_t i, int) { return i % 10 == 0 ? random() : 0.5; }));
-    expectHalvedByDefinition(
-      samplesOf(count, [&](std::size_t, int) { return std::pow(10.0, 60.0 * random() - 30.0); }));
+    const std::function<double(std::size_t, int)> coordinates[] = {
+      [&](std::size_t, int) { return random(); },
+      [&](std::size_t i, int axis) { return double(axis == 0 ? i : count - i); },
+      [&](std::size_t i, int) { return double(std::min(i, count - i)); },
+      [&](std::size_t i, int axis) { return axis == 1 ? double(i) : 1.0; },
+      [&](std::size_t, int) { return std::floor(3.0 * random()); },
+      [&](std::size_t i, int) { return i % 10 == 0 ? random() : 0.5; },
+      [&](std::size_t, int) { return std::pow(10.0, 60.0 * random() - 30.0); },
+    };
+    for (const auto& coordinate : coordinates)
+    {
+      expectHalvedByDefinition(samplesOf(count, coordinate));
+    }
   }
 }
 
@@ -102,17 +98,15 @@ TEST(Splitting, CoincidentSamplesAreNotSplit)
 {
   for (const std::size_t count : { 2, 500, 70000 })
   {
-    std::vector<FloatSample> samples = samplesOf(count, [](std::size_t, int) { return 0.5; });
-    isopoint::HalvingScratch<FloatSample> reused;
-    EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, reused));
+    for (const double zero : { 0.0, -0.0 })
+    {
+      std::vector<FloatSample> samples =
+        samplesOf(count, [=](std::size_t i, int) { return i == 0 ? 0.0 : zero; });
+      isopoint::HalvingScratch<FloatSample> reused;
+      EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, reused));
+      EXPECT_FALSE(isopoint::halveByDefinition(samples.data(), count, 0));
+    }
   }
-}
-
-TEST(Splitting, SignedZerosCoincide)
-{
-  std::vector<FloatSample> samples =
-    samplesOf(2, [](std::size_t i, int) { return i == 0 ? 0.0 : -0.0; });
-  EXPECT_FALSE(isopoint::halveByDefinition(samples.data(), 2, 0));
 }
 
 // A way down from the root and back, by the turns taken.

@@ -1,46 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thinning against the definition (docs/algorithm.md, section 11).
-#include "ThinningTesting.h"
+// Thinning against the definition (docs/algorithm.md, section 11), and of sheets close to each
+// other.
+#include "Clouds.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <limits>
+#include "Core/Extraction/Thinning.h"
 
-using namespace thinningtesting;
+#include <gtest/gtest.h>
 
 namespace
 {
 
-const double minimumSpacings[] = { 1.0, 0.5, 0.1, 1e-3 };
+using isopoint::difference;
+using isopoint::FitOrder;
+using isopoint::Isosurface;
+using isopoint::lengthOf;
+using isopoint::LocalFit;
+using isopoint::Vector;
+
+Isosurface thinned(Isosurface surface, double minimumSpacing)
+{
+  isopoint::thin(isopoint::Execution(), minimumSpacing, surface);
+  return surface;
+}
+
+Isosurface surfaceOf(
+  const clouds::Cloud& cloud, double isovalue, FitOrder order = FitOrder::Cubic, bool move = true)
+{
+  isopoint::ExtractionRequest request = clouds::requestOf(isovalue, order);
+  request.isosurface.fit->move = move;
+  return clouds::extracted(cloud, request).surface;
+}
+
+/// A surface with given fits, on edges of consecutive samples.
+Isosurface surfaceOf(std::vector<LocalFit> fits)
+{
+  Isosurface surface;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+  {
+    surface.edges.push_back({ { i, i + 1 }, 0.5 });
+    surface.positions.push_back(fits[i].position);
+    surface.decreasingEdges.push_back({ 0.0, 0.0, 1.0 });
+  }
+  surface.fits = std::move(fits);
+  return surface;
+}
+
+LocalFit smoothFit(const Vector& position, const Vector& gradient, double spacing)
+{
+  LocalFit fit{};
+  fit.position = position;
+  fit.gradient = gradient;
+  fit.spacing = spacing;
+  fit.order = FitOrder::Quadratic;
+  fit.isSmooth = true;
+  return fit;
+}
 
 /// Whether two points are close (docs/algorithm.md, section 11).
 bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
 {
   const double reach = minimumSpacing * std::min(a.spacing, b.spacing);
-  const double slopeA = isopoint::lengthOf(a.gradient);
-  const double slopeB = isopoint::lengthOf(b.gradient);
-  const Vector way = isopoint::difference(a.position, b.position);
+  const double slopeA = lengthOf(a.gradient);
+  const double slopeB = lengthOf(b.gradient);
+  const Vector way = difference(a.position, b.position);
   const Vector normalA = isopoint::directionOf(a.gradient);
   const Vector normalB = isopoint::directionOf(b.gradient);
   return a.isSmooth && b.isSmooth && slopeA > 0.0 && slopeB > 0.0 && std::isfinite(slopeA) &&
          std::isfinite(slopeB) && std::max(a.spacing, b.spacing) <= 1e290 &&
-         isopoint::lengthOf(way) < reach && isopoint::dot(normalA, normalB) >= 0.906 &&
+         lengthOf(way) < reach && isopoint::dot(normalA, normalB) >= 0.906 &&
          std::abs(isopoint::dot(way, normalA)) <= 0.25 * reach &&
          std::abs(isopoint::dot(way, normalB)) <= 0.25 * reach;
-}
-
-std::vector<std::size_t> keptByDefinition(const std::vector<LocalFit>& fits, double minimumSpacing)
-{
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-  {
-    if (std::none_of(kept.begin(), kept.end(),
-          [&](std::size_t other) { return areClose(fits[other], fits[i], minimumSpacing); }))
-    {
-      kept.push_back(i);
-    }
-  }
-  return kept;
 }
 
 /// @returns the share of points that thinning with the minimum spacing 0.5 keeps
@@ -48,25 +77,30 @@ double expectTheDefinition(const Isosurface& surface)
 {
   double share = 1.0;
   EXPECT_FALSE(surface.edges.empty());
-  for (const double minimumSpacing : minimumSpacings)
+  for (const double minimumSpacing : { 1.0, 0.5, 0.1, 1e-3 })
   {
-    SCOPED_TRACE(testing::Message() << "minimum spacing " << minimumSpacing);
-    const std::vector<std::size_t> expected = keptByDefinition(surface.fits, minimumSpacing);
+    std::vector<std::size_t> expected;
+    for (std::size_t i = 0; i < surface.fits.size(); ++i)
+    {
+      if (std::none_of(expected.begin(), expected.end(),
+            [&](std::size_t other)
+            { return areClose(surface.fits[other], surface.fits[i], minimumSpacing); }))
+      {
+        expected.push_back(i);
+      }
+    }
     const Isosurface found = thinned(surface, minimumSpacing);
     EXPECT_EQ(found.edges.size(), expected.size());
     EXPECT_EQ(found.fits.size(), expected.size());
-    for (std::size_t i = 0; i < std::min(expected.size(), found.edges.size()); ++i)
+    for (std::size_t i = 0; i < expected.size() && !testing::Test::HasFailure(); ++i)
     {
-      EXPECT_EQ(found.edges[i], surface.edges[expected[i]]) << i;
+      SCOPED_TRACE(testing::Message() << "minimum spacing " << minimumSpacing << ", point " << i);
+      EXPECT_EQ(found.edges[i], surface.edges[expected[i]]);
       EXPECT_EQ(found.edges[i].parameter, surface.edges[expected[i]].parameter);
       EXPECT_EQ(found.positions[i], surface.positions[expected[i]]);
       EXPECT_EQ(found.decreasingEdges[i], surface.decreasingEdges[expected[i]]);
       EXPECT_EQ(found.fits[i].position, surface.fits[expected[i]].position);
       EXPECT_EQ(found.fits[i].spacing, surface.fits[expected[i]].spacing);
-      if (testing::Test::HasFailure())
-      {
-        return share;
-      }
     }
     if (minimumSpacing == 0.5)
     {
@@ -78,76 +112,77 @@ double expectTheDefinition(const Isosurface& surface)
 
 /// Points in a flat box, with gradients mostly along its short axis and sample spacings that vary
 /// by a factor.
-std::vector<LocalFit> randomFits(std::size_t count, double side, double factor, std::uint64_t seed)
+std::vector<LocalFit> randomFits(
+  std::size_t count, double side, double factor, std::uint64_t seed, double origin = 0.0)
 {
   clouds::Random random(seed);
-  std::vector<LocalFit> fits(count);
-  for (LocalFit& fit : fits)
+  std::vector<LocalFit> fits;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    for (double& coordinate : fit.position)
-    {
-      coordinate = side * (random() - 0.5);
-    }
-    fit.position[2] *= 0.1;
-    fit.spacing = 0.2 * side * std::pow(factor, -random());
-    fit.gradient = { random() - 0.5, random() - 0.5, random() < 0.5 ? -2.0 : 2.0 };
-    fit.order = FitOrder::Quadratic;
-    fit.isSmooth = random() >= 0.1;
+    const auto [x, y, z] = random.inCube(side);
+    const double spacing = 0.2 * side * std::pow(factor, -random());
+    fits.push_back(smoothFit({ x + origin, y + origin, 0.1 * z },
+      { random() - 0.5, random() - 0.5, random() < 0.5 ? -2.0 : 2.0 }, spacing));
+    fits.back().isSmooth = random() >= 0.1;
   }
   return fits;
+}
+
+/// Expects near each point a kept one of its own sheet, within the minimum spacing.
+template <class SheetOf>
+void expectThinnedBySheets(const Isosurface& surface, double minimumSpacing, const SheetOf& sheetOf)
+{
+  const Isosurface kept = thinned(surface, minimumSpacing);
+  EXPECT_LT(kept.edges.size(), surface.edges.size());
+  for (const LocalFit& fit : surface.fits)
+  {
+    ASSERT_TRUE(std::any_of(kept.fits.begin(), kept.fits.end(),
+      [&](const LocalFit& other)
+      {
+        return sheetOf(other) == sheetOf(fit) &&
+               lengthOf(difference(other.position, fit.position)) < minimumSpacing * fit.spacing;
+      }));
+  }
 }
 
 } // namespace
 
 TEST(Thinning, FollowsTheDefinition)
 {
-  constexpr std::size_t count = 2000;
+  const clouds::Cloud uniform = clouds::uniform(2000, 62);
   for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
-    EXPECT_LT(expectTheDefinition(extracted(clouds::uniform(count, 62), 0.3, order)), 0.9);
-    expectTheDefinition(extracted(clouds::clustered(count, 63), -4.0, order));
-    expectTheDefinition(extracted(clouds::lattice(12, 13, 14), 2.0, order));
-    expectTheDefinition(extracted(clouds::coarse(900, 6, 64), 4.5, order));
-    expectTheDefinition(extracted(clouds::coincident(clouds::uniform(count, 65), 0.3), 0.3, order));
-    expectTheDefinition(extracted(clouds::flattened(clouds::uniform(count, 66), 2), 0.4, order));
+    EXPECT_LT(expectTheDefinition(surfaceOf(uniform, 0.3, order)), 0.9);
+    expectTheDefinition(surfaceOf(clouds::clustered(2000, 63), -4.0, order));
+    expectTheDefinition(surfaceOf(clouds::lattice(12, 13, 14), 2.0, order));
+    expectTheDefinition(surfaceOf(clouds::coarse(900, 6, 64), 4.5, order));
+    expectTheDefinition(surfaceOf(clouds::coincident(uniform, 0.3), 0.3, order));
+    expectTheDefinition(surfaceOf(clouds::flattened(uniform, 2), 0.4, order));
   }
-  expectTheDefinition(extracted(clouds::uniform(count, 67), 0.3, FitOrder::Cubic, false));
+  expectTheDefinition(surfaceOf(uniform, 0.3, FitOrder::Cubic, false));
   // Affine functions indicate no sheet.
-  EXPECT_EQ(expectTheDefinition(extracted(clouds::uniform(count, 62), 0.3, FitOrder::Linear)), 1.0);
-  EXPECT_TRUE(thinned(extracted(clouds::uniform(count, 67), 9.0), 1.0).edges.empty());
+  EXPECT_EQ(expectTheDefinition(surfaceOf(uniform, 0.3, FitOrder::Linear)), 1.0);
+  EXPECT_TRUE(thinned(surfaceOf(uniform, 9.0), 1.0).edges.empty());
 }
 
-TEST(Thinning, FollowsTheDefinitionForAnySpacings)
+TEST(Thinning, FollowsTheDefinitionForAnySpacingsScaleAndPlace)
 {
   for (const double factor : { 1.0, 1e3, 1e12 })
   {
     EXPECT_LT(expectTheDefinition(surfaceOf(randomFits(3000, 1.0, factor, 68))), 1.0);
   }
-}
-
-TEST(Thinning, FollowsTheDefinitionAtAnyScale)
-{
   for (const double side : { 1e-320, 1e-300, 1e-100, 1e100, 1e289, 1e292, 1e308 })
   {
     SCOPED_TRACE(side);
     expectTheDefinition(surfaceOf(randomFits(600, side, 30.0, 69)));
   }
-}
-
-// Few significant bits of the coordinates differ between points.
-TEST(Thinning, FollowsTheDefinitionFarFromTheOrigin)
-{
+  // Few significant bits of the coordinates differ between points.
   for (const double side : { 1.0, 1e-6, 1e-10, 1e-15, 1e-18, 1e-300 })
   {
     for (const double origin : { 1024.0, -1023.9999999999999, 3.0 })
     {
       SCOPED_TRACE(testing::Message() << side << " at " << origin);
-      std::vector<LocalFit> fits = randomFits(600, side, 30.0, 70);
-      for (LocalFit& fit : fits)
-      {
-        fit.position = { fit.position[0] + origin, fit.position[1] + origin, fit.position[2] };
-      }
-      expectTheDefinition(surfaceOf(fits));
+      expectTheDefinition(surfaceOf(randomFits(600, side, 30.0, 70, origin)));
     }
   }
 }
@@ -158,53 +193,34 @@ TEST(Thinning, FollowsTheDefinitionOnALattice)
   std::vector<LocalFit> fits;
   for (int i = 0; i < 2000; ++i)
   {
-    LocalFit fit{};
-    fit.position = { (i * 7 % 20 - 10) * 0.25, (i * 11 % 21 - 10) * 0.25, (i % 5 - 2) * 0.125 };
-    fit.gradient = { 0.0, 0.0, i % 3 == 0 ? -1.0 : 1.0 };
-    fit.spacing = i % 4 == 0 ? 1.0 : 0.5;
-    fit.order = FitOrder::Quadratic;
-    fit.isSmooth = true;
-    fits.push_back(fit);
+    fits.push_back(
+      smoothFit({ (i * 7 % 20 - 10) * 0.25, (i * 11 % 21 - 10) * 0.25, (i % 5 - 2) * 0.125 },
+        { 0.0, 0.0, i % 3 == 0 ? -1.0 : 1.0 }, i % 4 == 0 ? 1.0 : 0.5));
   }
   EXPECT_LT(expectTheDefinition(surfaceOf(fits)), 0.9);
 }
 
 TEST(Thinning, PointsWithoutATangentPlaneAreKept)
 {
-  LocalFit usable{};
-  usable.gradient = { 1.0, 0.0, 0.0 };
-  usable.spacing = 1.0;
-  usable.order = FitOrder::Cubic;
-  usable.isSmooth = true;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const LocalFit usable = smoothFit({}, { 1.0, 0.0, 0.0 }, 1.0);
   EXPECT_EQ(thinned(surfaceOf({ usable, usable, usable }), 0.5).edges.size(), 1u);
-  const auto expectKept = [&](LocalFit fit)
+  std::vector<LocalFit> others{ usable, smoothFit({}, {}, 1.0),
+    smoothFit({}, usable.gradient, 0.0) };
+  others[0].isSmooth = false;
+  for (const double bad : { infinity, nan })
+  {
+    others.push_back(smoothFit({}, { 1.0, bad, 0.0 }, 1.0));
+    others.push_back(smoothFit({ 0.0, 0.0, bad }, usable.gradient, 1.0));
+    others.push_back(smoothFit({}, usable.gradient, bad));
+  }
+  for (const LocalFit& fit : others)
   {
     EXPECT_EQ(thinned(surfaceOf({ fit, fit }), 0.5).edges.size(), 2u);
     EXPECT_EQ(thinned(surfaceOf({ fit, usable }), 0.5).edges.size(), 2u);
     EXPECT_EQ(thinned(surfaceOf({ usable, fit }), 0.5).edges.size(), 2u);
-  };
-  LocalFit fit = usable;
-  fit.isSmooth = false;
-  expectKept(fit);
-  for (const double bad :
-    { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
-  {
-    fit = usable;
-    fit.gradient[1] = bad;
-    expectKept(fit);
-    fit = usable;
-    fit.position[2] = bad;
-    expectKept(fit);
-    fit = usable;
-    fit.spacing = bad;
-    expectKept(fit);
   }
-  fit = usable;
-  fit.gradient = { 0.0, 0.0, 0.0 };
-  expectKept(fit);
-  fit = usable;
-  fit.spacing = 0.0;
-  expectKept(fit);
 }
 
 TEST(Thinning, DropsNothingAtZeroOrWithoutFits)
@@ -213,4 +229,58 @@ TEST(Thinning, DropsNothingAtZeroOrWithoutFits)
   EXPECT_EQ(thinned(surface, 0.0).edges.size(), 1000u);
   surface.fits.clear();
   EXPECT_EQ(thinned(surface, 1.0).edges.size(), 1000u);
+}
+
+// Sheets that are a third, or a tenth, of the mean sample spacing apart.
+TEST(Thinning, SheetsCloseByDoNotThinEachOther)
+{
+  const clouds::Cloud cloud = clouds::withValuesOf(
+    clouds::uniform(20000, 61), [](const Vector& p) { return (p[2] - 0.5) * (p[2] - 0.5); });
+  for (const double share : { 0.33, 0.1 })
+  {
+    const double gap = share / std::cbrt(20000.0);
+    const Isosurface two = surfaceOf(cloud, 0.25 * gap * gap);
+    EXPECT_GT(two.edges.size(), 100u);
+    for (const double minimumSpacing : { 1.0, 0.5 })
+    {
+      expectThinnedBySheets(
+        two, minimumSpacing, [](const LocalFit& fit) { return fit.position[2] < 0.5; });
+    }
+  }
+}
+
+// The outer two have equal gradients.
+TEST(Thinning, ThreeSheetsCloseByDoNotThinEachOther)
+{
+  constexpr double gap = 0.2;
+  clouds::Random random(75);
+  std::vector<LocalFit> fits;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const auto [x, y, z] = random.place();
+    fits.push_back(smoothFit(
+      { 10.0 * x, 10.0 * y, gap * (i % 3 + 0.2 * z) }, { 0.0, 0.0, i % 3 == 1 ? -1.0 : 1.0 }, 1.0));
+  }
+  for (const double minimumSpacing : { 1.0, 0.5 })
+  {
+    expectThinnedBySheets(surfaceOf(fits), minimumSpacing,
+      [](const LocalFit& fit) { return static_cast<int>(fit.position[2] / gap); });
+  }
+}
+
+// A roof whose sides meet at an angle of 140 degrees.
+TEST(Thinning, SidesOfACreaseDoNotThinEachOther)
+{
+  const double slope = std::tan(20.0 * 3.14159265358979323846 / 180.0);
+  const Isosurface roof =
+    surfaceOf(clouds::withValuesOf(clouds::uniform(20000, 61),
+                [slope](const Vector& p) { return p[2] - 0.5 + slope * std::abs(p[0] - 0.5); }),
+      0.0, FitOrder::Crease);
+  std::vector<LocalFit> sides;
+  std::copy_if(roof.fits.begin(), roof.fits.end(), std::back_inserter(sides),
+    [](const LocalFit& fit)
+    { return fit.isSmooth && std::abs(fit.gradient[0]) > 0.3 * lengthOf(fit.gradient); });
+  EXPECT_LT(thinned(surfaceOf(sides), 1.0).edges.size(), sides.size() / 2);
+  expectThinnedBySheets(
+    surfaceOf(sides), 1.0, [](const LocalFit& fit) { return fit.gradient[0] < 0.0; });
 }

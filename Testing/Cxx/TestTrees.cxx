@@ -3,9 +3,12 @@
 #include "InputTesting.h"
 
 #include "Input/vtkIsopointCompatibility.h"
-#include "vtkStructuredData.h"
 
-#include <cmath>
+#include "vtkAMRBox.h"
+#include "vtkHyperTreeGridNonOrientedGeometryCursor.h"
+#include "vtkNonOverlappingAMR.h"
+#include "vtkOverlappingAMR.h"
+#include "vtkStructuredData.h"
 
 using namespace inputtesting;
 
@@ -32,30 +35,23 @@ vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
   initializeLevels(amr, { 1, 1 });
   const double origin[3] = { -1.0, -1.0, -1.0 };
   amr->SetOrigin(origin);
-  const auto coarse = newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0);
-  amr->SetGridDescription(vtkStructuredData::GetDataDescription(coarse->GetDimensions()));
-  vtkNew<vtkUniformGrid> fine;
-  fine->SetDimensions(9, 17, 17);
-  fine->SetSpacing(0.125, 0.125, 0.125);
-  fine->SetOrigin(-1.0, -1.0, -1.0);
+  amr->SetGridDescription(VTK_XYZ_GRID);
   for (unsigned int level = 0; level < 2; ++level)
   {
-    vtkUniformGrid* const grid = level == 0 ? coarse.Get() : fine.Get();
-    addCellField(grid);
-    addPointField(grid);
-    double spacing[3];
-    grid->GetSpacing(spacing);
-    amr->SetSpacing(level, spacing);
-    vtkAMRBox box(grid->GetOrigin(), grid->GetDimensions(), grid->GetSpacing(), origin);
-    amr->SetAMRBox(level, 0, box);
+    const auto grid = level == 0 ? newImage<vtkUniformGrid>({ 8, 8, 8 }, 0.25)
+                                 : newImage<vtkUniformGrid>({ 8, 16, 16 }, 0.125);
+    addField(grid, ofCells);
+    addField(grid, ofPoints);
+    if (level == 0)
+    {
+      grid->GetCellData()->AddArray(
+        ghostsOf(8 * 8 * 8, [](vtkIdType cell) { return cell % 8 < 4 ? refined : 0; }));
+    }
+    amr->SetSpacing(level, grid->GetSpacing());
+    amr->SetAMRBox(
+      level, 0, vtkAMRBox(grid->GetOrigin(), grid->GetDimensions(), grid->GetSpacing(), origin));
     amr->SetDataSet(level, 0, grid);
   }
-  const auto ghosts = newGhosts(coarse->GetNumberOfCells());
-  for (vtkIdType cell = 0; cell < coarse->GetNumberOfCells(); ++cell)
-  {
-    ghosts->SetValue(cell, cell % 8 < 4 ? vtkDataSetAttributes::REFINEDCELL : 0);
-  }
-  coarse->GetCellData()->AddArray(ghosts);
   return amr;
 }
 
@@ -64,31 +60,17 @@ vtkSmartPointer<vtkOverlappingAMR> newOverlapping()
 TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
 {
   const auto amr = newOverlapping();
-  Samples cells;
-  Samples points;
-  for (unsigned int level = 0; level < 2; ++level)
+  vtkDataSet* const fine = vtkGetGridOfLevel(amr, 1, 0);
+  vtkDataSet* const coarse = vtkGetGridOfLevel(amr, 0, 0);
+  for (const int association : { ofPoints, ofCells })
   {
-    vtkDataSet* const grid = vtkGetGridOfLevel(amr, level, 0);
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-    {
-      if (level == 1 || cell % 8 >= 4)
-      {
-        cells.add(meanOfCorners(grid, cell).data(),
-          grid->GetCellData()->GetArray("f")->GetComponent(cell, 0));
-      }
-    }
-    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-    {
-      if (level == 1 || i % 9 >= 4)
-      {
-        points.add(grid->GetPoint(i), fieldAt(grid->GetPoint(i)));
-      }
-    }
+    const int length = association == ofPoints ? 9 : 8;
+    Samples samples =
+      samplesOf(coarse, association, [=](vtkIdType id) { return id % length >= 4; });
+    append(samples, samplesOf(fine, association));
+    expectSame(amr, association, samples);
   }
-  expectSame(amr, vtkDataObject::FIELD_ASSOCIATION_CELLS, cells);
-  expectSame(amr, vtkDataObject::FIELD_ASSOCIATION_POINTS, points);
-
-  const auto filter = newFilter(amr, vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  const auto filter = filterOf(amr, ofCells);
   filter->ContourBlocksOn();
   filter->Update();
   auto* const levels = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
@@ -98,33 +80,26 @@ TEST(Trees, OverlappingAmrHasOneSampleAtEachPlace)
   {
     auto* const boxes = vtkMultiBlockDataSet::SafeDownCast(levels->GetBlock(level));
     ASSERT_TRUE(boxes);
-    const auto alone =
-      newFilter(vtkGetGridOfLevel(amr, level, 0), vtkDataObject::FIELD_ASSOCIATION_CELLS);
-    alone->Update();
-    EXPECT_GT(alone->GetOutput()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(everythingOf(vtkPolyData::SafeDownCast(boxes->GetBlock(0))),
-      everythingOf(alone->GetOutput()));
+    const auto alone = filterOf(level == 0 ? coarse : fine, ofCells);
+    EXPECT_GT(outputOf(alone)->GetNumberOfPoints(), 0);
+    EXPECT_EQ(everythingOf(boxes->GetBlock(0)), everythingOf(alone->GetOutput()));
   }
 }
 
 TEST(Trees, NonOverlappingAmr)
 {
   vtkNew<vtkNonOverlappingAMR> amr;
-  initializeLevels(amr, { 1, 2 });
-  amr->SetDataSet(0, 0, newImage<vtkUniformGrid>(8, 0.25, -1.0, -1.0, -1.0));
-  amr->SetDataSet(1, 1, newImage<vtkUniformGrid>(8, 0.125, 1.0, -1.0, -1.0)); // one box is missing
+  initializeLevels(amr, { 1, 2 }); // one box is missing
   Samples samples;
   for (unsigned int level = 0; level < 2; ++level)
   {
-    vtkDataSet* const grid = vtkGetGridOfLevel(amr, level, level);
-    addCellField(grid);
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-    {
-      samples.add(meanOfCorners(grid, cell).data(),
-        grid->GetCellData()->GetArray("f")->GetComponent(cell, 0));
-    }
+    const auto grid = newImage<vtkUniformGrid>(
+      { 8, 8, 8 }, level == 0 ? 0.25 : 0.125, { level == 0 ? -1.0 : 1.0, -1.0, -1.0 });
+    addField(grid, ofCells);
+    amr->SetDataSet(level, level, grid);
+    append(samples, samplesOf(grid, ofCells));
   }
-  expectSame(amr, vtkDataObject::FIELD_ASSOCIATION_CELLS, samples);
+  expectSame(amr, ofCells, samples);
 }
 
 namespace
@@ -134,7 +109,7 @@ namespace
 /// range, which must not be used.
 vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhosts)
 {
-  vtkSmartPointer<vtkHyperTreeGrid> trees = inputtesting::newHyperTreeGrid();
+  const auto trees = newHyperTreeGrid();
   vtkIdType offset = 0;
   for (vtkIdType tree = 0; tree < 64; ++tree)
   {
@@ -152,13 +127,9 @@ vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhos
   }
   const auto f = newArray<vtkDoubleArray>("f", offset);
   f->Fill(1e6);
-  const auto ghosts = newGhosts(offset);
-  vtkNew<vtkBitArray> mask;
-  mask->SetNumberOfValues(offset);
-  for (vtkIdType id = 0; id < offset; ++id)
-  {
-    mask->SetValue(id, 0);
-  }
+  const auto ghosts = ghostsOf(offset, [](vtkIdType) { return 0; });
+  const auto mask = newArray<vtkBitArray>("", offset);
+  mask->Fill(0.0);
   const std::function<void(vtkHyperTreeGridNonOrientedGeometryCursor*)> visit =
     [&](vtkHyperTreeGridNonOrientedGeometryCursor* cursor)
   {
@@ -178,15 +149,15 @@ vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhos
       }
       return;
     }
-    double center[3];
-    cursor->GetPoint(center);
+    Vector center;
+    cursor->GetPoint(center.data());
     f->SetValue(id, fieldAt(center));
     if (withMaskAndGhosts && (id % 7 == 3 || id % 11 == 4))
     {
       id % 7 == 3 ? mask->SetValue(id, 1) : ghosts->SetValue(id, 1);
       return;
     }
-    leaves.add(center, fieldAt(center));
+    leaves.push_back({ center[0], center[1], center[2], fieldAt(center) });
   };
   for (vtkIdType tree = 0; tree < 64; ++tree)
   {
@@ -205,53 +176,39 @@ vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhos
 
 } // namespace
 
+// Nodes that are not leaves take ids, too, so that the order of points differs, and fits, which sum
+// samples in order of ids, are rounded differently.
 TEST(Trees, LeavesOfHyperTrees)
 {
+  const auto sorted = [](vtkPolyData* output)
+  {
+    std::vector<Vector> points;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      points.push_back(placeOf(output, i));
+      std::for_each(points.back().begin(), points.back().end(),
+        [](double& coordinate) { coordinate = 1e-10 * std::round(1e10 * coordinate); });
+    }
+    std::sort(points.begin(), points.end());
+    return points;
+  };
   for (const bool withMaskAndGhosts : { false, true })
   {
     SCOPED_TRACE(withMaskAndGhosts);
     Samples leaves;
     const auto trees = newTrees(leaves, withMaskAndGhosts);
-    const auto expected = newFilter(cloudOf(leaves));
-    expected->Update();
-    const auto filter = newFilter(trees, vtkDataObject::FIELD_ASSOCIATION_CELLS);
-    filter->Update();
-    // Nodes that are not leaves take ids, too, so that ids and with them the order of points
-    // differ.
-    const auto sorted = [](vtkPolyData* output)
-    {
-      std::vector<std::array<double, 3>> points(
-        static_cast<std::size_t>(output->GetNumberOfPoints()));
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        output->GetPoint(static_cast<vtkIdType>(i), points[i].data());
-        for (double& coordinate : points[i])
-        {
-          coordinate = 1e-10 * std::round(1e10 * coordinate); // fits sum samples in order of ids
-        }
-      }
-      std::sort(points.begin(), points.end());
-      return points;
-    };
-    ASSERT_EQ(sorted(filter->GetOutput()).size(), sorted(expected->GetOutput()).size());
-    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 20);
-    const auto found = sorted(filter->GetOutput());
-    const auto wanted = sorted(expected->GetOutput());
+    const auto filter = filterOf(trees, ofCells);
+    const std::vector<Vector> found = sorted(outputOf(filter));
+    const std::vector<Vector> expected = sorted(outputOf(filterOf(cloudOf(leaves))));
+    EXPECT_GT(found.size(), 20u);
+    ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i)
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        ASSERT_NEAR(found[i][axis], wanted[i][axis], 2e-10);
-      }
+      ASSERT_LT(length(analytic::difference(found[i], expected[i])), 4e-10);
     }
-    const vtkIdType leafCount = trees->GetNumberOfLeaves();
     EXPECT_EQ(filter->GetNumberOfSkippedSamples(),
-      leafCount - static_cast<vtkIdType>(leaves.values.size()));
-
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, trees);
-    const auto inBlocks = newFilter(blocks, vtkDataObject::FIELD_ASSOCIATION_CELLS);
-    inBlocks->Update();
-    EXPECT_EQ(everythingOf(inBlocks->GetOutput()), everythingOf(filter->GetOutput()));
+      trees->GetNumberOfLeaves() - static_cast<vtkIdType>(leaves.size()));
+    EXPECT_EQ(everythingOf(outputOf(filterOf(blocksOf({ trees }), ofCells))),
+      everythingOf(filter->GetOutput()));
   }
 }

@@ -1,57 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of triangles: closed, oriented, in a defined order, and close to the true surface.
 #include "RandomClouds.h"
+#include "Topology.h"
 #include "TriangleTesting.h"
 
-#include "Core/IsosurfaceExtractor.h"
-
-#include <map>
-#include <set>
+#include "Core/Triangles/VertexNormals.h"
 
 namespace
 {
 
 using clouds::Cloud;
-using clouds::Random;
 using clouds::withValuesOf;
 using isopoint::ExtractedIsosurface;
+using isopoint::FitOrder;
 using isopoint::SurfaceTriangle;
 using isopoint::Vector;
-
-using DirectedEdge = std::pair<std::size_t, std::size_t>;
+using topology::distanceFromSphere;
+using topology::normalOf;
 
 isopoint::ExtractionRequest requestOf(
-  double isovalue, std::optional<isopoint::FitOrder> order = std::nullopt, bool dropsGaps = false)
+  double isovalue, std::optional<FitOrder> order = std::nullopt, bool dropsGaps = false)
 {
-  isopoint::ExtractionRequest request;
-  request.isosurface.isovalue = isovalue;
-  request.isosurface.dropsGaps = dropsGaps;
-  if (order)
-  {
-    request.isosurface.fit = isopoint::FitRequest{ *order, true };
-  }
-  request.splats = isopoint::SplatOptions{};
-  request.triangles = true;
-  return request;
-}
-
-isopoint::IsosurfaceExtractor extractorOf(const Cloud& cloud)
-{
-  isopoint::IsosurfaceExtractor extractor;
-  extractor.load<double, double>({}, cloud.size(), clouds::readerOf(cloud));
-  return extractor;
-}
-
-ExtractedIsosurface trianglesOf(
-  const Cloud& cloud, const isopoint::ExtractionRequest& request, std::size_t threads = 1)
-{
-  return extractorOf(cloud).extract(clouds::executionOn(threads), request);
+  return clouds::withTriangles(clouds::withSplats(clouds::requestOf(isovalue, order, dropsGaps)));
 }
 
 /// How often each directed edge occurs, less its opposite; those that cancel out are left out.
-std::map<DirectedEdge, int> borderOf(const std::vector<SurfaceTriangle>& triangles)
+std::map<topology::Edge, int> borderOf(const std::vector<SurfaceTriangle>& triangles)
 {
-  std::map<DirectedEdge, int> border;
+  std::map<topology::Edge, int> border;
   for (const SurfaceTriangle& triangle : triangles)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -68,46 +44,18 @@ std::map<DirectedEdge, int> borderOf(const std::vector<SurfaceTriangle>& triangl
   return border;
 }
 
-/// How often each edge occurs, in either direction.
-std::map<DirectedEdge, int> edgesOf(const std::vector<SurfaceTriangle>& triangles)
-{
-  std::map<DirectedEdge, int> edges;
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      ++edges[std::minmax(triangle[i], triangle[(i + 1) % 3])];
-    }
-  }
-  return edges;
-}
-
 /// Expects each edge to have two triangles, in opposite directions, and each vertex to have some.
 void expectClosedManifold(const ExtractedIsosurface& extracted, long eulerCharacteristic)
 {
-  EXPECT_FALSE(extracted.triangles.empty());
   EXPECT_TRUE(borderOf(extracted.triangles).empty());
-  const std::map<DirectedEdge, int> edges = edgesOf(extracted.triangles);
-  for (const auto& [edge, count] : edges)
-  {
-    EXPECT_EQ(count, 2);
-  }
+  EXPECT_EQ(topology::topologyOf(extracted.triangles),
+    (topology::Topology{ eulerCharacteristic, 1, 0, true }));
   std::set<std::size_t> used;
   for (const SurfaceTriangle& triangle : extracted.triangles)
   {
     used.insert(triangle.begin(), triangle.end());
   }
   EXPECT_EQ(used.size(), extracted.surface.size());
-  EXPECT_EQ(static_cast<long>(used.size()) - static_cast<long>(edges.size()) +
-              static_cast<long>(extracted.triangles.size()),
-    eulerCharacteristic);
-}
-
-Vector normalOf(const ExtractedIsosurface& extracted, const SurfaceTriangle& triangle)
-{
-  const std::vector<Vector>& p = extracted.surface.positions;
-  return isopoint::cross(isopoint::difference(p[triangle[1]], p[triangle[0]]),
-    isopoint::difference(p[triangle[2]], p[triangle[0]]));
 }
 
 /// The volume that the surface encloses, positive if its normals point outwards.
@@ -116,16 +64,10 @@ double volumeOf(const ExtractedIsosurface& extracted)
   double sum = 0.0;
   for (const SurfaceTriangle& triangle : extracted.triangles)
   {
-    sum += isopoint::dot(extracted.surface.positions[triangle[0]], normalOf(extracted, triangle));
+    sum += isopoint::dot(
+      extracted.surface.positions[triangle[0]], normalOf(extracted.surface.positions, triangle));
   }
   return sum / 6.0;
-}
-
-constexpr double radius = 0.35;
-
-double distanceFromSphere(const Vector& p)
-{
-  return isopoint::lengthOf({ p[0] - 0.5, p[1] - 0.5, p[2] - 0.5 }) - radius;
 }
 
 double distanceFromTorus(const Vector& p)
@@ -151,21 +93,18 @@ Cloud gridAroundAPost()
   constexpr int rings = 40;
   const double growth = std::pow(30.0, 1.0 / (rings - 2));
   Cloud cloud;
-  for (int layer = 0; layer < layers; ++layer)
+  double radius = 1.0;
+  double width = 0.02;
+  for (int ring = 0; ring < rings; ++ring)
   {
-    double radiusOfRing = 1.0;
-    double width = 0.02;
-    for (int ring = 0; ring < rings; ++ring)
+    for (int i = 0; i < layers * spokes; ++i)
     {
-      for (int spoke = 0; spoke < spokes; ++spoke)
-      {
-        const double angle = 2.0 * 3.14159265358979 / spokes * spoke;
-        cloud.add(radiusOfRing * std::cos(angle), radiusOfRing * std::sin(angle),
-          4.0 / (layers - 1) * layer, 0.0);
-      }
-      radiusOfRing += width;
-      width *= growth;
+      const double angle = 2.0 * 3.14159265358979 / spokes * (i % spokes);
+      cloud.add(
+        radius * std::cos(angle), radius * std::sin(angle), 4.0 / (layers - 1) * (i / spokes), 0.0);
     }
+    radius += width;
+    width *= growth;
   }
   return cloud;
 }
@@ -189,7 +128,7 @@ struct FlatSheet
         fit.position = this->positions.back();
         fit.gradient = { 0.0, 0.0, -1.0 };
         fit.isGradientFitted = true;
-        fit.order = isopoint::FitOrder::Cubic;
+        fit.order = FitOrder::Cubic;
         if (x > 0 && y > 0)
         {
           this->triangles.push_back({ vertexAt(x - 1, y - 1), vertexAt(x, y - 1), vertexAt(x, y) });
@@ -217,47 +156,52 @@ private:
 
 } // namespace
 
-TEST(Triangles, OfASphereAreClosed)
+TEST(Triangles, OfASphereAreClosedWithNormalsAgainstTheGradient)
 {
   const Cloud cloud = withValuesOf(clouds::uniform(30000, 1), distanceFromSphere);
-  const ExtractedIsosurface onEdges = trianglesOf(cloud, requestOf(0.0));
+  const ExtractedIsosurface onEdges = clouds::extracted(cloud, requestOf(0.0));
   expectClosedManifold(onEdges, 2);
-  const ExtractedIsosurface fitted = trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic));
+  const ExtractedIsosurface fitted = clouds::extracted(cloud, requestOf(0.0, FitOrder::Cubic));
   expectClosedManifold(fitted, 2);
   EXPECT_TRUE(onEdges.triangles == fitted.triangles);
   // Values grow outwards: normals point inwards.
-  const double volume = 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius;
+  const double volume = 4.0 / 3.0 * 3.14159265358979 * 0.35 * 0.35 * 0.35;
   EXPECT_NEAR(-volumeOf(fitted), volume, 0.003 * volume);
   EXPECT_NEAR(-volumeOf(onEdges), volume, 0.01 * volume);
+  const auto expectInward = [](const ExtractedIsosurface& extracted, double leastCosine)
+  {
+    ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    {
+      const Vector inward = isopoint::difference({ 0.5, 0.5, 0.5 }, extracted.surface.positions[i]);
+      EXPECT_GT(isopoint::dot(isopoint::directionOf(inward), extracted.normals[i]), leastCosine);
+    }
+  };
+  expectInward(fitted, 0.99);
+  expectInward(onEdges, 0.6); // of triangles
 }
 
-TEST(Triangles, OfATorusAreClosed)
-{
-  const Cloud cloud = withValuesOf(clouds::uniform(60000, 2), distanceFromTorus);
-  expectClosedManifold(trianglesOf(cloud, requestOf(0.0)), 0);
-  expectClosedManifold(trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic)), 0);
-}
-
-TEST(Triangles, FollowTheFitsAndAreNotTurnedOver)
+TEST(Triangles, OfATorusAreClosedFollowTheFitsAndAreNotTurnedOver)
 {
   const Cloud cloud = withValuesOf(clouds::uniform(100000, 3), distanceFromTorus);
-  const ExtractedIsosurface onEdges = trianglesOf(cloud, requestOf(0.0));
-  const ExtractedIsosurface fitted = trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic));
+  const ExtractedIsosurface onEdges = clouds::extracted(cloud, requestOf(0.0));
+  const ExtractedIsosurface fitted = clouds::extracted(cloud, requestOf(0.0, FitOrder::Cubic));
   ASSERT_EQ(onEdges.surface.size(), fitted.surface.size());
-  isopoint::ExtractionRequest points;
-  points.isosurface = requestOf(0.0, isopoint::FitOrder::Cubic).isosurface;
-  const ExtractedIsosurface isopoints = extractorOf(cloud).extract({}, points);
+  expectClosedManifold(onEdges, 0);
+  expectClosedManifold(fitted, 0);
+  const ExtractedIsosurface isopoints =
+    clouds::extracted(cloud, clouds::requestOf(0.0, FitOrder::Cubic));
   EXPECT_LT(largestDistance(fitted, distanceFromTorus),
     1.5 * largestDistance(isopoints, distanceFromTorus));
   const auto turnedOver = [&](const ExtractedIsosurface& extracted)
   {
+    const std::vector<Vector>& positions = extracted.surface.positions;
     return std::count_if(extracted.triangles.begin(), extracted.triangles.end(),
       [&](const SurfaceTriangle& triangle)
       {
-        const Vector& p = extracted.surface.positions[triangle[0]];
-        const double ring = 1.0 - 0.28 / std::hypot(p[0] - 0.5, p[1] - 0.5);
-        const Vector outward{ ring * (p[0] - 0.5), ring * (p[1] - 0.5), p[2] - 0.5 };
-        return isopoint::dot(outward, normalOf(extracted, triangle)) >= 0.0;
+        const auto [x, y, z] = isopoint::difference(positions[triangle[0]], { 0.5, 0.5, 0.5 });
+        const double ring = 1.0 - 0.28 / std::hypot(x, y);
+        return isopoint::dot({ ring * x, ring * y, z }, normalOf(positions, triangle)) >= 0.0;
       });
   };
   // Flat tetrahedra have a few before anything moves.
@@ -275,7 +219,7 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
   std::vector<isopoint::LocalFit> fits(4);
   for (std::size_t i = 0; i < 4; ++i)
   {
-    fits[i].order = isopoint::FitOrder::Cubic;
+    fits[i].order = FitOrder::Cubic;
     fits[i].gradient = { 0.0, 0.1, -2.0 };
     fits[i].position = isopoint::sum(unmoved[i], 0.1, { 0.1, 0.2, 1.0 });
   }
@@ -310,7 +254,7 @@ TEST(Triangles, StayNearTheirTriangles)
   sheet.fits[far].position[2] = 2.9;
   sheet.fits[FlatSheet::vertexAt(5, 1)].position[2] = 2.8; // shorter than two diagonals
   sheet.fits[crease].position[2] = 2.9;
-  sheet.fits[crease].order = isopoint::FitOrder::Crease;
+  sheet.fits[crease].order = FitOrder::Crease;
   const std::vector<isopoint::LocalFit> before = sheet.fits;
   isopoint::keepTrianglesUpright({}, sheet.positions, sheet.triangles, sheet.fits);
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -337,7 +281,7 @@ TEST(Triangles, HaveTheirOwnNormalsWhereAFitFailed)
   }
   const std::size_t crease = FlatSheet::vertexAt(1, 5);
   sheet.fits[crease].gradient = { 2.0, 0.0, -1.0 };
-  sheet.fits[crease].order = isopoint::FitOrder::Crease;
+  sheet.fits[crease].order = FitOrder::Crease;
   sheet.fits[FlatSheet::vertexAt(6, 3)].gradient = { 1.5, 0.0, -1.0 }; // by 56 degrees
   const std::vector<Vector> normals = sheet.normals();
   for (std::size_t i = 0; i < normals.size(); ++i)
@@ -378,10 +322,10 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
   for (const Cloud& cloud :
     { withValuesOf(gridAroundAPost(), plane), withValuesOf(gridAroundAPost(), curved) })
   {
-    isopoint::ExtractionRequest request = requestOf(0.0, isopoint::FitOrder::Cubic, true);
-    const std::vector<Vector> ofFits = trianglesOf(cloud, request).normals;
+    isopoint::ExtractionRequest request = requestOf(0.0, FitOrder::Cubic, true);
+    const std::vector<Vector> ofFits = clouds::extracted(cloud, request).normals;
     request.splats->fieldNormals = false;
-    const std::vector<Vector> ofTriangles = trianglesOf(cloud, request).normals;
+    const std::vector<Vector> ofTriangles = clouds::extracted(cloud, request).normals;
     ASSERT_EQ(ofFits.size(), ofTriangles.size());
     std::size_t same = 0;
     for (std::size_t i = 0; i < ofFits.size(); ++i)
@@ -393,23 +337,6 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
   }
 }
 
-TEST(Triangles, HaveNormalsAgainstTheGradient)
-{
-  const Cloud cloud = withValuesOf(clouds::uniform(30000, 4), distanceFromSphere);
-  const auto expectInward = [](const ExtractedIsosurface& extracted, double leastCosine)
-  {
-    ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
-    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
-    {
-      const Vector& p = extracted.surface.positions[i];
-      const Vector inward = isopoint::directionOf({ 0.5 - p[0], 0.5 - p[1], 0.5 - p[2] });
-      EXPECT_GT(isopoint::dot(inward, extracted.normals[i]), leastCosine);
-    }
-  };
-  expectInward(trianglesOf(cloud, requestOf(0.0, isopoint::FitOrder::Cubic)), 0.99);
-  expectInward(trianglesOf(cloud, requestOf(0.0)), 0.6); // of triangles
-}
-
 /// Where the surface leaves the hull it ends in the crossing facets of the hull, and nowhere else.
 TEST(Triangles, EndAtTheHullAlone)
 {
@@ -417,10 +344,16 @@ TEST(Triangles, EndAtTheHullAlone)
   {
     SCOPED_TRACE(seed);
     const Cloud cloud = clouds::uniform(2000, seed);
-    const ExtractedIsosurface extracted = trianglesOf(cloud, requestOf(0.3));
-    const std::map<DirectedEdge, int> border = borderOf(extracted.triangles);
-    EXPECT_EQ(border.size(), triangles::crossingHullFacets(cloud, 0.3));
-    for (const auto& [edge, count] : edgesOf(extracted.triangles))
+    const ExtractedIsosurface extracted = clouds::extracted(cloud, requestOf(0.3));
+    const triangles::FullTetrahedralization full(cloud);
+    std::size_t facets = 0;
+    for (const auto cell : full.cells.all_cell_handles())
+    {
+      facets += full.cells.is_infinite(cell) && full.isCrossing(cell, 0.3) ? 1 : 0;
+    }
+    const std::map<topology::Edge, int> border = borderOf(extracted.triangles);
+    EXPECT_EQ(border.size(), facets);
+    for (const auto& [edge, count] : topology::edgesOf(extracted.triangles))
     {
       EXPECT_EQ(count, border.count(edge) ? 1 : 2);
     }
@@ -430,27 +363,18 @@ TEST(Triangles, EndAtTheHullAlone)
 /// Vertices on edges to samples with the isovalue are one vertex, at the sample.
 TEST(Triangles, MeetAtSamplesWithTheIsovalue)
 {
-  Cloud cloud;
-  for (int x = -8; x <= 8; ++x)
-  {
-    for (int y = -8; y <= 8; ++y)
-    {
-      for (int z = -8; z <= 8; ++z)
-      {
-        cloud.add(x, y, z, x * x + y * y + z * z);
-      }
-    }
-  }
+  const Cloud cloud = withValuesOf(clouds::lattice(17, 17, 17), [](const Vector& p)
+    { return std::pow(p[0] - 8.0, 2) + std::pow(p[1] - 8.0, 2) + std::pow(p[2] - 8.0, 2); });
   for (const double isovalue : { 25.0, 26.0, 36.0, 38.0 })
   {
     SCOPED_TRACE(isovalue);
-    const ExtractedIsosurface extracted = trianglesOf(cloud, requestOf(isovalue));
+    const ExtractedIsosurface extracted = clouds::extracted(cloud, requestOf(isovalue));
     expectClosedManifold(extracted, 2);
-    std::set<Vector> places(extracted.surface.positions.begin(), extracted.surface.positions.end());
-    EXPECT_EQ(places.size(), extracted.surface.size());
+    const std::vector<Vector>& positions = extracted.surface.positions;
+    EXPECT_EQ(std::set<Vector>(positions.begin(), positions.end()).size(), positions.size());
     for (const SurfaceTriangle& triangle : extracted.triangles)
     {
-      EXPECT_GT(isopoint::lengthOf(normalOf(extracted, triangle)), 0.0);
+      EXPECT_GT(isopoint::lengthOf(normalOf(positions, triangle)), 0.0);
     }
   }
 }
@@ -463,45 +387,37 @@ TEST(Triangles, AreBalancedForAnyCloud)
     clouds::Dice dice(seed);
     Cloud cloud = clouds::randomCloud(dice, seed);
     // Values of few kinds, the isovalue among them, inside a hull of samples above it.
-    double farthest = 1.0;
+    double side = 3.0;
     for (const double coordinate : cloud.positions)
     {
-      farthest = std::max(farthest, std::abs(coordinate));
+      side = std::max(side, 3.0 * std::abs(coordinate));
     }
-    for (double& value : cloud.values)
-    {
-      value = static_cast<double>(dice(5));
-    }
+    std::generate(
+      cloud.values.begin(), cloud.values.end(), [&]() { return static_cast<double>(dice(5)); });
     for (int corner = 0; corner < 8; ++corner)
     {
-      const auto side = [&](int bit)
-      { return (corner >> bit) % 2 ? 3.0 * farthest : -3.0 * farthest; };
-      cloud.add(side(0), side(1), side(2), 9.0);
+      cloud.add(
+        corner % 2 ? side : -side, corner / 2 % 2 ? side : -side, corner / 4 ? side : -side, 9.0);
     }
-    const ExtractedIsosurface extracted = trianglesOf(cloud, requestOf(2.0));
+    const ExtractedIsosurface extracted = clouds::extracted(cloud, requestOf(2.0));
     EXPECT_TRUE(borderOf(extracted.triangles).empty());
-    for (const SurfaceTriangle& triangle : extracted.triangles)
+    for (const auto& [a, b, c] : extracted.triangles)
     {
-      EXPECT_TRUE(
-        triangle[0] < triangle[1] && triangle[0] < triangle[2] && triangle[1] != triangle[2]);
+      EXPECT_TRUE(a < b && a < c && b != c);
     }
     EXPECT_TRUE(std::is_sorted(extracted.triangles.begin(), extracted.triangles.end()));
-    EXPECT_TRUE(std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end(),
-      [](const isopoint::IsopointEdge& a, const isopoint::IsopointEdge& b)
-      { return std::pair(a.first, a.second) < std::pair(b.first, b.second); }));
+    EXPECT_TRUE(std::is_sorted(extracted.surface.edges.begin(), extracted.surface.edges.end()));
   }
 }
 
+// Two blocks of samples, far apart, with the surface between and within them.
 TEST(Triangles, DropWhatSpansGaps)
 {
-  // Two blocks of samples, far apart, with the surface between and within them.
   Cloud cloud;
-  Random random(5);
+  clouds::Random random(5);
   for (int i = 0; i < 6000; ++i)
   {
-    const double x = random();
-    const double y = random();
-    const double z = random();
+    const auto [x, y, z] = random.place();
     cloud.add(x + (i % 2 ? 8.0 : 0.0), y, z, i % 2 ? z : z - 1.0);
   }
   const auto countBetween = [](const ExtractedIsosurface& extracted)
@@ -509,29 +425,25 @@ TEST(Triangles, DropWhatSpansGaps)
     return std::count_if(extracted.surface.positions.begin(), extracted.surface.positions.end(),
       [](const Vector& p) { return p[0] > 1.5 && p[0] < 7.5; });
   };
-  const ExtractedIsosurface whole = trianglesOf(cloud, requestOf(0.5));
+  const ExtractedIsosurface whole = clouds::extracted(cloud, requestOf(0.5));
   EXPECT_GT(countBetween(whole), 50);
-  const ExtractedIsosurface cut = trianglesOf(cloud, requestOf(0.5, std::nullopt, true));
+  const ExtractedIsosurface cut = clouds::extracted(cloud, requestOf(0.5, std::nullopt, true));
   // Behind samples at corners of the hull there are not two others: their edges stay.
   EXPECT_LT(countBetween(cut), countBetween(whole) / 10);
   EXPECT_GT(cut.triangles.size(), 500u);
-  for (const SurfaceTriangle& triangle : cut.triangles)
+  for (const auto& [a, b, c] : cut.triangles)
   {
-    for (const std::size_t vertex : triangle)
-    {
-      EXPECT_LT(vertex, cut.surface.size());
-    }
+    EXPECT_LT(std::max({ a, b, c }), cut.surface.size());
   }
 }
 
 TEST(Triangles, OfDegenerateCloudsAreNone)
 {
-  EXPECT_TRUE(trianglesOf(Cloud(), requestOf(0.0)).triangles.empty());
+  EXPECT_TRUE(clouds::extracted(Cloud(), requestOf(0.0)).triangles.empty());
   for (const int dimensions : { 0, 1, 2 })
   {
-    const ExtractedIsosurface extracted =
-      trianglesOf(clouds::flattened(clouds::uniform(300, 10), dimensions),
-        requestOf(0.5, isopoint::FitOrder::Cubic));
+    const ExtractedIsosurface extracted = clouds::extracted(
+      clouds::flattened(clouds::uniform(300, 10), dimensions), requestOf(0.5, FitOrder::Cubic));
     EXPECT_TRUE(extracted.triangles.empty());
     EXPECT_EQ(extracted.surface.size(), 0u);
   }

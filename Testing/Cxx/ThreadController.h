@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef ThreadController_h
-#define ThreadController_h
+#pragma once
 
 #include "vtkCommunicator.h"
 #include "vtkDummyController.h"
@@ -165,5 +164,3 @@ inline void onThreadControllers(
     thread.join();
   }
 }
-
-#endif

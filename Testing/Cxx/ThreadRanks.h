@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef ThreadRanks_h
-#define ThreadRanks_h
+#pragma once
 
-#include "Core/Base/Team.h"
+#include "Core/Base/ProcessGroup.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -131,5 +130,3 @@ private:
   std::vector<std::uint64_t> Reduced;
   std::vector<const std::vector<isopoint::OutgoingBytes>*> Outgoing;
 };
-
-#endif

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef Topology_h
-#define Topology_h
+#pragma once
+
+#include "Clouds.h"
 
 #include "Core/Triangles/TriangleGeometry.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <map>
-#include <numeric>
 #include <ostream>
-#include <set>
-#include <utility>
-#include <vector>
 
+/// Shared by the tests of triangles.
 namespace topology
 {
 
+using isopoint::Vector;
+using Triangles = std::vector<isopoint::SurfaceTriangle>;
 using Edge = std::pair<std::size_t, std::size_t>;
 
 inline std::size_t rootOf(std::vector<std::size_t>& roots, std::size_t vertex)
@@ -49,7 +46,20 @@ inline std::size_t componentsOf(const std::set<Edge>& edges)
   return count;
 }
 
-/// What stays of a surface, however its triangles are.
+/// How many triangles each edge has.
+inline std::map<Edge, int> edgesOf(const Triangles& triangles)
+{
+  std::map<Edge, int> edges;
+  for (const auto& [a, b, c] : triangles)
+  {
+    ++edges[std::minmax(a, b)];
+    ++edges[std::minmax(b, c)];
+    ++edges[std::minmax(c, a)];
+  }
+  return edges;
+}
+
+/// What stays of a surface if its triangles change.
 struct Topology
 {
   long eulerCharacteristic = 0;
@@ -72,23 +82,19 @@ inline std::ostream& operator<<(std::ostream& out, const Topology& topology)
              << topology.isManifold;
 }
 
-inline Topology topologyOf(const std::vector<isopoint::SurfaceTriangle>& triangles)
+inline Topology topologyOf(const Triangles& triangles)
 {
-  std::map<Edge, int> counts;
   std::map<std::size_t, std::set<Edge>> links; // edges opposite to each vertex
-  for (const isopoint::SurfaceTriangle& triangle : triangles)
+  for (const auto& [a, b, c] : triangles)
   {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::size_t next = triangle[(i + 1) % 3];
-      ++counts[std::minmax(triangle[i], next)];
-      links[triangle[i]].insert(std::minmax(next, triangle[(i + 2) % 3]));
-    }
+    links[a].insert(std::minmax(b, c));
+    links[b].insert(std::minmax(c, a));
+    links[c].insert(std::minmax(a, b));
   }
   std::set<Edge> edges;
   std::set<Edge> border;
   Topology topology;
-  for (const auto& [edge, count] : counts)
+  for (const auto& [edge, count] : edgesOf(triangles))
   {
     edges.insert(edge);
     if (count == 1)
@@ -108,6 +114,17 @@ inline Topology topologyOf(const std::vector<isopoint::SurfaceTriangle>& triangl
   return topology;
 }
 
-} // namespace topology
+/// Of a length that is twice the triangle's area.
+inline Vector normalOf(const std::vector<Vector>& p, const isopoint::SurfaceTriangle& triangle)
+{
+  const auto& [a, b, c] = triangle;
+  return isopoint::cross(isopoint::difference(p[b], p[a]), isopoint::difference(p[c], p[a]));
+}
 
-#endif
+/// Of radius 0.35, in the middle of the unit cube.
+inline double distanceFromSphere(const Vector& p)
+{
+  return isopoint::lengthOf(isopoint::difference(p, { 0.5, 0.5, 0.5 })) - 0.35;
+}
+
+} // namespace topology

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef TriangleTesting_h
-#define TriangleTesting_h
+#pragma once
 
 #include "Clouds.h"
 
 #include "Core/Extraction/SingleRank.h"
 #include "Core/Tree/Loading.h"
 #include "Core/Triangles/ExtractTriangles.h"
+#include "Core/Triangles/GapTetrahedra.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -14,16 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <utility>
-#include <vector>
-
+/// The crossing tetrahedra of the core, and those of CGAL's tetrahedralization of all samples.
 namespace triangles
 {
 
@@ -32,110 +23,100 @@ using clouds::Cloud;
 /// The ids of the samples at the corners, ascending.
 using Corners = std::array<std::uint64_t, 4>;
 
-/// A cloud's distinct positions, with the lowest ids and the means of values.
-struct Site
-{
-  std::array<double, 3> position;
-  std::uint64_t id;
-  double value;
-};
-
-inline std::vector<Site> sitesOf(const Cloud& cloud)
-{
-  std::map<std::array<double, 3>, std::vector<std::uint64_t>> ids;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    const double* const p = cloud.positions.data() + 3 * i;
-    ids[{ p[0] + 0.0, p[1] + 0.0, p[2] + 0.0 }].push_back(i); // 0 for -0
-  }
-  std::vector<Site> sites;
-  for (const auto& [position, same] : ids)
-  {
-    double sum = 0.0;
-    double lowest = cloud.values[same[0]];
-    double highest = lowest;
-    for (const std::uint64_t id : same)
-    {
-      sum += cloud.values[id];
-      lowest = std::min(lowest, cloud.values[id]);
-      highest = std::max(highest, cloud.values[id]);
-    }
-    const double mean = same.size() == 1 ? sum : sum / static_cast<double>(same.size());
-    sites.push_back({ position, same[0], std::min(std::max(mean, lowest), highest) });
-  }
-  return sites;
-}
-
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using FullTetrahedrization = CGAL::Delaunay_triangulation_3<Kernel,
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel,
   CGAL::Triangulation_data_structure_3<
     CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>,
     CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
 
-/// CGAL's Delaunay tetrahedrization of all sites; vertices know their number.
-inline FullTetrahedrization fullTetrahedrization(const std::vector<Site>& sites)
+/// CGAL's Delaunay tetrahedralization of a cloud's distinct positions.
+class FullTetrahedralization
 {
-  std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
-  for (std::size_t i = 0; i < sites.size(); ++i)
+public:
+  explicit FullTetrahedralization(const Cloud& cloud)
   {
-    const auto& p = sites[i].position;
-    points.push_back({ Kernel::Point_3(p[0], p[1], p[2]), i });
-  }
-  return { points.begin(), points.end() };
-}
-
-/// Its crossing tetrahedra, ordered.
-inline std::vector<Corners> fullTetrahedra(const Cloud& cloud, double isovalue)
-{
-  const std::vector<Site> sites = sitesOf(cloud);
-  const FullTetrahedrization full = fullTetrahedrization(sites);
-  std::vector<Corners> result;
-  if (full.dimension() < 3)
-  {
-    return result;
-  }
-  for (const auto cell : full.finite_cell_handles())
-  {
-    Corners corners;
-    int below = 0;
-    for (std::size_t i = 0; i < 4; ++i)
+    std::map<isopoint::Vector, std::vector<std::uint64_t>> idsAt;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
     {
-      const Site& site = sites[cell->vertex(static_cast<int>(i))->info()];
-      corners[i] = site.id;
-      below += site.value < isovalue ? 1 : 0;
+      const auto [x, y, z] = cloud.at(i);
+      idsAt[{ x + 0.0, y + 0.0, z + 0.0 }].push_back(i); // 0 for -0
     }
-    if (below > 0 && below < 4)
+    std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
+    for (const auto& [p, same] : idsAt)
     {
-      std::sort(corners.begin(), corners.end());
-      result.push_back(corners);
+      points.push_back({ Kernel::Point_3(p[0], p[1], p[2]), this->Ids.size() });
+      double sum = 0.0;
+      double lowest = cloud.values[same[0]];
+      double highest = lowest;
+      for (const std::uint64_t id : same)
+      {
+        sum += cloud.values[id];
+        lowest = std::min(lowest, cloud.values[id]);
+        highest = std::max(highest, cloud.values[id]);
+      }
+      const double mean = same.size() == 1 ? sum : sum / static_cast<double>(same.size());
+      this->Ids.push_back(same[0]);
+      this->Values.push_back(std::min(std::max(mean, lowest), highest));
     }
+    this->cells.insert(points.begin(), points.end());
   }
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
-/// The number of its hull's facets with corners on both sides.
-inline std::size_t crossingHullFacets(const Cloud& cloud, double isovalue)
-{
-  const std::vector<Site> sites = sitesOf(cloud);
-  const FullTetrahedrization full = fullTetrahedrization(sites);
-  std::size_t count = 0;
-  for (const auto cell : full.all_cell_handles())
+  std::uint64_t idOf(const Delaunay::Vertex_handle vertex) const
+  {
+    return this->Ids[vertex->info()];
+  }
+
+  /// Whether the finite corners of a cell but one lie on both sides.
+  bool isCrossing(const Delaunay::Cell_handle cell, double isovalue, int without = -1) const
   {
     int below = 0;
     int finite = 0;
     for (int i = 0; i < 4; ++i)
     {
-      if (!full.is_infinite(cell->vertex(i)))
+      if (i != without && !this->cells.is_infinite(cell->vertex(i)))
       {
         ++finite;
-        below += sites[cell->vertex(i)->info()].value < isovalue ? 1 : 0;
+        below += this->Values[cell->vertex(i)->info()] < isovalue ? 1 : 0;
       }
     }
-    count += finite == 3 && below > 0 && below < 3 ? 1 : 0;
+    return below > 0 && below < finite;
   }
-  return count;
-}
+
+  Corners cornersOf(const Delaunay::Cell_handle cell) const
+  {
+    Corners corners;
+    for (int i = 0; i < 4; ++i)
+    {
+      corners[static_cast<std::size_t>(i)] = this->idOf(cell->vertex(i));
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+  /// The crossing tetrahedra, ordered.
+  std::vector<Corners> tetrahedra(double isovalue) const
+  {
+    std::vector<Corners> result;
+    if (this->cells.dimension() == 3)
+    {
+      for (const auto cell : this->cells.finite_cell_handles())
+      {
+        if (this->isCrossing(cell, isovalue))
+        {
+          result.push_back(this->cornersOf(cell));
+        }
+      }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  Delaunay cells; // vertices know their number
+
+private:
+  std::vector<std::uint64_t> Ids; // by number: the lowest of coincident samples
+  std::vector<double> Values;     // the mean of these
+};
 
 struct Found
 {
@@ -143,117 +124,107 @@ struct Found
   isopoint::TetrahedraCounts counts;
 };
 
-/// The ids of the samples at the corners of tetrahedra, ordered.
-template <class TSample>
-std::vector<Corners> cornersOf(const isopoint::SampleTree<TSample>& tree,
-  const std::vector<isopoint::CrossingTetrahedron<typename TSample::Id>>& tetrahedra)
-{
-  std::vector<Corners> result;
-  for (const auto& tetrahedron : tetrahedra)
-  {
-    Corners corners;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      corners[i] = tree.samples[tree.nodes[tetrahedron.corners[i]].begin].id;
-    }
-    std::sort(corners.begin(), corners.end());
-    result.push_back(corners);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-/// The same as the core finds them.
+/// The crossing tetrahedra that the core finds, for one isovalue after another in one tree.
 template <class TSample = isopoint::WideSample>
-Found foundTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads = 1)
-{
-  const isopoint::Execution execution = clouds::executionOn(threads);
-  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
-  const isopoint::NeighborhoodCache<typename TSample::Id> none;
-  isopoint::IsosurfaceRequest request;
-  request.isovalue = isovalue;
-  isopoint::SingleRank<TSample> rank(tree);
-  std::unique_ptr<isopoint::Band> band;
-  isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-    execution, tree, rank, none, band, request);
-  Found found;
-  found.corners = cornersOf(tree, extraction.tetrahedra(execution));
-  found.counts = extraction.counts();
-  return found;
-}
-
-/// The crossing tetrahedra of one isovalue after another, in one tree, with the band kept.
-class KeptTetrahedra
+class TetrahedraSearch
 {
 public:
-  explicit KeptTetrahedra(Cloud cloud)
+  explicit TetrahedraSearch(Cloud cloud, std::size_t threads = 1)
     : Samples(std::move(cloud))
+    , Run(clouds::executionOn(threads))
     , Tree(isopoint::loadSamples<TSample>(
         this->Run, this->Samples.size(), clouds::readerOf(this->Samples)))
   {
   }
 
-  /// Expects those of the full tetrahedrization. @returns what was found
+  /// Expects those of the full tetrahedralization. @returns what was found
   Found expectSame(double isovalue, bool keepsBand = true)
   {
-    isopoint::IsosurfaceRequest request;
-    request.isovalue = isovalue;
+    isopoint::IsosurfaceRequest request{ isovalue };
     request.keepsBand = keepsBand;
-    isopoint::SingleRank<TSample> rank(this->Tree);
-    isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>> extraction(
-      this->Run, this->Tree, rank, this->None, this->Band, request);
-    Found found;
-    found.corners = cornersOf(this->Tree, extraction.tetrahedra(this->Run));
-    found.counts = extraction.counts();
-    const std::vector<Corners> expected = fullTetrahedra(this->Samples, isovalue);
-    EXPECT_EQ(found.corners.size(), expected.size()) << isovalue;
-    EXPECT_TRUE(found.corners == expected) << isovalue;
-    return found;
+    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
+    return this->compared(extraction.tetrahedra(this->Run), extraction.counts(), isovalue);
+  }
+
+  /// The same from a band of a share of the nodes that a narrow band yields, the first of them.
+  Found expectSameFromPart(double isovalue, double share)
+  {
+    auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Run).refine(this->Rank);
+    nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
+    isopoint::SharedLeafMeans<TSample> means(this->Tree);
+    isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
+      this->Run, this->Tree, this->Rank, means, isovalue, this->Band);
+    const auto tetrahedra = finder.find(nodes);
+    return this->compared(tetrahedra, finder.counts(), isovalue);
+  }
+
+  /// Those in gaps, ordered.
+  std::vector<Corners> inGaps(double isovalue)
+  {
+    const isopoint::IsosurfaceRequest request{ isovalue };
+    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
+    const auto all = extraction.tetrahedra(this->Run);
+    const std::vector<char> areInGaps =
+      isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
+        this->Run, this->Tree, this->Rank, all)
+        .find();
+    std::decay_t<decltype(all)> tetrahedra;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      if (areInGaps[i])
+      {
+        tetrahedra.push_back(all[i]);
+      }
+    }
+    return this->cornersOf(tetrahedra);
   }
 
   bool hasBand() const { return this->Band != nullptr; }
 
 private:
-  using TSample = isopoint::WideSample;
+  using Extraction = isopoint::TriangleExtraction<TSample, isopoint::SingleRank<TSample>>;
+
+  template <class Tetrahedra>
+  std::vector<Corners> cornersOf(const Tetrahedra& tetrahedra) const
+  {
+    std::vector<Corners> result;
+    for (const auto& tetrahedron : tetrahedra)
+    {
+      Corners& corners = result.emplace_back();
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        corners[i] = this->Tree.samples[this->Tree.nodes[tetrahedron.corners[i]].begin].id;
+      }
+      std::sort(corners.begin(), corners.end());
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  template <class Tetrahedra>
+  Found compared(
+    const Tetrahedra& tetrahedra, const isopoint::TetrahedraCounts& counts, double isovalue) const
+  {
+    const Found found{ this->cornersOf(tetrahedra), counts };
+    const auto expected = FullTetrahedralization(this->Samples).tetrahedra(isovalue);
+    EXPECT_EQ(found.corners.size(), expected.size()) << isovalue;
+    EXPECT_TRUE(found.corners == expected) << isovalue;
+    return found;
+  }
 
   Cloud Samples;
   isopoint::Execution Run;
   isopoint::SampleTree<TSample> Tree;
-  isopoint::NeighborhoodCache<TSample::Id> None;
-  std::unique_ptr<isopoint::Band> Band;
+  isopoint::SingleRank<TSample> Rank{ this->Tree };
+  isopoint::NeighborhoodCache<typename TSample::Id> None;
+  std::unique_ptr<isopoint::KeptTetrahedra> Band;
 };
-
-/// Finds them from a band of a share of the nodes that a narrow band yields, the first of them.
-inline Found foundFromPart(const Cloud& cloud, double isovalue, double share)
-{
-  using TSample = isopoint::WideSample;
-  const isopoint::Execution execution;
-  auto tree = isopoint::loadSamples<TSample>(execution, cloud.size(), clouds::readerOf(cloud));
-  isopoint::SingleRank<TSample> rank(tree);
-  std::vector<isopoint::BinaryIndex> nodes =
-    isopoint::NarrowBand<TSample>(tree, isovalue, execution).refine(rank);
-  nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
-  isopoint::SharedLeafMeans<TSample> means(tree);
-  std::unique_ptr<isopoint::Band> band;
-  isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
-    execution, tree, rank, means, isovalue, band);
-  Found found;
-  found.corners = cornersOf(tree, finder.find(nodes));
-  found.counts = finder.counts();
-  return found;
-}
 
 /// Expects the same crossing tetrahedra from both. @returns what was found
 template <class TSample = isopoint::WideSample>
 Found expectSameTetrahedra(const Cloud& cloud, double isovalue, std::size_t threads = 1)
 {
-  Found found = foundTetrahedra<TSample>(cloud, isovalue, threads);
-  const std::vector<Corners> expected = fullTetrahedra(cloud, isovalue);
-  EXPECT_EQ(found.corners.size(), expected.size());
-  EXPECT_TRUE(found.corners == expected);
-  return found;
+  return TetrahedraSearch<TSample>(cloud, threads).expectSame(isovalue);
 }
 
 } // namespace triangles
-
-#endif

@@ -1,13 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef ByteSource_h
-#define ByteSource_h
+#pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+
+/// Ends the program if a result is wrong.
+inline void require(bool isRight, const char* what)
+{
+  if (!isRight)
+  {
+    std::fprintf(stderr, "wrong: %s\n", what);
+    std::abort();
+  }
+}
+
+/// A number as an array of floats or doubles holds it: those beyond the range of the type become
+/// infinite, as in readers of files.
+template <class T>
+double asHeld(double number)
+{
+  return std::abs(number) > static_cast<double>(std::numeric_limits<T>::max())
+           ? std::copysign(std::numeric_limits<double>::infinity(), number)
+           : static_cast<double>(static_cast<T>(number));
+}
 
 /// Reads decisions and numbers from a fuzzer's bytes; once these are used up, from random ones with
 /// these as the seed, so that a few bytes yield a whole cloud.
@@ -74,5 +96,3 @@ private:
   std::size_t Remaining;
   std::uint64_t State = 1;
 };
-
-#endif

@@ -6,29 +6,12 @@
 #include "../Cxx/Clouds.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 namespace
 {
 
 using clouds::Cloud;
-
-[[noreturn]] void fail(const char* what)
-{
-  std::fprintf(stderr, "differs from brute force: %s\n", what);
-  std::abort();
-}
-
-template <class T>
-double asHeld(double number)
-{
-  // Numbers beyond the range of a narrower type become infinite, as in readers of files.
-  return std::abs(number) > static_cast<double>(std::numeric_limits<T>::max())
-           ? std::copysign(std::numeric_limits<double>::infinity(), number)
-           : static_cast<double>(static_cast<T>(number));
-}
 
 template <class TCoordinate, class TValue>
 Cloud readCloud(ByteSource& bytes, std::size_t count)
@@ -71,20 +54,13 @@ void compare(
   Cloud finite;
   const std::vector<std::uint64_t> ids = copyFinite(all, finite);
   const std::vector<bruteforce::Isopoint> expected = bruteforce::extract(finite, isovalue, angle);
-  if (expected.size() != found.size())
-  {
-    fail("the number of isopoints");
-  }
+  require(expected.size() == found.size(), "the number of isopoints");
   for (std::size_t i = 0; i < found.size(); ++i)
   {
-    if (ids[expected[i].first] != found[i].first || ids[expected[i].second] != found[i].second)
-    {
-      fail("an edge");
-    }
-    if (std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)) != 0)
-    {
-      fail("a parameter");
-    }
+    require(ids[expected[i].first] == found[i].first && ids[expected[i].second] == found[i].second,
+      "an edge");
+    require(
+      std::memcmp(&expected[i].parameter, &found[i].parameter, sizeof(double)) == 0, "a parameter");
   }
 }
 
@@ -129,19 +105,9 @@ void run(ByteSource& bytes)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   ByteSource bytes(data, size);
-  switch (bytes.below(4))
-  {
-    case 0:
-      run<float, float>(bytes);
-      break;
-    case 1:
-      run<float, double>(bytes);
-      break;
-    case 2:
-      run<double, float>(bytes);
-      break;
-    default:
-      run<double, double>(bytes);
-  }
+  using Run = void (*)(ByteSource&);
+  constexpr Run runs[4] = { run<float, float>, run<float, double>, run<double, float>,
+    run<double, double> };
+  runs[bytes.below(4)](bytes);
   return 0;
 }

@@ -2,7 +2,6 @@
 // Data objects made of a fuzzer's bytes: the filter must yield the isopoints that brute force finds
 // among the samples that they represent, or one error and an empty output.
 #include "ByteSource.h"
-#include "FuzzInput.h"
 
 #include "../Cxx/BruteForce.h"
 #include "../Cxx/Clouds.h"
@@ -10,20 +9,24 @@
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkDataArray.h"
-#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkScatteredIsopointFilter.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 namespace
@@ -31,10 +34,176 @@ namespace
 
 using clouds::Cloud;
 
-[[noreturn]] void fail(const char* what)
+/// A number near the given one that an array of this type represents exactly.
+double representable(double number, int type)
 {
-  std::fprintf(stderr, "the filter is wrong: %s\n", what);
-  std::abort();
+  if (type == VTK_DOUBLE || type == VTK_FLOAT)
+  {
+    return type == VTK_DOUBLE ? number : asHeld<float>(number);
+  }
+  // An integer of any type, signed or not.
+  return std::isfinite(number) ? std::fmod(std::floor(std::abs(number)), 120.0) : 7.0;
+}
+
+vtkSmartPointer<vtkDataArray> newArray(
+  ByteSource& bytes, const char* name, vtkIdType tuples, int type)
+{
+  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  array->SetName(name);
+  array->SetNumberOfTuples(tuples);
+  const int kind = bytes.below(4);
+  for (vtkIdType i = 0; i < tuples; ++i)
+  {
+    array->SetComponent(i, 0, representable(bytes.number(kind), type));
+  }
+  return array;
+}
+
+int scalarType(ByteSource& bytes)
+{
+  const int types[8] = { VTK_DOUBLE, VTK_FLOAT, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_INT,
+    VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG };
+  return types[bytes.below(8)];
+}
+
+void addArrays(ByteSource& bytes, vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  if (bytes.below(8) != 0)
+  {
+    attributes->AddArray(newArray(bytes, "f", count, scalarType(bytes)));
+  }
+  if (bytes.below(4) == 0)
+  {
+    attributes->AddArray(newArray(bytes, "other", count, scalarType(bytes)));
+  }
+  if (bytes.below(8) == 0)
+  {
+    attributes->AddArray(newArray(bytes, "short", count / 2, VTK_DOUBLE));
+  }
+  if (bytes.below(8) == 0)
+  {
+    vtkNew<vtkStringArray> names;
+    names->SetName("names");
+    names->SetNumberOfValues(count);
+    attributes->AddArray(names);
+  }
+  if (bytes.below(3) == 0)
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    ghosts->SetNumberOfValues(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      ghosts->SetValue(i, bytes.below(3) == 0 ? bytes.byte() : 0);
+    }
+    attributes->AddArray(ghosts);
+  }
+}
+
+vtkSmartPointer<vtkPoints> newPoints(ByteSource& bytes, vtkIdType count)
+{
+  const int type = bytes.flag() ? VTK_FLOAT : VTK_DOUBLE;
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(type);
+  points->SetNumberOfPoints(count);
+  const int kind = bytes.below(4);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      points->GetData()->SetComponent(i, axis, representable(bytes.number(kind), type));
+    }
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkDoubleArray> newCoordinates(ByteSource& bytes, int count)
+{
+  auto coordinates = vtkSmartPointer<vtkDoubleArray>::New();
+  double coordinate = bytes.below(8);
+  for (int i = 0; i < count; ++i)
+  {
+    coordinates->InsertNextValue(coordinate);
+    coordinate += 0.25 * bytes.below(16);
+  }
+  return coordinates;
+}
+
+vtkSmartPointer<vtkDataSet> newDataSet(ByteSource& bytes)
+{
+  vtkSmartPointer<vtkDataSet> result;
+  const int kind = bytes.below(4);
+  if (kind == 0)
+  {
+    vtkNew<vtkPolyData> cloud;
+    cloud->SetPoints(newPoints(bytes, bytes.below(40)));
+    result = cloud;
+  }
+  else if (kind == 1)
+  {
+    vtkNew<vtkImageData> image;
+    const int size[3] = { bytes.below(4), bytes.below(4), bytes.below(4) };
+    image->SetDimensions(size);
+    image->SetOrigin(bytes.below(4), bytes.below(4), bytes.below(4));
+    image->SetSpacing(1.0 + bytes.below(2), 1.0, 0.5);
+    result = image;
+  }
+  else if (kind == 2)
+  {
+    vtkNew<vtkRectilinearGrid> grid;
+    const int size[3] = { 1 + bytes.below(4), 1 + bytes.below(4), 1 + bytes.below(4) };
+    grid->SetDimensions(size);
+    grid->SetXCoordinates(newCoordinates(bytes, size[0]));
+    grid->SetYCoordinates(newCoordinates(bytes, size[1]));
+    grid->SetZCoordinates(newCoordinates(bytes, size[2]));
+    result = grid;
+  }
+  else
+  {
+    vtkNew<vtkUnstructuredGrid> grid;
+    const int count = 1 + bytes.below(30);
+    grid->SetPoints(newPoints(bytes, count));
+    // Only vertices: the rounding of other cells' centers is not defined.
+    for (int cells = bytes.below(20); cells > 0; --cells)
+    {
+      const vtkIdType corner = bytes.below(count);
+      grid->InsertNextCell(VTK_VERTEX, 1, &corner);
+    }
+    result = grid;
+  }
+  addArrays(bytes, result->GetPointData(), result->GetNumberOfPoints());
+  addArrays(bytes, result->GetCellData(), result->GetNumberOfCells());
+  return result;
+}
+
+/// A data set or blocks of them, with arrays that may be named "f", be missing, too short or no
+/// numbers, and with ghosts.
+/// @param dataSets receives the data sets, in the order of the blocks
+vtkSmartPointer<vtkDataObject> newInput(
+  ByteSource& bytes, std::vector<vtkSmartPointer<vtkDataSet>>& dataSets)
+{
+  const int kind = bytes.below(4);
+  if (kind <= 1)
+  {
+    dataSets.push_back(newDataSet(bytes));
+    return dataSets.back();
+  }
+  const int blocks = bytes.below(4);
+  vtkNew<vtkMultiBlockDataSet> multi;
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  for (int block = 0; block < blocks; ++block)
+  {
+    if (bytes.below(6) == 0)
+    {
+      multi->SetNumberOfBlocks(static_cast<unsigned int>(block) + 1);
+      continue;
+    }
+    dataSets.push_back(newDataSet(bytes));
+    multi->SetBlock(static_cast<unsigned int>(block), dataSets.back());
+    collection->SetPartition(static_cast<unsigned int>(block), 0, dataSets.back());
+  }
+  return kind == 2 ? vtkSmartPointer<vtkDataObject>(multi)
+                   : vtkSmartPointer<vtkDataObject>(collection);
 }
 
 class ErrorCounter : public vtkCommand
@@ -162,11 +331,9 @@ void checkPoints(
   const double angle = filter->GetAngle();
   const bool isProjected = filter->GetProjection() != vtkScatteredIsopointFilter::NO_PROJECTION;
   const std::vector<bruteforce::Isopoint> expected = bruteforce::extract(samples, isovalue, angle);
-  if (output->GetNumberOfPoints() != static_cast<vtkIdType>(expected.size()) ||
-      output->GetNumberOfCells() != output->GetNumberOfPoints())
-  {
-    fail("the number of isopoints");
-  }
+  require(output->GetNumberOfPoints() == static_cast<vtkIdType>(expected.size()) &&
+            output->GetNumberOfCells() == output->GetNumberOfPoints(),
+    "the number of isopoints");
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
     double found[3];
@@ -178,10 +345,7 @@ void checkPoints(
       const double t = expected[i].parameter;
       const double wanted = std::isfinite(second - first) ? first + t * (second - first)
                                                           : (1.0 - t) * first + t * second;
-      if (isProjected ? !std::isfinite(found[axis]) : found[axis] != wanted)
-      {
-        fail("a position");
-      }
+      require(isProjected ? std::isfinite(found[axis]) : found[axis] == wanted, "a position");
     }
   }
 }
@@ -194,18 +358,12 @@ void checkThinned(vtkPolyData* all, vtkPolyData* thinned)
   {
     double wanted[3];
     thinned->GetPoint(i, wanted);
-    for (double found[3] = {}; next < all->GetNumberOfPoints(); ++next)
+    while (next < all->GetNumberOfPoints() &&
+           !std::equal(wanted, wanted + 3, all->GetPoints()->GetPoint(next)))
     {
-      all->GetPoint(next, found);
-      if (std::equal(found, found + 3, wanted))
-      {
-        break;
-      }
+      ++next;
     }
-    if (next++ >= all->GetNumberOfPoints())
-    {
-      fail("a thinned point");
-    }
+    require(next++ < all->GetNumberOfPoints(), "a thinned point");
   }
 }
 
@@ -244,25 +402,17 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObje
     expected.add(dataSet, ofCells);
   }
   const bool isUsable = expected.hasArray && !std::isnan(isovalue);
-  if (errorCount != (isUsable ? 0 : 1))
-  {
-    fail("the number of errors");
-  }
+  require(errorCount == (isUsable ? 0 : 1), "the number of errors");
   if (auto* const output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)))
   {
     checkPoints(filter, output, isUsable ? expected.samples : Cloud(), isovalue);
-    if (isUsable && filter->GetNumberOfSkippedSamples() != expected.skipped)
-    {
-      fail("the number of skipped samples");
-    }
+    require(!isUsable || filter->GetNumberOfSkippedSamples() == expected.skipped,
+      "the number of skipped samples");
     return;
   }
   auto* const blocks = vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (!blocks || !composite)
-  {
-    fail("the type of the output");
-  }
+  require(blocks && composite, "the type of the output");
   if (!isUsable)
   {
     return;
@@ -273,10 +423,7 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObje
     Expectation alone;
     alone.add(vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()), ofCells);
     auto* const output = vtkPolyData::SafeDownCast(blocks->GetDataSet(iterator));
-    if ((output != nullptr) != alone.hasArray)
-    {
-      fail("the structure of the blocks");
-    }
+    require((output != nullptr) == alone.hasArray, "the structure of the blocks");
     if (output)
     {
       checkPoints(filter, output, alone.samples, isovalue);

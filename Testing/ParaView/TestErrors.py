@@ -5,7 +5,7 @@ also if that rank is not the one that runs the script."""
 import sys
 
 from paraview import simple
-from TestSplats import connect_to
+from scripting import connect_to
 
 SCRIPT = """
 from vtkmodules.vtkParallelCore import vtkMultiProcessController

@@ -12,37 +12,26 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-
-def check(path):
-    """The surface covers a part of the picture, in many shades."""
+_, script, folder, *arguments = sys.argv
+os.makedirs(folder, exist_ok=True)
+os.chdir(folder)
+pattern = os.path.splitext(os.path.basename(script))[0].removesuffix("_simulation") + "*.png"
+ranks = vtkMultiProcessController.GetGlobalController()
+is_first = ranks is None or ranks.GetLocalProcessId() == 0
+for path in glob.glob(pattern) if is_first else ():
+    os.remove(path)
+sys.argv = [script, *arguments]
+runpy.run_path(script, run_name="__main__")
+pictures = glob.glob(pattern) if is_first else ()
+if is_first and not pictures:
+    sys.exit(f"{script} wrote no picture")
+for path in pictures:
+    # The surface covers a part of the picture, in many shades.
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
-    scalars = reader.GetOutput().GetPointData().GetScalars()
-    pixels = vtk_to_numpy(scalars)[:, :3].astype(int)
+    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
     share = (np.abs(pixels - pixels[0]).max(axis=1) > 8).mean()
     shades = len(np.unique(pixels, axis=0))
     if not (0.02 < share < 0.95 and shades > 60):
         sys.exit(f"{path} shows a surface at {share:.3f} of it, in {shades} shades")
-
-
-def main(script, folder, *arguments):
-    os.makedirs(folder, exist_ok=True)
-    os.chdir(folder)
-    name = os.path.splitext(os.path.basename(script))[0]
-    pattern = name.removesuffix("_simulation") + "*.png"
-    ranks = vtkMultiProcessController.GetGlobalController()
-    isFirst = ranks is None or ranks.GetLocalProcessId() == 0
-    if isFirst:
-        for path in glob.glob(pattern):
-            os.remove(path)
-    sys.argv = [script, *arguments]
-    runpy.run_path(script, run_name="__main__")
-    pictures = glob.glob(pattern)
-    if isFirst and not pictures:
-        sys.exit(f"{script} wrote no picture")
-    for path in pictures if isFirst else ():
-        check(path)
-
-
-main(*sys.argv[1:])

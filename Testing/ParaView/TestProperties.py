@@ -2,8 +2,7 @@
 """The XML of the plugin against its classes and the document of the properties:
 TestProperties.py PLUGIN PROPERTIES_MD REPRESENTATION_XML FILTER_XML...
 
-Properties offer the ranges that the classes accept and have their defaults, and so does the document;
-help mentions only representations that exist."""
+Properties offer the ranges that the classes accept and have their defaults, and so does the document."""
 
 import re
 import sys
@@ -11,17 +10,14 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import scatteredisopoints
-from paraview import servermanager, simple
+from paraview import servermanager
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from scripting import check, load
+
 LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
 
 
 def is_hidden(element):
@@ -31,26 +27,18 @@ def is_hidden(element):
 def vector_properties(root):
     """Those that users set, of one value with a default: name, XML, the name in the class, and the default."""
     for element in root.iter():
-        if is_hidden(element):
-            continue
-        if not element.tag.endswith("VectorProperty") or "default_values" not in element.attrib:
-            continue
-        if element.get("information_only") == "1" or "command" not in element.attrib:
-            continue
-        if element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib:
+        if (element.tag.endswith("VectorProperty") and not is_hidden(element)
+                and {"default_values", "command"} <= set(element.keys()) and element.get("information_only") != "1"
+                and element.get("number_of_elements") == "1" and "repeat_command" not in element.attrib):
             check(element.get("command")[:3] == "Set", element.get("command"))
-            yield element.get("name"), element, element.get("command")[3:], default_of(element)
-
-
-def default_of(element):
-    value = element.get("default_values")
-    return value if element.tag == "StringVectorProperty" else float(value)
+            default = element.get("default_values")
+            yield (element.get("name"), element, element.get("command")[3:],
+                   default if element.tag == "StringVectorProperty" else float(default))
 
 
 def limits(element):
     """The least and the greatest value offered, None where there is no such limit."""
-    domain = next((child for child in element if child.tag.endswith("Domain")), None)
-    check(domain is not None, element.get("name") + " has a domain")
+    domain = next(child for child in element if child.tag.endswith("Domain"))
     if domain.tag == "BooleanDomain":
         return 0, 1
     if domain.tag == "EnumerationDomain":
@@ -63,6 +51,8 @@ def limits(element):
 
 def check_range(name, element, accepts):
     """accepts(value): whether the class takes a value as it is."""
+    if element.tag == "StringVectorProperty":
+        return
     low, high = limits(element)
     check(low is not None and accepts(low), f"{name}: the least value, {low}")
     check(accepts(LARGE[element.tag] if high is None else high), f"{name}: the greatest, {high}")
@@ -97,70 +87,44 @@ def filter_accepts(instance, name):
     return accepts
 
 
-def check_groups(proxy):
-    """The panel shows groups of properties in the order of the XML, what is contoured first."""
-    names = [element.get("name") for element in proxy
-             if element.tag.endswith("VectorProperty") and not is_hidden(element)]
-    groups = proxy.findall("PropertyGroup")
-    grouped = [element.get("name") for group in groups for element in group]
-    check(names[:2] == ["SelectInputScalars", "ContourValues"], f"first: {names[:2]}")
-    check(grouped == names, f"groups have all properties in their order: {grouped}")
-    labels = ["Isosurfaces", "Sampling", "Output Arrays", "Performance", "Last Update"]
-    check([group.get("label") for group in groups] == labels, "groups")
-
-
-def check_documented(name, element, default, documented):
-    """documented: the defaults in the tables of the document, by property."""
-    check(name in documented, f"{name} in {sorted(documented)}")
-    if element.find("EnumerationDomain") is None:
-        text = documented[name].split()[0]
-        check({"on": 1.0, "off": 0.0}.get(text) == default or text == f"{default:g}",
-              f"{name}: the default {default}, in the document {text}")
-
-
 def check_filter(root, documented):
+    """documented: the defaults in the tables of the document, by property."""
     proxy = root.find(".//*[@class]")
     contours = proxy.tag == "IsopointSourceProxy"
-    if contours:
-        check_groups(proxy)
     filter_class = getattr(scatteredisopoints, proxy.get("class"))
-    instance = filter_class()
     names = []
     for name, element, name_in_class, default in vector_properties(root):
-        value = getattr(instance, "Get" + name_in_class)()
+        value = getattr(filter_class(), "Get" + name_in_class)()
         check(value == default, f"{name}: the default {default}, in the class {value}")
-        if element.tag != "StringVectorProperty":
-            check_range(name, element, filter_accepts(filter_class(), name_in_class))
-        if contours:
-            check_documented(name, element, default, documented)
+        check_range(name, element, filter_accepts(filter_class(), name_in_class))
+        if contours and element.find("EnumerationDomain") is None:
+            text = documented[name].split()[0]
+            check({"on": 1.0, "off": 0.0}.get(text) == default or text == f"{default:g}",
+                  f"{name}: the default {default}, in the document {text}")
+        check(not contours or name in documented, f"{name} in {sorted(documented)}")
         names.append(name)
     check(len(names) >= (10 if contours else 3), f"properties of the filter: {names}")
-
-
-def printed(representation):
-    """What a representation prints of itself and its polygons. Python does not know the class."""
-    return dict(re.findall(r"^ *(\w+): (\S*)$", str(representation), re.MULTILINE))
+    if contours:
+        shown = [element.get("name") for element in proxy
+                 if element.tag.endswith("VectorProperty") and not is_hidden(element)]
+        grouped = [element.get("name") for group in proxy.findall("PropertyGroup") for element in group]
+        check(shown[:2] == ["SelectInputScalars", "ContourValues"], f"first: {shown[:2]}")
+        check(grouped == shown, f"groups have all properties in their order: {grouped}")
 
 
 def value_of(representation, name, like):
-    return type(like)(printed(representation)[name])
+    """As a representation prints itself and its polygons. Python does not know the class."""
+    return type(like)(dict(re.findall(r"^ *(\w+): (\S*)$", str(representation), re.MULTILINE))[name])
 
 
 def check_representation(root):
     manager = servermanager.ProxyManager()
     proxy = manager.NewProxy("representations", "IsopointSplatRepresentation")
-    surface = manager.GetPrototypeProxy("representations", "SurfaceRepresentation")
     representation = proxy.GetClientSideObject()
     fresh = representation.NewInstance()
     check(fresh.GetClassName() == "vtkIsopointSplatRepresentation", fresh.GetClassName())
     names = []
     for name, element, name_in_class, default in vector_properties(root):
-        if element.get("panel_visibility") == "never":
-            # Shared, so that the other representation's value is the one that counts.
-            shared = surface.GetProperty(name)
-            value = type(default)(shared.GetElement(0)) if shared else default
-            check(value == default, f"{name}: the default {default}, of surfaces {value}")
-            continue
         value = value_of(fresh, name_in_class, default)
         check(value == default, f"{name}: the default {default}, in the class {value}")
 
@@ -169,44 +133,18 @@ def check_representation(root):
             proxy.UpdateVTKObjects()
             return value_of(representation, name_in_class, value) == value
 
-        if element.tag != "StringVectorProperty":
-            check_range(name, element, accepts)
+        check_range(name, element, accepts)
         names.append(name)
     check(len(names) == 3, f"properties of the representation: {names}")
 
 
-def check_mentioned_representations(roots):
-    view = simple.CreateView("RenderView")
-    display = simple.Show(simple.ScatteredIsopoints(Input=simple.Wavelet(), Isosurfaces=[150.0]), view)
-    known = list(display.GetProperty("Representation").Available)
-    check("Isopoint Splats" in known, f"the representation among {known}")
-    names = r"((?:[A-Z]\w*)(?: [A-Z]\w*)*)"
-    mentioned = []
-    for root in roots:
-        for element in root.iter("Documentation"):
-            texts = [element.text, element.get("short_help"), element.get("long_help")]
-            text = " ".join(" ".join(filter(None, texts)).split())
-            for first, second in re.findall(
-                rf"[Rr]epresentations? {names}(?: and {names})?", text
-            ):
-                mentioned += filter(None, [first, second])
-    print("representations in help:", ", ".join(sorted(set(mentioned))))
-    check("Isopoint Splats" in mentioned, f"the representation among {mentioned}")
-    for name in mentioned:
-        check(name in known, f"{name} among the representations {known}")
-
-
-def main(plugin, document, *files):
-    simple.LoadPlugin(plugin)
-    with open(document) as text:
-        documented = dict(re.findall(r"^\| `(\w+)`[^|]*\| ([^|]+) \|", text.read(), re.MULTILINE))
-    of_representation, *of_filters = roots = [ElementTree.parse(file).getroot() for file in files]
-    check(len(of_filters) == 3, "all filters")
-    for of_filter in of_filters:
-        check_filter(of_filter, documented)
-    check_representation(of_representation)
-    check_mentioned_representations(roots)
-
-
-main(*sys.argv[1:])
+plugin, document, *files = sys.argv[1:]
+load(plugin)
+with open(document) as text:
+    documented = dict(re.findall(r"^\| `(\w+)`[^|]*\| ([^|]+) \|", text.read(), re.MULTILINE))
+of_representation, *of_filters = [ElementTree.parse(file).getroot() for file in files]
+check(len(of_filters) == 3, "all filters")
+for of_filter in of_filters:
+    check_filter(of_filter, documented)
+check_representation(of_representation)
 print("passed")

@@ -6,12 +6,9 @@ Proxies have the labels, groups, properties and defaults of the compiled plugin,
 each plugin loads the states of the other."""
 
 import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 
-from python_site import python_alone
+from playing import FOLDER, check, python_alone, run_script
 
 BUILD = """
 from paraview.simple import *
@@ -29,7 +26,7 @@ from paraview.simple import *
 import hashlib
 from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
-for name, kind in (("points", "ScatteredIsopoints"), ("surface", "ScatteredIsosurface")):
+for name in ("points", "surface"):
     source = FindSource(name)
     source.UpdatePipeline()
     data = servermanager.Fetch(source)
@@ -40,70 +37,35 @@ for name, kind in (("points", "ScatteredIsopoints"), ("surface", "ScatteredIsosu
     print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names)
                       if not n.startswith("NumberOf") or n == "NumberOfNeighbors"))
     proxy = source.SMProxy
-    print("found:", proxy.GetXMLName(), proxy.GetXMLLabel(),
-          proxy.GetDocumentation().GetDescription()[:60].strip())
+    print("found:", proxy.GetXMLName(), proxy.GetXMLLabel(), proxy.GetDocumentation().GetDescription()[:60].strip())
     for i in range(proxy.GetNumberOfPropertyGroups()):
         group = proxy.GetPropertyGroup(i)
-        if group.GetXMLLabel() == "Last Update":  # of the compiled plugin alone
-            continue
-        print("found:", group.GetXMLLabel(), *(
-            group.GetProperty(j).GetXMLName() for j in range(group.GetNumberOfProperties())))
+        if group.GetXMLLabel() != "Last Update":  # of the compiled plugin alone
+            print("found:", group.GetXMLLabel(), *(
+                group.GetProperty(j).GetXMLName() for j in range(group.GetNumberOfProperties())))
 """
 
-LOAD = """
-from paraview.simple import *
-from scatteredisopoints import load_plugin
-load_plugin(globals())
-load_plugin(globals())
-"""
+LOAD = "from paraview.simple import *\nfrom scatteredisopoints import load_plugin\n" + 2 * "load_plugin(globals())\n"
+
+library, package, pvbatch, compiled_plugin = sys.argv[1:]
+site, plugin = python_alone(library, package)
+SITES = {"compiled": os.path.dirname(package), "python": str(site)}
+STATES = {name: str(FOLDER / (name + ".pvsm")) for name in SITES}
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
+def found_by(name, text):
+    found, output = run_script(pvbatch, LOAD + text + REPORT + f"SaveState({STATES[name]!r})\n", PYTHONPATH=SITES[name])
+    check(len(found) > 10 and "rror" not in output, output)
+    return found
 
 
-class Installation:
-    """A package that scripts load the plugin from."""
+expected = found_by("compiled", BUILD)
+for name, text in (("python", BUILD), ("python", f"LoadState({STATES['compiled']!r})\n"),
+                   ("compiled", f"LoadState({STATES['python']!r})\n")):
+    found = found_by(name, text)
+    check(found == expected, f"different, {name}, {text}:\n" + "\n".join(expected + found))
 
-    def __init__(self, path, pvbatch):
-        self.path, self.pvbatch = path, pvbatch
-
-    def run(self, text, folder):
-        script = folder / "script.py"
-        script.write_text(text)
-        environment = dict(os.environ, PYTHONPATH=str(self.path))
-        done = subprocess.run([self.pvbatch, str(script)], env=environment, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        found = [line for line in done.stdout.splitlines() if line.startswith("found:")]
-        check(done.returncode == 0 and "rror" not in done.stdout and "Traceback" not in done.stdout,
-              text + done.stdout)
-        return found, done.stdout
-
-
-def main(library, package, pvbatch, compiled_plugin):
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        compiled = Installation(pathlib.Path(package).parent, pvbatch)
-        python = Installation(python_alone(folder, library, package), pvbatch)
-        expected = None
-        for installation in (compiled, python):
-            state = folder / f"{'compiled' if installation is compiled else 'python'}.pvsm"
-            found, _ = installation.run(LOAD + BUILD + REPORT + f"SaveState({str(state)!r})\n", folder)
-            check(len(found) > 10, "\n".join(found))
-            check(expected in (None, found), "different:\n" + "\n".join((expected or []) + found))
-            expected = found
-        for installation, state in ((compiled, "python.pvsm"), (python, "compiled.pvsm")):
-            found, _ = installation.run(LOAD + f"LoadState({str(folder / state)!r})\n" + REPORT, folder)
-            check(found == expected, f"{state}:\n" + "\n".join(expected + found))
-
-        plugin = str(folder / "site/scatteredisopoints/paraview/scattered_isopoints.py")
-        _, text = python.run(
-            LOAD.split("from scatteredisopoints")[0] + "import inspect\n"
-            "inspect.getargspec = inspect.getfullargspec\n"
-            f"LoadPlugin({compiled_plugin!r})\nLoadPlugin({plugin!r}, remote=False)\n", folder)
-        check("is loaded already: the one in Python adds nothing" in text, text)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+_, output = run_script(pvbatch, (
+    "from paraview.simple import *\nimport inspect\ninspect.getargspec = inspect.getfullargspec\n"
+    f"LoadPlugin({compiled_plugin!r})\nLoadPlugin({plugin!r}, remote=False)\n"), PYTHONPATH=SITES["python"])
+check("loaded already" in output and "rror" not in output, output)

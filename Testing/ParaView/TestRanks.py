@@ -16,8 +16,7 @@ import unittest
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter as dsa
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    vtkIdTypeArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray)
+from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
     vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
@@ -49,29 +48,21 @@ def owners(count):
 
 def poly_data(points, numbers, values=None):
     """A vtkPolyData of points with arrays of several kinds."""
-    result = vtkPolyData()
-    place = vtkPoints()
+    result, place, ids = vtkPolyData(), vtkPoints(), vtkIdTypeArray()
     place.SetData(numpy_to_vtk(points.astype(np.float32), deep=True))
     result.SetPoints(place)
     if len(points) == 0:
         return result
-
-    def add(name, values):
-        array = numpy_to_vtk(values, deep=True)
-        array.SetName(name)
-        result.GetPointData().AddArray(array)
-        return array
-
-    add("value", field(points).astype(np.float32) if values is None else values)
-    add("vector", np.cross(points, [1.0, 2.0, 3.0]))
-    add("short", (1000 * np.nan_to_num(points)).astype(np.int16))
-    add("long", numbers.astype(np.int64) * 3000000000 - 7)
-    tensor = add("with names", points[:, :2].copy())
-    tensor.SetComponentName(0, "first")
-    tensor.SetComponentName(1, "second")
+    attributes = dsa.WrapDataObject(result).PointData
+    for name, array in (
+            ("value", field(points).astype(np.float32) if values is None else values),
+            ("vector", np.cross(points, [1.0, 2.0, 3.0])), ("short", (1000 * np.nan_to_num(points)).astype(np.int16)),
+            ("long", numbers.astype(np.int64) * 3000000000 - 7), ("with names", points[:, :2].copy())):
+        attributes.append(array, name)
+    for i, name in enumerate(("first", "second")):
+        result.GetPointData().GetArray("with names").SetComponentName(i, name)
     names = vtkStringArray()
     names.SetName("name")
-    ids = vtkIdTypeArray()
     ids.SetName("pedigree")
     for number in numbers:
         names.InsertNextValue("sample %d" % number)
@@ -115,24 +106,32 @@ def described(output):
     return kinds, rows
 
 
-def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, watch=None, cells=None,
-            **options):
-    """The filter after its update. watch(text) is called for each error, warning and message."""
+def watched(isopoints, watch):
+    """Calls watch(text) for each error, warning and message."""
+    def note(_object, _event, text):
+        watch(text)
+
+    note.CallDataType = "string0"
+    for event in ("ErrorEvent", "WarningEvent", "MessageEvent"):
+        isopoints.AddObserver(event, note)
+
+
+def configured(data, controller, kind=FILTERS[0], watch=None, cells=None, **options):
     isopoints = kind()
     isopoints.SetController(controller)
     isopoints.SetInputData(data)
     if cells:
         isopoints.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, cells)
     if watch:
-        def note(_object, _event, text):
-            watch(text)
-
-        note.CallDataType = "string0"
-        for event in ("ErrorEvent", "WarningEvent", "MessageEvent"):
-            isopoints.AddObserver(event, note)
+        watched(isopoints, watch)
     for name, value in options.items():
         getattr(isopoints, "Set" + name)(value)
-    return run(isopoints, values, levels)
+    return isopoints
+
+
+def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, **options):
+    """The filter after its update."""
+    return run(configured(data, controller, kind, **options), values, levels)
 
 
 def run(isopoints, values, levels=0):
@@ -202,31 +201,26 @@ class RanksTest(RanksTestCase):
         expected = contour(whole, None, **options)
         self.same(result.GetOutput(), expected.GetOutput)
         self.assertEqual(result.GetNumberOfSkippedSamples(), expected.GetNumberOfSkippedSamples())
-        self.assertEqual(result.GetNumberOfUnprojectedPoints(),
-                         expected.GetNumberOfUnprojectedPoints())
+        self.assertEqual(result.GetNumberOfUnprojectedPoints(), expected.GetNumberOfUnprojectedPoints())
 
     def test_arrays_of_every_kind(self):
         for kind in FILTERS:
             self.check(self.dealt(uniform(3000, 1)), kind=kind, values=(0.1, 1.1), **ALL_ARRAYS)
         self.check(self.dealt(uniform(3000, 1)), kind=FILTERS[1], Regularize=0, **ALL_ARRAYS)
 
-    def test_ranks_without_samples(self):
-        points = uniform(1500, 2)
+    def test_deals_and_counts(self):
+        """All samples on the last rank, and samples that are skipped."""
+        points, skipped = uniform(1500, 2), uniform(2000, 4)
         numbers = np.arange(len(points))
         mine = numbers[: len(points) if RANK == SIZE - 1 else 0]
+        skipped[::7, 1] = np.nan
         for kind in FILTERS:
             self.check((poly_data(points[mine], mine), poly_data(points, numbers)), kind=kind)
-
-    def test_counts_are_summed(self):
-        points = uniform(2000, 4)
-        points[::7, 1] = np.nan
-        for kind in FILTERS:
-            self.check(self.dealt(points), kind=kind, Projection=0)
+            self.check(self.dealt(skipped), kind=kind, Projection=0)
 
     def test_integers_are_rounded_values(self):
         points = uniform(3000, 6)
-        values = np.rint(20 * field(points)).astype(np.int32)
-        self.check(self.dealt(points, values), values=(6.1,))
+        self.check(self.dealt(points, np.rint(20 * field(points)).astype(np.int32)), values=(6.1,))
 
     def test_further_isovalues_and_values(self):
         """Even where ranks have dropped their trees."""
@@ -236,8 +230,7 @@ class RanksTest(RanksTestCase):
             isopoints = contour(mine, RANKS, kind, KeepTree=RANK != 1)
             for values in ((-0.4, 0.9), (0.2,)):
                 run(isopoints, values)
-                self.same(
-                    isopoints.GetOutput(), lambda: contour(whole, None, kind, values).GetOutput())
+                self.same(isopoints.GetOutput(), lambda: contour(whole, None, kind, values).GetOutput())
             for data, chosen in ((mine, owners(len(points)) == RANK), (whole, slice(None))):
                 array = data.GetPointData().GetArray("value")
                 vtk_to_numpy(array)[:] = field(points[chosen][:, ::-1])
@@ -328,15 +321,12 @@ class RanksTest(RanksTestCase):
         points = points[np.argsort(points[:, 0])]
         owner = np.minimum((SIZE * points[:, 0]).astype(int), SIZE - 1)
         near = (owner != RANK) & (np.abs(points[:, 0] * SIZE - RANK - 0.5) < 0.7)
-        chosen = (owner == RANK) | near
-        numbers = np.arange(len(points))
-        data = poly_data(points[chosen], numbers[chosen])
-        ghosts = numpy_to_vtk(near[chosen].astype(np.uint8), deep=True)  # DUPLICATEPOINT is 1
-        ghosts.SetName(GHOSTS)
-        data.GetPointData().AddArray(ghosts)
+        chosen = np.flatnonzero((owner == RANK) | near)
+        data = poly_data(points[chosen], chosen)
+        dsa.WrapDataObject(data).PointData.append(near[chosen].astype(np.uint8), GHOSTS)  # DUPLICATEPOINT is 1
         # Ids differ where ghosts stand between.
         self.same(contour(data, RANKS).GetOutput(),
-                  lambda: contour(poly_data(points, numbers), None).GetOutput(),
+                  lambda: contour(poly_data(points, np.arange(len(points))), None).GetOutput(),
                   lambda output: ("", vtk_to_numpy(output.GetPoints().GetData()).tolist()))
 
     def test_errors_of_one_rank_end_the_update_of_all(self):
@@ -357,10 +347,8 @@ class RanksTest(RanksTestCase):
     def test_warnings_are_of_all_samples_and_come_once(self):
         points = uniform(2000, 4)
         mine, _ = self.dealt(points)
-        least, most = field(points).min(), field(points).max()
-        for value, bad, expected in (
-                (9.0, 0, f"No isosurface at 9: \"value\" is from {least:.6g} to {most:.6g}."),
-                (0.3, 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
+        ends = [f"{end:.6g}" for end in (field(points).min(), field(points).max())]
+        for value, bad, expected in ((9.0, 0, ["9", *ends]), (0.3, 3, [str(3 * SIZE), str(2000 + 10 * SIZE)])):
             values = np.full(10, 0.25, np.float32)
             values[:bad] = np.nan
             blocks = vtkMultiBlockDataSet()
@@ -371,7 +359,7 @@ class RanksTest(RanksTestCase):
             everything = gather(texts)
             if RANK == 0:
                 self.assertEqual([len(each) for each in everything], [1] + (SIZE - 1) * [0])
-                self.assertIn(expected, everything[0][0])
+                self.assertLessEqual(set(expected), set(re.findall(r"[-\d.]*\d", everything[0][0])))
 
     def test_points_of_warnings_are_counted_once(self):
         """Ghosts and vertices of several ranks are not counted again."""
@@ -380,7 +368,7 @@ class RanksTest(RanksTestCase):
 
         def counts(data, controller, levels):
             texts = []
-            contour(data, controller, FILTERS[1], (0.1,), levels, texts.append)
+            contour(data, controller, FILTERS[1], (0.1,), levels, watch=texts.append)
             return [re.search(r"\d+ of \d+ points", text).group() for text in texts]
 
         for levels in (0, 3):
@@ -394,59 +382,41 @@ class RanksTest(RanksTestCase):
         for kind in FILTERS:
             self.assertIsNone(kind().GetController())
             if RANK == SIZE - 1:
-                isopoints = kind()
-                isopoints.SetInputData(data)
-                isopoints.SetValue(0, 0.3)
-                isopoints.Update()
-                self.assertGreater(isopoints.GetOutput().GetNumberOfPoints(), 100)
+                self.assertGreater(contour(data, None, kind).GetOutput().GetNumberOfPoints(), 100)
             alone = kind()
-            alone.SetUseGlobalController(True)
-            self.assertIs(alone.GetController(), RANKS)
-            alone.SetUseGlobalController(False)
-            self.assertIsNone(alone.GetController())
+            for is_global, controller in ((True, RANKS), (False, None)):
+                alone.SetUseGlobalController(is_global)
+                self.assertIs(alone.GetController(), controller)
 
     def test_pieces_without_a_controller(self):
         """Each rank yields a piece of its own samples' surface; the first one warns of that."""
         data = poly_data(uniform(2000, 11), np.arange(2000))
         for kind in FILTERS:
-            isopoints = kind()
-            isopoints.SetInputData(data)
-            isopoints.SetValue(0, 0.3)
             texts = []
-
-            def note(_object, _event, text, texts=texts):
-                texts.append(text)
-
-            note.CallDataType = "string0"
-            isopoints.AddObserver("WarningEvent", note)
-            isopoints.UpdatePiece(RANK, SIZE, 0)
-            self.same(isopoints.GetOutput(), lambda: contour(data, None, kind).GetOutput())  # noqa: B023
-            isopoints.SetValue(0, 0.4)
-            isopoints.UpdatePiece(RANK, SIZE, 0)
+            isopoints = configured(data, None, kind, texts.append)
+            for value in (0.3, 0.4):
+                isopoints.SetValue(0, value)
+                isopoints.UpdatePiece(RANK, SIZE, 0)
+                self.same(isopoints.GetOutput(), lambda: contour(data, None, kind, (value,)).GetOutput())  # noqa: B023
+            texts = [text for text in texts if "SetController" in text]
             self.assertEqual(len(texts), 1 if RANK == 0 and SIZE > 1 else 0)
-            if texts:
-                self.assertIn("SetController()", texts[0])
 
     def test_an_abort_on_one_rank_ends_the_update_of_all(self):
         data = poly_data(uniform(20000, 8), np.arange(20000))
         for kind in FILTERS:
-            isopoints = kind()
-            isopoints.SetController(RANKS)
-            isopoints.SetInputData(data)
             texts = []
+            isopoints = configured(data, RANKS, kind)
             isopoints.AddObserver("ErrorEvent", lambda *_: texts.append(""))  # noqa: B023
             if RANK == SIZE - 1:
                 isopoints.AddObserver(
                     "ProgressEvent", lambda *_: isopoints.SetAbortExecute(1))  # noqa: B023
             run(isopoints, (0.3,))
             self.assertEqual(isopoints.GetOutput().GetNumberOfPoints(), 0)
-            self.assertEqual(texts, [])
-            self.assertEqual(isopoints.GetErrorCode(), 0)
+            self.assertEqual((texts, isopoints.GetErrorCode()), ([], 0))
             isopoints.RemoveAllObservers()
             isopoints.SetAbortExecute(0)
             isopoints.Modified()
-            run(isopoints, (0.3,))
-            counts = gather(isopoints.GetOutput().GetNumberOfPoints())
+            counts = gather(run(isopoints, (0.3,)).GetOutput().GetNumberOfPoints())
             if RANK == 0:
                 self.assertGreater(sum(counts), 1000)
 
@@ -458,8 +428,7 @@ def centers_of(data):
 
 
 def main():
-    program = unittest.main(
-        argv=sys.argv[:1], exit=False, failfast=True, verbosity=2 if RANK == 0 else 0)
+    program = unittest.main(argv=sys.argv[:1], exit=False, failfast=True, verbosity=2 if RANK == 0 else 0)
     if not program.result.wasSuccessful():
         print(f"ERROR: rank {RANK}", flush=True)
         os._exit(1)  # the other ranks may wait for this one, which ends them

@@ -55,22 +55,19 @@ def pieces_in_blocks(leaves):
 
 def leaves_of(output, name=""):
     """(names on the way, leaf) of each leaf that is not null, in order."""
+    for kind, count, child in (
+            (vtkPartitionedDataSetCollection, "GetNumberOfPartitionedDataSets", "GetPartitionedDataSet"),
+            (vtkPartitionedDataSet, "GetNumberOfPartitions", "GetPartitionAsDataObject"),
+            (vtkMultiBlockDataSet, "GetNumberOfBlocks", "GetBlock")):
+        if isinstance(output, kind):
+            break
+    else:
+        return [(name, output)] if output is not None else []
     found = []
-    children = []
-    if isinstance(output, vtkPartitionedDataSetCollection):
-        children = [output.GetPartitionedDataSet(i)
-                    for i in range(output.GetNumberOfPartitionedDataSets())]
-    elif isinstance(output, vtkPartitionedDataSet):
-        children = [output.GetPartitionAsDataObject(i)
-                    for i in range(output.GetNumberOfPartitions())]
-    elif isinstance(output, vtkMultiBlockDataSet):
-        children = [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
-    elif output is not None:
-        return [(name, output)]
-    for i, child in enumerate(children):
+    for i in range(getattr(output, count)()):
         data = output.GetMetaData(i) if output.HasMetaData(i) else None
         own = data.Get(vtkCompositeDataSet.NAME()) if data else None
-        found += leaves_of(child, f"{name}/{i} {own}")
+        found += leaves_of(getattr(output, child)(i), f"{name}/{i} {own}")
     return found
 
 
@@ -111,33 +108,33 @@ class RanksBlocksTest(RanksTestCase):
             mine.append(poly_data(points[numbers], numbers) if len(numbers) else None)
         return whole, mine
 
+    def same_output(self, mine, whole, **options):
+        """@returns the filters"""
+        pair = by_themselves(mine, RANKS, **options), by_themselves(whole, None, **options)
+        self.assertEqual(*(each.GetOutputDataObject(0).GetClassName() for each in pair))
+        self.same_leaves(pair[0].GetOutputDataObject(0), lambda: pair[1].GetOutputDataObject(0))
+        for count in ("SkippedSamples", "UnprojectedPoints"):
+            self.assertEqual(*(getattr(each, "GetNumberOf" + count)() for each in pair))
+        return pair
+
     def test_every_composite(self):
         whole, mine = self.dealt(11)
         for make in (tree, partitions, collection, pieces_in_blocks):
             for kind in FILTERS:
                 with self.subTest(make=make.__name__, kind=kind):
-                    data = make(mine)
-                    output = by_themselves(data, RANKS, kind=kind).GetOutputDataObject(0)
-                    self.assertEqual(output.GetClassName(), data.GetClassName())
-                    expected = by_themselves(make(whole), None, kind=kind)
-                    self.same_leaves(output, lambda: expected.GetOutputDataObject(0))  # noqa: B023
+                    output = self.same_output(make(mine), make(whole), kind=kind)[0].GetOutputDataObject(0)
+                    self.assertEqual(output.GetClassName(), make(mine).GetClassName())
 
     def test_a_rank_may_have_no_blocks_at_all(self):
         whole, _ = self.dealt(12)
         whole[1] = None
-        data = tree(whole) if RANK == 0 else vtkMultiBlockDataSet()
-        self.same_leaves(by_themselves(data, RANKS).GetOutputDataObject(0),
-                         lambda: by_themselves(tree(whole), None).GetOutputDataObject(0))
+        self.same_output(tree(whole) if RANK == 0 else vtkMultiBlockDataSet(), tree(whole))
 
     def test_trees_are_kept(self):
         whole, mine = self.dealt(13)
-        isopoints = by_themselves(tree(mine), RANKS)
-        alone = by_themselves(tree(whole), None)
-        for value in (0.1, 0.6):
-            run(isopoints, (value,))
-            run(alone, (value,))
-            self.same_leaves(
-                isopoints.GetOutputDataObject(0), lambda: alone.GetOutputDataObject(0))
+        isopoints, alone = self.same_output(tree(mine), tree(whole), values=(0.1,))
+        run(isopoints, (0.6,))
+        self.same_leaves(isopoints.GetOutputDataObject(0), lambda: run(alone, (0.6,)).GetOutputDataObject(0))
         isopoints.SetContourBlocks(0)
         alone.SetContourBlocks(0)
         # The samples have another order, on which the last bits depend.
@@ -150,11 +147,7 @@ class RanksBlocksTest(RanksTestCase):
         for leaves in (whole, mine):
             if leaves[2]:
                 leaves[2].GetPointData().RemoveArray("value")
-        result = by_themselves(tree(mine), RANKS)
-        alone = by_themselves(tree(whole), None)
-        self.same_leaves(result.GetOutputDataObject(0), lambda: alone.GetOutputDataObject(0))
-        self.assertEqual(result.GetNumberOfSkippedSamples(), alone.GetNumberOfSkippedSamples())
-        self.assertEqual(result.GetNumberOfUnprojectedPoints(), alone.GetNumberOfUnprojectedPoints())
+        self.same_output(tree(mine), tree(whole))
 
     def test_boxes_of_an_amr(self):
         """Boxes are on one rank each, as readers deal them out."""
@@ -163,13 +156,11 @@ class RanksBlocksTest(RanksTestCase):
             result.Initialize(2, [1, 3])
             result.SetOrigin([0.0, 0.0, 0.0])
             result.SetGridDescription(8)  # VTK_XYZ_GRID
-            for level, index, origin, side in (
-                    (0, 0, 0.0, 9), (1, 0, 0.0, 8), (1, 1, 0.4, 8), (1, 2, 0.2, 8)):
+            for level, index, origin, side in ((0, 0, 0.0, 9), (1, 0, 0.0, 8), (1, 1, 0.4, 8), (1, 2, 0.2, 8)):
                 spacing = 0.1 / 2**level
                 result.SetSpacing(level, 3 * [spacing])
                 low = int(round(origin / spacing))
-                result.SetAMRBox(level, index, vtkAMRBox(
-                    [low] * 3, [low + side - 1] * 3))
+                result.SetAMRBox(level, index, vtkAMRBox([low] * 3, [low + side - 1] * 3))
                 if mine is not None and (level + index) % SIZE != mine:
                     continue
                 grid = vtkUniformGrid()
@@ -180,9 +171,7 @@ class RanksBlocksTest(RanksTestCase):
                 result.SetDataSet(level, index, grid)
             return result
 
-        self.same_leaves(
-            by_themselves(amr(RANK), RANKS, cells="value").GetOutputDataObject(0),
-            lambda: by_themselves(amr(None), None, cells="value").GetOutputDataObject(0))
+        self.same_output(amr(RANK), amr(None), cells="value")
 
     @unittest.skipIf(SIZE == 1, "one rank has one structure")
     def test_different_trees_are_one_error(self):

@@ -8,9 +8,9 @@ import time
 
 from paraview import simple
 
-SKIPPED = 77
+from scripting import contoured, load, number_of_points, updated
 
-# file, association, array, isovalue, least and largest number of isopoints
+# file, association, array (the first scalars if None), isovalue, least and largest number of isopoints
 CASES = [
     ("volumes/engine_256x256x128_uint8.vti", "POINTS", "scalar", 80.0, 297523, 297523),
     ("volumes/headsq_64x64x93_uint16.vti", "POINTS", None, 500.0, 20000, 60000),
@@ -24,61 +24,38 @@ CASES = [
     ("scattered/amr_spcth_leafcells.vtp", "POINTS", "volume_fraction_total", 0.5, 1000, 60000),
     ("scattered/cosmo_nbody_adaptive.vtp", "POINTS", "log10_overdensity_knn32", 1.0, 1000, 60000),
     ("unstructured/disk_out_ref.vtu", "POINTS", "Temp", 400.0, 500, 20000),
-    ("unstructured/can.vtu", "POINTS", None, 3600.0, 100, 20000),
+    ("unstructured/can.vtu", "POINTS", "mag(VEL)", 3600.0, 100, 20000),
     ("unstructured/fea_bracket_kiefer.vtu", "CELLS", "von_Mises_psi", 5.0, 500, 50000),
     ("multiblock/bluntfin.vts", "POINTS", "Density", 1.0, 500, 50000),
     ("multiblock/multicomb.vtm", "POINTS", "Density", 0.28, 500, 50000),
     ("amr/HierarchicalBoxDataset.v1.1.vthb", "CELLS", "Fractal Volume Fraction", 0.5, 200, 2000),
 ]
 
-
-def scalar_of(reader, association):
-    """The only scalar array, or else the magnitude of the last vector."""
-    data = reader.PointData if association == "POINTS" else reader.CellData
-    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
-    scalars = [a.GetName() for a in arrays if a.GetNumberOfComponents() == 1]
-    if "VEL" in [a.GetName() for a in arrays]:
-        calculator = simple.Calculator(Input=reader)
-        calculator.Function = "mag(VEL)"
-        return calculator, "Result"
-    return reader, scalars[0]
-
-
-def main(plugin, folder):
-    if not os.path.isdir(folder):
-        print("skipped: there is no folder", folder)
-        sys.exit(SKIPPED)
-    simple.LoadPlugin(plugin)
-    wrong = 0
-    print("| file | array | isovalue | samples | skipped | isopoints | seconds |")
-    print("|---|---|---|---|---|---|---|")
-    for name, association, array, isovalue, least, largest in CASES:
-        reader = simple.OpenDataFile(os.path.join(folder, name))
-        if name.endswith(".vthb"):
-            reader.DefaultNumberOfLevels = 10
-        reader.UpdatePipeline()
-        source = reader
-        if array is None:
-            source, array = scalar_of(reader, association)
-            source.UpdatePipeline()
-        isopoints = simple.ScatteredIsopoints(Input=source)
-        isopoints.ContourBy = [association, array]
-        isopoints.Isosurfaces = [isovalue]
-        start = time.perf_counter()
-        isopoints.UpdatePipeline()
-        seconds = time.perf_counter() - start
-        isopoints.SMProxy.UpdatePropertyInformation()
-        skipped = isopoints.SMProxy.GetProperty("NumberOfSkippedSamples").GetElement(0)
-        information = source.GetDataInformation()
-        samples = (information.GetNumberOfPoints() if association == "POINTS"
-                   else information.GetNumberOfCells())
-        count = isopoints.GetDataInformation().GetNumberOfPoints()
-        print("| %s | %s | %g | %d | %d | %d | %.3f |"
-              % (name, array, isovalue, samples, skipped, count, seconds))
-        wrong += 0 if least <= count <= largest else 1
-        simple.Delete(isopoints)
-        simple.Delete(source)
-    sys.exit("failed: %d files" % wrong if wrong else 0)
-
-
-main(*sys.argv[1:])
+plugin, folder = sys.argv[1:]
+if not os.path.isdir(folder):
+    print("skipped: there is no folder", folder)
+    sys.exit(77)
+load(plugin)
+wrong = []
+print("| file | array | isovalue | samples | skipped | isopoints | seconds |\n" + 7 * "|---" + "|")
+for name, association, array, isovalue, least, largest in CASES:
+    source = simple.OpenDataFile(os.path.join(folder, name))
+    if name.endswith(".vthb"):
+        source.DefaultNumberOfLevels = 10
+    updated(source)
+    if array is None:
+        arrays = [source.PointData.GetArray(i) for i in range(source.PointData.GetNumberOfArrays())]
+        array = next(each.GetName() for each in arrays if each.GetNumberOfComponents() == 1)
+    elif "(" in array:
+        source = updated(simple.Calculator(Input=source, Function=array, ResultArrayName=array))
+    start = time.perf_counter()
+    isopoints = contoured(source, array, isovalue, association)
+    seconds = time.perf_counter() - start
+    information, count = source.GetDataInformation(), number_of_points(isopoints)
+    samples = information.GetNumberOfPoints() if association == "POINTS" else information.GetNumberOfCells()
+    print(f"| {name} | {array} | {isovalue:g} | {samples} | {isopoints.NumberOfSkippedSamples} | {count} |"
+          f" {seconds:.3f} |")
+    wrong += [] if least <= count <= largest else [name]
+    simple.Delete(isopoints)
+    simple.Delete(source)
+sys.exit(f"failed: {wrong}" if wrong else 0)

@@ -1,164 +1,119 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What filters leave of isopoints is drawn as splats too, unless it became a mesh."""
 
-import os
 import sys
 
 import numpy as np
-from paraview import servermanager, simple
+from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from scripting import FOLDER, check, covered, look, make_view, pixels
+from scripting import (
+    SPLATS, ball, check, covered, leaves_of, load, look, make_view, number_of_points, offered_arrays, path_of, pixels,
+    representation_of, run, shown, updated)
 
 RADIUS = 7.3
 
 
-def ball():
-    image = simple.Wavelet(WholeExtent=[-10, 10] * 3)
-    distance = simple.Calculator(Input=image, ResultArrayName="r", Function="mag(coords)")
-    distance.UpdatePipeline()
-    return simple.ScatteredIsopoints(
-        Input=distance, ContourBy=["POINTS", "r"], Isosurfaces=[RADIUS])
+def within(source, array, low, high):
+    return simple.Threshold(Input=source, Scalars=["POINTS", array], LowerThreshold=low, UpperThreshold=high)
 
 
-def picture(view, source):
-    display = simple.Show(source, view)
-    kind = str(display.Representation).strip("'")
-    simple.ColorBy(display, None)
-    display.DiffuseColor = display.AmbientColor = [1.0, 1.0, 0.0]
-    image = pixels(view)
-    simple.Hide(source, view)
-    return kind, image
-
-
-def is_drawn(image):
-    """The share of the ball's left and right half that is drawn, and how much more light its upper
-    half has than the lower one."""
-    seen = covered(image)
-    half = np.pi * (150 * RADIUS / 10.0) ** 2 / 2
-    left, right = seen[:, :150].sum() / half, seen[:, 150:].sum() / half
-    upper, lower = image[200, 120:180, 0].mean(), image[100, 120:180, 0].mean()
-    return left, right, upper - lower
-
-
-def filters(isopoints):
-    clip = simple.Clip(Input=isopoints)
+def clipped(source):
+    clip = simple.Clip(Input=source)
     clip.ClipType.Origin = [0.0, 0.0, 0.0]
     clip.ClipType.Normal = [1.0, 0.0, 0.0]
-    threshold = simple.Threshold(Input=isopoints, Scalars=["POINTS", "r"])
-    threshold.LowerThreshold, threshold.UpperThreshold = RADIUS - 1, RADIUS + 1
-    calculator = simple.Calculator(Input=isopoints, ResultArrayName="k", Function="coordsX")
-    transform = simple.Transform(Input=isopoints)
+    return clip
+
+
+def filters_are_drawn():
+    simple.SelectPoints("r>0", BALL)
+    transform = simple.Transform(Input=BALL)
     transform.Transform.Rotate = [0.0, 90.0, 0.0]
-    mask = simple.MaskPoints(Input=isopoints, OnRatio=1)
-    group = simple.GroupDatasets(Input=[isopoints])
-    simple.SelectPoints("r>0", isopoints)
-    selection = simple.ExtractSelection(Input=isopoints)
-    of_clip = simple.Threshold(Input=clip, Scalars=["POINTS", "r"])
-    of_clip.LowerThreshold, of_clip.UpperThreshold = RADIUS - 1, RADIUS + 1
-    return {"Threshold": threshold, "Calculator": calculator, "Transform": transform,
-            "Mask Points": mask, "Group Datasets": group, "Extract Selection": selection,
-            "Clip": clip, "Threshold of Clip": of_clip}
-
-
-def triangles_of(source):
-    """The corners of all triangles with their normals, as a set of byte strings, and their number."""
-    polygons = simple.IsopointSplatPolygons(Input=source)
-    polygons.UpdatePipeline()
-    output = servermanager.Fetch(polygons)
-    leaves = [output]
-    if output.IsA("vtkMultiBlockDataSet"):
-        leaves = [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
-    rows = []
-    for leaf in leaves:
-        corners = vtk_to_numpy(leaf.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-        places = vtk_to_numpy(leaf.GetPoints().GetData())[corners].reshape(-1, 9)
-        normals = vtk_to_numpy(leaf.GetPointData().GetNormals())[corners].reshape(-1, 9)
-        rows += [row.tobytes() for row in np.hstack([places, normals])]
-    simple.Delete(polygons)
-    return set(rows), len(rows)
-
-
-def number_of_points(source):
-    return source.GetDataInformation().GetNumberOfPoints()
-
-
-def splats_stay(isopoints):
-    """Where filters keep cells, the points that remain have the same triangles as before."""
-    clip = simple.Clip(Input=isopoints)
-    clip.ClipType.Normal = [1.0, 0.0, 0.0]
-    threshold = simple.Threshold(Input=isopoints, Scalars=["POINTS", "RTData"])
-    low, high = isopoints.PointData["RTData"].GetRange()
-    threshold.LowerThreshold, threshold.UpperThreshold = (low + high) / 2, high
-    group = simple.GroupDatasets(Input=[threshold, clip])
-    simple.SelectCells("id<300", isopoints)
-    selection = simple.ExtractSelection(Input=isopoints)
-    kept = {
-        "Clip": clip, "Threshold": threshold, "cells": selection,
-        "Append Datasets": simple.AppendDatasets(Input=[threshold, clip]),
-        "Merge Blocks": simple.MergeBlocks(Input=group), "Group Datasets": group,
-        "Redistribute": simple.RedistributeDataSet(Input=isopoints),
-        "Extract Surface": simple.ExtractSurface(Input=clip),
-    }
-    for extension, source in (("vtp", isopoints), ("vtu", clip), ("vtm", group)):
-        path = os.path.join(FOLDER, "points." + extension)
-        simple.SaveData(path, proxy=source, DataMode="Binary")
-        kept[extension] = simple.OpenDataFile(path)
-    everything, _ = triangles_of(isopoints)
-    for name, source in kept.items():
-        source.UpdatePipeline()
-        some, count = triangles_of(source)
-        check(100 < number_of_points(source) and some <= everything, f"{name}: the same triangles")
-        check(5.5 < count / number_of_points(source) < 6.5, f"{name}: {count} triangles")
-    check(triangles_of(kept["Redistribute"])[0] == everything, "all triangles redistributed")
-    check(triangles_of(kept["vtp"])[0] == everything, "all triangles of the file")
-    simple.SelectPoints("id<300", isopoints)
-    for source in (simple.MaskPoints(Input=isopoints, OnRatio=2),
-                   simple.ExtractSelection(Input=isopoints)):
-        source.UpdatePipeline()
-        radii = vtk_to_numpy(servermanager.Fetch(source).GetPointData().GetArray("Radius"))
-        check(triangles_of(source)[1] == 8 * np.count_nonzero(radii), "octagons")
-    simple.ClearSelection(isopoints)
-    return kept
-
-
-def shapes_are_hidden(isopoints, kept):
-    """From menus of arrays, and from tables of points."""
-    for source in (isopoints, kept["Clip"], kept["Append Datasets"], kept["vtp"]):
-        check(not any("Splat" in name for name in source.PointData.keys()), "arrays of points")
-        check({"SplatAxis", "SplatPolygon"} <= set(source.CellData.keys()), "arrays of cells")
-        offered = simple.Threshold(Input=source)
-        menu = offered.SMProxy.GetProperty("SelectInputScalars").FindDomain("vtkSMArrayListDomain")
-        names = {menu.GetString(i) for i in range(menu.GetNumberOfStrings())}
-        names.discard("Normals")  # later versions of ParaView offer vectors too
-        check(names == {"RTData", "Radius", "r"}, f"arrays offered by a filter: {names}")
-    path = os.path.join(FOLDER, "points.csv")
-    simple.SaveData(path, proxy=isopoints)
-    with open(path, encoding="utf-8") as file:
-        head = file.readline()
-    check("Radius" in head and "Splat" not in head, f"columns of a table: {head}")
-
-
-def main(plugin):
-    simple.LoadPlugin(plugin)
-    simple._DisableFirstRenderCameraReset()
-    view = make_view(300)
-    look(view, 50.0, 10.0)
-    isopoints = ball()
-    for name, source in filters(isopoints).items():
-        kind, image = picture(view, source)
-        check(kind == "Isopoint Splats", f"{name} is shown as {kind}")
-        left, right, light = is_drawn(image)
+    half = np.pi * (150 * RADIUS / 10.0) ** 2 / 2
+    for name, source in {
+            "Threshold": within(BALL, "r", RADIUS - 1, RADIUS + 1), "Transform": transform, "Clip": clipped(BALL),
+            "Calculator": simple.Calculator(Input=BALL, ResultArrayName="k", Function="coordsX"),
+            "Mask Points": simple.MaskPoints(Input=BALL, OnRatio=1),
+            "Group Datasets": simple.GroupDatasets(Input=[BALL]),
+            "Extract Selection": simple.ExtractSelection(Input=BALL),
+            "Threshold of Clip": within(clipped(BALL), "r", RADIUS - 1, RADIUS + 1)}.items():
+        display = shown(source, VIEW, [1.0, 1.0, 0.0])
+        check(representation_of(display) == SPLATS, f"{name} is shown as {display.Representation}")
+        image = pixels(VIEW)
+        simple.Hide(source, VIEW)
+        left, right = (part.sum() / half for part in np.hsplit(covered(image), 2))
+        light = image[200, 120:180, 0].mean() - image[100, 120:180, 0].mean()
         print(f"{name}: left {left:.3f}, right {right:.3f}, light {light:.0f}")
         check(0.95 < left < 1.1, f"{name}: the left half")
         check(0.95 < right < 1.1 or ("Clip" in name and right < 0.15), f"{name}: the right half")
         check(light > 20, f"{name}: lit from above")
-    shapes_are_hidden(isopoints, splats_stay(isopoints))
-    for source in (simple.Delaunay3D(Input=isopoints), simple.Sphere(), simple.Slice(Input=isopoints)):
-        kind = str(simple.Show(source, view).Representation).strip("'")
-        check(kind == "Surface", "meshes are drawn as they are")
-    check("Slice" in isopoints.__doc__, "help says that points cannot be sliced")
 
 
-main(sys.argv[1])
-print("passed")
+def triangles_of(source):
+    """The corners of all triangles with their normals, as a set of byte strings, and their number."""
+    polygons = updated(simple.IsopointSplatPolygons(Input=source))
+    rows = []
+    for leaf in leaves_of(polygons):
+        corners = vtk_to_numpy(leaf.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        both = [vtk_to_numpy(array)[corners].reshape(-1, 9)
+                for array in (leaf.GetPoints().GetData(), leaf.GetPointData().GetNormals())]
+        rows += [row.tobytes() for row in np.hstack(both)]
+    simple.Delete(polygons)
+    return set(rows), len(rows)
+
+
+def splats_stay():
+    """Where filters keep cells, the points that remain have the same triangles as before."""
+    low, high = BALL.PointData["RTData"].GetRange()
+    clip, threshold = clipped(BALL), within(BALL, "RTData", (low + high) / 2, high)
+    group = simple.GroupDatasets(Input=[threshold, clip])
+    simple.SelectCells("id<300", BALL)
+    kept = {
+        "Clip": clip, "Threshold": threshold, "cells": simple.ExtractSelection(Input=BALL),
+        "Append Datasets": simple.AppendDatasets(Input=[threshold, clip]),
+        "Merge Blocks": simple.MergeBlocks(Input=group), "Group Datasets": group,
+        "Redistribute": simple.RedistributeDataSet(Input=BALL), "Extract Surface": simple.ExtractSurface(Input=clip)}
+    for extension, source in (("vtp", BALL), ("vtu", clip), ("vtm", group)):
+        path = path_of("points." + extension)
+        simple.SaveData(path, proxy=source, DataMode="Binary")
+        kept[extension] = simple.OpenDataFile(path)
+    everything, _ = triangles_of(BALL)
+    for name, source in kept.items():
+        some, count = triangles_of(updated(source))
+        check(100 < number_of_points(source) and some <= everything, f"{name}: the same triangles")
+        check(5.0 < count / number_of_points(source) < 6.5, f"{name}: {count} triangles")
+        check(name not in ("Redistribute", "vtp") or some == everything, f"{name}: all triangles")
+    simple.SelectPoints("id<300", BALL)
+    for source in (simple.MaskPoints(Input=BALL, OnRatio=2), simple.ExtractSelection(Input=BALL)):
+        leaf, = leaves_of(updated(source))
+        radii = vtk_to_numpy(leaf.GetPointData().GetArray("Radius"))
+        check(triangles_of(source)[1] == 8 * np.count_nonzero(radii), "octagons")
+    simple.ClearSelection(BALL)
+    shapes_are_hidden([BALL, kept["Clip"], kept["Append Datasets"], kept["vtp"]])
+
+
+def shapes_are_hidden(sources):
+    """From menus of arrays, and from tables of points."""
+    for source in sources:
+        check(not any("Splat" in name for name in source.PointData.keys()), "arrays of points")
+        check({"SplatAxis", "SplatPolygon"} <= set(source.CellData.keys()), "arrays of cells")
+        names = set(offered_arrays(simple.Threshold(Input=source)))
+        names.discard("Normals")  # later versions of ParaView offer vectors too
+        check(names == {"RTData", "Radius", "r"}, f"arrays offered by a filter: {names}")
+    simple.SaveData(path_of("points.csv"), proxy=BALL)
+    with open(path_of("points.csv"), encoding="utf-8") as file:
+        head = file.readline()
+    check("Radius" in head and "Splat" not in head, f"columns of a table: {head}")
+
+
+def meshes_are_drawn_as_they_are():
+    for source in (simple.Delaunay3D(Input=BALL), simple.Sphere(), simple.Slice(Input=BALL)):
+        check(representation_of(simple.Show(source, VIEW)) == "Surface", "a mesh")
+    check("Slice" in BALL.__doc__, "help says that points cannot be sliced")
+
+
+load(sys.argv[1])
+VIEW = make_view(300)
+look(VIEW, 50.0, 10.0)
+BALL = ball(10, RADIUS)
+run(filters_are_drawn, splats_stay, meshes_are_drawn_as_they_are)

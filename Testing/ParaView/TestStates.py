@@ -6,12 +6,12 @@ run nothing is lost: neither what the filters compute nor how it is drawn."""
 
 import os
 import shutil
-import subprocess
 import sys
 
 from paraview import simple, smstate, smtrace
 
-from scripting import FOLDER, check
+from playing import run_script
+from scripting import FOLDER, check, path_of
 
 # What each of them has to be followed by, to be compared.
 REPORT = """
@@ -33,7 +33,6 @@ def build():
     # A trace of a script has what properties are as filters are created.
     isopoints = simple.ScatteredIsopoints(
         Input=wavelet, Isosurfaces=[200.0], Projection="Cubic fit with creases", DropGaps=1)
-    isopoints.UpdatePipeline()
     view = simple.CreateView("RenderView")
     simple.Show(isopoints, view)
     simple.Show(simple.Clip(Input=isopoints), view)
@@ -42,45 +41,27 @@ def build():
     simple.Render(view)
 
 
-def run(pvbatch, text, **environment):
-    """What a script that was saved finds in a process of its own."""
-    path = os.path.join(FOLDER, "saved.py")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text + REPORT)
-    done = subprocess.run([pvbatch, path], env=dict(os.environ, **environment), check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-    found = [line for line in done.stdout.splitlines() if line.startswith("found:")]
-    check(len(found) == 1, "the script failed:\n" + text + done.stdout)
-    return found[0], done.stdout
+plugin, pvbatch = sys.argv[1:]
+simple.LoadPlugin(plugin)
+smtrace.start_trace(preamble="")
+build()
+trace, state = smtrace.stop_trace(), smstate.get_state()
+simple.SaveState(path_of("state.pvsm"))
 
-
-def main(plugin, pvbatch):
-    simple.LoadPlugin(plugin)
-    smtrace.start_trace(preamble="")
-    build()
-    trace = smtrace.stop_trace()
-    state = smstate.get_state()
-    saved = os.path.join(FOLDER, "state.pvsm")
-    simple.SaveState(saved)
-
-    with_path = {"PV_PLUGIN_PATH": os.path.dirname(plugin)}
-    expected, output = run(pvbatch, trace)
-    print(expected)
-    check("('Isopoint Splats', 0), ('Isopoint Splats', 1), ('Surface', 1)" in expected, expected)
-    for text in (trace, state, f"from paraview import simple\nsimple.LoadState({saved!r})\n"):
-        found, output = run(pvbatch, text, **with_path)
-        check("ERR|" not in output, output)
-        counts = [line.split(", ('Isopoint Splats'")[0] for line in (found, expected)]
-        check(counts[0] == counts[1], f"{found} instead of {expected}")
-        check(found.count("('Isopoint Splats', 1)") == 1, found)
-    # A second copy of the plugin, as of another build, does not end the program.
-    copy = shutil.copy(plugin, FOLDER)
-    found, _ = run(
-        pvbatch, f"from paraview.simple import *\nLoadPlugin({copy!r})\n" + state, **with_path)
-    check("('ScatteredIsopoints1', 1449)" in found and "('Isopoint Splats', 1)" in found, found)
-    for text, name in ((trace, "trace"), (state, "state")):
-        check("NumberOf" not in text, f"a {name} does not set counters")
-
-
-main(*sys.argv[1:])
+with_path = {"PV_PLUGIN_PATH": os.path.dirname(plugin)}
+(expected,), _ = run_script(pvbatch, trace + REPORT)
+print(expected)
+check("('Isopoint Splats', 0), ('Isopoint Splats', 1), ('Surface', 1)" in expected, expected)
+loaded = f"from paraview import simple\nsimple.LoadState({path_of('state.pvsm')!r})\n"
+for text in (trace, state, loaded):
+    (found,), output = run_script(pvbatch, text + REPORT, **with_path)
+    check("ERR|" not in output, output)
+    counts = [line.split(", ('Isopoint Splats'")[0] for line in (found, expected)]
+    check(counts[0] == counts[1], f"{found} instead of {expected}")
+    check(found.count("('Isopoint Splats', 1)") == 1, found)
+# A second copy of the plugin, as of another build, does not end the program.
+copy = shutil.copy(plugin, FOLDER)
+(found,), _ = run_script(pvbatch, f"from paraview.simple import *\nLoadPlugin({copy!r})\n{state}{REPORT}", **with_path)
+check("('ScatteredIsopoints1', 1449)" in found and "('Isopoint Splats', 1)" in found, found)
+check("NumberOf" not in trace + state, "they do not set counters")
 print("passed")

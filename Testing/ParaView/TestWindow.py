@@ -1,57 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW"""
+"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW FILTER_XML EXPORTER_XML"""
 
-import os
 import re
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as ElementTree
 
-from mouse import Mouse
-from playing import (
-    ADVANCED, APPLY, FOLDER, FRAME, check, choose, event, expect, expect_of, play, set_property)
+import playing
+from playing import ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, set_property
+
+PLUGIN, PARAVIEW, FILTER_XML, EXPORTER_XML = sys.argv[1:]
+NAMES = "Scattered Isopoints", "Scattered Isosurface"
+SPLATS = "Isopoint Splats"
+WAVELET = "isopoints = wavelet"  # in place of isopoints as the input of filters
 
 
-def inputs_are_hidden(plugin, paraview):
-    splats = "Isopoint Splats"
-    events = []
+def play(events, more="", **options):
+    return playing.play(PARAVIEW, PLUGIN, events, more, **options)
+
+
+def version():
+    """Since ParaView 5.13 the search and labels are other widgets."""
+    said = subprocess.run([PARAVIEW, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return tuple(map(int, re.search(r"(\d+)\.(\d+)", said.stdout).groups()))
+
+
+IS_5_13 = version() >= (5, 13)
+
+
+def inputs_are_hidden():
     names = ["Clip", "Threshold", "Calculator", "Transform"]
-    for name in names:
-        events += [choose(name), APPLY]
-    shown, _ = play(paraview, plugin, events)
-    print(shown)
-    check(shown.pop(names[-1] + "1") == [1, splats], "the last filter's output as splats")
-    check(sorted(shown) == sorted(["ScatteredIsopoints1", "Calculator1", "Clip1", "Threshold1"]),
-          "all filters")
-    check(all(each == [0, splats] for each in shown.values()), "inputs are hidden")
-    shown, _ = play(paraview, plugin, [choose("Clip"), APPLY],
-                    "simple.GetDisplayProperties(isopoints, view).Opacity = 0.5")
+    shown, _ = play([each for name in names for each in (choose(name), APPLY)])
+    check(shown.pop("Transform1") == [1, SPLATS], "the last filter's output as splats")
+    check(shown == {name: [0, SPLATS] for name in ("ScatteredIsopoints1", "Calculator1", "Clip1", "Threshold1")},
+          f"inputs are hidden: {shown}")
+    shown, _ = play([choose("Clip"), APPLY], "simple.GetDisplayProperties(isopoints, view).Opacity = 0.5")
     check(all(visible for visible, _ in shown.values()), "translucent inputs stay")
 
 
-def rows_follow_others(plugin, paraview):
+def rows_follow_others():
     """What has no effect is grayed out or hidden."""
-    for name in ("Scattered Isopoints", "Scattered Isosurface"):
-        events = [choose(name), expect("DropGaps", "visible", "true"), ADVANCED,
-                   expect("KeepTree", "visible", "true"), expect("ContourBlocks", "visible", "false"),
-                   expect("NormalMethod", "enabled", "true")]
-        points = name == "Scattered Isopoints"
-        if not points:
-            events += [expect("Regularize", "visible", "true")]
-        if points:
-            events += [expect("NumberOfNeighbors", "enabled", "true"),
-                       expect("MinimumSpacing", "enabled", "true"),
-                       set_property("Projection", "Linear fit"),
-                       expect("MinimumSpacing", "enabled", "false")]
-        events += [set_property("ComputeNormals", "false"), expect("NormalMethod", "enabled", "false"),
-                   APPLY]
-        play(paraview, plugin, events, "isopoints = wavelet")
-    play(paraview, plugin,
-         [choose("Scattered Isopoints"), ADVANCED, expect("ContourBlocks", "visible", "true"), APPLY],
+    for name, own in zip(NAMES, (
+            [expect("NumberOfNeighbors", "enabled"), expect("MinimumSpacing", "enabled"),
+             set_property("Projection", "Linear fit"), expect("MinimumSpacing", "enabled", "false")],
+            [expect("Regularize", "visible")])):
+        play([choose(name), expect("DropGaps", "visible"), ADVANCED, expect("KeepTree", "visible"),
+              expect("ContourBlocks", "visible", "false"), expect("NormalMethod", "enabled"), *own,
+              set_property("ComputeNormals", "false"), expect("NormalMethod", "enabled", "false"), APPLY], WAVELET)
+    play([choose(NAMES[0]), ADVANCED, expect("ContourBlocks", "visible"), APPLY],
          "isopoints = simple.GroupDatasets(Input=[wavelet])\nisopoints.UpdatePipeline()")
 
 
-def counters_are_texts(plugin, paraview):
+def counters_are_texts():
     """Counts and what they are a part of, of each update, in labels; one of the wavelet's 9261 samples
     is not finite."""
     more = """
@@ -63,96 +64,58 @@ output.PointData.append(values, "RTData")
 ''')
 isopoints.UpdatePipeline()
 """
-    panel = f"{FRAME}ProxyPanel/isopoint_counts/"
-    for name in ("Scattered Isopoints", "Scattered Isosurface"):
-        _, said = play(paraview, plugin, [
-            choose(name), expect_of(panel + "NumberOfSkippedSamples", "text", ""),
-            expect_of(panel + "NumberOfDroppedInGaps", "text", ""),
-            expect_of(f"{FRAME}ProxyPanel/1QWidget3/1QLabel0", "text", "<html><b>Last Update</b></html>"),
-            APPLY,
-            expect_of(panel + "NumberOfSkippedSamples", "text", "1 of 9261")], more)
-        # Splats are too coarse for this field, as a message says.
-        others = [line for line in said.splitlines() if "Splats do not meet" not in line]
-        check(not any(word in line for line in others for word in ("WARN", "Warning")),
-              "no message without a problem")
+    skipped, dropped = (FRAME + "isopoint_counts/NumberOf" + name for name in ("SkippedSamples", "DroppedInGaps"))
+    for name in NAMES:
+        _, said = play([choose(name), expect_of(skipped, "text", ""), expect_of(dropped, "text", ""), APPLY,
+                        expect_of(skipped, "text", "1 of 9261")], more)
+        check(not re.search("WARN|Warning", others_of(said)), "no message without a problem")
 
 
-def help_is_at_labels(plugin, paraview):
-    """The first label of the panel."""
-    play(paraview, plugin, [
-        choose("Scattered Isopoints"),
-        expect_of(f"{FRAME}ProxyPanel/1QLabel0", "toolTip",
-                  '<html><head/><body><p align="justify">The scalar, at points or cells, whose isosurfaces '
-                  "are extracted. By default the active scalars, unless there are none or they are "
-                  "constant or ids: then the first array in the list that is neither constant nor "
-                  "ids.</p></body></html>")])
+def others_of(said):
+    """Without the message that splats are too coarse for this field."""
+    return "\n".join(line for line in said.splitlines() if "Splats do not meet" not in line)
 
 
-def is_5_13_or_later(paraview):
-    """Whether it is ParaView 5.13 or later, where the search and labels are other widgets."""
-    version = subprocess.run([paraview, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             universal_newlines=True, check=True).stdout
-    return tuple(map(int, re.search(r"(\d+)\.(\d+)", version).groups())) >= (5, 13)
+def expect_help(label, xml, name):
+    """That a label has the text that a property has in the XML."""
+    text = ElementTree.parse(xml).find(f".//*[@name='{name}']/Documentation").text
+    return expect_of(label, "toolTip", '<html><head/><body><p align="justify">'
+                     f"{' '.join(text.split())}</p></body></html>")
 
 
-def search_events(paraview, words):
-    """That type words into the dialog of the search. @returns also its button for what was found"""
-    opened = event("pqClientMainWindow/menubar/menuFilters", "activate", "Search...\tCtrl+Space")
-    if is_5_13_or_later(paraview):
-        dialog = "pqClientMainWindow/QuickLaunchDialogExtended/"
-        return [opened, event(dialog + "Request", "set_string", words)], dialog + "CreateProxy"
-    dialog = "pqClientMainWindow/QuickLaunchDialog"
+def help_is_at_labels():
+    play([choose(NAMES[0]), expect_help(FRAME + "1QLabel0", FILTER_XML, "SelectInputScalars")])
+
+
+def search_finds_the_filters_by_contour():
+    dialog = WINDOW + ("QuickLaunchDialogExtended/" if IS_5_13 else "QuickLaunchDialog")
+    button = dialog + ("CreateProxy" if IS_5_13 else "/selection")
     key_press = 6
-    return [opened] + [event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1")
-                       for key in words.upper()], dialog + "/selection"
+    for name in NAMES:
+        words = "contour " + name.split()[1]
+        typed = [event(dialog + "Request", "set_string", words)] if IS_5_13 else [
+            event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1") for key in words.upper()]
+        shown, _ = play([event(WINDOW + "menubar/menuFilters", "activate", "Search...\tCtrl+Space"), *typed,
+                         expect_of(button, "text", f"{name} (contour)"), event(button, "activate"), APPLY], WAVELET)
+        check(len(shown) == 2, f"{name} was created")
 
 
-def search_finds_the_filters_by_contour(plugin, paraview):
-    for name in ("Isopoints", "Isosurface"):
-        events, button = search_events(paraview, f"contour {name}")
-        events += [expect_of(button, "text", f"Scattered {name} (contour)"), event(button, "activate"), APPLY]
-        shown, _ = play(paraview, plugin, events, "isopoints = wavelet")
-        check(len(shown) == 2, f"{name} were created")
+def an_empty_slice_is_explained():
+    """Once, by the filter to slice; a slice of a grid is no reason."""
+    for more, count in (("", 1), (WAVELET, 0)):
+        _, said = play([choose("Slice"), APPLY], more)
+        explained = others_of(said).count("Scattered Isosurface")
+        check(explained == count, f"explained {explained} times instead of {count}")
 
 
-def an_empty_slice_is_explained(plugin, paraview):
-    advice = "the triangles of Scattered Isosurface"
-    _, said = play(paraview, plugin, [choose("Slice"), APPLY])
-    check(said.count(advice) == 1, "it is said once what to slice")
-    _, said = play(paraview, plugin, [choose("Slice"), APPLY], "isopoints = wavelet")
-    check(advice not in said, "a slice of a grid is no reason")
-
-
-def isovalues_follow_the_array(plugin, paraview):
+def isovalues_follow_the_array():
     """In the panel, before anything is applied."""
     more = """
 isopoints = simple.Calculator(Input=wavelet, ResultArrayName="small", Function="RTData / 1000")
 isopoints.UpdatePipeline()
 """
-    array = event(f"{FRAME}ProxyPanel/SelectInputScalars/ComboBox", "set_string", "small")
-    _, said = play(paraview, plugin, [choose("Scattered Isopoints"), array, APPLY], more)
+    _, said = play([choose(NAMES[0]), event(FRAME + "SelectInputScalars/ComboBox", "set_string", "small"), APPLY], more)
     check("No isosurface" not in said, "the isovalue is in the range of the array")
-
-
-def pictures_are_traced(plugin, paraview):
-    """By an entry of the menu, with a button that stops it; an empty view is not."""
-    path = os.path.join(FOLDER, "traced.png")
-    options = "pqClientMainWindow/RayTracingOptions/"
-    panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
-    samples = panel + "SamplesPerPixel/IntRangeWidget/"
-    label = panel + ("LightAngleLabel" if is_5_13_or_later(paraview) else "1QLabel2")
-    choose_file = [
-        event("pqClientMainWindow/menubar/menu_File", "activate", "actionExportRayTracedPicture"),
-        event("pqClientMainWindow/FileExportDialog", "filesSelected", path)]
-    for count, meanwhile in (("2000", stop_tracing), ("1", None)):
-        play(paraview, plugin, [
-            *choose_file, expect_of(samples + "Slider", "maximum", "256"),
-            expect_of(label, "toolTip", '<html><head/><body><p align="justify">The apparent size '
-                      "of lights, in degrees. Larger lights cast softer shadows.</p></body></html>"),
-            event(samples + "LineEdit", "set_string", count),
-            event(options + "widget/OKButton", "activate")], meanwhile=meanwhile)
-        check(os.path.exists(path) == (not meanwhile), f"{count} samples: stopped or written")
-    play(paraview, plugin, choose_file, "simple.Hide(isopoints, view)", possible=False)
 
 
 def stop_tracing(paraview):
@@ -161,6 +124,23 @@ def stop_tracing(paraview):
     while paraview.poll() is None:
         mouse.click("Ray Tracing", 50, 25)
         time.sleep(0.2)
+
+
+def pictures_are_traced():
+    """By an entry of the menu, with a button that stops it; an empty view is not."""
+    path = FOLDER / "traced.png"
+    options = WINDOW + "RayTracingOptions/"
+    panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
+    samples, label = panel + "SamplesPerPixel/IntRangeWidget/", panel + ("LightAngleLabel" if IS_5_13 else "1QLabel2")
+    choose_file = [event(WINDOW + "menubar/menu_File", "activate", "actionExportRayTracedPicture"),
+                   event(WINDOW + "FileExportDialog", "filesSelected", str(path))]
+    for count, meanwhile in (("2000", stop_tracing), ("1", None)):
+        play([*choose_file, expect_of(samples + "Slider", "maximum", "256"),
+              expect_help(label, EXPORTER_XML, "LightAngle"), event(samples + "LineEdit", "set_string", count),
+              event(options + "widget/OKButton", "activate")],
+             meanwhile=meanwhile)
+        check(path.exists() == (not meanwhile), f"{count} samples: stopped or written")
+    play(choose_file, "simple.Hide(isopoints, view)", possible=False)
 
 
 # Selects points in three steps, and tells at each picture what of them a filter has.
@@ -190,31 +170,20 @@ view.GetRenderWindow().AddObserver("EndEvent", tell)
 """
 
 
-def selected_points_keep_their_shapes(plugin, paraview):
+def selected_points_keep_their_shapes():
     """Extract Selection has the vertices of points; the active selection can be added to as before."""
-    shown, said = play(paraview, plugin, [choose("ExtractSelection"), APPLY], SELECTS)
-    check(shown["ExtractSelection1"] == [1, "Isopoint Splats"], "the selection as splats")
+    once = [choose("ExtractSelection"), APPLY]
+    shown, said = play(once, SELECTS)
+    check(shown["ExtractSelection1"] == [1, SPLATS], "the selection as splats")
     last = [line for line in said.splitlines() if line.startswith("extracted:")][-1]
     check(last == "extracted: True ['SplatAxis', 'SplatPolygon'] [0, 0, 0]", last)
     # Where nothing is selected, nothing is extracted.
-    twice = [choose("ExtractSelection"), APPLY, choose("ExtractSelection"), APPLY]
-    shown, _ = play(paraview, plugin, twice, SELECTS)
-    check("ExtractSelection2" in shown, "an extract of an extract")
-    shown, _ = play(paraview, plugin, [choose("ExtractSelection"), APPLY])
-    check("ExtractSelection1" in shown, "an extract of nothing")
+    for events, more, name in ((2 * once, SELECTS, "ExtractSelection2"), (once, "", "ExtractSelection1")):
+        check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
-def main(plugin, paraview):
-    inputs_are_hidden(plugin, paraview)
-    rows_follow_others(plugin, paraview)
-    counters_are_texts(plugin, paraview)
-    help_is_at_labels(plugin, paraview)
-    search_finds_the_filters_by_contour(plugin, paraview)
-    an_empty_slice_is_explained(plugin, paraview)
-    isovalues_follow_the_array(plugin, paraview)
-    selected_points_keep_their_shapes(plugin, paraview)
-    pictures_are_traced(plugin, paraview)
-
-
-main(*sys.argv[1:])
-print("passed")
+for test in (inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels,
+             search_finds_the_filters_by_contour, an_empty_slice_is_explained, isovalues_follow_the_array,
+             selected_points_keep_their_shapes, pictures_are_traced):
+    print(test.__name__, flush=True)
+    test()

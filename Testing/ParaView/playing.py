@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plays a user's mouse events to ParaView's window, where a script reports what is shown."""
+"""Plays a user's mouse events to ParaView's window, where a script reports what is shown; and the Python package
+without compiled classes, as the wheel has it."""
 
+import ctypes
 import json
 import os
+import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -36,10 +40,11 @@ view.GetRenderWindow().AddObserver("EndEvent", report)
 """
 
 _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
-FOLDER = _temporary.name
+FOLDER = pathlib.Path(_temporary.name)
 
-PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel/"
-FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/"
+WINDOW = "pqClientMainWindow/"
+PANEL = WINDOW + "propertiesDock/propertiesPanel/"
+FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
 
 
 def check(condition, message):
@@ -52,22 +57,21 @@ def event(item, command, arguments=""):
 
 
 def choose(name):
-    return event("pqClientMainWindow/menubar/menuFilters/Alphabetical", "activate", name)
+    return event(WINDOW + "menubar/menuFilters/Alphabetical", "activate", name)
 
 
 def set_property(name, value):
-    kind = "CheckBox" if value in ("true", "false") else "ComboBox"
-    command = "set_boolean" if kind == "CheckBox" else "set_string"
-    return event(f"{FRAME}ProxyPanel/{name}/{kind}", command, value)
+    kind, command = ("CheckBox", "set_boolean") if value in ("true", "false") else ("ComboBox", "set_string")
+    return event(f"{FRAME}{name}/{kind}", command, value)
 
 
 def expect_of(item, state, value):
     return f"<pqcheck object='{item}' property='{state}' arguments={quoteattr(value)} />"
 
 
-def expect(name, state, value):
+def expect(name, state, value="true"):
     """That the row of a property is in a state: "enabled" or "visible"."""
-    return expect_of(f"{FRAME}ProxyPanel/{name}", state, value)
+    return expect_of(FRAME + name, state, value)
 
 
 APPLY = event(PANEL + "Accept", "activate")
@@ -79,10 +83,8 @@ def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
     @returns what is shown afterwards, by the names of the pipeline's items, and what was printed"""
     folder = tempfile.mkdtemp(dir=FOLDER)
     script, played = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
-    with open(script, "w", encoding="utf-8") as file:
-        file.write(SCRIPT.format(plugin=plugin, more=more))
-    with open(played, "w", encoding="utf-8") as file:
-        file.write("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
+    pathlib.Path(script).write_text(SCRIPT.format(plugin=plugin, more=more))
+    pathlib.Path(played).write_text("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
     with subprocess.Popen(
             [paraview, "--dr", "--script=" + script, "--test-script=" + played, "--exit"],
             env=dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder), stdout=subprocess.PIPE,
@@ -96,8 +98,74 @@ def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
             print(process.communicate()[0])
             sys.exit("failed: ParaView waits, in a dialog if an event could not be played")
     print(said)
-    check(("Success =  true" in said) == possible,
-          "events could not be played" if possible else "events could be played")
+    check(("Success =  true" in said) == possible, f"events could{' not' * possible} be played")
     reports = [line[6:] for line in said.splitlines() if line.startswith("shown:")]
     check(reports, "nothing was reported")
     return json.loads(reports[-1]), said
+
+
+class _ButtonEvent(ctypes.Structure):
+    _fields_ = [(name, getattr(ctypes, "c_" + kind)) for name, kind in (
+        ("type", "int"), ("serial", "ulong"), ("send_event", "int"), ("display", "void_p"), ("window", "ulong"),
+        ("root", "ulong"), ("subwindow", "ulong"), ("time", "ulong"), ("x", "int"), ("y", "int"), ("x_root", "int"),
+        ("y_root", "int"), ("state", "uint"), ("button", "uint"), ("same_screen", "int"))
+        ] + [("padding", ctypes.c_long * 24)]
+
+
+class Mouse:
+    """Clicks in windows of other programs, through the X server."""
+
+    def __init__(self):
+        self._x = ctypes.CDLL("libX11.so.6")
+        self._x.XOpenDisplay.restype = ctypes.c_void_p
+        self._x.XDefaultRootWindow.restype = ctypes.c_ulong
+        self._display = ctypes.c_void_p(self._x.XOpenDisplay(None))
+        self._root = ctypes.c_ulong(self._x.XDefaultRootWindow(self._display))
+        # A window may be closed while it is looked at.
+        self._ignore = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: 0)
+        self._x.XSetErrorHandler(self._ignore)
+
+    def _find(self, title):
+        """The window with this title, or None. No window manager puts windows into others here."""
+        ids, children, count = ctypes.c_ulong(), ctypes.POINTER(ctypes.c_ulong)(), ctypes.c_uint()
+        self._x.XQueryTree(self._display, self._root, *2 * [ctypes.byref(ids)], ctypes.byref(children),
+                           ctypes.byref(count))
+        windows = [ctypes.c_ulong(child) for child in children[:count.value]]
+        self._x.XFree(children)
+        for window in windows:
+            name = ctypes.c_char_p()
+            if self._x.XFetchName(self._display, window, ctypes.byref(name)) and name.value == title.encode():
+                return window
+        return None
+
+    def click(self, title, right, bottom):
+        """Clicks in the window with this title, so many pixels from its lower right corner."""
+        window = self._find(title)
+        if window is None:
+            return
+        size = [ctypes.c_uint() for _ in range(7)]
+        self._x.XGetGeometry(self._display, window, *map(ctypes.byref, size))
+        for kind, state in ((4, 0), (5, 1 << 8)):  # press and release
+            sent = _ButtonEvent(type=kind, display=self._display, window=window, root=self._root, state=state, button=1,
+                                x=size[3].value - right, y=size[4].value - bottom, same_screen=1)
+            self._x.XSendEvent(self._display, window, 1, 0, ctypes.byref(sent))
+        self._x.XFlush(self._display)
+
+
+def python_alone(library, package):
+    """@returns a folder to import a copy of the package from, and the plugin there"""
+    copy = FOLDER / "site/scatteredisopoints"
+    shutil.copytree(package, copy, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    (copy / "_paths.py").write_text(
+        f"from pathlib import Path\nLIBRARY = {library!r}\nPLUGIN = Path('nothing')\n"
+        "PYTHON_PLUGIN = Path(__file__).parent / 'paraview/scattered_isopoints.py'\n")
+    return FOLDER / "site", str(copy / "paraview/scattered_isopoints.py")
+
+
+def run_script(pvbatch, text, **environment):
+    """@returns the lines that begin with "found:", and what a script of pvbatch printed"""
+    (FOLDER / "script.py").write_text(text)
+    done = subprocess.run([pvbatch, str(FOLDER / "script.py")], env=dict(os.environ, **environment), check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    check(done.returncode == 0 and "Traceback" not in done.stdout, f"{text}{done.stdout}")
+    return [line for line in done.stdout.splitlines() if line.startswith("found:")], done.stdout

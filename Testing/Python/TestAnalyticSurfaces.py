@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces that Testing/Benchmark measures against: feet lie on the surface, no other
+"""The surfaces that Benchmark measures against: feet lie on the surface, no other
 point of it is nearer, and normals point towards decreasing values."""
 
 import os
@@ -8,7 +8,8 @@ import unittest
 
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Benchmark"))
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "Benchmark"))
 import analytic_surfaces as surfaces  # noqa: E402
 
 SPACING = 0.05

@@ -48,8 +48,7 @@ class Signatures(unittest.TestCase):
 
     def members(self, struct):
         body = re.search(r"typedef struct %s\s*{(.*?)}" % struct, self.text, re.DOTALL)[1]
-        return [(name, self.C_TYPES[kind.strip()])
-                for kind, name in re.findall(r"([\w *]+?\*?) (\w+);", body)]
+        return [(name, self.C_TYPES[kind.strip()]) for kind, name in re.findall(r"([\w *]+?\*?) (\w+);", body)]
 
     def test_structs(self):
         for struct, mirror in (("isopoint_array", _library.Array), ("isopoint_options", _library.Options)):
@@ -70,8 +69,7 @@ class Signatures(unittest.TestCase):
                 r"ISOPOINT_((?:PROJECTION_(?!ORDERS)|NORMALS_|PRECISION_)\w+) = (-?\d+)", self.text):
             own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(r"^PRECISION_(.*)", r"\1_PRECISION", name))
             found[names.get(name, own)] = int(number)
-        ours = {name: number for constants in _options.CONSTANTS.values()
-                for name, number in constants.items()}
+        ours = {name: number for constants in _options.CONSTANTS.values() for name, number in constants.items()}
         self.assertEqual(found, ours)
 
     def test_functions(self):
@@ -164,46 +162,33 @@ class Arrays(unittest.TestCase):
 
     def test_wrong_arguments(self):
         positions, values = cloud(100)
-        for arguments, options, error, text in (
-                ((positions[:, :2], values), {}, ValueError, r"\(100, 2\), not \(n, 3\).*append zeros"),
-                ((positions.ravel(), values), {}, ValueError, r"\(300,\), not \(n, 3\)"),
-                ((3.0, values), {}, ValueError, r"\(\), not \(n, 3\)"),
-                ((positions, 3.0), {}, ValueError, r"values have the shape \(\), not \(100,\)"),
-                ((positions, values[:99]), {}, ValueError, r"\(99,\), not \(100,\)"),
-                ((positions, positions), {}, ValueError, r"values have the shape \(100, 3\)"),
-                ((positions,), {}, TypeError, "values are missing"),
-                ((positions * 1j, values), {}, TypeError, "positions are of the type complex128"),
-                ((positions, ["a"] * 100), {}, TypeError, "values are of the type"),
-                ((positions, np.full(100, None)), {}, TypeError, "values are of the type object"),
-                ((positions, values, np.nan), {}, ValueError, "not a number"),
-                ((positions, values, "0.3"), {}, TypeError, "not numbers"),
-                ((positions, values, None), {}, TypeError, "not numbers"),
-                ((positions, values), {"threads": 0}, ValueError, "threads are 0"),
-                ((positions, values), {"threads": 2.5}, TypeError, "float"),
-                ((positions, values), {"progress": 3}, TypeError, "progress cannot be 3"),
-                ((positions, values), {"triangles": "no"}, ValueError, "triangles cannot be 'no'"),
-                ((positions, values), {"projection": True}, ValueError, "projection cannot be True"),
-                ((positions, values, [1j]), {}, TypeError, "isovalues are of the type complex128"),
-                ((positions, values, ["0.3"]), {}, TypeError, "isovalues are of the type"),
-                ((positions, values), {"arrays": {"a": values[:3]}}, ValueError, "a have the shape"),
-                ((positions, values), {"arrays": [values]}, TypeError, "a mapping of names"),
-                ((positions, values), {"arrays": {"values": values}}, ValueError, "cannot have the name"),
-                ((positions, values), {"gap": 2}, TypeError, "unknown option gap; there are .*drop_gaps"),
-                ((positions, values), {"size": 2}, TypeError, "unknown option size"),
-                ((positions, values), {"triangles": True, "angle": 30.0}, TypeError, "unknown option"),
-                ((positions, values), {"regularize": True}, TypeError, "unknown option regularize"),
-                ((positions, values), {"triangles": True, "regularize": 2}, ValueError, "True or False"),
-                ((positions, values), {"angle": 200.0}, ValueError, "angle is 200, .*0 to 180"),
-                ((positions, values), {"angle": "wide"}, ValueError, "angle cannot be 'wide'"),
-                ((positions, values), {"projection": "cubes"}, ValueError, "projection cannot be"),
-                ((positions, values), {"projection": 1.5}, ValueError, "projection cannot be 1.5"),
-                ((positions, values), {"number_of_neighbors": 2**32 + 12}, ValueError, "out of range"),
-                ((positions, values), {"drop_gaps": 2}, ValueError, "True or False"),
-                ((positions, values), {"controller": object()}, TypeError, "controller")):
-            if "controller" in options and contouring.compiled_filters():
-                continue
+        triangles = dict(triangles=True)
+        for arguments, error, text in (
+                ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
+                ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
+                ((3.0, values), ValueError, r"\(\).*\(n, 3\)"), ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
+                ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
+                ((positions, positions), ValueError, r"values.*\(100, 3\)"), ((positions,), TypeError, "values"),
+                ((positions * 1j, values), TypeError, "positions.*complex128"),
+                ((positions, ["a"] * 100), TypeError, "values"), ((positions, np.full(100, None)), TypeError, "object"),
+                ((positions, values, np.nan), ValueError, "not a number"),
+                *(((positions, values, wrong), TypeError, "isovalues|not numbers")
+                  for wrong in ("0.3", None, [1j], ["0.3"]))):
             with self.subTest(text=text), self.assertRaisesRegex(error, text):
-                contour(*arguments, **options)
+                contour(*arguments)
+        for options, error, text in (
+                (dict(threads=0), ValueError, "threads"), (dict(threads=2.5), TypeError, "float"),
+                (dict(progress=3), TypeError, "progress"), (dict(triangles="no"), ValueError, "triangles"),
+                *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
+                (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
+                (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),
+                (dict(size=2), TypeError, "size"), (dict(triangles, angle=30.0), TypeError, "angle"),
+                (dict(regularize=True), TypeError, "regularize"), (dict(triangles, regularize=2), ValueError, "regularize"),
+                (dict(angle=200.0), ValueError, "angle.*200.*180"), (dict(angle="wide"), ValueError, "angle"),
+                (dict(number_of_neighbors=2**32 + 12), ValueError, "range"), (dict(drop_gaps=2), ValueError, "drop_gaps"),
+                *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
+            with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
+                contour(positions, values, **options)
 
 
 class Results(unittest.TestCase):
@@ -220,8 +205,7 @@ class Results(unittest.TestCase):
         for scale in (1.0, 0.5):
             splats = surface.splats(scale)
             corners = splats.points[splats.triangles]
-            areas = np.linalg.norm(
-                np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+            areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
             self.assertAlmostEqual(areas.sum() / (4 * np.pi * 0.3**2), scale**2, delta=0.02)
         for wrong in (0.0, -1.0, np.nan, np.inf):
             with self.assertRaisesRegex(ValueError, "The scale of splats"):
@@ -269,8 +253,7 @@ class Results(unittest.TestCase):
 
     def test_arrays_that_are_not_computed(self):
         positions, values = cloud()
-        surface = contour(positions, values, 0.3, compute_normals=False, compute_splats=False,
-                          compute_scalars=False)
+        surface = contour(positions, values, 0.3, compute_normals=False, compute_splats=False, compute_scalars=False)
         self.assertEqual(surface.arrays, {})
         self.assertIsNone(surface.normals)
         self.assertIsNone(surface.radii)
@@ -326,8 +309,7 @@ class KeptTrees(unittest.TestCase):
         for later in (np.sin(5 * values), values.astype(np.float32), np.rint(100 * values).astype(int)):
             samples.replace_values(later)
             isovalue = float(np.median(later)) + 0.25
-            self.assertEqual(contents(samples.contour(isovalue)),
-                             contents(contour(positions, later, isovalue)))
+            self.assertEqual(contents(samples.contour(isovalue)), contents(contour(positions, later, isovalue)))
         with self.assertRaisesRegex(ValueError, r"values have the shape \(3,\)"):
             samples.replace_values(values[:3])
 
@@ -379,8 +361,7 @@ class KeptTrees(unittest.TestCase):
 
         run_together(lambda: extract(1), lambda: extract(2))
         for seed in (1, 2):
-            self.assertEqual(found[seed],
-                             contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True)))
+            self.assertEqual(found[seed], contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True)))
 
     def test_memory_is_given_back(self):
         statm = pathlib.Path("/proc/self/statm")
@@ -460,61 +441,52 @@ class Interruptions(unittest.TestCase):
                 samples.contour(0.3, progress=interrupt)
         self.assertGreater(len(samples.contour(0.3)), 1000)
 
-    def test_all_handlers_of_signals_may_raise(self):
-        result = self.run_script(
-            "def end(*_): raise TimeoutError\n"
-            "signal.signal(signal.SIGALRM, end)\n"
-            "for _ in range(10):\n"
-            "    signal.setitimer(signal.ITIMER_REAL, 0.05)\n"
-            "    try:\n"
-            "        for _ in range(99): contour(positions, values, 1.5, triangles=True)\n"
-            "    except TimeoutError: print('raised')\n")
-        self.assertEqual((result.stdout, result.stderr), (10 * "raised\n", ""))
-
-    def test_handlers_of_signals_may_go_on(self):
-        result = self.run_script(
-            "noted = []\n"
-            "signal.signal(signal.SIGINT, lambda *_: noted.append(1))\n"
-            "threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
-            "for _ in range(99):\n"
-            "    surface = contour(positions, values, 1.5, triangles=True)\n"
-            "    if noted: break\n"
-            "print(noted and len(surface) > 1000)\n")
-        self.assertEqual((result.stdout, result.stderr), ("True\n", ""))
-
-    def test_the_interpreter_may_end_in_a_call(self):
-        """A daemon thread ends silently, although it catches exceptions and has time to go on."""
-        result = self.run_script(
-            "def work():\n"
-            "    while True:\n"
-            "        try: contour(positions, values, 1.5, triangles=True)\n"
-            "        except Exception as error: print(repr(error))\n"
-            "threading.Thread(target=work, daemon=True).start()\n"
-            "time.sleep(0.3)\n",
-            before="import atexit, time; atexit.register(time.sleep, 0.5)\n")
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
-
-    def test_calls_when_the_interpreter_ends(self):
-        result = self.run_script("", before=(
-            "import atexit\n"
-            "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"))
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "True\n", ""))
-
-    def run_script(self, script, before=""):
-        return subprocess.run([sys.executable, "-c", before + (
-            "import numpy, os, signal, threading\n"
+    def test_signals_and_the_end_of_the_interpreter(self):
+        none = r"\A\Z"
+        begin = (
+            "import numpy, os, signal, threading, time\n"
             "from scatteredisopoints import contour\n"
             "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
             "positions = numpy.random.default_rng(1).random((200000, 3))\n"
-            "values = positions.sum(axis=1)\n") + script], capture_output=True, text=True)
-
-    def test_interrupts_from_outside(self):
-        """A signal that arrives at any time ends a script with KeyboardInterrupt."""
-        result = self.run_script(
-            "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
-            "for _ in range(99): contour(positions, values, 1.5, triangles=True)\n")
-        self.assertRegex(result.stderr, r"KeyboardInterrupt\n$")
-        self.assertNotIn("Exception ignored", result.stderr)
+            "values = positions.sum(axis=1)\n"
+            "interrupt = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))\n")
+        for name, before, script, output, errors in (
+                ("all handlers of signals may raise", "", (
+                    "def end(*_): raise TimeoutError\n"
+                    "signal.signal(signal.SIGALRM, end)\n"
+                    "for _ in range(10):\n"
+                    "    signal.setitimer(signal.ITIMER_REAL, 0.05)\n"
+                    "    try:\n"
+                    "        for _ in range(99): contour(positions, values, 1.5, triangles=True)\n"
+                    "    except TimeoutError: print('raised')\n"), 10 * "raised\n", none),
+                ("handlers of signals may go on", "", (
+                    "noted = []\n"
+                    "signal.signal(signal.SIGINT, lambda *_: noted.append(1))\n"
+                    "interrupt.start()\n"
+                    "for _ in range(99):\n"
+                    "    surface = contour(positions, values, 1.5, triangles=True)\n"
+                    "    if noted: break\n"
+                    "print(noted and len(surface) > 1000)\n"), "True\n", none),
+                ("interrupts from outside end a script", "", (
+                    "interrupt.start()\n"
+                    "for _ in range(99): contour(positions, values, 1.5, triangles=True)\n"), "",
+                 r"\A(?s:(?!.*Exception ignored).*)KeyboardInterrupt\n\Z"),
+                # A daemon thread ends silently, although it catches exceptions and has time to go on.
+                ("the interpreter may end in a call", "import atexit, time; atexit.register(time.sleep, 0.5)\n", (
+                    "def work():\n"
+                    "    while True:\n"
+                    "        try: contour(positions, values, 1.5, triangles=True)\n"
+                    "        except Exception as error: print(repr(error))\n"
+                    "threading.Thread(target=work, daemon=True).start()\n"
+                    "time.sleep(0.3)\n"), "", none),
+                ("calls when the interpreter ends", (
+                    "import atexit\n"
+                    "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"), "", "True\n", none)):
+            with self.subTest(name):
+                result = subprocess.run([sys.executable, "-c", before + begin + script], capture_output=True, text=True)
+                self.assertEqual(result.stdout, output)
+                self.assertRegex(result.stderr, errors)
+                self.assertEqual(result.returncode == 0, errors == none)
 
     @unittest.skipUnless(hasattr(os, "fork"), "there is no fork()")
     def test_forked_children(self):
@@ -539,8 +511,7 @@ class Imports(unittest.TestCase):
         script = ("import sys, numpy; before = set(sys.modules); import scatteredisopoints\n"
                   "print(*{name.split('.')[0] for name in set(sys.modules) - before})")
         result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-        loaded = set(result.stdout.split()) - set(sys.stdlib_module_names if sys.version_info >= (3, 10)
-                                                  else ())
+        loaded = set(result.stdout.split()) - set(sys.stdlib_module_names if sys.version_info >= (3, 10) else ())
         self.assertFalse(loaded & {"vtkmodules", "vtk", "pyvista", "cvista", "tqdm", "rich"})
 
     def test_names(self):

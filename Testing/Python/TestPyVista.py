@@ -43,8 +43,7 @@ class Accessor(unittest.TestCase):
         np.testing.assert_allclose(surface["place"], surface.points, atol=5e-3)
         for options in ({}, {"regularize": False}):
             surface = data.scattered.contour([0.3], "distance", **options)
-            expected = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3,
-                               triangles=True, **options)
+            expected = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True, **options)
             np.testing.assert_array_equal(surface.points, expected.points)
             np.testing.assert_array_equal(surface.regular_faces, expected.triangles)
 
@@ -60,8 +59,8 @@ class Accessor(unittest.TestCase):
         part = half.scattered.splats()
         self.assertAlmostEqual(part.area / splats.area, 0.5, delta=0.03)
         octagons = pv.PolyData(isopoints.points)
-        octagons.point_data["Normals"] = isopoints.point_data["Normals"]
-        octagons.point_data["Radius"] = isopoints.point_data["Radius"]
+        for name in ("Normals", "Radius"):
+            octagons.point_data[name] = isopoints.point_data[name]
         visible = np.count_nonzero(octagons["Radius"])
         self.assertLess(visible, isopoints.n_points)  # some are hidden behind close ones
         self.assertEqual(octagons.scattered.splats().n_cells, 6 * visible)
@@ -169,20 +168,13 @@ class Accessor(unittest.TestCase):
             self.assertGreater(blocks.scattered.contour([0.3]).n_points, 100)
 
     def test_what_has_no_samples(self):
-        table = pv.Table(np.zeros((3, 2)))
-        self.assertTrue(hasattr(table, "scattered"))
-        with self.assertRaisesRegex(TypeError, "A Table has no samples"):
-            table.scattered.contour([0.3])
         data = cloud()
-        for scalars, error, text in (("speed", ValueError, 'named "speed"'),
-                                     ("place", ValueError, "3 components"),
-                                     (np.zeros(3), ValueError, "3 values for a data set of 20000")):
+        for source, arguments, options, error, text in (
+                (pv.Table(np.zeros((3, 2))), [], {}, TypeError, "Table"), (data, ["speed"], {}, ValueError, "speed"),
+                (data, ["place"], {}, ValueError, "3 components"), (data, [np.zeros(3)], {}, ValueError, "3 values.*20000"),
+                (pv.PolyData(data.points), [], {}, ValueError, "scalars"), (data, [], dict(gaps=1), TypeError, "gaps")):
             with self.assertRaisesRegex(error, text):
-                data.scattered.contour([0.3], scalars)
-        with self.assertRaisesRegex(ValueError, "no active scalars"):
-            pv.PolyData(data.points).scattered.contour([0.3])
-        with self.assertRaisesRegex(TypeError, "unknown option gaps"):
-            data.scattered.contour([0.3], gaps=1)
+                source.scattered.contour([0.3], *arguments, **options)
 
     def test_data_of_contour(self):
         surface = contour(cloud(), "distance", 0.3)

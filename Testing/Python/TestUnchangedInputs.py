@@ -4,22 +4,13 @@
 import unittest
 
 import numpy as np
-from scatteredisopoints import (
-    vtkIsopointSplatPolygons,
-    vtkScatteredIsopointFilter,
-    vtkScatteredIsosurfaceFilter,
-)
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray, vtkUnsignedCharArray
+from scatteredisopoints import vtkIsopointSplatPolygons, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from vtk_data import cloud_of, configured, leaves_of, named, positions_in
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet,
-    vtkDataObject,
-    vtkDataSetAttributes,
-    vtkImageData,
-    vtkMultiBlockDataSet,
-    vtkPartitionedDataSetCollection,
-    vtkPolyData,
-)
+    vtkCompositeDataSet, vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet,
+    vtkPartitionedDataSetCollection)
 
 # For each filter a property, and the values of the updates.
 CHANGES = {
@@ -29,41 +20,21 @@ CHANGES = {
 }
 
 
-def named(name, values):
-    array = numpy_to_vtk(np.asarray(values), deep=True)
-    array.SetName(name)
-    return array
-
-
-def add_fields(data):
-    data.GetFieldData().AddArray(named("TimeValue", [0.25]))
-    names = vtkStringArray()
-    names.SetName("origin")
-    names.InsertNextValue("a reader")
-    data.GetFieldData().AddArray(names)
-
-
 def add_arrays(data):
     """Values, normals and ghosts of the points, and fields."""
-    count = data.GetNumberOfPoints()
-    places = np.array([data.GetPoint(i) for i in range(count)])
-    data.GetPointData().SetScalars(named("f", np.linalg.norm(places - 0.5, axis=1) - 0.3))
-    data.GetPointData().SetNormals(named("n", places.astype(np.float32)))
-    ghosts = vtkUnsignedCharArray()
-    ghosts.SetName(vtkDataSetAttributes.GhostArrayName())
-    for i in range(count):
-        ghosts.InsertNextValue(1 if i % 50 == 0 else 0)
-    data.GetPointData().AddArray(ghosts)
-    add_fields(data)
+    if not isinstance(data, vtkCompositeDataSet):
+        places = positions_in(data)
+        ghosts = (np.arange(len(places)) % 50 == 0).astype(np.uint8)
+        data.GetPointData().SetScalars(named("f", np.linalg.norm(places - 0.5, axis=1) - 0.3))
+        data.GetPointData().SetNormals(named("n", places.astype(np.float32)))
+        data.GetPointData().AddArray(named(vtkDataSetAttributes.GhostArrayName(), ghosts))
+    for name, value in (("TimeValue", 0.25), ("origin", "a reader")):
+        data.GetFieldData().AddArray(named(name, [value]))
     return data
 
 
-def cloud(seed):
-    points = vtkPoints()
-    points.SetData(named("places", np.random.default_rng(seed).random((2000, 3))))
-    data = vtkPolyData()
-    data.SetPoints(points)
-    return add_arrays(data)
+def cloud(seed=1):
+    return add_arrays(cloud_of(np.random.default_rng(seed).random((2000, 3))))
 
 
 def image():
@@ -75,19 +46,17 @@ def image():
 
 def blocks():
     data = vtkMultiBlockDataSet()
-    data.SetBlock(0, cloud(1))
+    data.SetBlock(0, cloud())
     data.SetBlock(2, image())
     data.GetMetaData(0).Set(vtkCompositeDataSet.NAME(), "left")
-    add_fields(data)
-    return data
+    return add_arrays(data)
 
 
 def collection():
     data = vtkPartitionedDataSetCollection()
-    data.SetPartition(0, 0, cloud(1))
-    data.SetPartition(1, 0, cloud(2))
-    add_fields(data)
-    return data
+    for i in range(2):
+        data.SetPartition(i, 0, cloud(i))
+    return add_arrays(data)
 
 
 def content(data):
@@ -99,35 +68,23 @@ def content(data):
         attributes = data.GetAttributesAsFieldData(association)
         for i in range(attributes.GetNumberOfArrays() if attributes else 0):
             array = attributes.GetAbstractArray(i)
-            values = (
-                [array.GetValue(k) for k in range(array.GetNumberOfValues())]
-                if isinstance(array, vtkStringArray)
-                else vtk_to_numpy(array).tobytes()
-            )
+            is_text = isinstance(array, vtkStringArray)
+            values = [array.GetValue(0)] if is_text else vtk_to_numpy(array).tobytes()
             result.append((association, array.GetName(), array.GetNumberOfTuples(), values))
     if isinstance(data, vtkCompositeDataSet):
-        iterator = data.NewIterator()
-        iterator.SkipEmptyNodesOff()
-        iterator.InitTraversal()
-        while not iterator.IsDoneWithTraversal():
-            name = data.GetMetaData(iterator).Get(vtkCompositeDataSet.NAME())
-            result.append((name, content(iterator.GetCurrentDataObject())))
-            iterator.GoToNextItem()
-    else:
-        result.append([data.GetPoint(i) for i in range(data.GetNumberOfPoints())])
-        result.append(data.GetNumberOfCells())
-    return result
+        names = data.GetMetaData(0).Get(vtkCompositeDataSet.NAME())
+        return [result, names, [content(leaf) for leaf in leaves_of(data, skips_empty=False)]]
+    return [result, positions_in(data).tolist(), data.GetNumberOfCells()]
 
 
 class UnchangedInputs(unittest.TestCase):
     def test_every_filter_and_input(self):
         for filter_class, (method, values) in CHANGES.items():
-            for make in (lambda: cloud(1), image, blocks, collection):
+            for make in (cloud, image, blocks, collection):
                 data = make()
                 before = content(data)
                 self.assertIn("TimeValue", str(before))
-                contour = filter_class()
-                contour.SetInputDataObject(data)
+                contour = configured(filter_class, data)
                 for update, value in enumerate(values):
                     with self.subTest(filter_class.__name__, data=data.GetClassName(), update=update):
                         getattr(contour, method)(value)

@@ -133,8 +133,7 @@ def main(folder, wheel=None):
     check_results(environment, expected)
     examples = run_examples(environment, "python")
     print(f"{environment.describe()}: passed, {examples} examples of the documents")
-    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista",
-                              "tqdm")
+    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista", "tqdm")
     for backend in ("vtk", "cvista"):
         environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
         print(f"{environment.describe()}: PyVista on {backend} passed")

@@ -19,82 +19,64 @@ from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfac
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet,
-    vtkImageData,
-    vtkMultiBlockDataSet,
-    vtkPolyData,
-    vtkRectilinearGrid,
-)
+    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid)
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK, SIZE = (RANKS.GetLocalProcessId(), RANKS.GetNumberOfProcesses()) if RANKS else (0, 1)
 
 
-def field(kind, p, random):
-    x, y, z = p[:, 0], p[:, 1], p[:, 2]
-    if kind == "waves":
-        return np.sin(7 * x) + np.cos(5 * y + x) + np.sin(6 * z - 2 * y)
-    if kind == "cube":
-        return 0.6 - np.abs(p - 0.5).max(axis=1)
-    if kind == "sheets":
-        return np.minimum(np.abs(z - 0.45), np.abs(z - 0.55 + 0.1 * x)) - 0.02
-    if kind == "step":
-        return (x + 0.3 * y > 0.6).astype(float) + 0.05 * random.random(len(p))
-    if kind == "noise":
-        return np.sin(7 * x) + 0.3 * random.normal(size=len(p))
-    if kind == "integers":
-        return np.round(4 * (np.sin(7 * x) + np.cos(5 * y)))
-    return np.linalg.norm(p - 0.5, axis=1)
+def lattice(count):
+    grid = np.arange(count) / (count - 1)
+    return np.array(np.meshgrid(grid, grid, grid)).reshape(3, -1).T.copy()
 
 
-def positions(kind, count, random):
-    if kind == "clustered":
-        return 0.5 + (random.random((count, 3)) - 0.5) * 10.0 ** (-3 * random.random((count, 1)))
-    if kind == "lattice":
-        side = max(2, int(round(count ** (1 / 3))))
-        grid = np.arange(side) / (side - 1)
-        return np.array(np.meshgrid(grid, grid, grid)).reshape(3, -1).T.copy()
-    if kind == "coarse":
-        return np.floor(random.random((count, 3)) * 12) / 12
-    if kind == "lines":
-        p = random.random((count, 3))
-        p[:, 1:] = np.floor(p[:, 1:] * 14) / 14
-        return p
-    if kind == "slab":
-        return random.random((count, 3)) * [1.0, 1.0, 0.05]
-    if kind == "coplanar":
-        return random.random((count, 3)) * [1.0, 1.0, 0.0]
-    return random.random((count, 3))
+def on_lines(p):
+    p[:, 1:] = np.floor(p[:, 1:] * 14) / 14
+    return p
+
+
+# Of positions p, and a generator r of random numbers.
+FIELDS = {
+    "waves": lambda p, r: np.sin(7 * p[:, 0]) + np.cos(5 * p[:, 1] + p[:, 0]) + np.sin(6 * p[:, 2] - 2 * p[:, 1]),
+    "cube": lambda p, r: 0.6 - np.abs(p - 0.5).max(axis=1),
+    "sheets": lambda p, r: np.minimum(np.abs(p[:, 2] - 0.45), np.abs(p[:, 2] - 0.55 + 0.1 * p[:, 0])) - 0.02,
+    "step": lambda p, r: (p[:, 0] + 0.3 * p[:, 1] > 0.6).astype(float) + 0.05 * r.random(len(p)),
+    "noise": lambda p, r: np.sin(7 * p[:, 0]) + 0.3 * r.normal(size=len(p)),
+    "integers": lambda p, r: np.round(4 * (np.sin(7 * p[:, 0]) + np.cos(5 * p[:, 1]))),
+    "distance": lambda p, r: np.linalg.norm(p - 0.5, axis=1)}
+POSITIONS = {
+    "clustered": lambda n, r: 0.5 + (r.random((n, 3)) - 0.5) * 10.0 ** (-3 * r.random((n, 1))),
+    "lattice": lambda n, r: lattice(max(2, int(round(n ** (1 / 3))))),
+    "coarse": lambda n, r: np.floor(r.random((n, 3)) * 12) / 12,
+    "lines": lambda n, r: on_lines(r.random((n, 3))),
+    "slab": lambda n, r: r.random((n, 3)) * [1.0, 1.0, 0.05],
+    "coplanar": lambda n, r: r.random((n, 3)) * [1.0, 1.0, 0.0],
+    "uniform": lambda n, r: r.random((n, 3))}
+
+
+def named(name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
 
 
 def add_arrays(attributes, p, values, types, random, dealt=slice(None)):
-    def array(rows):
-        return numpy_to_vtk(np.ascontiguousarray(rows[dealt]), deep=True)
-
-    scalars = array(values.astype(types[1]))
-    scalars.SetName("values")
-    attributes.SetScalars(scalars)
-    vectors = array(np.sin(3 * p))
-    vectors.SetName("vectors")
-    attributes.AddArray(vectors)
-    counts = array((1000 * p[:, 0]).astype(np.int32))
-    counts.SetName("counts")
-    attributes.AddArray(counts)
+    attributes.SetScalars(named("values", values.astype(types[1])[dealt]))
+    attributes.AddArray(named("vectors", np.sin(3 * p)[dealt]))
+    attributes.AddArray(named("counts", (1000 * p[:, 0]).astype(np.int32)[dealt]))
     names = vtkStringArray()
     names.SetName("names")
     for i in range(len(p))[dealt]:
         names.InsertNextValue(str(i % 97))
     attributes.AddArray(names)
     if random.random() < 0.3:
-        ghosts = array((random.random(len(p)) < 0.02).astype(np.uint8))
-        ghosts.SetName("vtkGhostType")
-        attributes.AddArray(ghosts)
+        attributes.AddArray(named("vtkGhostType", (random.random(len(p)) < 0.02).astype(np.uint8)[dealt]))
 
 
 def cloud(kinds, types, random, offset=0.0):
-    p = positions(kinds[0], int(random.integers(50, 9000)), random)
-    values = field(kinds[1], p, random)
+    p = POSITIONS[kinds[0]](int(random.integers(50, 9000)), random)
+    values = FIELDS[kinds[1]](p, random)
     if types[1] != np.int16 and random.random() < 0.2:
         values[random.random(len(p)) < 0.01] = np.nan
     p = p * types[2] + types[3] + offset
@@ -125,7 +107,7 @@ def image(kinds, types, random):
     index = np.indices(cells[::-1]).reshape(3, -1)[::-1].T / np.array(side)
     assert len(index) == count
     attributes = data.GetCellData() if is_of_cells else data.GetPointData()
-    add_arrays(attributes, index, field(kinds[1], index, random), types, random)
+    add_arrays(attributes, index, FIELDS[kinds[1]](index, random), types, random)
     return (data if RANK == 0 else vtkPolyData()), is_of_cells
 
 
@@ -187,11 +169,9 @@ def configured(number, filter_class):
 
 
 def leaves(data):
-    if data is None or not isinstance(data, vtkCompositeDataSet):
+    if not isinstance(data, vtkCompositeDataSet):
         return [data]
-    iterator = data.NewIterator()
-    found = []
-    iterator.InitTraversal()
+    iterator, found = data.NewIterator(), []
     while not iterator.IsDoneWithTraversal():
         found.append(iterator.GetCurrentDataObject())
         iterator.GoToNextItem()
@@ -202,8 +182,7 @@ def update(isopoints, digest):
     """Adds the filter's output to a hash; returns the number of points."""
     isopoints.Update()
     points = 0
-    digest.update(b"%d %d" % (isopoints.GetNumberOfSkippedSamples(),
-                              isopoints.GetNumberOfUnprojectedPoints()))
+    digest.update(b"%d %d" % (isopoints.GetNumberOfSkippedSamples(), isopoints.GetNumberOfUnprojectedPoints()))
     for leaf in leaves(isopoints.GetOutputDataObject(0)):
         count = leaf.GetNumberOfPoints() if leaf else 0
         points += count
@@ -239,13 +218,11 @@ def of_all_ranks(digest):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("count", metavar="N", nargs="?", type=int, default=200, help="default: 200")
-    parser.add_argument("first", metavar="FIRST", nargs="?", type=int, default=0, help="default: 0")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, default in (("N", 200), ("FIRST", 0)):
+        parser.add_argument(name, nargs="?", type=int, default=default, help=f"default: {default}")
     arguments = parser.parse_args()
-    for number in range(arguments.first, arguments.first + arguments.count):
+    for number in range(arguments.FIRST, arguments.FIRST + arguments.N):
         line = [str(number)]
         for filter_class in (vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter):
             isopoints, random = configured(number, filter_class)

@@ -3,55 +3,40 @@
 opacities. Pictures without shadows are compared with the window's."""
 
 import numpy as np
-from scatteredisopoints import vtkIsopointRayTracer
-from scenes import Scene, actor_of, add_array, as_array, check, color_by, isopoints, polydata, psnr
-from scenes import torus_mesh, torus_splats
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
-from vtkmodules.vtkFiltersSources import vtkSphereSource
+import scenes
+from scenes import (
+    Scene, actor_of, add_array, ball_field, blocks_of, check, color_by, configured, isopoints, polydata, positions_of,
+    psnr, run, sphere_mesh, subset, torus_mesh, torus_splats)
 from vtkmodules.vtkRenderingCore import vtkCompositeDataDisplayAttributes, vtkLight
 
 SIZE = 300
 VTK_SCALAR_MODE_USE_CELL_FIELD_DATA = 4
 VTK_SCALAR_MODE_USE_FIELD_DATA = 5
+TORUS = torus_splats(200_000)
 
 
-def traced(scene, samples=9, shadows=False):
-    tracer = vtkIsopointRayTracer()
-    tracer.SetSamplesPerPixel(samples)
-    tracer.SetShadows(shadows)
-    image = vtkImageData()
-    check(tracer.RenderToImage(scene.renderer, SIZE, SIZE, image), "there is a picture")
-    return as_array(image)
+def traced(scene, shadows=False):
+    return scenes.traced(scene.renderer, SIZE, SIZE, SamplesPerPixel=9, Shadows=shadows)
 
 
-def drawn(scene):
-    """The window's picture in four times as many pixels, averaged."""
-    scene.window.SetSize(2 * SIZE, 2 * SIZE)
-    image = scene.image()
-    return image.reshape(SIZE, 2, SIZE, 2, 3).mean(axis=(1, 3))
-
-
-def compare(name, *actors, bar=33.0):
-    scene = Scene(*actors, size=SIZE)
-    picture = traced(scene)
-    quality = psnr(picture, drawn(scene))
+def compare(name, actor, bar=33.0, peels=False):
+    """With the window's picture in four times as many pixels, averaged."""
+    scene = Scene(actor, size=2 * SIZE)
+    if peels:
+        scene.peel()
+    picture, drawn = traced(scene), scene.image().reshape(SIZE, 2, SIZE, 2, 3).mean(axis=(1, 3))
+    quality = psnr(picture, drawn)
     print(f"{name}: {quality:.1f} dB")
     check(quality >= bar, f"{name}: {quality:.1f} dB, below {bar}")
     return picture
 
 
-def body_field(p):
-    """A box, which has sharp edges."""
-    return 0.8 - np.abs(p * [1.0, 1.2, 2.4]).max(axis=1)
-
-
 def shapes():
-    torus = torus_splats(200_000)
-    compare("splats", actor_of(torus))
-    smaller = actor_of(torus)
+    compare("splats", actor_of(TORUS))
+    smaller = actor_of(TORUS)
     smaller.GetMapper().SetRadiusScale(0.5)
     compare("smaller splats", smaller, bar=28)
-    body = isopoints(body_field, -1.1, 1.1, 150_000, creases=True)
+    body = isopoints(lambda p: 0.8 - np.abs(p * [1.0, 1.2, 2.4]).max(axis=1), -1.1, 1.1, 150_000, creases=True)
     compare("a body with edges", actor_of(body))
     normal = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)
     compare("one octagon", actor_of(polydata([[0, 0, 0]], [normal], Radius=np.ones(1))), bar=35)
@@ -60,122 +45,68 @@ def shapes():
 def small_bodies():
     """A ball of four spacings casts no shadow on its own lit side, coarse as its triangles are."""
     spacing = 0.25
-    ball = isopoints(lambda p: 1.0 - np.linalg.norm(p, axis=1), -1.5, 1.5, round((3 / spacing) ** 3))
-    mesh = vtkSphereSource()
-    mesh.SetRadius(1.0)
-    mesh.SetThetaResolution(24)
-    mesh.SetPhiResolution(12)
-    mesh.Update()
-    for name, actor in (("splats", actor_of(ball)), ("mesh", actor_of(mesh.GetOutput(), False))):
+    ball = isopoints(ball_field, -1.5, 1.5, round((3 / spacing) ** 3))
+    for name, actor in (("splats", actor_of(ball)), ("mesh", actor_of(sphere_mesh(24, 12, Radius=1.0), False))):
         scene = Scene(actor, size=SIZE)
-        light = vtkLight()
-        light.SetPosition(-8.0, 3.0, 2.0)
-        scene.renderer.AddLight(light)
-        lit = traced(scene).max(axis=2)
-        darkened = (lit - traced(scene, shadows=True).max(axis=2) > 20).sum()
-        share = darkened / (lit > 20).sum()
+        scene.renderer.AddLight(configured(vtkLight(), Position=(-8.0, 3.0, 2.0)))
+        lit, shadowed = (traced(scene, shadows).max(axis=2) for shadows in (False, True))
+        share = (lit - shadowed > 20).sum() / (lit > 20).sum()
         print(f"a small ball as {name}: {share:.2%} of it in its own shadow")
         check(share < 0.002, f"a small ball as {name} is in its own shadow")
 
 
 def transforms():
-    torus = torus_splats(200_000)
-    for name, scale in (("uniform", (0.7, 0.7, 0.7)), ("not uniform", (1.2, 0.6, 0.9))):
-        actor = actor_of(torus)
-        actor.SetScale(*scale)
+    for scale in (0.7, 0.7, 0.7), (1.2, 0.6, 0.9):
+        actor = configured(actor_of(TORUS), Scale=scale, Position=(0.1, 0.2, -0.1))
         actor.RotateX(25)
         actor.RotateY(-10)
-        actor.SetPosition(0.1, 0.2, -0.1)
-        compare(f"{name} transform", actor)
+        compare(f"scaled by {scale}", actor)
 
 
 def colors():
-    torus = torus_splats(200_000)
-    by_points = actor_of(torus)
-    color_by(by_points, "x", -1.4, 1.4)
-    compare("colors of points", by_points)
-    mesh = actor_of(torus_mesh(200, 100), splats=False)
-    color_by(mesh, "x", -1.4, 1.4)
-    compare("colors of a mesh", mesh)
-    shiny = actor_of(torus)
-    shiny.GetProperty().SetSpecular(0.7)
-    shiny.GetProperty().SetSpecularPower(30)
-    shiny.GetProperty().SetAmbient(0.2)
-    shiny.GetProperty().SetColor(0.3, 0.6, 0.9)
-    compare("highlights", shiny)
+    for name, data, splats in (("points", TORUS, True), ("a mesh", torus_mesh(200, 100), False)):
+        actor = actor_of(data, splats)
+        color_by(actor, "x", -1.4, 1.4)
+        compare(f"colors of {name}", actor)
+    compare("highlights", actor_of(TORUS, Specular=0.7, SpecularPower=30, Ambient=0.2, Color=(0.3, 0.6, 0.9)))
 
 
 def colors_of_the_field():
     """Field data have a color for each cell, or one that all cells have."""
     data = torus_mesh(40, 20)
-    add_array(data, "f", np.arange(data.GetNumberOfCells()) % 7 / 6.0)
-    values = data.GetPointData().GetArray("f")
-    data.GetPointData().RemoveArray("f")
-    data.GetFieldData().AddArray(values)
-    data.GetCellData().AddArray(values)
+    add_array(data, "f", np.arange(data.GetNumberOfCells()) % 7 / 6.0, cells=True)
+    data.GetFieldData().AddArray(data.GetCellData().GetArray("f"))
 
     def colored(mode, tuple_of_all=-1):
-        actor = actor_of(data, splats=False)
-        actor.GetProperty().LightingOff()
-        mapper = actor.GetMapper()
-        mapper.ScalarVisibilityOn()
-        mapper.SetScalarMode(mode)
+        actor = actor_of(data, splats=False, Lighting=False)
+        mapper = configured(actor.GetMapper(), ScalarVisibility=True, ScalarMode=mode, FieldDataTupleId=tuple_of_all,
+                            ScalarRange=(0, 1))
         mapper.SelectColorArray("f")
-        mapper.SetFieldDataTupleId(tuple_of_all)
-        mapper.SetScalarRange(0, 1)
         return traced(Scene(actor, size=SIZE))
 
     of_cells = colored(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA)
-    of_field = colored(VTK_SCALAR_MODE_USE_FIELD_DATA)
-    check((of_field == of_cells).all(), "a color for each cell")
-    single = colored(VTK_SCALAR_MODE_USE_FIELD_DATA, 6)
+    check((colored(VTK_SCALAR_MODE_USE_FIELD_DATA) == of_cells).all(), "a color for each cell")
     seen = [len(np.unique(picture[:, SIZE // 2 - 20 : SIZE // 2 + 20].reshape(-1, 3), axis=0))
-            for picture in (of_cells, single)]
+            for picture in (of_cells, colored(VTK_SCALAR_MODE_USE_FIELD_DATA, 6))]
     check(seen[1] < seen[0] / 3, f"one color for all cells: {seen[1]} of {seen[0]} colors")
 
 
 def blocks():
-    torus = torus_splats(200_000)
-    moved = torus.NewInstance()
-    moved.DeepCopy(torus)
-    points = moved.GetPoints()
-    for i in range(0, points.GetNumberOfPoints()):
-        x, y, z = points.GetPoint(i)
-        points.SetPoint(i, 0.4 * x, 0.4 * y, 0.4 * z)
-    moved.GetPointData().RemoveArray("Radius")
-    moved.GetCellData().RemoveArray("SplatPolygon")
-    add_array(moved, "Radius", np.full(points.GetNumberOfPoints(), 0.03))
-    composite = vtkMultiBlockDataSet()
-    composite.SetBlock(0, torus)
-    composite.SetBlock(1, moved)
-    actor = actor_of(composite)
-    mapper = actor.GetMapper()
-    mapper.SetCompositeDataDisplayAttributes(vtkCompositeDataDisplayAttributes())
+    small = polydata(0.4 * positions_of(TORUS), scenes.array(TORUS, "Normals"), x=scenes.array(TORUS, "x"),
+                     Radius=np.full(TORUS.GetNumberOfPoints(), 0.03))
+    actor = actor_of(blocks_of(subset(TORUS, slice(None)), small))
+    mapper = configured(actor.GetMapper(), CompositeDataDisplayAttributes=vtkCompositeDataDisplayAttributes())
     mapper.Update()
     mapper.SetBlockColor(2, (0.9, 0.2, 0.1))
     both = compare("blocks", actor)
     mapper.SetBlockVisibility(1, False)
-    one = compare("a hidden block", actor)
-    check(psnr(both, one) < 25, "the block is hidden")
+    check(psnr(both, compare("a hidden block", actor)) < 25, "the block is hidden")
 
 
 def opacities():
-    mesh = torus_mesh(200, 100)
-    for splats, data in ((True, torus_splats(200_000)), (False, mesh)):
-        actor = actor_of(data, splats)
-        actor.GetProperty().SetOpacity(0.5)
-        scene = Scene(actor, size=SIZE)
-        scene.window.AlphaBitPlanesOn()
-        scene.renderer.UseDepthPeelingOn()
-        quality = psnr(traced(scene), drawn(scene))
-        print(f"translucent {'splats' if splats else 'mesh'}: {quality:.1f} dB")
-        check(quality > 30, "translucent")
+    for splats, data in ((True, TORUS), (False, torus_mesh(200, 100))):
+        actor = actor_of(data, splats, Opacity=0.5)
+        compare(f"translucent {'splats' if splats else 'mesh'}", actor, bar=30, peels=True)
 
 
-shapes()
-small_bodies()
-transforms()
-colors()
-colors_of_the_field()
-blocks()
-opacities()
+run(shapes, small_bodies, transforms, colors, colors_of_the_field, blocks, opacities)

@@ -2,14 +2,10 @@
 """A pick finds the splat that is seen: the surface is divided among the points nearest to it."""
 
 import numpy as np
-from scenes import RING, TUBE, Scene, actor_of, add_array, check, parts, subset, torus_splats
+from scenes import (
+    Scene, actor_of, add_array, array, cells_of, check, configured, halves, positions_of, torus_field, torus_splats)
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray,
-    vtkDataObject,
-    vtkMultiBlockDataSet,
-    vtkSelectionNode,
-)
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkSelectionNode
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkHardwareSelector, vtkPolyDataMapper
 
@@ -17,7 +13,8 @@ POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
 
 
-def ray(renderer, x, y):
+def hit_torus(renderer, x, y):
+    """Where the ray of a pixel enters the torus; None where it passes by."""
     ends = []
     for depth in (0, 1):
         renderer.SetDisplayPoint(x + 0.5, y + 0.5, depth)
@@ -25,15 +22,10 @@ def ray(renderer, x, y):
         end = np.array(renderer.GetWorldPoint())
         ends.append(end[:3] / end[3])
     length = np.linalg.norm(ends[1] - ends[0])
-    return ends[0], (ends[1] - ends[0]) / length, length
-
-
-def hit_torus(start, direction, length):
-    """Where the ray enters the torus; None where it passes by."""
     t = 0.0
     while t < length:
-        p = start + t * direction
-        distance = np.hypot(np.hypot(p[0], p[1]) - RING, p[2]) - TUBE
+        p = ends[0] + t / length * (ends[1] - ends[0])
+        distance = -torus_field(p[None])[0]
         if distance < 1e-7:
             return p
         t += distance
@@ -47,43 +39,33 @@ def hit(selection):
     check(selection.GetNumberOfNodes() == 1, "one node a pixel")
     node = selection.GetNode(0)
     properties = node.GetProperties()
-    return (
-        properties.Get(vtkSelectionNode.PROP()),
-        properties.Get(vtkSelectionNode.COMPOSITE_INDEX()),
-        vtk_to_numpy(node.GetSelectionList())[0],
-    )
+    return (properties.Get(vtkSelectionNode.PROP()), properties.Get(vtkSelectionNode.COMPOSITE_INDEX()),
+            vtk_to_numpy(node.GetSelectionList())[0])
 
 
-def selector_of(scene, field):
-    selector = vtkHardwareSelector()
-    selector.SetRenderer(scene.renderer)
-    selector.SetFieldAssociation(field)
-    return selector
+def selector_of(scene, field, *area):
+    return configured(vtkHardwareSelector(), Renderer=scene.renderer, FieldAssociation=field, Area=area)
 
 
 def pick(scene, field, x, y):
-    selector = selector_of(scene, field)
-    selector.SetArea(int(x), int(y), int(x), int(y))
-    return hit(selector.Select())
+    return hit(selector_of(scene, field, *2 * (int(x), int(y))).Select())
 
 
-def pick_randomly(name, data, field, splats, to_global):
-    """100 picks; ids of data are given to to_global(block, id), which numbers the splats."""
-    points, _, radii = splats
-    points = np.where(radii[:, None] > 1e-6, points, np.inf)  # others stand for hidden points
+def pick_randomly(name, data, field, isopoints, to_global):
+    """100 picks; ids of data are given to to_global(block, id), which numbers the isopoints."""
+    # Points without a radius are hidden by others.
+    points = np.where(array(isopoints, "Radius")[:, None] > 1e-6, positions_of(isopoints), np.inf)
     actor = actor_of(data)
     scene = Scene(actor)
     scene.camera.Zoom(1.6)
     scene.window.Render()
-    selector = selector_of(scene, field)
-    selector.SetArea(0, 0, 599, 599)
+    selector = selector_of(scene, field, 0, 0, 599, 599)
     check(selector.CaptureBuffers(), "captured buffers")
     random = np.random.default_rng(5)
     wrong = overlapped = picks = 0
     while picks < 100:
         x, y = (int(i) for i in random.integers(0, 600, 2))
-        start, direction, length = ray(scene.renderer, x, y)
-        surface = hit_torus(start, direction, length)
+        surface = hit_torus(scene.renderer, x, y)
         if surface is None:
             continue
         picks += 1
@@ -92,12 +74,12 @@ def pick_randomly(name, data, field, splats, to_global):
             check(found == pick(scene, field, x, y), "one pixel or all of them")
             check(selector.CaptureBuffers(), "captured buffers")
         check(found is not None and found[0] is actor, f"{name}: the torus is picked at {x}, {y}")
-        i = to_global(found[1], found[2])
         distance = np.linalg.norm(points - surface, axis=1)
         # Cells are cut in tangent planes, at the size of a pixel. Where corners do not meet, cells
         # overlap: 0.2 % of the picture.
-        wrong += distance[i] > 1.4 * distance.min() + 0.004
-        overlapped += distance[i] > 1.1 * distance.min() + 0.004
+        excess = distance[to_global(*found[1:])] - 0.004
+        wrong += excess > 1.4 * distance.min()
+        overlapped += excess > 1.1 * distance.min()
     print(f"{name}: {wrong} of {picks} wrong, {overlapped} where splats overlap")
     check(wrong == 0 and overlapped <= 1, name)
 
@@ -108,35 +90,15 @@ def reversed_vertices(data):
     result.ShallowCopy(data)
     result.GetCellData().Initialize()
     for name in ("SplatAxis", "SplatPolygon"):
-        shapes = vtk_to_numpy(data.GetCellData().GetArray(name))
-        add_array(result, name, shapes[::-1], cells=True)
-    cells = vtkCellArray()
-    for i in reversed(range(data.GetNumberOfPoints())):
-        cells.InsertNextCell(1, [i])
-    result.SetVerts(cells)
+        add_array(result, name, array(data, name, cells=True)[::-1], cells=True)
+    result.SetVerts(cells_of(np.arange(data.GetNumberOfPoints())[::-1, None]))
     return result
-
-
-def two_blocks(data):
-    points, _, _ = parts(data)
-    blocks = vtkMultiBlockDataSet()
-    left = points[:, 0] < 0
-    for i, chosen in enumerate((left, ~left)):
-        blocks.SetBlock(2 * i, subset(data, chosen))
-    # Flat indices: 1, an empty block, 3.
-    ids = {1: np.flatnonzero(left), 3: np.flatnonzero(~left)}
-    return blocks, lambda block, i: ids[block][i]
 
 
 def hidden_behind_another_actor(data):
     """What stands before the splats is picked instead of them, and the other way round."""
-    source = vtkSphereSource()
-    source.SetCenter(0, -1.4, 0.4)
-    source.SetRadius(0.1)
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(source.GetOutputPort())
-    ball = vtkActor()
-    ball.SetMapper(mapper)
+    source = configured(vtkSphereSource(), Center=(0, -1.4, 0.4), Radius=0.1)
+    ball = configured(vtkActor(), Mapper=configured(vtkPolyDataMapper(), InputConnection=source.GetOutputPort()))
     torus = actor_of(data)
     scene = Scene(torus, ball)
     scene.window.Render()
@@ -151,18 +113,16 @@ def hidden_behind_another_actor(data):
 
 def main():
     data = torus_splats(300_000)
-    splats = parts(data)
     last = data.GetNumberOfPoints() - 1
-    pick_randomly("points", data, POINTS, splats, lambda block, i: i)
-    pick_randomly("cells", data, CELLS, splats, lambda block, i: i)
-    pick_randomly(
-        "cells in another order", reversed_vertices(data), CELLS, splats, lambda block, i: last - i
-    )
-    blocks, to_global = two_blocks(data)
-    pick_randomly("points of blocks", blocks, POINTS, splats, to_global)
-    pick_randomly("cells of blocks", blocks, CELLS, splats, to_global)
+    blocks, (left, right) = halves(data)
+    ids = {1: left, 3: right}  # flat indices; 2 is the empty block
+    for name, shown, field, to_global in (
+            ("points", data, POINTS, lambda block, i: i), ("cells", data, CELLS, lambda block, i: i),
+            ("cells in another order", reversed_vertices(data), CELLS, lambda block, i: last - i),
+            ("points of blocks", blocks, POINTS, lambda block, i: ids[block][i]),
+            ("cells of blocks", blocks, CELLS, lambda block, i: ids[block][i])):
+        pick_randomly(name, shown, field, data, to_global)
     hidden_behind_another_actor(data)
 
 
-if __name__ == "__main__":
-    main()
+main()

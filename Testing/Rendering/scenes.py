@@ -1,24 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as splats and as meshes, and pictures of them, for the tests of the splat mapper."""
+"""Surfaces as splats and as meshes, scenes of them, and pictures, for the tests of rendering."""
 
 import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
-from scatteredisopoints import vtkIsopointSplatMapper, vtkScatteredIsopointFilter
+from scatteredisopoints import vtkIsopointRayTracer, vtkIsopointSplatMapper, vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkPolyDataMapper,
-    vtkRenderer,
-    vtkRenderWindow,
-    vtkWindowToImageFilter,
-)
+    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
 
 RING, TUBE = 1.0, 0.4
+BOUNDS = (-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)  # of the torus
 BACKGROUND = (0.2, 0.25, 0.35)
 
 
@@ -27,46 +24,79 @@ def check(condition, message):
         sys.exit("failed: " + message)
 
 
-def add_array(data, name, values, normals=False, cells=False):
+def run(*tests):
+    for test in tests:
+        print(test.__name__, flush=True)
+        test()
+
+
+def configured(instance, **properties):
+    """Calls the methods Set... of an object; a tuple has several arguments."""
+    for name, value in properties.items():
+        getattr(instance, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
+    return instance
+
+
+def output_of(source, **properties):
+    configured(source, **properties).Update()
+    return source.GetOutput()
+
+
+def sphere_mesh(theta=100, phi=100, **properties):
+    return output_of(vtkSphereSource(), ThetaResolution=theta, PhiResolution=phi, **properties)
+
+
+def add_array(data, name, values, cells=False):
     array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
     array.SetName(name)
-    if normals:
-        data.GetPointData().SetNormals(array)
-    else:
-        (data.GetCellData() if cells else data.GetPointData()).AddArray(array)
+    attributes = data.GetCellData() if cells else data.GetPointData()
+    attributes.SetNormals(array) if name == "Normals" else attributes.AddArray(array)
+
+
+def array(data, name, cells=False):
+    return vtk_to_numpy((data.GetCellData() if cells else data.GetPointData()).GetArray(name))
+
+
+def cells_of(rows):
+    """Cells of equal sizes by the ids of their points."""
+    cells = vtkCellArray()
+    connectivity = np.insert(np.asarray(rows, np.int64), 0, np.shape(rows)[1], axis=1)
+    cells.SetCells(len(rows), numpy_to_vtkIdTypeArray(connectivity.ravel(), deep=True))
+    return cells
 
 
 def polydata(points, normals=None, **arrays):
     """Points with one vertex cell each and arrays."""
-    data = vtkPolyData()
-    vtk_points = vtkPoints()
+    data, vtk_points = vtkPolyData(), vtkPoints()
     vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
     data.SetPoints(vtk_points)
     if normals is not None:
-        add_array(data, "Normals", np.asarray(normals, dtype=np.float32), normals=True)
+        add_array(data, "Normals", np.asarray(normals, dtype=np.float32))
     for name, values in arrays.items():
         add_array(data, name, values)
-    count = len(points)
-    connectivity = np.column_stack([np.ones(count, np.int64), np.arange(count, dtype=np.int64)])
-    cells = vtkCellArray()
-    cells.SetCells(count, numpy_to_vtkIdTypeArray(connectivity.ravel(), deep=True))
-    data.SetVerts(cells)
+    data.SetVerts(cells_of(np.arange(len(points))[:, None]))
+    return data
+
+
+def blocks_of(*blocks):
+    data = vtkMultiBlockDataSet()
+    for i, block in enumerate(blocks):
+        data.SetBlock(i, block)
     return data
 
 
 def isopoints(field, low, high, count, seed=1, creases=False):
-    """The filter's isopoints where a field is 0, of random samples in a box; on request with fits
-    of creases and clipping planes along them."""
+    """The filter's isopoints where a field is 0, of random samples in a box; on request with fits of creases."""
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")
     contour = vtkScatteredIsopointFilter()
-    contour.SetInputData(samples)
-    contour.SetValue(0, 0.0)
-    if creases:
-        contour.SetProjection(vtkScatteredIsopointFilter.CREASE_FIT)
-    contour.Update()
-    return contour.GetOutput()
+    return output_of(contour, InputData=samples, Value=(0, 0.0),
+                     Projection=contour.CREASE_FIT if creases else contour.CUBIC_FIT)
+
+
+def ball_field(p):
+    return 1 - np.linalg.norm(p, axis=1)
 
 
 def torus_field(p):
@@ -78,63 +108,44 @@ def torus_splats(samples=830_000):
     return isopoints(torus_field, [-1.6, -1.6, -0.6], [1.6, 1.6, 0.6], samples)
 
 
-def parts(splats):
-    """Points, normals and radii as arrays."""
-    return (
-        vtk_to_numpy(splats.GetPoints().GetData()).astype(float),
-        vtk_to_numpy(splats.GetPointData().GetNormals()).astype(float),
-        vtk_to_numpy(splats.GetPointData().GetArray("Radius")).astype(float),
-    )
+def positions_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
 
 
 def subset(data, chosen):
     """Some of the isopoints with all their arrays."""
     points = vtk_to_numpy(data.GetPoints().GetData())
-    arrays = {}
-    for i in range(data.GetPointData().GetNumberOfArrays()):
-        array = data.GetPointData().GetArray(i)
-        if array.GetName() != "Normals":
-            arrays[array.GetName()] = vtk_to_numpy(array)[chosen]
-    normals = vtk_to_numpy(data.GetPointData().GetNormals())
-    result = polydata(points[chosen], normals[chosen], **arrays)
-    for i in range(data.GetCellData().GetNumberOfArrays()):
-        array = data.GetCellData().GetArray(i)
-        add_array(result, array.GetName(), vtk_to_numpy(array)[chosen], cells=True)
+    result = polydata(points[chosen], array(data, "Normals")[chosen])
+    for attributes, is_of_cells in ((data.GetPointData(), False), (data.GetCellData(), True)):
+        for i in range(attributes.GetNumberOfArrays()):
+            if attributes.GetArrayName(i) != "Normals":
+                add_array(result, attributes.GetArrayName(i), vtk_to_numpy(attributes.GetArray(i))[chosen], is_of_cells)
     return result
 
 
-def grid_mesh(points, normals):
-    """A mesh over a rectangular array of points; its last rows and columns meet the first."""
-    rows, columns = points.shape[:2]
-    data = polydata(points.reshape(-1, 3), normals.reshape(-1, 3), x=points[..., 0].ravel())
-    data.SetVerts(None)
-    index = np.arange(rows * columns).reshape(rows, columns)
-    right, up = np.roll(index, -1, 1), np.roll(index, -1, 0)
-    corners = np.stack([index, up, np.roll(right, -1, 0), right], -1).reshape(-1, 4)
-    cells = vtkCellArray()
-    connectivity = np.insert(corners, 0, 4, axis=1).astype(np.int64)
-    cells.SetCells(len(corners), numpy_to_vtkIdTypeArray(connectivity.ravel(), deep=True))
-    data.SetPolys(cells)
-    return data
+def halves(data):
+    """Two blocks, the left and the right half, with an empty one between; and the ids of their points."""
+    left = positions_of(data)[:, 0] < 0
+    return blocks_of(subset(data, left), None, subset(data, ~left)), (np.flatnonzero(left), np.flatnonzero(~left))
 
 
 def torus_mesh(rows=800, columns=400):
-    u, v = np.meshgrid(
-        np.linspace(0, 2 * np.pi, rows, endpoint=False),
-        np.linspace(0, 2 * np.pi, columns, endpoint=False),
-        indexing="ij",
-    )
+    u, v = np.meshgrid(np.arange(rows) * 2 * np.pi / rows, np.arange(columns) * 2 * np.pi / columns, indexing="ij")
     normals = np.stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)], -1)
-    center = np.stack([np.cos(u), np.sin(u), 0 * u], -1) * RING
-    return grid_mesh(center + TUBE * normals, normals)
+    points = RING * np.stack([np.cos(u), np.sin(u), 0 * u], -1) + TUBE * normals
+    data = polydata(points.reshape(-1, 3), normals.reshape(-1, 3), x=points[..., 0].ravel())
+    index = np.arange(rows * columns).reshape(rows, columns)
+    right, up = np.roll(index, -1, 1), np.roll(index, -1, 0)
+    data.SetVerts(None)
+    data.SetPolys(cells_of(np.stack([index, up, np.roll(right, -1, 0), right], -1).reshape(-1, 4)))
+    return data
 
 
-def actor_of(data, splats=True):
+def actor_of(data, splats=True, **properties):
+    """properties: of the actor's vtkProperty."""
     mapper = vtkIsopointSplatMapper() if splats else vtkPolyDataMapper()
-    mapper.SetInputDataObject(data)
-    mapper.ScalarVisibilityOff()
-    actor = vtkActor()
-    actor.SetMapper(mapper)
+    actor = configured(vtkActor(), Mapper=configured(mapper, InputDataObject=data, ScalarVisibility=False))
+    configured(actor.GetProperty(), **properties)
     return actor
 
 
@@ -149,38 +160,41 @@ def color_by(actor, name, low, high):
 class Scene:
     """A window with one renderer that looks down at the torus; multisampling is off by default."""
 
-    def __init__(self, *actors, size=600, samples=0):
-        self.window = vtkRenderWindow()
-        self.window.SetOffScreenRendering(1)
-        self.window.SetMultiSamples(samples)
-        self.window.SetSize(size, size)
-        self.renderer = vtkRenderer()
-        self.renderer.SetBackground(*BACKGROUND)
+    def __init__(self, *actors, size=600, samples=0, background=BACKGROUND):
+        self.window = configured(vtkRenderWindow(), OffScreenRendering=True, MultiSamples=samples, Size=(size, size))
+        self.renderer = configured(vtkRenderer(), Background=background)
         self.window.AddRenderer(self.renderer)
         self.camera = self.renderer.GetActiveCamera()
-        self.camera.SetPosition(0, -3, 3)
-        self.camera.SetFocalPoint(0, 0, 0)
         for actor in actors:
             self.renderer.AddActor(actor)
-        self.renderer.ResetCamera(-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)
+        self.look((0, -3, 3), None)
 
-    def image(self):
-        """The picture as an array, its first row at the bottom."""
+    def look(self, position, up=(0, 0, 1), bounds=BOUNDS):
+        configured(self.camera, Position=tuple(position), FocalPoint=(0, 0, 0))
+        if up:
+            self.camera.SetViewUp(*up)
+        self.renderer.ResetCamera(*bounds)
+
+    def peel(self, **properties):
+        self.window.SetAlphaBitPlanes(1)
+        configured(self.renderer, UseDepthPeeling=True, **properties)
+
+    def image(self, path=None):
+        """The picture as an array, its first row at the bottom; also as a file."""
         self.window.Render()
-        grab = vtkWindowToImageFilter()
-        grab.SetInput(self.window)
-        grab.ReadFrontBufferOff()
+        grab = configured(vtkWindowToImageFilter(), Input=self.window, ReadFrontBuffer=False)
         grab.Update()
+        if path:
+            configured(vtkPNGWriter(), FileName=path, InputData=grab.GetOutput()).Write()
         return as_array(grab.GetOutput())
 
-    def save(self, path):
-        grab = vtkWindowToImageFilter()
-        grab.SetInput(self.window)
-        grab.ReadFrontBufferOff()
-        writer = vtkPNGWriter()
-        writer.SetFileName(path)
-        writer.SetInputConnection(grab.GetOutputPort())
-        writer.Write()
+
+def traced(renderer, width, height, **properties):
+    """The ray-traced picture as an array."""
+    image = vtkImageData()
+    tracer = configured(vtkIsopointRayTracer(), **properties)
+    check(tracer.RenderToImage(renderer, width, height, image), "there is a picture")
+    return as_array(image)
 
 
 def as_array(image):
@@ -190,10 +204,7 @@ def as_array(image):
 
 
 def read_image(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return as_array(reader.GetOutput())
+    return as_array(output_of(vtkPNGReader(), FileName=path))
 
 
 def psnr(a, b):
@@ -205,12 +216,3 @@ def psnr(a, b):
 def differs(image, color=BACKGROUND):
     """Where a picture is not of a color."""
     return np.abs(image - 255 * np.asarray(color)).max(2) > 3
-
-
-def shrunk(mask):
-    """Without the pixels at its border."""
-    result = mask.copy()
-    for axis in (0, 1):
-        for shift in (-1, 1):
-            result &= np.roll(mask, shift, axis)
-    return result

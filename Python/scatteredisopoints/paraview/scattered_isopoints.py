@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ParaView's plugin in Python, for a ParaView that the compiled plugin is not for: Scattered Isopoints,
+"""ParaView's plugin in Python, for versions of ParaView without the compiled plugin: Scattered Isopoints,
 Scattered Isosurface and Isopoint Splat Polygons.
 
-Proxies, properties and help are those of the compiled plugin's XML. Points come with their polygons, since
-there is no representation that draws their splats. Load it by Tools > Manage Plugins, by PV_PLUGIN_PATH,
-which names this folder, or by scatteredisopoints.load_plugin() in a script.
+Proxies, properties and help come from the compiled plugin's XML. Points have polygons, because there is no
+representation that draws splats. Load the plugin by Tools > Manage Plugins, by setting PV_PLUGIN_PATH to
+this folder, or by scatteredisopoints.load_plugin() in a script.
 """
 
 import os
 import sys
 from xml.etree import ElementTree
 
-# The package may be beside this file alone, as where a folder is all that ParaView knows of.
+# The package may only be beside this file: ParaView may know nothing but this folder.
 _SITE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 if _SITE not in sys.path:
     sys.path.append(_SITE)
@@ -25,7 +25,7 @@ paraview_plugin_version = _vtk.VERSION
 
 
 def _adapted(name):
-    """The XML of a proxy, with ParaView's own classes in place of the compiled plugin's."""
+    """The XML of a proxy, with ParaView's own classes instead of the compiled plugin's."""
     proxy = proxy_of(name)
     proxy.tag = "SourceProxy"
     proxy.set("class", f"{__name__}.{name}")

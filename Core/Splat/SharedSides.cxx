@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Splat/SharedSides.h"
+
+#include "Core/Base/Lists.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace isopoint
+{
+namespace
+{
+
+/// The index of the side towards a point, or cell.count if there is none.
+std::size_t sideTowards(const VoronoiCell& cell, std::size_t point)
+{
+  const VoronoiCell::Corner* const side = std::find_if(cell.begin(), cell.end(),
+    [point](const VoronoiCell::Corner& corner) { return corner.beyond == point; });
+  return static_cast<std::size_t>(side - cell.begin());
+}
+
+bool hasSideTowards(const VoronoiCell& cell, std::size_t point)
+{
+  return sideTowards(cell, point) < cell.count;
+}
+
+double squaredDistance(const VoronoiCell::Corner& corner)
+{
+  return corner.x * corner.x + corner.y * corner.y;
+}
+
+double squaredLength(const VoronoiCell& cell, std::size_t side)
+{
+  const VoronoiCell::Corner& begin = cell.corners[side];
+  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const double x = end.x - begin.x;
+  const double y = end.y - begin.y;
+  return x * x + y * y;
+}
+
+/// The intersection of the sides before and after a side, if it is close.
+std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_t side)
+{
+  constexpr double mostReach = 1.1; // of the distance of the side's farther end
+  const VoronoiCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
+  const VoronoiCell::Corner& begin = cell.corners[side];
+  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const VoronoiCell::Corner& after = cell.corners[(side + 2) % cell.count];
+  const double ax = begin.x - before.x;
+  const double ay = begin.y - before.y;
+  const double bx = after.x - end.x;
+  const double by = after.y - end.y;
+  const double turn = ax * by - ay * bx;
+  const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
+  const VoronoiCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond };
+  const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
+  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
+  {
+    return meeting;
+  }
+  return std::nullopt;
+}
+
+/// Whether reduceTo() may have dropped a side between the sides towards two points: the cell has
+/// the maximum number of corners, and these sides are adjacent.
+bool mayHaveDropped(const VoronoiCell& cell, std::size_t before, std::size_t after)
+{
+  const std::size_t side = sideTowards(cell, before);
+  return cell.count == mostCorners && side < cell.count &&
+         cell.corners[(side + 1) % cell.count].beyond == after;
+}
+
+void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& cell)
+{
+  cell.corners[(side + 1) % cell.count] = corner;
+  std::copy(cell.begin() + side + 1, cell.end(), cell.corners.data() + side);
+  --cell.count;
+}
+
+/// The middle of a side, as the corner that takes its place.
+VoronoiCell::Corner middleOf(const VoronoiCell& cell, std::size_t side)
+{
+  const VoronoiCell::Corner& begin = cell.corners[side];
+  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  return { 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
+}
+
+/// Whether a cell's side for a point is between those for two other points.
+bool isBetween(const VoronoiCell& cell, std::size_t before, std::size_t point, std::size_t after)
+{
+  const std::size_t side = sideTowards(cell, point);
+  return side < cell.count && cell.corners[(side + cell.count - 1) % cell.count].beyond == before &&
+         cell.corners[(side + 1) % cell.count].beyond == after;
+}
+
+/// Whether the cells before and after a side share one as well, which would cross it: rounding and
+/// curvature decide which of the four cells at a common corner meet. All four find the same.
+bool isCrossed(const RawArray<VoronoiCell>& cells, std::size_t point, std::size_t side)
+{
+  const VoronoiCell& cell = cells[point];
+  const std::size_t beyond = cell.corners[side].beyond;
+  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
+  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  return VoronoiCell::isPoint(beyond) && VoronoiCell::isPoint(before) &&
+         VoronoiCell::isPoint(after) && isBetween(cells[beyond], after, point, before) &&
+         isBetween(cells[before], beyond, after, point) &&
+         isBetween(cells[after], point, before, beyond);
+}
+
+/// A point's cell without the sides that are crossed.
+VoronoiCell withoutCrossedSides(const RawArray<VoronoiCell>& cells, std::size_t point)
+{
+  VoronoiCell cell = cells[point];
+  for (std::size_t side = cell.count; side-- > 0;)
+  {
+    const std::size_t beyond = cells[point].corners[side].beyond;
+    if (cell.count > 3 && isCrossed(cells, point, side))
+    {
+      const std::size_t left = sideTowards(cell, beyond);
+      replace(left, middleOf(cell, left), cell);
+    }
+  }
+  return cell;
+}
+
+/// The corner that takes the place of a side; nothing if it stays.
+/// @param other the cell of the point beyond the side
+std::optional<VoronoiCell::Corner> replacementOf(
+  const VoronoiCell& cell, std::size_t side, const VoronoiCell& other)
+{
+  if (const std::optional<VoronoiCell::Corner> meeting = meetingOf(cell, side))
+  {
+    return meeting;
+  }
+  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
+  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  if (VoronoiCell::isPoint(before) && VoronoiCell::isPoint(after) &&
+      mayHaveDropped(other, after, before))
+  {
+    return middleOf(cell, side);
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfacePoints& points,
+  const std::vector<Vector>& planes, const RawArray<VoronoiCell>& cells)
+{
+  const auto reachesOver = [&](std::size_t point, std::size_t other)
+  {
+    const VoronoiCell& cell = cells[point];
+    const TangentFrame frame(planes[point]);
+    const Vector offset =
+      scaled(1.0 / cell.unit, difference(points.positions[other], points.positions[point]));
+    const double a = dot(offset, frame.first);
+    const double b = dot(offset, frame.second);
+    return std::any_of(cell.begin(), cell.end(),
+      [&](const VoronoiCell::Corner& corner)
+      { return a * corner.x + b * corner.y > 0.5 * dot(offset, offset); });
+  };
+  constexpr std::size_t grain = 4096;
+  std::vector<MissedPoint> missed =
+    collected<MissedPoint>(execution, { cells.size(), 16 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<MissedPoint>& found)
+      {
+        for (std::size_t other = begin; other < end; ++other)
+        {
+          for (const VoronoiCell::Corner& corner : cells[other])
+          {
+            const std::size_t point = corner.beyond;
+            if (VoronoiCell::isPoint(point) && !hasSideTowards(cells[point], other) &&
+                reachesOver(point, other))
+            {
+              found.emplace_back(point, other);
+            }
+          }
+        }
+      });
+  keepUnique(missed);
+  return missed;
+}
+
+VoronoiCell withSharedSides(const RawArray<VoronoiCell>& cells, std::size_t point)
+{
+  VoronoiCell cell = withoutCrossedSides(cells, point);
+  const auto isShared = [&](std::size_t side)
+  {
+    const std::size_t beyond = cell.corners[side].beyond;
+    return !VoronoiCell::isPoint(beyond) || hasSideTowards(cells[beyond], point);
+  };
+  // Shortest first, so that the result does not depend on the first corner.
+  bool isAnyReplaced = true;
+  while (isAnyReplaced && cell.count > 3)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t shortest = 0;
+    std::optional<VoronoiCell::Corner> replacement;
+    for (std::size_t side = 0; side < cell.count; ++side)
+    {
+      const double length = squaredLength(cell, side);
+      if (length < least && !isShared(side))
+      {
+        if (const std::optional<VoronoiCell::Corner> corner =
+              replacementOf(cell, side, cells[cell.corners[side].beyond]))
+        {
+          least = length;
+          shortest = side;
+          replacement = corner;
+        }
+      }
+    }
+    isAnyReplaced = replacement.has_value();
+    if (isAnyReplaced)
+    {
+      replace(shortest, *replacement, cell);
+    }
+  }
+  for (std::size_t side = 0; side < cell.count; ++side)
+  {
+    cell.corners[side].overlaps = !isShared(side);
+  }
+  return cell;
+}
+
+} // namespace isopoint

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/RawArray.h"
+#include "Core/Splat/Splat.h"
+#include "Core/Splat/VoronoiCell.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The maximum number of corners that are joined.
+constexpr std::size_t mostMeeting = 6;
+
+/// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Each of the cells
+/// that meet is in the third ring of the next, and so are the cells that share its sides.
+constexpr int splatRings = 4 * static_cast<int>(mostMeeting);
+
+/// Makes splats from cells: projects the corners onto the surface and joins those that meet; see
+/// docs/algorithm.md, section 12.6. O(points)
+/// @param cells of all points within splatRings of the shaped points
+/// @param planes the normals of all cells' tangent planes
+/// @param shaped the points whose splats are made
+/// @param splats with normals; all other fields are set
+/// @throws std::bad_alloc, Aborted
+void shapeSplats(const Execution& execution, const SurfacePoints& points,
+  RawArray<VoronoiCell> cells, const std::vector<Vector>& planes,
+  const std::vector<std::size_t>& shaped, std::vector<Splat>& splats);
+
+} // namespace isopoint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Tetrahedra/PartialTriangulation.h"
+#include "Core/Tree/NodeMarks.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace isopoint
+{
+
+/// The band, the tetrahedralized samples near a surface, with the results of tree searches: which
+/// tetrahedra are empty and which regions were searched. Valid for any isovalue and any values at
+/// the same positions.
+struct KeptTetrahedra
+{
+  explicit KeptTetrahedra(const CoordinateUnit& unit)
+    : triangulation(unit)
+  {
+  }
+
+  /// Whether it is worth keeping between extractions, beside a tree of this many samples. A sample
+  /// in the band takes 700 bytes, as much as about 30 in the tree.
+  bool isSmall(std::size_t sampleCount) const
+  {
+    constexpr std::size_t leastRatio = 8;
+    constexpr std::size_t alwaysSmall = 500000;
+    return this->triangulation.size() <= std::max(alwaysSmall, sampleCount / leastRatio);
+  }
+
+  PartialTriangulation triangulation;
+  NodeMarks marks;      // see bandmarks
+  bool isWhole = false; // whether all samples are in it
+};
+
+} // namespace isopoint

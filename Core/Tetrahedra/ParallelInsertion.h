@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CGAL's tetrahedralization as PartialTriangulation.cxx needs it, and alone includes it.
+#pragma once
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
+#include "Core/Tetrahedra/PartialTriangulation.h"
+#include "Core/Tetrahedra/TriangulationKernel.h"
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Spatial_lock_grid_3.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+namespace isopoint::band
+{
+
+/// The leaf of a vertex and the side of its value, packed into one integer.
+class VertexInfo
+{
+public:
+  VertexInfo() = default;
+  VertexInfo(std::uint64_t leaf, bool isBelow)
+    : Bits(2 * leaf + (isBelow ? 1 : 0))
+  {
+  }
+
+  std::uint64_t leaf() const { return this->Bits / 2; }
+  bool isBelow() const { return this->Bits % 2 != 0; }
+
+private:
+  std::uint64_t Bits = 0;
+};
+
+/// A lower bound on the cells that this thread can make before CGAL allocates memory. CGAL keeps a
+/// list of free cells, for each thread if Concurrency is parallel.
+inline thread_local std::ptrdiff_t freeCells = 0;
+
+/// Info of a cell; counts free cells.
+class CellInfo
+{
+public:
+  CellInfo() { --freeCells; }
+  CellInfo(const CellInfo& other)
+    : isCertified(other.isCertified)
+  {
+    --freeCells;
+  }
+  CellInfo& operator=(const CellInfo&) = default;
+  ~CellInfo() { ++freeCells; }
+
+  bool isCertified = false;
+};
+
+/// Nonblocking locks on grid cells. A thread that fails to get a lock releases all of its own and
+/// continues elsewhere, so that locks left behind by an exception on another thread stop no one.
+/// CGAL's own insertion loop would wait forever then, and cannot be aborted.
+#ifdef CGAL_LINKED_WITH_TBB
+using Locks = CGAL::Spatial_lock_grid_3<CGAL::Tag_non_blocking>;
+#else
+using Locks = CGAL::Spatial_lock_grid_3<>;
+#endif
+
+using Concurrency = CGAL::Parallel_if_available_tag;
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel,
+  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel,
+  CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>, CGAL::Default, Locks>;
+using Cell = Triangulation::Cell_handle;
+using Vertex = Triangulation::Vertex_handle;
+
+inline Point pointAt(const Vector& position)
+{
+  return { position[0], position[1], position[2] };
+}
+
+/// Reserves cells for an insertion on this thread. CGAL fills holes through a static variable of
+/// the thread, which a failed allocation would leave in an invalid state.
+inline void reserveCells(Triangulation& triangulation)
+{
+  constexpr std::ptrdiff_t mostAtOnce = 256; // CGAL fills larger holes in another way
+  if (freeCells >= mostAtOnce)
+  {
+    return;
+  }
+  constexpr std::size_t count = 1024;
+  auto& cells = triangulation.tds().cells();
+  std::array<Cell, count> reserved;
+  std::generate(reserved.begin(), reserved.end(), [&cells]() { return cells.emplace(); });
+  std::for_each(reserved.begin(), reserved.end(), [&cells](Cell cell) { cells.erase(cell); });
+  freeCells = static_cast<std::ptrdiff_t>(count);
+}
+
+/// Inserts samples in CGAL's order for ranges of points: in levels, each with seven times as many
+/// samples as all before it, and within each level along a space-filling curve.
+class Insertion
+{
+public:
+  Insertion(const Execution& execution, Triangulation& cells, const std::vector<BandSite>& sites,
+    const std::function<void(double share)>& step)
+    : Run(execution)
+    , Cells(cells)
+    , Sites(sites)
+    , Step(step)
+    , Order(sites.size())
+  {
+  }
+  Insertion(const Insertion&) = delete;
+  Insertion& operator=(const Insertion&) = delete;
+  ~Insertion() { this->Cells.set_lock_data_structure(nullptr); }
+
+  void run()
+  {
+    this->sort();
+    std::size_t begin = 0;
+    for (const std::size_t end : this->levels())
+    {
+      this->insertLevel(begin, end);
+      begin = end;
+    }
+  }
+
+private:
+  /// From this many samples on, several threads are faster than one.
+  static constexpr std::size_t manySites = 4096;
+
+  /// Samples of a stream between two checks for an abort.
+  static constexpr std::size_t batchSize = 2048;
+
+  /// Consecutive samples of a level, inserted by one thread at a time.
+  struct Stream
+  {
+    std::size_t next;
+    std::size_t end;
+    Vertex hint;                   // close to the next sample
+    std::vector<std::size_t> left; // samples skipped because of others' locks
+  };
+
+  void sort()
+  {
+    std::vector<Point> points;
+    points.reserve(this->Sites.size());
+    std::transform(this->Sites.begin(), this->Sites.end(), std::back_inserter(points),
+      [](const BandSite& site) { return pointAt(site.position); });
+    std::iota(this->Order.begin(), this->Order.end(), std::size_t{ 0 });
+    const auto pointOf = CGAL::make_property_map(points);
+    CGAL::spatial_sort(this->Order.begin(), this->Order.end(),
+      CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(pointOf)>(pointOf));
+  }
+
+  /// The ends of the levels; levels with few samples are combined.
+  std::vector<std::size_t> levels() const
+  {
+    constexpr std::size_t ratio = 8; // CGAL's default
+    std::vector<std::size_t> ends{ this->Order.size() };
+    while (ends.back() >= manySites)
+    {
+      ends.push_back(ends.back() / ratio);
+    }
+    std::reverse(ends.begin(), ends.end());
+    return ends;
+  }
+
+  const BandSite& siteAt(std::size_t place) const { return this->Sites[this->Order[place]]; }
+  VertexInfo infoAt(std::size_t place) const
+  {
+    return { this->siteAt(place).leaf, this->siteAt(place).isBelow };
+  }
+
+  void insertAlone(std::size_t begin, std::size_t end)
+  {
+    constexpr std::size_t stepSize = 512;
+    Vertex hint;
+    freeCells = 0;
+    for (std::size_t place = begin; place < end; ++place)
+    {
+      if ((place - begin) % stepSize == 0)
+      {
+        this->report();
+      }
+      this->insert(place, hint);
+    }
+  }
+
+  /// @param hint close to the sample, or null; set to its vertex
+  void insert(std::size_t place, Vertex& hint)
+  {
+    reserveCells(this->Cells);
+    hint = this->Cells.insert(pointAt(this->siteAt(place).position), hint);
+    hint->info() = this->infoAt(place);
+    ++this->Done;
+  }
+
+  void report() const
+  {
+    this->Step(static_cast<double>(this->Done) / static_cast<double>(this->Order.size()));
+  }
+
+  void insertLevel(std::size_t begin, std::size_t end)
+  {
+#ifdef CGAL_LINKED_WITH_TBB
+    if (this->Run.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
+        this->makeLocks())
+    {
+      this->insertTogether(begin, end);
+      return;
+    }
+#endif
+    this->insertAlone(begin, end);
+  }
+
+#ifdef CGAL_LINKED_WITH_TBB
+  /// Makes a grid of locks around all samples, inserted or not. @returns whether it could
+  bool makeLocks()
+  {
+    CGAL::Bbox_3 box;
+    for (const Point& point : this->Cells.points())
+    {
+      box += point.bbox();
+    }
+    for (const BandSite& site : this->Sites)
+    {
+      box += pointAt(site.position).bbox();
+    }
+    constexpr int side = 64;
+    this->Grid = std::make_unique<Locks>(box, side);
+    this->Cells.set_lock_data_structure(this->Grid.get());
+    return std::isfinite(box.x_span() + box.y_span() + box.z_span());
+  }
+#endif
+
+  /// Inserts a level in streams, which are mostly far apart, one thread each. This thread inserts
+  /// the samples that could not be locked, or all the rest if there are many.
+  void insertTogether(std::size_t begin, std::size_t end)
+  {
+    // The infinite vertex is locked by its position, which has no other meaning.
+    this->Cells.infinite_vertex()->set_point(pointAt(this->siteAt(begin).position));
+    std::vector<Stream> streams = this->streamsOf(begin, end);
+    const std::size_t doneBefore = this->Done;
+    bool isDense = false;
+    while (this->Done - doneBefore < end - begin && !isDense)
+    {
+      this->report();
+      isDense = !this->advance(streams);
+    }
+    for (const Stream& stream : streams)
+    {
+      this->insertAlone(stream.next, stream.end);
+    }
+  }
+
+  std::vector<Stream> streamsOf(std::size_t begin, std::size_t end) const
+  {
+    const std::size_t length = (end - begin + this->Run.threads - 1) / this->Run.threads;
+    std::vector<Stream> streams;
+    for (std::size_t next = begin; next < end; next += length)
+    {
+      streams.push_back(
+        { next, std::min(next + length, end), this->Cells.finite_vertices_begin(), {} });
+      streams.back().left.reserve(batchSize);
+    }
+    return streams;
+  }
+
+  /// Inserts a batch of each stream.
+  /// @returns whether only few samples had to be skipped
+  bool advance(std::vector<Stream>& streams)
+  {
+    std::size_t count = 0;
+    std::size_t leftCount = 0;
+    for (const Stream& stream : streams)
+    {
+      count += endOfBatch(stream) - stream.next;
+    }
+    forRanges(this->Run, streams.size(), 1,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->advance(streams[i]);
+        }
+      });
+    freeCells = 0;
+    this->Done += count;
+    for (Stream& stream : streams)
+    {
+      this->Done -= stream.left.size();
+      leftCount += stream.left.size();
+      for (const std::size_t place : stream.left)
+      {
+        this->insert(place, stream.hint);
+      }
+      stream.left.clear();
+    }
+    constexpr std::size_t manyParts = 4;
+    return manyParts * leftCount < count;
+  }
+
+  static std::size_t endOfBatch(const Stream& stream)
+  {
+    return std::min(stream.next + batchSize, stream.end);
+  }
+
+  /// Inserts a batch of one stream, on any thread.
+  void advance(Stream& stream)
+  {
+    freeCells = 0;
+    const std::size_t end = endOfBatch(stream);
+    for (; stream.next < end; ++stream.next)
+    {
+      if (!this->tryInsert(stream.next, stream.hint))
+      {
+        stream.left.push_back(stream.next);
+      }
+    }
+    // A retry often succeeds because other threads have released their locks.
+    const auto isInserted = [&](std::size_t place) { return this->tryInsert(place, stream.hint); };
+    stream.left.erase(
+      std::remove_if(stream.left.begin(), stream.left.end(), isInserted), stream.left.end());
+  }
+
+  /// Inserts a sample if it gets the locks. @param hint close to it; set to its vertex
+  bool tryInsert(std::size_t place, Vertex& hint)
+  {
+    reserveCells(this->Cells);
+    const Point point = pointAt(this->siteAt(place).position);
+    bool hasLocks = this->Cells.try_lock_vertex(hint) && this->Cells.try_lock_point(point);
+    if (hasLocks)
+    {
+      const Vertex vertex = this->Cells.insert(point, hint, &hasLocks);
+      if (hasLocks)
+      {
+        vertex->info() = this->infoAt(place);
+        hint = vertex;
+      }
+    }
+    this->Cells.unlock_all_elements();
+    return hasLocks;
+  }
+
+  const Execution& Run;
+  Triangulation& Cells;
+  const std::vector<BandSite>& Sites;
+  const std::function<void(double share)>& Step;
+  std::vector<std::size_t> Order;
+  std::size_t Done = 0; // samples inserted
+  std::unique_ptr<Locks> Grid;
+};
+
+} // namespace isopoint::band

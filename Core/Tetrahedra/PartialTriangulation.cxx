@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Tetrahedra/PartialTriangulation.h"
+
+#include "Core/Base/Lists.h"
+#include "Core/Tetrahedra/ParallelInsertion.h"
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/scalable_allocator.h>
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace isopoint
+{
+namespace
+{
+
+using band::Cell;
+using band::Point;
+using band::pointAt;
+using band::Triangulation;
+using band::Vertex;
+using band::VertexInfo;
+
+/// An even permutation of the corners with those below the isovalue first.
+CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
+{
+  const auto isBelow = [](const VertexInfo& corner) { return corner.isBelow(); };
+  CrossingTetrahedron<std::uint64_t> result{};
+  result.belowCount =
+    static_cast<std::uint8_t>(std::count_if(corners.begin(), corners.end(), isBelow));
+  bool isOdd = false;
+  for (std::size_t place = 0; place < result.belowCount; ++place)
+  {
+    const std::size_t from = static_cast<std::size_t>(
+      std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(place), corners.end(), isBelow) -
+      corners.begin());
+    std::swap(corners[place], corners[from]);
+    isOdd = isOdd != (place != from);
+  }
+  if (isOdd)
+  {
+    // Swaps two corners on one side to restore the orientation.
+    const std::size_t first = result.belowCount == 3 ? 0 : 2;
+    std::swap(corners[first], corners[first + 1]);
+  }
+  std::transform(corners.begin(), corners.end(), result.corners.begin(),
+    [](const VertexInfo& corner) { return corner.leaf(); });
+  return result;
+}
+
+Vector positionOf(const Point& point)
+{
+  return { point.x(), point.y(), point.z() };
+}
+
+} // namespace
+
+class PartialTriangulation::Internals
+{
+public:
+  explicit Internals(const CoordinateUnit& unit)
+    : Unit(unit)
+    , Cells(band::Kernel(&this->Unit))
+  {
+  }
+
+  CoordinateUnit Unit;
+  Triangulation Cells;
+  std::vector<Cell> All;    // including cells beyond the hull; empty after insertions
+  std::vector<Cell> Listed; // by the last request
+
+  /// Lists the cells that pass a test, if the dimension is 3. @returns their number
+  template <class Test>
+  std::size_t list(const Execution& execution, const Test& test)
+  {
+    this->Listed.clear();
+    if (this->Cells.dimension() < 3)
+    {
+      return 0;
+    }
+    if (this->All.empty())
+    {
+      this->All.reserve(this->Cells.tds().cells().size());
+      const auto all = this->Cells.all_cell_handles();
+      std::copy(all.begin(), all.end(), std::back_inserter(this->All));
+    }
+    constexpr std::size_t grain = 16384;
+    this->Listed = collected<Cell>(execution, { this->All.size(), 32 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<Cell>& found)
+      {
+        std::copy_if(this->All.begin() + static_cast<std::ptrdiff_t>(begin),
+          this->All.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found), test);
+      });
+    return this->Listed.size();
+  }
+
+  bool isCrossing(Cell cell) const
+  {
+    bool hasBelow = false;
+    bool hasOther = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      const Vertex vertex = cell->vertex(i);
+      if (vertex != this->Cells.infinite_vertex())
+      {
+        (vertex->info().isBelow() ? hasBelow : hasOther) = true;
+      }
+    }
+    return hasBelow && hasOther;
+  }
+
+  /// Whether a crossing facet of a tetrahedron lies on the hull.
+  bool isCrossingAtHull(Cell cell) const
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const Cell neighbor = cell->neighbor(i);
+      if (this->Cells.is_infinite(neighbor) && this->isCrossing(neighbor))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The index of the infinite vertex, or -1.
+  int infiniteIndexOf(Cell cell) const
+  {
+    int index = 0;
+    return cell->has_vertex(this->Cells.infinite_vertex(), index) ? index : -1;
+  }
+};
+
+PartialTriangulation::PartialTriangulation(const CoordinateUnit& unit)
+  : Inside(std::make_unique<Internals>(unit))
+{
+}
+
+PartialTriangulation::~PartialTriangulation()
+{
+  this->Inside.reset();
+#ifdef CGAL_LINKED_WITH_TBB
+  // oneTBB would keep the memory of CGAL's cells. Memory in use elsewhere is not affected.
+  scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
+#endif
+}
+
+void PartialTriangulation::insert(const Execution& execution, const std::vector<BandSite>& sites,
+  const std::function<void(double share)>& step)
+{
+  this->dropLists();
+  for (const BandSite& site : sites)
+  {
+    this->Inside->Unit.add(site.position);
+  }
+  band::Insertion(execution, this->Inside->Cells, sites, step).run();
+}
+
+void PartialTriangulation::setSides(const std::function<bool(std::uint64_t leaf)>& isBelow)
+{
+  for (const Vertex vertex : this->Inside->Cells.finite_vertex_handles())
+  {
+    const std::uint64_t leaf = vertex->info().leaf();
+    vertex->info() = VertexInfo(leaf, isBelow(leaf));
+  }
+}
+
+std::size_t PartialTriangulation::size() const
+{
+  return this->Inside->Cells.number_of_vertices();
+}
+
+std::size_t PartialTriangulation::cellCount() const
+{
+  return this->Inside->Cells.tds().cells().size();
+}
+
+int PartialTriangulation::dimension() const
+{
+  return this->Inside->Cells.dimension();
+}
+
+bool PartialTriangulation::raisesDimension(const Vector& position) const
+{
+  const Triangulation& cells = this->Inside->Cells;
+  const Point point = pointAt(position);
+  switch (cells.dimension())
+  {
+    case -1:
+      return true;
+    case 0:
+      return cells.finite_vertices_begin()->point() != point;
+    case 1:
+    {
+      // At this dimension, a cell's corners are its first vertices.
+      const Cell edge = cells.finite_edges_begin()->first;
+      return !CGAL::collinear(edge->vertex(0)->point(), edge->vertex(1)->point(), point);
+    }
+    case 2:
+    {
+      const Cell facet = cells.finite_facets_begin()->first;
+      return !CGAL::coplanar(
+        facet->vertex(0)->point(), facet->vertex(1)->point(), facet->vertex(2)->point(), point);
+    }
+    default:
+      return false;
+  }
+}
+
+std::size_t PartialTriangulation::listOpenCells(const Execution& execution)
+{
+  return this->Inside->list(execution,
+    [this](Cell cell) { return !cell->info().isCertified && this->Inside->isCrossing(cell); });
+}
+
+bool PartialTriangulation::isBeyondHull(std::size_t openCell) const
+{
+  return this->Inside->infiniteIndexOf(this->Inside->Listed[openCell]) >= 0;
+}
+
+TetrahedronCorners PartialTriangulation::tetrahedronAt(std::size_t openCell) const
+{
+  const Cell cell = this->Inside->Listed[openCell];
+  return { positionOf(cell->vertex(0)->point()), positionOf(cell->vertex(1)->point()),
+    positionOf(cell->vertex(2)->point()), positionOf(cell->vertex(3)->point()) };
+}
+
+HullFacetCorners PartialTriangulation::hullFacetAt(std::size_t openCell) const
+{
+  // For a hull facet, the position would replace the infinite vertex in the orientation.
+  constexpr int facets[4][3] = { { 2, 1, 3 }, { 0, 2, 3 }, { 1, 0, 3 }, { 0, 1, 2 } };
+  const Cell cell = this->Inside->Listed[openCell];
+  const int* const facet = facets[this->Inside->infiniteIndexOf(cell)];
+  return { positionOf(cell->vertex(facet[0])->point()), positionOf(cell->vertex(facet[1])->point()),
+    positionOf(cell->vertex(facet[2])->point()) };
+}
+
+bool PartialTriangulation::isInside(std::size_t openCell, const Vector& position) const
+{
+  constexpr bool decidesTies = true;
+  return this->Inside->Cells.side_of_sphere(
+           this->Inside->Listed[openCell], pointAt(position), decidesTies) == CGAL::ON_BOUNDED_SIDE;
+}
+
+void PartialTriangulation::certify(std::size_t openCell)
+{
+  this->Inside->Listed[openCell]->info().isCertified = true;
+}
+
+std::vector<bool> PartialTriangulation::areBelow(const std::vector<Vector>& positions) const
+{
+  const Triangulation& cells = this->Inside->Cells;
+  std::vector<bool> below;
+  below.reserve(positions.size());
+  Cell hint;
+  for (const Vector& position : positions)
+  {
+    hint = cells.locate(pointAt(position), hint);
+    const int corner = this->Inside->infiniteIndexOf(hint) == 0 ? 1 : 0;
+    below.push_back(hint->vertex(corner)->info().isBelow());
+  }
+  return below;
+}
+
+std::size_t PartialTriangulation::listCrossingTetrahedra(const Execution& execution)
+{
+  return this->Inside->list(execution, [this](Cell cell)
+    { return this->Inside->isCrossing(cell) && !this->Inside->Cells.is_infinite(cell); });
+}
+
+void PartialTriangulation::dropLists()
+{
+  this->Inside->All = std::vector<Cell>();
+  this->Inside->Listed = std::vector<Cell>();
+}
+
+CrossingTetrahedron<std::uint64_t> PartialTriangulation::crossingTetrahedronAt(
+  std::size_t tetrahedron) const
+{
+  const Cell cell = this->Inside->Listed[tetrahedron];
+  CrossingTetrahedron<std::uint64_t> result = bySides({ cell->vertex(0)->info(),
+    cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
+  result.isAtHull = this->Inside->isCrossingAtHull(cell);
+  return result;
+}
+
+} // namespace isopoint

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/VertexNormals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace isopoint
+{
+namespace
+{
+
+bool hasDirection(const Vector& vector)
+{
+  const double length = lengthOf(vector);
+  return std::isfinite(length) && length > 0.0;
+}
+
+/// The area-weighted sum of triangle normals at each vertex.
+std::vector<Vector> triangleNormals(
+  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<Vector> sums(positions.size());
+  for (const SurfaceTriangle& triangle : triangles)
+  {
+    const auto& [a, b, c] = triangle;
+    const Vector normal =
+      cross(difference(positions[b], positions[a]), difference(positions[c], positions[a]));
+    for (const std::size_t vertex : triangle)
+    {
+      sums[vertex] = sum(sums[vertex], 1.0, normal);
+    }
+  }
+  return sums;
+}
+
+/// For each vertex, the sum of the values at the other corners of its triangles.
+std::vector<Vector> sumsAround(
+  const std::vector<Vector>& all, const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<Vector> sums(all.size());
+  for (const auto& [a, b, c] : triangles)
+  {
+    sums[a] = sum(sums[a], 1.0, sum(all[b], 1.0, all[c]));
+    sums[b] = sum(sums[b], 1.0, sum(all[c], 1.0, all[a]));
+    sums[c] = sum(sums[c], 1.0, sum(all[a], 1.0, all[b]));
+  }
+  return sums;
+}
+
+/// Vertices with wrong fits: their normals disagree with both the triangles around and the
+/// triangles around their neighbors. (Thin triangles around one vertex can have any normal.)
+/// @param normals of vertices, except for `others`
+/// @param ofTriangles triangleNormals()
+std::vector<std::size_t> failedNormals(const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<Vector>& normals,
+  const std::vector<std::size_t>& others, const std::vector<Vector>& ofTriangles)
+{
+  constexpr double leastCosine = 0.5; // of 60 degrees
+  const auto isTurnedFrom = [&](const std::vector<Vector>& means, std::size_t vertex)
+  {
+    return hasDirection(means[vertex]) &&
+           dot(normals[vertex], directionOf(means[vertex])) < leastCosine;
+  };
+  std::vector<bool> isOther(normals.size(), false);
+  for (const std::size_t vertex : others)
+  {
+    isOther[vertex] = true;
+  }
+  std::vector<std::size_t> failed;
+  for (std::size_t vertex = 0; vertex < normals.size(); ++vertex)
+  {
+    if (!isOther[vertex] && points.fits[vertex].order != FitOrder::Crease &&
+        isTurnedFrom(ofTriangles, vertex))
+    {
+      failed.push_back(vertex);
+    }
+  }
+  if (!failed.empty())
+  {
+    const std::vector<Vector> around = sumsAround(ofTriangles, triangles);
+    failed.erase(std::remove_if(failed.begin(), failed.end(),
+                   [&](std::size_t vertex) { return !isTurnedFrom(around, vertex); }),
+      failed.end());
+  }
+  return failed;
+}
+
+} // namespace
+
+std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField)
+{
+  std::vector<Vector> normals(points.positions.size());
+  std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
+    [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
+  const std::vector<Vector> ofTriangles = triangleNormals(points.positions, triangles);
+  if (others.size() < normals.size())
+  {
+    const std::vector<std::size_t> failed =
+      failedNormals(points, triangles, normals, others, ofTriangles);
+    others.insert(others.end(), failed.begin(), failed.end());
+  }
+  for (const std::size_t vertex : others)
+  {
+    const Vector& normal = ofTriangles[vertex];
+    normals[vertex] = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
+  }
+  return normals;
+}
+
+} // namespace isopoint

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
+#include "Core/Extraction/SurfacePoints.h"
+#include "Core/Triangles/TriangleGeometry.h"
+
+#include <vector>
+
+namespace isopoint
+{
+
+/// The normals of vertices: opposite to the fits' gradients if `areOfField`, otherwise the
+/// area-weighted mean of the triangle normals. The mean also replaces a missing normal, and one of
+/// a failed fit, which is more than 60 degrees off both this mean and the mean of the neighbors'
+/// means. Fits with creases do not fail.
+/// @throws std::bad_alloc
+std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField);
+
+} // namespace isopoint

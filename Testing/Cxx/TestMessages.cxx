@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Errors, warnings and notes: one short message of each cause, with figures and a remedy.
+#include "InputTesting.h"
+
+#include <cerrno>
+
+using namespace inputtesting;
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+/// The messages of an update.
+Words messagesOf(vtkScatteredContourFilter* filter, unsigned long event = vtkCommand::WarningEvent)
+{
+  const auto watcher = watchMessages(filter, event);
+  filter->Modified();
+  filter->Update();
+  filter->RemoveObserver(watcher);
+  return watcher->All;
+}
+
+/// Expects one message with these words, which name the cause and the remedy.
+void expectOne(const Words& messages, const Words& words)
+{
+  ASSERT_EQ(messages.size(), 1u) << testing::PrintToString(messages);
+  for (const std::string& word : words)
+  {
+    expectContains(messages.front(), word);
+  }
+}
+
+void expectOneWarning(vtkScatteredContourFilter* filter, const Words& words)
+{
+  expectOne(messagesOf(filter), words);
+  EXPECT_TRUE(messagesOf(filter).empty()) << "the same again";
+}
+
+struct Subject
+{
+  explicit Subject(vtkScatteredContourFilter* made)
+    : filter(made)
+  {
+    this->filter->SetInputData(this->cloud);
+    this->filter->SetValue(0, 0.7);
+  }
+
+  void setValues(const std::function<double(vtkIdType)>& valueAt)
+  {
+    this->cloud->GetPointData()->SetScalars(arrayOf("distance", 2000, valueAt));
+  }
+
+  vtkSmartPointer<vtkPolyData> cloud = newCloud(2000);
+  vtkDoubleArray* values = distancesOf(this->cloud);
+  vtkSmartPointer<vtkScatteredContourFilter> filter;
+};
+
+/// A change of the subject, after which there is one warning.
+struct Case
+{
+  const char* name;
+  std::function<void(Subject&)> change;
+  Words words;
+};
+
+vtkSmartPointer<vtkMultiBlockDataSet> newDistantBlocks()
+{
+  const auto second = newCloud(400);
+  setScalars(
+    second, [](const Vector& p) { return length(p) + 100.0; }, "distance");
+  return blocksOf({ newCloud(400), second });
+}
+
+const std::vector<Case> cases{
+  { "isovalues outside of the range",
+    [](Subject& s)
+    {
+      s.values->SetValue(0, 0.03125);
+      s.values->SetValue(1, 7.5);
+      s.filter->SetValue(0, 8.25);
+      s.filter->SetValue(1, 0.5);
+      s.filter->SetValue(2, -1.0);
+    },
+    { "-1, 8.25", "\"distance\"", "0.03125", "7.5", "Choose" } },
+  { "figures that differ in the eighth digit",
+    [](Subject& s)
+    {
+      s.setValues([](vtkIdType i) { return 300.0 + 1e-5 * static_cast<double>(i % 5); });
+      s.filter->SetValue(0, 300.0001);
+    },
+    { "300.0001", "300.00004" } },
+  { "an isovalue that is the least value",
+    [](Subject& s)
+    {
+      s.setValues([](vtkIdType i) { return 300.0 + 1e-5 * static_cast<double>(i % 5); });
+      s.filter->SetValue(0, 300.0);
+    },
+    { "greater than 300", "300.00004" } },
+  { "all in gaps",
+    [](Subject& s)
+    {
+      move(s.cloud->GetPoints(),
+        [](const Vector& p) {
+          return Vector{ p[0] + (p[0] < 0.0 ? 0.0 : 50.0), p[1], p[2] };
+        });
+      setScalars(
+        s.cloud, [](const Vector& p) { return p[0]; }, "distance");
+      s.filter->SetValue(0, 25.0);
+      s.filter->DropGapsOn();
+    },
+    { "25", "gaps", "DropGaps" } },
+  { "a ghost does not widen the range",
+    [](Subject& s)
+    {
+      s.cloud->GetPointData()->AddArray(
+        ghostsOf(2000, [](vtkIdType i) { return i == 3 ? duplicatePoint : 0; }));
+      s.values->SetValue(3, 9.0);
+      s.values->SetValue(4, 7.5);
+      s.filter->SetValue(0, 8.0);
+    },
+    { "8", " 7.5" } },
+  { "a constant array", [](Subject& s) { s.values->Fill(0.7); },
+    { "\"distance\"", "0.7", "Choose another array" } },
+  { "no finite value", [](Subject& s) { s.values->Fill(notANumber); },
+    { "2000 of 2000", "not finite", "Choose another array" } },
+};
+
+vtkSmartPointer<vtkScatteredContourFilter> newFilterOfKind(bool hasTriangles)
+{
+  if (hasTriangles)
+  {
+    return vtkSmartPointer<Isosurface>::New();
+  }
+  return vtkSmartPointer<Isopoints>::New();
+}
+
+} // namespace
+
+TEST(Messages, EachCauseIsOneWarning)
+{
+  for (const bool hasTriangles : { false, true })
+  {
+    for (const Case& warned : cases)
+    {
+      SCOPED_TRACE(testing::Message() << warned.name << ", triangles: " << hasTriangles);
+      Subject subject(newFilterOfKind(hasTriangles));
+      EXPECT_TRUE(messagesOf(subject.filter).empty());
+      warned.change(subject);
+      subject.cloud->Modified();
+      expectOneWarning(subject.filter, warned.words);
+      const bool hasSurface = &warned == &cases.front(); // at one of its isovalues
+      EXPECT_EQ(subject.filter->GetOutput()->GetNumberOfPoints() > 0, hasSurface);
+    }
+  }
+}
+
+TEST(Messages, APlaneIsExplained)
+{
+  const auto cloud = newCloud(500);
+  move(cloud->GetPoints(), [](const Vector& p) { return Vector{ p[0], p[1], 0.0 }; });
+  expectOneWarning(newFilter(cloud), { "No fit", "plane", "Projection" });
+  const auto triangles = newFilter<Isosurface>(cloud);
+  const auto warnings = watchMessages(triangles, vtkCommand::WarningEvent);
+  expectOneWarning(triangles, { "plane", "Delaunay 2D" });
+  EXPECT_EQ(warnings->last().find("Scattered Isopoints"), std::string::npos);
+}
+
+TEST(Messages, IsovaluesBetweenBlocksAreNotInGaps)
+{
+  const auto filter = newFilter(newDistantBlocks(), 50.0);
+  filter->ContourBlocksOn();
+  filter->DropGapsOff();
+  expectOneWarning(filter, { "50", "ContourBlocks" });
+}
+
+TEST(Messages, SkippedSamplesAreNotedByTheirReason)
+{
+  const auto cloud = newCloud(500);
+  distancesOf(cloud)->SetValue(5, notANumber);
+  cloud->GetPoints()->SetPoint(6, infinity, 0.0, 0.0);
+  const auto filter = newFilter(cloud);
+  EXPECT_TRUE(messagesOf(filter).empty()) << "a note is no warning";
+  expectOne(messagesOf(newFilter(cloud), vtkCommand::MessageEvent), { "2 of 500", "not finite" });
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 2);
+  EXPECT_EQ(filter->GetNumberOfSamples(), 500);
+
+  const auto other = newCloud(30);
+  other->GetPointData()->Initialize();
+  for (const int byBlock : { 0, 1 })
+  {
+    const auto ofBlocks = newFilter(blocksOf({ cloud, other, newCloud(400) }));
+    ofBlocks->SetContourBlocks(byBlock);
+    expectOne(messagesOf(ofBlocks, vtkCommand::MessageEvent),
+      { "32 of 930", "2 not finite", "30 in blocks", "\"distance\"" });
+  }
+}
+
+TEST(Messages, GhostsAreNotedBesideOtherReasonsAlone)
+{
+  const auto cloud = newCloud(500);
+  cloud->GetPointData()->AddArray(
+    ghostsOf(500, [](vtkIdType i) { return i == 3 ? duplicatePoint : 0; }));
+  const auto filter = newFilter(cloud);
+  EXPECT_TRUE(messagesOf(filter, vtkCommand::MessageEvent).empty());
+  EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 1);
+  distancesOf(cloud)->SetValue(5, notANumber);
+  distancesOf(cloud)->Modified();
+  expectOne(
+    messagesOf(filter, vtkCommand::MessageEvent), { "2 of 500", "1 not finite", "1 ghost" });
+}
+
+TEST(Messages, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
+{
+  const auto cloud = newCloud(4000);
+  const auto filter = newFilter(cloud);
+  EXPECT_TRUE(messagesOf(filter).empty());
+  std::mt19937 random(2);
+  setScalars(
+    cloud, [&](const Vector&) { return static_cast<double>(random()) * 0x1p-32; }, "distance");
+  const Words warnings = messagesOf(filter);
+  const std::string points = std::to_string(filter->GetOutput()->GetNumberOfPoints());
+  expectOne(
+    warnings, { "No fit", std::to_string(filter->GetNumberOfUnprojectedPoints()) + " of " + points,
+                "Projection" });
+  EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
+  filter->SetProjection(Isopoints::NO_PROJECTION);
+  filter->ComputeSplatsOff();
+  EXPECT_TRUE(messagesOf(filter).empty());
+}
+
+TEST(Messages, TrianglesAreTheRemedyWhereSplatsDoNotMeet)
+{
+  const auto cloud = newCloud(30000);
+  const auto filter = newFilter(cloud);
+  EXPECT_TRUE(messagesOf(filter).empty());
+  move(cloud->GetPoints(), // strongly clustered along each axis
+    [](const Vector& p) {
+      return Vector{ std::pow(p[0], 6), std::pow(p[1], 6), std::pow(p[2], 6) };
+    });
+  cloud->GetPoints()->Modified();
+  expectOne(messagesOf(filter), { "Splats", "Scattered Isosurface" });
+  filter->SetComputeSplats(false);
+  EXPECT_TRUE(messagesOf(filter).empty());
+}
+
+TEST(Messages, AWarningIsRepeatedWhenItsCauseChanges)
+{
+  const auto cloud = newCloud(500);
+  for (const char* const name : { "one", "two" })
+  {
+    cloud->GetPointData()->AddArray(arrayOf(name, 500, [](vtkIdType) { return 2.0; }));
+  }
+  const auto filter = newFilter(cloud);
+  for (const double isovalue : { 9.0, 0.7, 9.0, 8.0 })
+  {
+    filter->SetValue(0, isovalue);
+    if (isovalue > 1.0)
+    {
+      expectOneWarning(filter, { isovalue > 8.5 ? "9" : "8" });
+    }
+    EXPECT_TRUE(messagesOf(filter).empty());
+  }
+  filter->SetInputData(newCloud(400));
+  expectOneWarning(filter, { "8" });
+  filter->SetInputData(cloud);
+  for (const char* const name : { "one", "two" })
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, ofPoints, name);
+    expectOneWarning(filter, { name });
+  }
+}
+
+// ParaView's list of messages shows about 70 characters.
+TEST(Messages, CauseAndFiguresComeFirst)
+{
+  const Words warnings = messagesOf(newFilter(newCloud(500), 9.0));
+  ASSERT_EQ(warnings.size(), 1u);
+  const std::size_t begin = warnings.front().find("No isosurface");
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_LE(warnings.front().find("Choose") - begin, 72u);
+}
+
+TEST(Messages, EachInvalidUseIsOneError)
+{
+  const auto cloud = newCloud(500);
+  vtkNew<vtkStringArray> names;
+  names->SetName("names");
+  names->SetNumberOfValues(500);
+  cloud->GetPointData()->AddArray(names);
+  cloud->GetPointData()->AddArray(newArray("short", 7));
+  const auto choose = [](const char* name, int association = ofPoints) {
+    return [=](Isopoints* filter) { filter->SetInputArrayToProcess(0, 0, 0, association, name); };
+  };
+  const auto input = [](vtkDataObject* data)
+  { return [=](Isopoints* filter) { filter->SetInputDataObject(data); }; };
+  const auto angle = [](double value)
+  { return [=](Isopoints* filter) { filter->SetAngle(value); }; };
+  const auto unloaded = newImage({ 4, 4, 4 }, 0.25);
+  unloaded->GetPointData()->AddArray(ghostsOf(125, [](vtkIdType) { return 0; }));
+  vtkNew<vtkPolyData> nothing;
+  const auto emptyBlocks = blocksOf({ nothing.Get() });
+  constexpr int ofAny = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+  const std::string remedy = "SetInputArrayToProcess()";
+  const std::string offer = "distance, x, position, names, short";
+  const std::vector<std::pair<std::function<void(Isopoints*)>, Words>> uses{
+    { choose("g"), { "point array", "\"g\"", remedy, offer } },
+    { choose("g", ofCells), { "cell array", "\"g\"", remedy, offer } },
+    { choose("g", ofAny), { "point or cell array", "\"g\"", remedy, offer } },
+    { choose("", ofCells), { "active cell scalars", remedy, offer } },
+    { choose("short"), { "\"short\"", "7 values for 500 points", remedy } },
+    { choose("position"), { "\"position\"", "3 components", "Calculator" } },
+    { choose("names"), { "\"names\"", "no numbers", remedy } },
+    { angle(-1.0), { "Angle", "-1", "0 to 180" } },
+    { angle(180.5), { "Angle", "180.5", "0 to 180" } },
+    { angle(notANumber), { "Angle", "nan", "0 to 180" } },
+    { [](Isopoints* filter) { filter->SetMinimumSpacing(notANumber); },
+      { "MinimumSpacing", "nan", "0 to 1" } },
+    { [](Isopoints* filter) { filter->SetValue(1, notANumber); }, { "not a number", "Choose" } },
+    { input(unloaded), { "load", "reader" } },
+    { input(nothing), { "no points", "Connect" } },
+    { input(emptyBlocks), { "no points", "Connect" } },
+  };
+  for (const auto& [use, words] : uses)
+  {
+    SCOPED_TRACE(testing::PrintToString(words));
+    const auto filter = newFilter(cloud);
+    const auto errors = watchErrors(filter);
+    distancesOf(cloud)->SetValue(0, notANumber);
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 1);
+    use(filter);
+    filter->Update();
+    expectOne(errors->All, words);
+    EXPECT_EQ(filter->GetErrorCode(), EINVAL);
+    expectEmpty(filter->GetOutput());
+    EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 0);
+    EXPECT_EQ(filter->GetNumberOfSamples(), 0);
+    EXPECT_EQ(filter->GetNumberOfExtractedPoints(), 0);
+  }
+}
+
+TEST(Messages, AFailedUpdateIsTriedAgainAfterModified)
+{
+  const auto cloud = newCloud(500);
+  const auto filter = newFilter<Isosurface>(cloud);
+  filter->SetInputArrayToProcess(0, 0, 0, ofPoints, "later");
+  const auto errors = watchErrors(filter);
+  filter->Update();
+  filter->Update();
+  EXPECT_EQ(errors->count(), 1u);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(errors->count(), 2u);
+  EXPECT_EQ(filter->GetErrorCode(), EINVAL);
+  setScalars(
+    cloud, [](const Vector& p) { return length(p); }, "later");
+  cloud->Modified();
+  EXPECT_GT(outputOf(filter)->GetNumberOfPoints(), 0);
+  EXPECT_EQ(errors->count(), 2u);
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+}

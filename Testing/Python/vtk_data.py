@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Data sets of VTK, what filters make of them, and whether two are the same."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+
+
+def named(name, values):
+    if isinstance(values[0], str):
+        array = vtkStringArray()
+        for value in values:
+            array.InsertNextValue(value)
+    else:
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
+
+
+def points_of(positions):
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(positions), deep=True))
+    return points
+
+
+def cloud_of(positions, values=None, name="values"):
+    data = vtkPolyData()
+    data.SetPoints(points_of(positions))
+    if values is not None:
+        data.GetPointData().SetScalars(named(name, values))
+    return data
+
+
+def positions_in(data):
+    return np.array([data.GetPoint(i) for i in range(data.GetNumberOfPoints())])
+
+
+def centers_in(data):
+    """The centers of cells that are boxes, NaN of empty cells."""
+    cells = (data.GetCell(i) for i in range(data.GetNumberOfCells()))  # each may be the same object
+    return np.array([np.reshape(cell.GetBounds(), (3, 2)).mean(axis=1) if cell.GetNumberOfPoints() else [np.nan] * 3
+                     for cell in cells])
+
+
+def leaves_of(data, **options):
+    """The data sets of a composite in order, or the data set itself."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return [data]
+    iterator, found = data.NewIterator(), []
+    iterator.SetSkipEmptyNodes(options.get("skips_empty", True))
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        found.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return found
+
+
+def configured(kind, data, isovalues=(), **properties):
+    filter_ = kind()
+    filter_.SetInputDataObject(data)
+    for i, isovalue in enumerate(isovalues):
+        filter_.SetValue(i, isovalue)
+    for name, value in properties.items():
+        getattr(filter_, "Set" + name)(value)
+    return filter_
+
+
+def updated(*arguments, **properties):
+    filter_ = configured(*arguments, **properties)
+    filter_.Update()
+    return filter_
+
+
+def assert_same(test, ours, theirs):
+    """The same class, points, cells, arrays and active arrays, in all leaves."""
+    test.assertEqual(ours.GetClassName(), theirs.GetClassName())
+    if isinstance(theirs, vtkCompositeDataSet):
+        pairs = list(zip(leaves_of(ours, skips_empty=False), leaves_of(theirs, skips_empty=False)))
+        for pair in pairs:
+            test.assertEqual(*(leaf is None for leaf in pair))
+        for pair in pairs:
+            if pair[0] is not None:
+                assert_same(test, *pair)
+        return
+    test.assertEqual(ours.GetNumberOfPoints(), theirs.GetNumberOfPoints())
+    test.assertEqual(ours.GetNumberOfCells(), theirs.GetNumberOfCells())
+    arrays = [[data.GetPoints().GetData() for data in (ours, theirs)]] if theirs.GetNumberOfPoints() else []
+    arrays += [[getattr(data, kind)().GetConnectivityArray() for data in (ours, theirs)]
+               for kind in ("GetVerts", "GetPolys") if getattr(theirs, kind)().GetNumberOfCells()]
+    for kind in ("GetPointData", "GetCellData"):
+        found, expected = getattr(ours, kind)(), getattr(theirs, kind)()
+        names = [expected.GetArrayName(i) for i in range(expected.GetNumberOfArrays()) if expected.GetArray(i)]
+        test.assertEqual({found.GetArrayName(i) for i in range(found.GetNumberOfArrays())}, set(names))
+        arrays += [[data.GetArray(name) for data in (found, expected)] for name in names]
+        for i in range(6):
+            active = [data.GetAttribute(i) and data.GetAttribute(i).GetName() for data in (found, expected)]
+            test.assertEqual(*active)
+    for pair in arrays:
+        ours, theirs = map(vtk_to_numpy, pair)
+        test.assertEqual(ours.dtype, theirs.dtype, pair[1].GetName())
+        np.testing.assert_array_equal(ours, theirs, pair[1].GetName())
