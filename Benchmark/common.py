@@ -169,7 +169,7 @@ def memory(key):
 
 def measure(work):
     """The elapsed and processor seconds, and the bytes that work() takes."""
-    ctypes.CDLL(None).malloc_trim(0)  # memory that was freed must not hide what is taken now
+    ctypes.CDLL(None).malloc_trim(0)  # freed memory must not hide a new peak
     with open("/proc/self/clear_refs", "w") as peak:
         peak.write("5")
     before = memory("VmRSS:")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures triangles against Contour of the meshes that their samples come from: gaps.py FOLDER
 
-FOLDER has the data sets as docs/testing.md, "Real files", has them; those that are missing are left out.
+FOLDER is the folder of docs/testing.md, "Real files". Missing data sets are skipped.
 The package scatteredisopoints has to be found (PYTHONPATH). Prints for each isovalue, as shares of the area of
 Contour, with and without the triangles in gaps (DropGaps): *off*, the area of triangles that is farther from
 Contour than half a spacing, and *uncovered*, the area of Contour that is farther than that from the triangles.

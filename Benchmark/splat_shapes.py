@@ -83,7 +83,7 @@ def pixels_of(data, mapper, bounds, direction):
 
 
 def outside(points, mesh):
-    """The pixels of splats outside of those of a mesh, over the latter: the most in three views."""
+    """The splats' pixels outside of a mesh, over the mesh's pixels: the maximum of three views."""
     shares = []
     for direction in ((1, 0.5, -0.4), (-0.3, 1, -0.6), (0.2, -0.3, -1)):
         inside = pixels_of(mesh, vtkPolyDataMapper(), mesh.GetBounds(), direction)

@@ -85,7 +85,7 @@ private:
 };
 
 /// Rings of isopoints around a rank's own that are its ghosts: if splats of the second ring are
-/// visible, so are those that they overlap (docs/ranks.md).
+/// visible, so are the splats that they overlap (docs/ranks.md).
 inline constexpr int ghostRings = 5;
 
 /// Some isopoints, with their splats. @throws std::bad_alloc, Aborted

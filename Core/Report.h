@@ -49,7 +49,7 @@ struct Report
   bool contoursBlocks = false;                // whether each block is its own cloud
   std::uint64_t unprojectedPoints = 0;        // not moved by a fit
   std::uint64_t innerCorners = 0;             // of splats, see SplatCornerCounts
-  std::uint64_t cornersApart = 0;             // those that meet no others
+  std::uint64_t cornersApart = 0;             // corners that meet no others
   std::uint64_t droppedInGaps = 0;            // dropped edges or tetrahedra
   std::uint64_t samples = 0;                  // all, including skipped ones
   std::uint64_t notFinite = 0;                // samples with such a coordinate or value

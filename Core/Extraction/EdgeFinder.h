@@ -62,7 +62,7 @@ public:
 
   const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
 
-  /// Those that the strong gap criterion rejects.
+  /// The edges that the strong gap criterion rejects.
   const std::vector<CrossingEdge<TSample>>& gapEdges() const { return this->GapEdges; }
 
   /// The neighborhoods that were searched, as input of NeighborhoodCache::add().

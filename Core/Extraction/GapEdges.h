@@ -84,7 +84,7 @@ private:
 
 /// By edge, whether it lies in a gap of the cloud (docs/algorithm.md, section 6). Collective.
 /// @param edges sorted, each once
-/// @param strong those that the strong gap criterion rejects, in any order, with repetitions
+/// @param strong edges that the strong gap criterion rejects, in any order, with repetitions
 /// @param ranks SingleRank or SharedRanks
 /// @throws std::bad_alloc, Aborted, FailedElsewhere
 template <class TSample, class TRanks>

@@ -37,7 +37,7 @@ inline std::vector<std::size_t> inOrderOfLeaves(
 /// This gives some in every direction in which the surface continues, even for uneven samples.
 /// The time is bounded for leaves with very many neighbors, such as one that fills a void: a leaf
 /// that touches more than 256 others has no listed neighbors, and the isopoints of a leaf with more
-/// than 256 are not listed. The other end of an edge mostly lists what is missing.
+/// than 256 are not listed. The other ends of their edges mostly list them.
 template <class TSample>
 class IsopointNeighbors
 {

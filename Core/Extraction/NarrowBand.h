@@ -41,7 +41,7 @@ bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
 }
 
 /// Refines a tree around one isosurface, treelet by treelet: only nodes that may contain a piece of
-/// the surface, and those that touch one, are split (docs/algorithm.md, section 9).
+/// the surface, and nodes that touch them, are split (docs/algorithm.md, section 9).
 template <class TSample>
 class NarrowBand
 {

@@ -30,7 +30,7 @@ void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
   all.resize(kept);
 }
 
-/// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: those that the
+/// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: parts that the
 /// weak gap criterion rejects and that are connected with a seed through other such parts. If ranks
 /// share the tree, all functions are collective.
 /// @tparam TRanks SingleRank or SharedRanks

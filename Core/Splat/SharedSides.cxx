@@ -13,14 +13,6 @@ namespace isopoint
 namespace
 {
 
-/// The index of the side towards a point, or cell.count if there is none.
-std::size_t sideTowards(const VoronoiCell& cell, std::size_t point)
-{
-  const VoronoiCell::Corner* const side = std::find_if(cell.begin(), cell.end(),
-    [point](const VoronoiCell::Corner& corner) { return corner.beyond == point; });
-  return static_cast<std::size_t>(side - cell.begin());
-}
-
 bool hasSideTowards(const VoronoiCell& cell, std::size_t point)
 {
   return sideTowards(cell, point) < cell.count;
@@ -34,7 +26,7 @@ double squaredDistance(const VoronoiCell::Corner& corner)
 double squaredLength(const VoronoiCell& cell, std::size_t side)
 {
   const VoronoiCell::Corner& begin = cell.corners[side];
-  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const VoronoiCell::Corner& end = cell.after(side);
   const double x = end.x - begin.x;
   const double y = end.y - begin.y;
   return x * x + y * y;
@@ -44,9 +36,9 @@ double squaredLength(const VoronoiCell& cell, std::size_t side)
 std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_t side)
 {
   constexpr double mostReach = 1.1; // of the distance of the side's farther end
-  const VoronoiCell::Corner& before = cell.corners[(side + cell.count - 1) % cell.count];
+  const VoronoiCell::Corner& before = cell.before(side);
   const VoronoiCell::Corner& begin = cell.corners[side];
-  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const VoronoiCell::Corner& end = cell.after(side);
   const VoronoiCell::Corner& after = cell.corners[(side + 2) % cell.count];
   const double ax = begin.x - before.x;
   const double ay = begin.y - before.y;
@@ -68,8 +60,7 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
 bool mayHaveDropped(const VoronoiCell& cell, std::size_t before, std::size_t after)
 {
   const std::size_t side = sideTowards(cell, before);
-  return cell.count == mostCorners && side < cell.count &&
-         cell.corners[(side + 1) % cell.count].beyond == after;
+  return cell.count == mostCorners && side < cell.count && cell.after(side).beyond == after;
 }
 
 void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& cell)
@@ -83,7 +74,7 @@ void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& c
 VoronoiCell::Corner middleOf(const VoronoiCell& cell, std::size_t side)
 {
   const VoronoiCell::Corner& begin = cell.corners[side];
-  const VoronoiCell::Corner& end = cell.corners[(side + 1) % cell.count];
+  const VoronoiCell::Corner& end = cell.after(side);
   return { 0.5 * (begin.x + end.x), 0.5 * (begin.y + end.y), end.beyond };
 }
 
@@ -91,8 +82,8 @@ VoronoiCell::Corner middleOf(const VoronoiCell& cell, std::size_t side)
 bool isBetween(const VoronoiCell& cell, std::size_t before, std::size_t point, std::size_t after)
 {
   const std::size_t side = sideTowards(cell, point);
-  return side < cell.count && cell.corners[(side + cell.count - 1) % cell.count].beyond == before &&
-         cell.corners[(side + 1) % cell.count].beyond == after;
+  return side < cell.count && cell.before(side).beyond == before &&
+         cell.after(side).beyond == after;
 }
 
 /// Whether the cells before and after a side share one as well, which would cross it: rounding and
@@ -101,8 +92,8 @@ bool isCrossed(const RawArray<VoronoiCell>& cells, std::size_t point, std::size_
 {
   const VoronoiCell& cell = cells[point];
   const std::size_t beyond = cell.corners[side].beyond;
-  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
-  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  const std::size_t before = cell.before(side).beyond;
+  const std::size_t after = cell.after(side).beyond;
   return VoronoiCell::isPoint(beyond) && VoronoiCell::isPoint(before) &&
          VoronoiCell::isPoint(after) && isBetween(cells[beyond], after, point, before) &&
          isBetween(cells[before], beyond, after, point) &&
@@ -113,13 +104,12 @@ bool isCrossed(const RawArray<VoronoiCell>& cells, std::size_t point, std::size_
 VoronoiCell withoutCrossedSides(const RawArray<VoronoiCell>& cells, std::size_t point)
 {
   VoronoiCell cell = cells[point];
+  // From the last one on: sides before a replaced one keep their indices.
   for (std::size_t side = cell.count; side-- > 0;)
   {
-    const std::size_t beyond = cells[point].corners[side].beyond;
     if (cell.count > 3 && isCrossed(cells, point, side))
     {
-      const std::size_t left = sideTowards(cell, beyond);
-      replace(left, middleOf(cell, left), cell);
+      replace(side, middleOf(cell, side), cell);
     }
   }
   return cell;
@@ -134,8 +124,8 @@ std::optional<VoronoiCell::Corner> replacementOf(
   {
     return meeting;
   }
-  const std::size_t before = cell.corners[(side + cell.count - 1) % cell.count].beyond;
-  const std::size_t after = cell.corners[(side + 1) % cell.count].beyond;
+  const std::size_t before = cell.before(side).beyond;
+  const std::size_t after = cell.after(side).beyond;
   if (VoronoiCell::isPoint(before) && VoronoiCell::isPoint(after) &&
       mayHaveDropped(other, after, before))
   {

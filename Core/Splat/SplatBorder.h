@@ -17,7 +17,7 @@ constexpr double sampleReach = 1.0;
 /// How far a splat may extend beyond the samples, in spacings.
 constexpr double borderReach = 0.15;
 
-/// Cells may extend farther, in spacings, only next to gaps or if neighbors were not found.
+/// Cells that extend farther, in spacings, may be next to a gap or lack a neighbor.
 constexpr double largeReach = 1.27;
 
 /// The extent of the samples from a place, as SampleExtents::at(), up to the first gap.

@@ -58,8 +58,8 @@ std::optional<Vector> fitPlane(
   return planeNormal(points);
 }
 
-/// The mean direction of the edges around, of those that agree with the point's own edge. A single
-/// edge may be almost tangential; edges of a sheet close by point to the opposite side.
+/// The mean direction of the surrounding edges that agree with the point's own edge. A single edge
+/// may be almost tangential; edges of a sheet close by point to the opposite side.
 Vector decreasingSide(
   const SurfacePoints& points, const Vector& own, const std::vector<std::size_t>& around)
 {

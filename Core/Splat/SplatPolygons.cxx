@@ -267,14 +267,10 @@ private:
       return std::nullopt;
     }
     const LoweredCell& other = this->Cells[beyond];
-    for (std::size_t i = 0; i < other.count; ++i)
-    {
-      if (other.corners[i].beyond == corner.point)
-      {
-        return CornerOf{ beyond, isOnward ? (i + 1) % other.count : i };
-      }
-    }
-    return std::nullopt;
+    const std::size_t side = sideTowards(other, corner.point);
+    return side < other.count
+             ? std::optional(CornerOf{ beyond, isOnward ? (side + 1) % other.count : side })
+             : std::nullopt;
   }
 
   /// Whether two corners may be joined: the normals of their points do not oppose, and their

@@ -26,6 +26,13 @@ struct VoronoiCell
     bool overlaps = false; // whether the cell of that point extends over the side
   };
 
+  /// The corner where the side before a side begins, and the one where the side after it does.
+  const Corner& before(std::size_t side) const
+  {
+    return this->corners[(side + this->count - 1) % this->count];
+  }
+  const Corner& after(std::size_t side) const { return this->corners[(side + 1) % this->count]; }
+
   const Corner* begin() const { return this->corners.data(); }
   const Corner* end() const { return this->corners.data() + this->count; }
 
@@ -34,5 +41,18 @@ struct VoronoiCell
   double unit;
   PlaneForm curvature; // of the surface, in this unit; 0 if unknown
 };
+
+/// The index of a cell's side towards a point, or cell.count if there is none.
+/// @tparam TCell has the corners and count of a VoronoiCell
+template <class TCell>
+std::size_t sideTowards(const TCell& cell, std::size_t point)
+{
+  std::size_t side = 0;
+  while (side < cell.count && cell.corners[side].beyond != point)
+  {
+    ++side;
+  }
+  return side;
+}
 
 } // namespace isopoint

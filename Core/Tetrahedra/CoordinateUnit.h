@@ -17,7 +17,7 @@ namespace isopoint
 class CoordinateUnit
 {
 public:
-  /// @param least smaller units are useless, and so are units below 2^-100; NaN: only the latter
+  /// @param least smaller units are useless, or NaN for no limit; units below 2^-100 always are
   explicit CoordinateUnit(double least = 0.0)
     : Least(std::max(smallest, least)) // in this order, which ignores a NaN
   {

@@ -135,7 +135,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
-  // All triangles at first, then those that changed.
+  // All triangles at first, then the changed ones.
   std::vector<std::size_t> suspects(triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
   std::optional<ItemLists> trianglesAt; // by vertex; built when a triangle is turned over

@@ -45,6 +45,7 @@ bool vtkHasOtherProcesses();
 
 /// The number of ranks that share cores with this rank, including itself. Collective.
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes);
+
 /// Checks that all ranks have the same options. Collective.
 /// @throws isopoint::UsageError on one rank and isopoint::FailedElsewhere on the others
 void vtkCheckIsopointOptionsOnRanks(isopoint::ProcessGroup& processes,

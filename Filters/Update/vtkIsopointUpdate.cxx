@@ -46,7 +46,7 @@ vtkIsopointUpdate::~vtkIsopointUpdate() = default;
 
 void vtkIsopointUpdate::SetController(vtkMultiProcessController* controller)
 {
-  this->Clear(); // what is kept belongs to other ranks
+  this->Clear(); // kept trees belong to other ranks
   this->Communicator.SetController(controller);
 }
 
@@ -59,19 +59,20 @@ void vtkIsopointUpdate::Clear()
 unsigned long vtkIsopointUpdate::Run(
   const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
+  this->Options = options; // they may change meanwhile
   this->Report = isopoint::Report();
-  const bool keepsTree = options.KeepTree;
   isopoint::Failure failure;
   try
   {
-    this->Processes.together([&]() { this->Extract(options, inputInfo, outputInfo); });
+    this->Processes.together([&]() { this->Extract(inputInfo, outputInfo); });
   }
   catch (...)
   {
     failure = isopoint::describeException();
   }
+  this->Execution = isopoint::Execution(); // releases its threads
   this->Input.ReleaseInput();
-  if (!keepsTree || failure.spoilsTree())
+  if (!this->Options.KeepTree || failure.spoilsTree())
   {
     this->Clear();
   }
@@ -85,15 +86,13 @@ unsigned long vtkIsopointUpdate::Run(
   return this->ReportFailure(failure);
 }
 
-void vtkIsopointUpdate::Extract(
-  const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
+void vtkIsopointUpdate::Extract(vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
-  this->Options = options;
-  this->Options.Core = isopoint::effectiveOptions(options.Core);
+  this->Options.Core = isopoint::effectiveOptions(this->Options.Core);
   // Small bands of many blocks would add up.
-  this->Options.Core.keepBand = options.KeepTree && !options.ContourBlocks;
+  this->Options.Core.keepBand = this->Options.KeepTree && !this->Options.ContourBlocks;
   this->Execution = vtkMakeIsopointExecution(
-    this->Filter, options.UseAllCores, vtkCountIsopointRanksOnCores(this->Processes));
+    this->Filter, this->Options.UseAllCores, vtkCountIsopointRanksOnCores(this->Processes));
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   vtkDataObject* const output = vtkDataObject::GetData(outputInfo);
   vtkContourValues* const values = this->Options.ContourValues;

@@ -61,8 +61,7 @@ private:
 
   /// Fills the output. Call it inside isopoint::ProcessGroup::together().
   /// @throws isopoint::UsageError, or what isopoint::IsosurfaceExtractor throws
-  void Extract(
-    const vtkIsopointOptions& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
+  void Extract(vtkInformation* inputInfo, vtkInformation* outputInfo);
   void CollectBlocks(
     vtkDataObject* input, const vtkIsopointArrayChoice& array, const int* wholeExtent);
   void StartCounting(const std::vector<double>& isovalues);
