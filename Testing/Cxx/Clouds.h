@@ -319,9 +319,10 @@ inline isopoint::Execution executionOn(std::size_t threads)
       std::atomic<std::size_t> next{ 0 };
       const auto work = [&]()
       {
-        for (std::size_t begin = next.fetch_add(grain); begin < count;
-             begin = next.fetch_add(grain))
+        const std::size_t ranges = (count + grain - 1) / grain;
+        for (std::size_t i = next++; i < ranges; i = next++)
         {
+          const std::size_t begin = (ranges - 1 - i) * grain; // the last ones first
           task(begin, std::min(begin + grain, count));
         }
       };

@@ -31,7 +31,10 @@ std::vector<double> calculate(const std::array<double, 8>& a, const std::array<d
     std::array<double, 8> stored;
     result.store(stored.data());
     results.insert(results.end(), stored.begin(), stored.end());
-    results.push_back(result[3]);
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      results.push_back(result[i]);
+    }
     results.push_back(sumOfSquares(result));
     results.push_back(sumOf(Four::load(stored.data() + 2)));
   }

@@ -125,7 +125,11 @@ TEST(Blocks, OnlyArraysOfAllBlocksAreInTheOutput)
     data->AddArray(names);
     data->AddArray(arrayOf(
       "everywhere", count, [&](vtkIdType point) { return 2.0 * block->GetPoint(point)[0]; }));
-    data->AddArray(newArray(i == 1 ? "somewhere" : "short", i == 1 ? count : 2));
+    data->AddArray(newArray("short", 2));
+    if (i == 1)
+    {
+      data->AddArray(newArray("somewhere", count));
+    }
     vtkSmartPointer<vtkDataArray> mixed = newArray("of several types", count);
     if (i < 2)
     {

@@ -217,14 +217,15 @@ TEST(Degenerate, CoplanarSamplesHaveACurveInTheirPlane)
   const Surface surface = contour(changed(distances(5000),
                                     [](Sample& s)
                                     {
-                                      s[2] = 0.0;
+                                      s[2] = 0.25;
                                       s[3] = std::hypot(s[0], s[1]);
                                     }),
     0.6);
-  expectSphere(surface, 100, 0.6, 0.02);
+  EXPECT_GT(surface.count(), 100);
   for (vtkIdType i = 0; i < surface.count(); ++i)
   {
-    EXPECT_EQ(surface.point(i)[2], 0.0);
+    EXPECT_EQ(surface.point(i)[2], 0.25);
+    EXPECT_NEAR(std::hypot(surface.point(i)[0], surface.point(i)[1]), 0.6, 0.02);
   }
 }
 
@@ -257,7 +258,7 @@ TEST(Degenerate, ScaledSamplesHaveTheScaledSurface)
     for (vtkIdType i = 0; i < surface.count(); ++i)
     {
       ASSERT_EQ(surface.point(i), analytic::scaled(unscaled.point(i), scale));
-      ASSERT_LT(length(analytic::difference(surface.normal(i), unscaled.normal(i))), 2e-5);
+      ASSERT_LT(length(analytic::difference(surface.normal(i), unscaled.normal(i))), 1e-5);
       ASSERT_FLOAT_EQ(
         static_cast<float>(surface.radius(i) / scale), static_cast<float>(unscaled.radius(i)));
     }

@@ -148,28 +148,3 @@ TEST(FitAccuracy, DetailOfFewSamples)
   EXPECT_LT(largestRatio(zoomed(analytic::gyroid(), 4.0)), 0.8);
   EXPECT_LT(largestRatio(zoomed(analytic::marschnerLobb(), 0.3)), 0.3);
 }
-
-// The sphere of [RL06], section 9, with fewer samples and no fits: deviations are proportional to
-// the square of the sample spacing.
-TEST(LinearAccuracy, DeviatesNoMoreThanInTheTableOfRL06)
-{
-  constexpr std::size_t count = 250000;
-  const clouds::Cloud cloud = cloudOf([](const Vector& p) { return lengthOf(p); }, count, 200.0);
-  const double coarser = std::pow(8e6 / static_cast<double>(count), 2.0 / 3.0);
-  std::size_t fewer = count;
-  // Angles, and the largest deviations for 8 million samples ([RL06], Table 2).
-  for (const auto& [angle, deviation] : { std::pair(15.0, 0.0425), std::pair(35.0, 0.0355),
-         std::pair(55.0, 0.0320), std::pair(80.0, 0.0182) })
-  {
-    const isopoint::Isosurface surface = clouds::extract(cloud, 70.0, angle, 2);
-    double largest = 0.0;
-    for (const Vector& position : surface.positions)
-    {
-      largest = std::max(largest, std::abs(lengthOf(position) - 70.0));
-    }
-    EXPECT_LE(largest, coarser * deviation) << angle;
-    EXPECT_LT(surface.edges.size(), fewer) << angle;
-    fewer = surface.edges.size();
-  }
-  EXPECT_GT(fewer, 3000u);
-}

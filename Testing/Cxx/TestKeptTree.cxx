@@ -24,30 +24,35 @@ vtkSmartPointer<Isopoints> newFilterOf(vtkDataObject* input, int association)
 
 using Changes = std::vector<std::function<void(Isopoints*)>>;
 
-/// Expects after each change another output than before, that of a new filter.
+/// Expects each change to alter the output, and to yield that of a new filter.
 void expectFresh(vtkDataObject* input, int association, const Changes& changes)
 {
   const auto kept = newFilterOf(input, association);
-  kept->Update();
-  for (std::size_t i = 0; i < changes.size(); ++i)
+  const auto updated = [&]()
   {
-    SCOPED_TRACE(testing::Message() << "change " << i);
-    const std::vector<double> before = everythingOf(kept->GetOutput());
-    EXPECT_FALSE(before.empty());
-    changes[i](kept);
-    kept->Modified();
     kept->Update();
     const auto fresh = newFilterOf(kept->GetInputDataObject(0, 0), association);
     fresh->KeepTreeOff();
     fresh->SetValue(0, kept->GetValue(0));
     fresh->SetAngle(kept->GetAngle());
-    EXPECT_EQ(everythingOf(kept->GetOutput()), everythingOf(outputOf(fresh)));
+    const std::vector<double> found = everythingOf(kept->GetOutput());
+    EXPECT_FALSE(found.empty());
+    EXPECT_EQ(found, everythingOf(outputOf(fresh)));
     EXPECT_EQ(kept->GetNumberOfSkippedSamples(), fresh->GetNumberOfSkippedSamples());
-    EXPECT_NE(everythingOf(kept->GetOutput()), before);
+    return found;
+  };
+  std::vector<double> before = updated();
+  for (std::size_t i = 0; i < changes.size(); ++i)
+  {
+    SCOPED_TRACE(testing::Message() << "change " << i);
+    changes[i](kept);
+    const std::vector<double> after = updated();
+    EXPECT_NE(after, before);
+    before = after;
   }
 }
 
-/// Expects the same of changes that leave the modification time of the data set itself as it was.
+/// The same for changes that leave the data set's own modification time unchanged.
 void expectReadAgain(
   vtkDataObject* input, int association, const std::vector<std::function<void()>>& changes)
 {
@@ -55,11 +60,12 @@ void expectReadAgain(
   for (const auto& change : changes)
   {
     checked.push_back(
-      [&](Isopoints*)
+      [&](Isopoints* kept)
       {
         const vtkMTimeType time = input->vtkObject::GetMTime();
         change();
         EXPECT_EQ(input->vtkObject::GetMTime(), time);
+        kept->Modified();
       });
   }
   expectFresh(input, association, checked);

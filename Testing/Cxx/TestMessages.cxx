@@ -117,9 +117,9 @@ const std::vector<Case> cases{
         ghostsOf(2000, [](vtkIdType i) { return i == 3 ? duplicatePoint : 0; }));
       s.values->SetValue(3, 9.0);
       s.values->SetValue(4, 7.5);
-      s.filter->SetValue(0, 8.0);
+      s.filter->SetValue(0, 8.125);
     },
-    { "8", " 7.5" } },
+    { "8.125", " 7.5" } },
   { "a constant array", [](Subject& s) { s.values->Fill(0.7); },
     { "\"distance\"", "0.7", "Choose another array" } },
   { "no finite value", [](Subject& s) { s.values->Fill(notANumber); },
@@ -252,22 +252,22 @@ TEST(Messages, AWarningIsRepeatedWhenItsCauseChanges)
     cloud->GetPointData()->AddArray(arrayOf(name, 500, [](vtkIdType) { return 2.0; }));
   }
   const auto filter = newFilter(cloud);
-  for (const double isovalue : { 9.0, 0.7, 9.0, 8.0 })
+  for (const double isovalue : { 9.125, 0.7, 9.125, 8.125 })
   {
     filter->SetValue(0, isovalue);
     if (isovalue > 1.0)
     {
-      expectOneWarning(filter, { isovalue > 8.5 ? "9" : "8" });
+      expectOneWarning(filter, { isovalue > 8.5 ? "9.125" : "8.125" });
     }
     EXPECT_TRUE(messagesOf(filter).empty());
   }
   filter->SetInputData(newCloud(400));
-  expectOneWarning(filter, { "8" });
+  expectOneWarning(filter, { "8.125" });
   filter->SetInputData(cloud);
   for (const char* const name : { "one", "two" })
   {
     filter->SetInputArrayToProcess(0, 0, 0, ofPoints, name);
-    expectOneWarning(filter, { name });
+    expectOneWarning(filter, { "\"" + std::string(name) + "\"", "2" });
   }
 }
 
@@ -307,6 +307,7 @@ TEST(Messages, EachInvalidUseIsOneError)
     { choose("g"), { "point array", "\"g\"", remedy, offer } },
     { choose("g", ofCells), { "cell array", "\"g\"", remedy, offer } },
     { choose("g", ofAny), { "point or cell array", "\"g\"", remedy, offer } },
+    { choose("", ofAny), { "active point or cell scalars", remedy, offer } },
     { choose("", ofCells), { "active cell scalars", remedy, offer } },
     { choose("short"), { "\"short\"", "7 values for 500 points", remedy } },
     { choose("position"), { "\"position\"", "3 components", "Calculator" } },

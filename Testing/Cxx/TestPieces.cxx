@@ -232,17 +232,21 @@ TEST(Pieces, OfTrianglesAreTheWholeTogether)
 
 TEST(Pieces, HaveTheArraysOfTheWhole)
 {
-  for (const double isovalue : { 0.7, 99.0 }) // of the second, the surface is empty
+  for (const double isovalue : { 0.7, 99.0 }) // the second has no surface
   {
     const auto filter = newFilter(newCloud(1000), isovalue);
     const int arrays = outputOf(filter)->GetPointData()->GetNumberOfArrays();
-    filter->UpdatePiece(1, 3, 0);
-    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), arrays);
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints() > 0, isovalue < 1.0);
-    for (const char* const name : { "SplatAxis", "SplatPolygon" })
+    for (const int piece : { 0, 1, 2 })
     {
-      vtkDataArray* const array = filter->GetOutput()->GetCellData()->GetArray(name);
-      EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
+      filter->UpdatePiece(piece, 3, 0);
+      EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), arrays);
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints() > 0, isovalue < 1.0);
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfCells() > 0, isovalue < 1.0);
+      for (const char* const name : { "SplatAxis", "SplatPolygon" })
+      {
+        vtkDataArray* const array = filter->GetOutput()->GetCellData()->GetArray(name);
+        EXPECT_EQ(array->GetInformation()->Get(vtkAbstractArray::GUI_HIDE()), 1) << name;
+      }
     }
   }
 }

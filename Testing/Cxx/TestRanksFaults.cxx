@@ -121,12 +121,14 @@ TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
     for (const Request& request : { points, triangles })
     {
       const Contents expected = expectedOf(pieces, request);
+      ASSERT_FALSE(expected.first.empty());
+      ASSERT_EQ(expected.second.empty(), !request.triangles);
       long n = 1;
       while (failsAt(n, bytes, pieces, request, expected) && !HasFailure())
       {
         n += n < 200 ? 1 : step;
       }
-      EXPECT_GT(n, 100) << "all allocations up to this one have failed";
+      EXPECT_GT(n, 100) << "too few allocations were reached";
     }
   }
 }

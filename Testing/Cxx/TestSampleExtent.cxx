@@ -93,12 +93,13 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
          clouds::scaled(clouds::coarse(3000, 10, 6), 0.125, 0.125, 0.125) }) // many equally far
   {
     Tree tree = treeOf(cloud);
+    const isopoint::Execution execution = clouds::executionOn(2);
     const std::vector<ExtentQuery> queries = randomQueries(cloud, 400);
     // The first isosurface is empty and refines nothing; two others refine different parts.
     for (const double isovalue : { 1e9, 0.5, -0.4 })
     {
       isopoint::SingleRank<isopoint::WideSample> rank(tree);
-      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, {}).refine(rank);
+      isopoint::NarrowBand<isopoint::WideSample>(tree, isovalue, execution).refine(rank);
       const isopoint::SampleExtents extents(tree);
       const auto idOf = [](const isopoint::WideSample* sample)
       { return sample ? sample->id : none; };
