@@ -307,7 +307,6 @@ TEST(Messages, EachInvalidUseIsOneError)
     { choose("g"), { "point array", "\"g\"", remedy, offer } },
     { choose("g", ofCells), { "cell array", "\"g\"", remedy, offer } },
     { choose("g", ofAny), { "point or cell array", "\"g\"", remedy, offer } },
-    { choose("", ofAny), { "active point or cell scalars", remedy, offer } },
     { choose("", ofCells), { "active cell scalars", remedy, offer } },
     { choose("short"), { "\"short\"", "7 values for 500 points", remedy } },
     { choose("position"), { "\"position\"", "3 components", "Calculator" } },
@@ -321,6 +320,12 @@ TEST(Messages, EachInvalidUseIsOneError)
     { input(unloaded), { "load", "reader" } },
     { input(nothing), { "no points", "Connect" } },
     { input(emptyBlocks), { "no points", "Connect" } },
+    { [&](Isopoints* filter)
+      {
+        cloud->GetPointData()->SetActiveScalars(nullptr);
+        choose("", ofAny)(filter);
+      },
+      { "active point or cell scalars", remedy, offer } },
   };
   for (const auto& [use, words] : uses)
   {
