@@ -6,6 +6,7 @@
 #include "Core/Extraction/IsopointNeighbors.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/SingleRank.h"
+#include "Core/Extraction/WholeSurface.h"
 #include "Core/IsosurfaceExtractor.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Neighbors/SampleExtent.h"
@@ -26,63 +27,6 @@
 
 namespace isopoint
 {
-
-/// The isopoints that an extraction works on, for one rank that has all. SurfaceHalo implements the
-/// same functions, and those of AllPoints, for several ranks:
-/// - gather(rings, isShared): fetches rings of other ranks' isopoints, none or at least 3.
-///   isShared: whether share() sends all results to ranks with copies, or only normals;
-/// - surface(): all isopoints, each once, without coincident samples;
-/// - numbers(): their order among points at one position; empty for that of surface();
-/// - inner(): per isopoint, whether neighbors are needed around it; null for all;
-/// - home(), elsewhere(): indices of this rank's isopoints, and of all others;
-/// - takeHome(): moves out the surface of home();
-/// - share(ofAll): sets the entries of other ranks' isopoints, one entry per isopoint of surface().
-template <class TSample>
-class WholeSurface : public AllPoints
-{
-public:
-  WholeSurface(const Execution& execution, SingleRank<TSample>& /*ranks*/,
-    const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
-    Isosurface whole, bool /*hasFits*/)
-    : AllPoints(whole.size())
-    , Run(execution)
-    , Tree(tree)
-    , Whole(std::move(whole))
-  {
-  }
-
-  /// Consecutive points are close, so that their surroundings are in cache.
-  void gather(int rings, bool /*isShared*/)
-  {
-    if (rings == 0)
-    {
-      return;
-    }
-    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
-    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
-  }
-
-  const Isosurface& surface() const { return this->Ordered; }
-  const std::vector<std::size_t>& numbers() const { return this->Order; }
-  const std::vector<bool>* inner() const { return nullptr; }
-
-  std::vector<std::size_t> home() const
-  {
-    std::vector<std::size_t> places(this->Order.size());
-    forEachIndex(this->Run, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
-    return places;
-  }
-  std::vector<std::size_t> elsewhere() const { return {}; }
-
-  Isosurface takeHome() { return std::move(this->Whole); }
-
-private:
-  const Execution& Run;
-  const SampleTree<TSample>& Tree;
-  Isosurface Whole;
-  std::vector<std::size_t> Order;
-  Isosurface Ordered;
-};
 
 /// Rings of isopoints around a rank's own that are its ghosts: if splats of the second ring are
 /// visible, so are the splats that they overlap (docs/ranks.md).

@@ -165,10 +165,8 @@ private:
       }
       return false;
     }
-    if (node.isAbsent)
-    {
-      throw MissingNode{ nodeIndex, this->boxAround(behind.center, behind.edge.length) };
-    }
+    requireSamples(tree, nodeIndex,
+      [&]() { return this->boxAround(behind.center, behind.edge.length); });
     return this->add(
       tree, nodeIndex,
       [&](const TSample& sample)
@@ -196,7 +194,7 @@ private:
     Found<TSample>& found) const
   {
     const Node<TSample>& node = tree.nodes[nodeIndex];
-    const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
+    const std::size_t end = node.positionsEnd();
     for (std::size_t i = node.begin; i < end && found.count < this->WantedCount; ++i)
     {
       if (isWanted(tree.samples[i]))

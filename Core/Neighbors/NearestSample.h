@@ -71,12 +71,8 @@ private:
       }
       return;
     }
-    if (node.isAbsent)
-    {
-      throw MissingNode{ nodeIndex, this->within(region) };
-    }
-    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
-    for (std::size_t i = node.begin; i < end; ++i)
+    requireSamples(this->Tree, nodeIndex, [&]() { return this->within(region); });
+    for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
     {
       this->consider(this->Tree.samples[i]);
     }

@@ -52,9 +52,9 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
     }
     if (found.depth == nodeDepth || !node.isSplit())
     {
-      if (node.isAbsent && found.depth < nodeDepth)
+      if (found.depth < nodeDepth)
       {
-        throw MissingNode{ found.nodeIndex, region };
+        requireSamples(tree, found.nodeIndex, [&region]() { return region; });
       }
       if (visit(found.nodeIndex))
       {

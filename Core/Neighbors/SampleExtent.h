@@ -74,10 +74,7 @@ private:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (!node.isSplit())
     {
-      if (node.isAbsent)
-      {
-        throw MissingNode{ nodeIndex, box };
-      }
+      requireSamples(this->Tree, nodeIndex, [&box]() { return box; });
       this->addSamples(nodeIndex);
       return;
     }
@@ -131,7 +128,7 @@ private:
   {
     constexpr std::size_t many = 64;
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+    const std::size_t end = node.positionsEnd();
     const bool areMany = end - node.begin > many;
     const SampleBox<TSample> box =
       areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })

@@ -15,53 +15,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The points whose splats are computed: all points of the surface. SurfaceHalo has the same
-/// interface for a surface shared by a process group.
-class AllPoints
-{
-public:
-  explicit AllPoints(std::size_t count)
-    : Indices(count)
-  {
-    std::iota(this->Indices.begin(), this->Indices.end(), std::size_t{ 0 });
-  }
-
-  /// The points whose cells are cut on this rank; consecutive points should be close.
-  const std::vector<std::size_t>& own() const { return this->Indices; }
-
-  /// The points whose shapes are made on this rank.
-  const std::vector<std::size_t>& shaped() const { return this->Indices; }
-
-  /// Removes the points of other ranks from an ascending list.
-  void keepOwn(std::vector<std::size_t>& /*points*/) const {}
-
-  /// See forEachItem(). If samples of other ranks are missing, `work` throws MissingNode and is
-  /// repeated once they are fetched: it must leave no side effects when it throws.
-  template <class MakeWorker, class Work>
-  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
-    const Work& work, const BatchDone& batchDone) const
-  {
-    forEachItem(execution, batches, makeWorker, work, batchDone);
-  }
-
-  /// Fetches the entries of other ranks' points.
-  template <class T>
-  void share(std::vector<T>& /*ofAll*/) const
-  {
-  }
-  void shareCells(RawArray<VoronoiCell>& /*cells*/) const {}
-
-private:
-  std::vector<std::size_t> Indices;
-};
 
 /// See computeSplats().
 template <class TNeighbors, class TExtents, class TChosen>
@@ -250,7 +209,7 @@ private:
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 /// @param points consecutive ones should be close
 /// @param extents of the samples, or null for no border; see cutAtBorder()
-/// @param chosen AllPoints, or SurfaceHalo
+/// @param chosen see WholeSurface
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n), plus a few queries of extents
 template <class TNeighbors, class TExtents, class TChosen>

@@ -332,7 +332,7 @@ private:
       [&](const Path& below)
       {
         const Node<TSample>& node = this->Tree.nodes[below.nodeIndex()];
-        const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
+        const std::size_t end = node.positionsEnd();
         for (std::size_t i = node.begin; i < end && !found && this->Tree.hasOwn(node); ++i)
         {
           if (this->triangulation().raisesDimension(positionOf(this->Tree.samples[i])))

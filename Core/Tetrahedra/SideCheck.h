@@ -122,8 +122,7 @@ private:
     }
     else if (!isKnown)
     {
-      const std::size_t end = node.isLeaf ? node.begin + 1 : node.end;
-      for (std::size_t i = node.begin; i < end; ++i)
+      for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
       {
         this->Places.push_back({ i, nodeIndex, isBelow });
       }

@@ -46,8 +46,7 @@ SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSam
     return box;
   };
   SampleBox<TSample> box = boxOf(tree.samples[node.begin]);
-  const std::size_t end = node.isLeaf ? node.begin + std::size_t{ 1 } : node.end;
-  for (std::size_t i = node.begin; i < end; ++i)
+  for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
   {
     box = united(box, boxOf(tree.samples[i]));
   }
@@ -89,7 +88,7 @@ public:
   {
     if (!node.isSplit())
     {
-      this->requireSamples(node);
+      this->require(node);
       const auto* const position = this->Tree.samples[node.begin].position;
       return offsetsToBox(from, position, position);
     }
@@ -110,7 +109,7 @@ private:
   {
     if (!node.isSplit())
     {
-      this->requireSamples(node);
+      this->require(node);
       return boxOfSamples(this->Tree, node);
     }
     const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
@@ -119,15 +118,15 @@ private:
     return box;
   }
 
-  void requireSamples(const Node<TSample>& node) const
+  void require(const Node<TSample>& node) const
   {
-    if (node.isAbsent)
+    const auto everywhere = []()
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();
-      const Region everywhere{ { -infinity, -infinity, -infinity },
-        { infinity, infinity, infinity } };
-      throw MissingNode{ static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere };
-    }
+      return Region{ { -infinity, -infinity, -infinity }, { infinity, infinity, infinity } };
+    };
+    requireSamples(
+      this->Tree, static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere);
   }
 
   const SampleTree<TSample>& Tree;

@@ -38,6 +38,9 @@ struct Node
   std::size_t lowerNode() const { return 2 * static_cast<std::size_t>(this->childPair); }
   std::size_t upperNode() const { return this->lowerNode() + 1; }
   std::size_t count() const { return static_cast<std::size_t>(this->end - this->begin); }
+
+  /// The end of the samples that stand for all: of those at one position, the first one suffices.
+  std::size_t positionsEnd() const { return this->isLeaf ? this->begin + Id{ 1 } : this->end; }
 };
 
 /// Thrown by searches that need samples this rank does not hold, or that need a node to be split
@@ -107,6 +110,17 @@ struct SampleTree
     return upper ? node.upperNode() : node.lowerNode();
   }
 };
+
+/// @param needed() the box where samples are needed
+/// @throws MissingNode if another rank holds the node's samples
+template <class TSample, class Needed>
+void requireSamples(const SampleTree<TSample>& tree, std::size_t nodeIndex, const Needed& needed)
+{
+  if (tree.nodes[nodeIndex].isAbsent)
+  {
+    throw MissingNode{ nodeIndex, needed() };
+  }
+}
 
 /// The deepest node, at or below another one, whose region contains a box.
 template <class TSample>

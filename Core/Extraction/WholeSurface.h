@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/Execution.h"
+#include "Core/Extraction/IsopointNeighbors.h"
+#include "Core/Extraction/Isosurface.h"
+#include "Core/Extraction/SingleRank.h"
+#include "Core/Neighbors/NeighborhoodCache.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The points whose splats are computed (template parameter TChosen): all of them. SurfaceHalo
+/// implements the same functions for several ranks.
+class AllPoints
+{
+public:
+  explicit AllPoints(std::size_t count)
+    : Indices(count)
+  {
+    std::iota(this->Indices.begin(), this->Indices.end(), std::size_t{ 0 });
+  }
+
+  /// The points whose cells are cut on this rank; consecutive points should be close.
+  const std::vector<std::size_t>& own() const { return this->Indices; }
+
+  /// The points whose shapes are made on this rank.
+  const std::vector<std::size_t>& shaped() const { return this->Indices; }
+
+  /// Removes the points of other ranks from an ascending list.
+  void keepOwn(std::vector<std::size_t>& /*points*/) const {}
+
+  /// See SingleRank::forEach().
+  template <class MakeWorker, class Work>
+  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone) const
+  {
+    forEachItem(execution, batches, makeWorker, work, batchDone);
+  }
+
+  /// Sets the entries of other ranks' points, one entry per point.
+  template <class TList>
+  void share(TList& /*ofAll*/) const
+  {
+  }
+
+  /// The same for cells, which refer to points.
+  template <class TCells>
+  void shareCells(TCells& /*cells*/) const
+  {
+  }
+
+private:
+  std::vector<std::size_t> Indices;
+};
+
+/// The isopoints that an extraction works on, for one rank that has all. SurfaceHalo implements the
+/// same functions, and those of AllPoints, for several ranks:
+/// - gather(rings, isShared): fetches rings of other ranks' isopoints, none or at least 3.
+///   isShared: whether share() sends all results to ranks with copies, or only normals;
+/// - surface(): all isopoints, each once, without coincident samples;
+/// - numbers(): their order among points at one position; empty for that of surface();
+/// - inner(): per isopoint, whether neighbors are needed around it; null for all;
+/// - home(), elsewhere(): indices of this rank's isopoints, and of all others;
+/// - takeHome(): moves out the surface of home().
+template <class TSample>
+class WholeSurface : public AllPoints
+{
+public:
+  WholeSurface(const Execution& execution, SingleRank<TSample>& /*ranks*/,
+    const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
+    Isosurface whole, bool /*hasFits*/)
+    : AllPoints(whole.size())
+    , Run(execution)
+    , Tree(tree)
+    , Whole(std::move(whole))
+  {
+  }
+
+  /// Consecutive points are close, so that their surroundings are in cache.
+  void gather(int rings, bool /*isShared*/)
+  {
+    if (rings == 0)
+    {
+      return;
+    }
+    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
+    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
+  }
+
+  const Isosurface& surface() const { return this->Ordered; }
+  const std::vector<std::size_t>& numbers() const { return this->Order; }
+  const std::vector<bool>* inner() const { return nullptr; }
+
+  std::vector<std::size_t> home() const
+  {
+    std::vector<std::size_t> places(this->Order.size());
+    forEachIndex(this->Run, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
+    return places;
+  }
+  std::vector<std::size_t> elsewhere() const { return {}; }
+
+  Isosurface takeHome() { return std::move(this->Whole); }
+
+private:
+  const Execution& Run;
+  const SampleTree<TSample>& Tree;
+  Isosurface Whole;
+  std::vector<std::size_t> Order;
+  Isosurface Ordered;
+};
+
+} // namespace isopoint
