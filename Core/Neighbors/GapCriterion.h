@@ -63,22 +63,10 @@ public:
     const TSample& other) const
   {
     const Vector center = positionOf(end);
-    Behind<TSample> behind{ tree, bounds, center, offsetBetween(center, positionOf(other)), {} };
-    // Start at the smallest node around the search radius.
-    const Region box = this->boxAround(center, behind.edge.length);
-    std::size_t nodeIndex = SampleTree<TSample>::rootNode;
-    Region region = tree.region;
-    for (;;)
-    {
-      const Node<TSample>& node = tree.nodes[nodeIndex];
-      const bool isUpper = node.isSplit() && box.lower[node.axis] > node.plane;
-      if (!isUpper && !(node.isSplit() && box.upper[node.axis] < node.plane))
-      {
-        return this->findBehind(nodeIndex, region, behind);
-      }
-      (isUpper ? region.lower : region.upper)[node.axis] = node.plane;
-      nodeIndex = tree.child(node, isUpper);
-    }
+    SearchBehind<TSample> search{ *this, tree, bounds, center,
+      offsetBetween(center, positionOf(other)), {} };
+    return searchRegion(tree, SampleTree<TSample>::rootNode,
+      this->boxAround(center, search.edge.length), search);
   }
 
   /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.
@@ -119,74 +107,65 @@ private:
     }
   };
 
-  /// State of a search behind an end of an edge.
+  /// A search behind an end of an edge, until enough samples are found; see searchRegion().
   template <class TSample>
-  struct Behind
+  struct SearchBehind
   {
+    const GapCriterion& criterion;
     const SampleTree<TSample>& tree;
     SampleBounds<TSample>& bounds;
     Vector center; // the end
     Offset edge;   // to the other end
     Found<TSample> found;
     std::size_t visited = 0; // nodes
-  };
 
-  /// @returns whether enough samples are found
-  template <class TSample>
-  bool findBehind(std::size_t nodeIndex, const Region& region, Behind<TSample>& behind) const
-  {
-    if (!this->mayHoldAny(offsetsToBox(behind.center, region.lower, region.upper), behind))
+    bool mayHold(const Node<TSample>& node, const Region& region)
     {
-      return false;
-    }
-    const SampleTree<TSample>& tree = behind.tree;
-    const Node<TSample>& node = tree.nodes[nodeIndex];
-    if (node.isSplit())
-    {
+      if (!this->mayHold(offsetsToBox(this->center, region.lower, region.upper)))
+      {
+        return false;
+      }
       // Regions mostly suffice, but extend far beyond samples on lines and sheets.
       constexpr std::size_t many = 256;
-      if (++behind.visited > many && !tree.isPartial)
+      if (!node.isSplit() || ++this->visited <= many || this->tree.isPartial)
       {
-        behind.bounds.compute();
-        if (!this->mayHoldAny(behind.bounds.offsets(behind.center, node), behind))
-        {
-          return false;
-        }
+        return true;
       }
-      const bool isUpperFirst = behind.center[node.axis] > node.plane;
-      for (const bool isUpper : { isUpperFirst, !isUpperFirst })
-      {
-        Region part = region;
-        (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
-        if (this->findBehind(tree.child(node, isUpper), part, behind))
-        {
-          return true;
-        }
-      }
-      return false;
+      this->bounds.compute();
+      return this->mayHold(this->bounds.offsets(this->center, node));
     }
-    requireSamples(tree, nodeIndex,
-      [&]() { return this->boxAround(behind.center, behind.edge.length); });
-    return this->add(
-      tree, nodeIndex,
-      [&](const TSample& sample)
-      {
-        const Offset offset = offsetBetween(behind.center, positionOf(sample));
-        return this->Factor * offset.length < behind.edge.length &&
-               -dot(offset.vector, behind.edge.vector) >
-                 this->Cosine * (offset.length * behind.edge.length);
-      },
-      behind.found);
-  }
 
-  /// Whether a sample whose offset is within bounds may be behind the end. Rounding is monotonic.
-  template <class TSample>
-  bool mayHoldAny(const OffsetBounds& offsets, const Behind<TSample>& behind) const
-  {
-    const double least = std::sqrt(offsets.leastSquaredLength);
-    return this->Factor * least < behind.edge.length &&
-           -leastProduct(behind.edge, offsets) > this->Cosine * (least * behind.edge.length);
-  }
+    /// Whether a sample whose offset is within bounds may be behind the end. Rounding is monotonic.
+    bool mayHold(const OffsetBounds& offsets) const
+    {
+      const double least = std::sqrt(offsets.leastSquaredLength);
+      return this->criterion.Factor * least < this->edge.length &&
+             -leastProduct(this->edge, offsets) >
+               this->criterion.Cosine * (least * this->edge.length);
+    }
+
+    bool isUpperFirst(const Node<TSample>& node) const
+    {
+      return this->center[node.axis] > node.plane;
+    }
+
+    Region needed(const Region& /*region*/) const
+    {
+      return this->criterion.boxAround(this->center, this->edge.length);
+    }
+
+    bool add(std::size_t nodeIndex)
+    {
+      const auto isBehind = [this](const TSample& sample)
+      {
+        const Offset offset = offsetBetween(this->center, positionOf(sample));
+        return this->criterion.Factor * offset.length < this->edge.length &&
+               -dot(offset.vector, this->edge.vector) >
+                 this->criterion.Cosine * (offset.length * this->edge.length);
+      };
+      return this->criterion.add(this->tree, nodeIndex, isBehind, this->found);
+    }
+  };
 
   /// Adds samples of an unsplit node. @returns whether enough are found
   template <class TSample, class Kind>

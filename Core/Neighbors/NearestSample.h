@@ -45,39 +45,44 @@ public:
   {
     if (!this->Tree.isEmpty())
     {
-      const Region box = this->within(this->Tree.region);
-      this->visit(smallestAround(this->Tree, SampleTree<TSample>::rootNode, box), box);
+      searchRegion(
+        this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
     }
     return this->Found;
   }
 
-private:
-  /// @param region a part of the node's that contains all its samples within the search radius
-  void visit(std::size_t nodeIndex, const Region& region)
+  // For searchRegion().
+
+  bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
   {
-    if (!this->isNear(region) || !this->Condition.mayHoldIn(region))
+    return this->isNear(region) && this->Condition.mayHoldIn(region);
+  }
+
+  bool isUpperFirst(const Node<TSample>& node) const { return this->Place[node.axis] > node.plane; }
+
+  /// The part of a region within the search radius, with a margin for rounding.
+  Region needed(Region region) const
+  {
+    const double reach = 1.001 * this->Distance;
+    for (int axis = 0; axis < 3; ++axis)
     {
-      return;
+      region.lower[axis] = std::max(region.lower[axis], this->Place[axis] - reach);
+      region.upper[axis] = std::min(region.upper[axis], this->Place[axis] + reach);
     }
+    return region;
+  }
+
+  bool add(std::size_t nodeIndex)
+  {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (node.isSplit())
-    {
-      const bool isUpperFirst = this->Place[node.axis] > node.plane;
-      for (const bool isUpper : { isUpperFirst, !isUpperFirst })
-      {
-        Region part = region;
-        (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
-        this->visit(this->Tree.child(node, isUpper), part);
-      }
-      return;
-    }
-    requireSamples(this->Tree, nodeIndex, [&]() { return this->within(region); });
     for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
     {
       this->consider(this->Tree.samples[i]);
     }
+    return false;
   }
 
+private:
   /// Whether a region may hold a sample as near as the nearest found.
   bool isNear(const Region& region) const
   {
@@ -91,23 +96,12 @@ private:
     return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
   }
 
-  /// Compares components only: far faster than lengths, which are never rounded below a component.
+  /// Compares components only. That is far faster than the length, which is never less than a
+  /// component, rounding included.
   bool isFarther(const Vector& offset) const
   {
     return std::abs(offset[0]) > this->Distance || std::abs(offset[1]) > this->Distance ||
            std::abs(offset[2]) > this->Distance;
-  }
-
-  /// The part of a region within the search radius, with a margin for rounding.
-  Region within(Region region) const
-  {
-    const double reach = 1.001 * this->Distance;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      region.lower[axis] = std::max(region.lower[axis], this->Place[axis] - reach);
-      region.upper[axis] = std::min(region.upper[axis], this->Place[axis] + reach);
-    }
-    return region;
   }
 
   void consider(const TSample& sample)

@@ -55,39 +55,48 @@ public:
       box.lower[axis] = std::max(this->Tree.region.lower[axis], center[axis] - half);
       box.upper[axis] = std::min(this->Tree.region.upper[axis], center[axis] + half);
     }
-    this->visit(SampleTree<TSample>::rootNode, box);
+    searchRegion(this->Tree, SampleTree<TSample>::rootNode, box, *this);
   }
 
   double extent() const { return std::min({ this->Above, this->Below, this->Query.enough }); }
   bool isEnough() const { return this->extent() >= this->Query.enough; }
 
-private:
-  /// @param box the intersection of the search box and the node's region
-  /// @throws MissingNode at a node whose samples another rank holds
-  void visit(std::size_t nodeIndex, const Region& box)
+  // For searchRegion().
+
+  bool mayHold(const Node<TSample>& /*node*/, const Region& box) const
   {
-    nodeIndex = smallestAround(this->Tree, nodeIndex, box);
-    if (!this->mayContribute(box))
-    {
-      return;
-    }
-    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (!node.isSplit())
-    {
-      requireSamples(this->Tree, nodeIndex, [&box]() { return box; });
-      this->addSamples(nodeIndex);
-      return;
-    }
-    const bool isUpperFirst = this->Query.direction[node.axis] > 0.0;
-    for (const bool isUpper : { isUpperFirst, !isUpperFirst })
-    {
-      Region part = box;
-      double& bound = isUpper ? part.lower[node.axis] : part.upper[node.axis];
-      bound = isUpper ? std::max(bound, node.plane) : std::min(bound, node.plane);
-      this->visit(this->Tree.child(node, isUpper), part);
-    }
+    return this->mayContribute(box);
   }
 
+  bool isUpperFirst(const Node<TSample>& node) const
+  {
+    return this->Query.direction[node.axis] > 0.0;
+  }
+
+  static const Region& needed(const Region& box) { return box; }
+
+  /// Includes the samples of an unsplit node; checks at times whether the rest can matter.
+  bool add(std::size_t nodeIndex)
+  {
+    constexpr std::size_t many = 64;
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    const std::size_t end = node.positionsEnd();
+    const bool areMany = end - node.begin > many;
+    const SampleBox<TSample> box =
+      areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })
+              : SampleBox<TSample>{};
+    for (std::size_t i = node.begin; i < end; ++i)
+    {
+      if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
+      {
+        break;
+      }
+      this->include(positionOf(this->Tree.samples[i]));
+    }
+    return false;
+  }
+
+private:
   /// Whether a sample in a box may extend farther than those found on its side of the plane.
   /// Rounding is monotonic, so no value computed for a sample exceeds that for its box.
   template <class TBox>
@@ -123,28 +132,7 @@ private:
     return least <= this->Query.reach && ahead >= leastCosineAhead * least;
   }
 
-  /// Includes the samples of an unsplit node; checks at times whether the rest can matter.
-  void addSamples(std::size_t nodeIndex)
-  {
-    constexpr std::size_t many = 64;
-    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    const std::size_t end = node.positionsEnd();
-    const bool areMany = end - node.begin > many;
-    const SampleBox<TSample> box =
-      areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })
-              : SampleBox<TSample>{};
-    for (std::size_t i = node.begin; i < end; ++i)
-    {
-      if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
-      {
-        return;
-      }
-      const auto* const position = this->Tree.samples[i].position;
-      this->add({ position[0], position[1], position[2] });
-    }
-  }
-
-  void add(const Vector& position)
+  void include(const Vector& position)
   {
     const Vector offset = difference(position, this->Query.place);
     const double height = dot(offset, this->Query.normal);

@@ -139,6 +139,41 @@ std::size_t smallestAround(
   }
 }
 
+/// Searches the samples of interest in a region depth-first.
+/// @param region a part of the node's that contains all of them
+/// @param search mayHold(node, region): whether any of them may be in a part of the region;
+/// isUpperFirst(node): which child to search first; needed(region): see requireSamples();
+/// add(nodeIndex): takes the samples of an unsplit node, and returns true to end the search
+/// @returns whether add() ended the search
+/// @throws MissingNode at a node whose samples another rank holds
+template <class TSample, class TSearch>
+bool searchRegion(
+  const SampleTree<TSample>& tree, std::size_t nodeIndex, const Region& region, TSearch& search)
+{
+  nodeIndex = smallestAround(tree, nodeIndex, region);
+  const Node<TSample>& node = tree.nodes[nodeIndex];
+  if (!search.mayHold(node, region))
+  {
+    return false;
+  }
+  if (!node.isSplit())
+  {
+    requireSamples(tree, nodeIndex, [&]() { return search.needed(region); });
+    return search.add(nodeIndex);
+  }
+  const bool isUpperFirst = search.isUpperFirst(node);
+  for (const bool isUpper : { isUpperFirst, !isUpperFirst })
+  {
+    Region part = region;
+    (isUpper ? part.lower : part.upper)[node.axis] = node.plane;
+    if (searchRegion(tree, tree.child(node, isUpper), part, search))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 inline std::size_t siblingOf(std::size_t nodeIndex)
 {
   return nodeIndex ^ 1;
