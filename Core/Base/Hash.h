@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,6 +32,21 @@ inline std::uint64_t extendedHash(std::uint64_t hash, std::uint64_t number)
 inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
 {
   return std::accumulate(numbers, numbers + count, std::uint64_t{ count }, extendedHash);
+}
+
+/// A hash of a cell in one of several grids.
+/// @param place integers, which may exceed the range of integer types
+inline std::uint64_t hashOfCell(int grid, const std::array<double, 3>& place)
+{
+  auto hash = static_cast<std::uint64_t>(grid);
+  for (const double coordinate : place)
+  {
+    const double number = coordinate + 0.0; // -0 becomes 0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    hash = extendedHash(hash, bits);
+  }
+  return hash;
 }
 
 /// A hash of bytes with the same properties, computed on all threads. O(bytes)

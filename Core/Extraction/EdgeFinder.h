@@ -34,7 +34,7 @@ public:
     , Criterion(criterion)
     , ListsGaps(listsGaps)
     , Implicit(context.tree, context.bounds)
-    , Values(context.tree, context.leafMeans)
+    , Values(context.leafValues)
   {
   }
 
@@ -245,7 +245,7 @@ private:
   std::vector<Crossing> Crossings;
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<CrossingEdge<TSample>> GapEdges;
-  LeafValueCache<TSample> Values;
+  LeafValues<TSample>& Values;
 };
 
 } // namespace isopoint

@@ -157,13 +157,12 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
     execution, surface.size(), 8 * grain, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      LeafValueCache<TSample> values(context.tree, context.leafMeans);
       for (std::size_t i = begin; i < end; ++i)
       {
         const std::size_t first = surface.edgeBegin(i);
         const CrossingEdge<TSample>& own = isopoints.edges[first];
         const Vector along = difference(positionAt(own.secondLeaf), positionAt(own.firstLeaf));
-        const bool isDecreasing = !(values.at(own.firstLeaf) < context.isovalue);
+        const bool isDecreasing = !(context.leafValues.at(own.firstLeaf) < context.isovalue);
         surface.decreasingEdges[i] = isDecreasing ? along : scaled(-1.0, along);
         const auto crossingOf = [&](const CrossingEdge<TSample>& edge) {
           return interpolate(

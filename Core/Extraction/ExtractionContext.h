@@ -26,7 +26,7 @@ struct ExtractionContext
     , neighborhoods(knownNeighborhoods)
     , isovalue(extractedIsovalue)
     , bounds(tree)
-    , leafMeans(tree)
+    , leafValues(tree)
     , listBudget(tree.isPartial ? unlimited : tree.samples.size())
     , cacheBudget(static_cast<std::int64_t>(neighborhoods.room(2 * tree.ownCount())))
   {
@@ -39,7 +39,7 @@ struct ExtractionContext
   const Neighborhoods& neighborhoods;
   const double isovalue;
   SampleBounds<TSample> bounds;
-  SharedLeafMeans<TSample> leafMeans;
+  LeafValues<TSample> leafValues;
   NeighborListBudget listBudget;
   std::atomic<std::int64_t> cacheBudget; // numbers that may still be cached
 };

@@ -42,7 +42,7 @@ public:
     : Context(context)
     , Tree(context.tree)
     , Implicit(context.tree, context.bounds)
-    , Values(context.tree, context.leafMeans)
+    , Values(context.leafValues)
   {
   }
 
@@ -176,7 +176,7 @@ private:
   ExtractionContext<TSample>& Context;
   const SampleTree<TSample>& Tree;
   ImplicitNeighborhood<TSample> Implicit;
-  LeafValueCache<TSample> Values;
+  LeafValues<TSample>& Values;
   std::unordered_map<Id, Rings> Known;           // by leaf
   std::unordered_map<Id, std::vector<Id>> Found; // neighbors from searches, by leaf
   std::size_t CountListed = 0;                   // leaves in all second rings

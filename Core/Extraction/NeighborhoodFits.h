@@ -81,20 +81,9 @@ private:
 };
 
 /// The place of an edge in tree order.
-struct TreePlace
+struct TreePlace : SampleEdge // with places of samples instead of ids
 {
-  std::uint64_t lower; // of its ends among the tree's samples
-  std::uint64_t upper;
   std::size_t edge;
-
-  bool operator<(const TreePlace& other) const
-  {
-    return this->lower != other.lower ? this->lower < other.lower : this->upper < other.upper;
-  }
-  bool operator==(const TreePlace& other) const
-  {
-    return this->lower == other.lower && this->upper == other.upper;
-  }
 };
 
 /// Edges in tree order: consecutive ones are close, whatever the samples' ids.
@@ -110,10 +99,10 @@ std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSa
     {
       const auto [lower, upper] =
         std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
-      places[i] = { lower, upper, i };
+      places[i] = { { lower, upper }, i };
     });
   return sortedUnique(
-    execution, places, tree.samples.size(), [](const TreePlace& place) { return place.lower; });
+    execution, places, tree.samples.size(), [](const TreePlace& place) { return place.first; });
 }
 
 /// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Extraction/Thinning.h"
 
+#include "Core/Base/Hash.h"
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 
@@ -8,8 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -87,29 +86,15 @@ public:
   }
 
 private:
-  /// A grid cell: integers, or infinite for points too far away for their grid.
-  struct Cell
-  {
-    int exponent;
-    Vector place;
-
-    bool operator==(const Cell& other) const
-    {
-      return this->exponent == other.exponent && this->place == other.place;
-    }
-  };
+  /// The exponent of a grid, and the place of a cell in it: integers, or infinite for points too
+  /// far away for their grid.
+  using Cell = std::pair<int, Vector>;
 
   struct HashOfCell
   {
     std::size_t operator()(const Cell& cell) const
     {
-      auto hash = static_cast<std::uint64_t>(cell.exponent);
-      for (const double coordinate : cell.place)
-      {
-        hash = (hash ^ std::hash<double>()(coordinate)) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-      }
-      return static_cast<std::size_t>(hash);
+      return static_cast<std::size_t>(hashOfCell(cell.first, cell.second));
     }
   };
 
@@ -196,10 +181,6 @@ std::vector<std::size_t> keptPoints(
 
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface)
 {
-  if (!(minimumSpacing > 0.0) || surface.fits.empty())
-  {
-    return;
-  }
   const std::vector<std::size_t> kept = keptPoints(execution, minimumSpacing, surface.fits);
   if (kept.size() == surface.size())
   {

@@ -220,7 +220,7 @@ public:
     std::vector<LocalFit> fits(edges.size());
     std::vector<TreePlace> places = placesOf(execution, this->Tree, edges);
     places.erase(std::remove_if(places.begin(), places.end(),
-                   [this](const TreePlace& place) { return !this->Tree.isOwn(place.lower); }),
+                   [this](const TreePlace& place) { return !this->Tree.isOwn(place.first); }),
       places.end());
     fitAt(execution, context, *this, request, edges, starts, places, fits);
     this->gatherFits(places, fits);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/SplatMesh/MeetingVertices.h"
 
+#include "Core/Base/Hash.h"
 #include "Core/Base/Lists.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <set>
 
@@ -41,23 +41,9 @@ Cell cellOf(const Vector& position, double offset, double cells)
   Cell cell;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cell[axis] = std::floor((position[axis] + offset) * cells) + 0.0; // -0 becomes 0
+    cell[axis] = std::floor((position[axis] + offset) * cells);
   }
   return cell;
-}
-
-std::uint64_t hashOf(int grid, const Cell& cell)
-{
-  constexpr std::uint64_t factor = 0x9E3779B97F4A7C15u;
-  auto hash = static_cast<std::uint64_t>(grid);
-  for (const double number : cell)
-  {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof(bits));
-    hash = (hash ^ bits) * factor;
-    hash ^= hash >> 32;
-  }
-  return hash;
 }
 
 /// Whether other vertices may coincide with a vertex.
@@ -76,32 +62,18 @@ int gridOf(const SplatVertex& vertex)
 }
 
 /// A vertex in a cell of its own grid or of a coarser one.
-struct Entry
-{
-  std::uint64_t cell; // a hash
-  std::size_t vertex;
+using Entry = std::pair<std::uint64_t, std::size_t>; // the cell's hash, and the vertex
 
-  /// Vertices of the cell's own grid come first.
-  bool operator<(const Entry& other) const
-  {
-    return this->cell != other.cell ? this->cell < other.cell : this->vertex < other.vertex;
-  }
-  bool operator==(const Entry& other) const
-  {
-    return this->cell == other.cell && this->vertex == other.vertex;
-  }
-};
-
-/// Entries of finer grids have odd hashes: the cell's even hash plus one.
+/// Entries of finer grids have odd hashes, the cell's even hash plus one, and so come last.
 bool isOfFinerGrid(const Entry& entry)
 {
-  return (entry.cell & 1) != 0;
+  return (entry.first & 1) != 0;
 }
 
 /// The same for all entries in a cell.
 std::uint64_t cellNumber(const Entry& entry)
 {
-  return entry.cell >> 1;
+  return entry.first >> 1;
 }
 
 /// Calls visit(cell) for all cells of a grid within a vertex's tolerance.
@@ -148,7 +120,7 @@ std::vector<Entry> verticesByCell(
           const std::uint64_t isFiner = grid == own ? 0 : 1;
           forCells(vertices[i], *grid,
             [&](const Cell& cell) {
-              found.push_back({ hashOf(*grid, cell) << 1 | isFiner, i });
+              found.push_back({ hashOfCell(*grid, cell) << 1 | isFiner, i });
             });
         }
       }
@@ -190,10 +162,10 @@ std::vector<std::size_t> meetingVertices(
     const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
     const auto other = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(begin), last,
       [&](const Entry& earlier)
-      { return areOne(vertices[earlier.vertex], vertices[entry.vertex]); });
+      { return areOne(vertices[earlier.second], vertices[entry.second]); });
     if (other != last)
     {
-      const auto [first, second] = std::minmax({ firstOf(other->vertex), firstOf(entry.vertex) });
+      const auto [first, second] = std::minmax({ firstOf(other->second), firstOf(entry.second) });
       meetsAt[second] = first;
     }
     end = isOfFinerGrid(entry) ? end : i + 1;

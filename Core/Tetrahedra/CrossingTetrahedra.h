@@ -48,11 +48,11 @@ public:
   /// @param kept the band of an earlier search in this tree, or null; replaced by the new band, or
   /// by null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    SharedLeafMeans<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
+    LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
-    , Means(values)
+    , Values(values)
     , Isovalue(isovalue)
     , Kept(kept)
   {
@@ -155,7 +155,6 @@ private:
   /// Reusable memory of one thread.
   struct LeafSearch
   {
-    LeafValueCache<TSample> values;
     Path path;
     std::vector<std::size_t> found;
   };
@@ -165,9 +164,7 @@ private:
   {
     std::vector<std::size_t> leaves;
     std::mutex mutex;
-    const auto makeSearch = [this]() {
-      return LeafSearch{ { this->Tree, this->Means }, pathToRoot(this->Tree), {} };
-    };
+    const auto makeSearch = [this]() { return LeafSearch{ pathToRoot(this->Tree), {} }; };
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
       this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
@@ -178,7 +175,7 @@ private:
         forEachBelow(this->Tree, search.path, maximumDepth,
           [&](const Path& leaf)
           {
-            if (this->isAtSurface(leaf, search.values))
+            if (this->isAtSurface(leaf))
             {
               search.found.push_back(leaf.nodeIndex());
             }
@@ -190,13 +187,13 @@ private:
     return leaves;
   }
 
-  bool isAtSurface(const Path& leaf, LeafValueCache<TSample>& values) const
+  bool isAtSurface(const Path& leaf) const
   {
     if (!this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
     {
       return false;
     }
-    const bool isBelow = values.at(leaf.nodeIndex()) < this->Isovalue;
+    const bool isBelow = this->Values.at(leaf.nodeIndex()) < this->Isovalue;
     return touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow);
   }
 
@@ -207,9 +204,7 @@ private:
   void gather(std::vector<std::size_t>& leaves)
   {
     this->Ranks.gatherLeaves(leaves);
-    std::sort(leaves.begin(), leaves.end(),
-      [this](std::size_t a, std::size_t b)
-      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    sortInTreeOrder(this->Tree, leaves);
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   }
 
@@ -226,9 +221,8 @@ private:
       this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
       return;
     }
-    LeafValueCache<TSample> values(this->Tree, this->Means);
-    this->triangulation().setSides([&](std::uint64_t leaf)
-      { return values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
+    this->triangulation().setSides([this](std::uint64_t leaf)
+      { return this->Values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
   }
 
   bool isOfUse(const std::vector<std::size_t>& leaves)
@@ -262,7 +256,6 @@ private:
   /// Marks leaves as members of the band. @returns the new ones
   std::vector<BandSite> newSites(const std::vector<std::size_t>& leaves)
   {
-    LeafValueCache<TSample> values(this->Tree, this->Means);
     std::vector<BandSite> sites;
     sites.reserve(leaves.size());
     for (const std::size_t leaf : leaves)
@@ -271,7 +264,7 @@ private:
       {
         this->Current->marks.set(leaf, bandmarks::inBand);
         sites.push_back(
-          { positionOf(this->Tree.sampleOf(leaf)), leaf, values.at(leaf) < this->Isovalue });
+          { positionOf(this->Tree.sampleOf(leaf)), leaf, this->Values.at(leaf) < this->Isovalue });
       }
     }
     return sites;
@@ -351,7 +344,8 @@ private:
   };
 
   /// Searches the spheres of crossing cells. Certifies empty ones, and inserts the samples found in
-  /// the others. A cell whose sphere contains a sample of another rank does not survive.
+  /// the others. A cell whose sphere contains a sample of another rank is destroyed when that rank
+  /// inserts the sample.
   /// @returns whether any cells remain uncertified
   bool certify()
   {
@@ -406,7 +400,7 @@ private:
   bool checkSides()
   {
     SideCheck<TSample> check(
-      this->Run, this->Tree, this->triangulation(), this->Current->marks, this->Means);
+      this->Run, this->Tree, this->triangulation(), this->Current->marks, this->Values);
     std::vector<std::size_t> leaves;
     std::vector<std::size_t> unsplit;
     for (const std::size_t node : check.find(this->Isovalue))
@@ -454,7 +448,7 @@ private:
   const Execution& Run;
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
-  SharedLeafMeans<TSample>& Means;
+  LeafValues<TSample>& Values;
   const double Isovalue;
   std::unique_ptr<KeptTetrahedra>& Kept;
   std::unique_ptr<KeptTetrahedra> Current;

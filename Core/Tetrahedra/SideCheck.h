@@ -25,12 +25,12 @@ class SideCheck
 {
 public:
   SideCheck(const Execution& execution, const SampleTree<TSample>& tree,
-    const PartialTriangulation& band, const NodeMarks& marks, SharedLeafMeans<TSample>& means)
+    const PartialTriangulation& band, const NodeMarks& marks, LeafValues<TSample>& values)
     : Run(execution)
     , Tree(tree)
     , Band(band)
     , Marks(marks)
-    , Values(tree, means)
+    , Values(values)
   {
   }
 
@@ -148,7 +148,7 @@ private:
   const SampleTree<TSample>& Tree;
   const PartialTriangulation& Band;
   const NodeMarks& Marks;
-  LeafValueCache<TSample> Values;
+  LeafValues<TSample>& Values;
   double Isovalue = 0.0;
   std::vector<Place> Places;
   std::vector<std::size_t> Unsplit;

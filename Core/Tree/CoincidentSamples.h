@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace isopoint
@@ -46,42 +45,13 @@ double meanOfLeaf(const SampleTree<TSample>& tree, const Node<TSample>& leaf)
     leaf.count(), [samples](std::size_t i) { return static_cast<double>(samples[i].value); });
 }
 
-/// The values of leaves; thread-safe. Those of large leaves are kept.
+/// The values of leaves; thread-safe. Those of leaves with many samples are kept.
 template <class TSample>
-class SharedLeafMeans
+class LeafValues
 {
 public:
-  explicit SharedLeafMeans(const SampleTree<TSample>& tree)
+  explicit LeafValues(const SampleTree<TSample>& tree)
     : Tree(tree)
-  {
-  }
-
-  /// O(1), except for the first request for a leaf of over 4096 samples. @throws std::bad_alloc
-  double at(std::size_t nodeIndex)
-  {
-    constexpr std::size_t manySamples = 4096;
-    const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
-    if (leaf.count() <= manySamples)
-    {
-      return meanOfLeaf(this->Tree, leaf);
-    }
-    return this->Means.at(nodeIndex, [&]() { return meanOfLeaf(this->Tree, leaf); });
-  }
-
-private:
-  const SampleTree<TSample>& Tree;
-  ConcurrentMemo<double> Means;
-};
-
-/// The values of leaves, for one thread. Those of large leaves are kept: many cells may touch one.
-template <class TSample>
-class LeafValueCache
-{
-public:
-  /// @param shared of the same tree
-  LeafValueCache(const SampleTree<TSample>& tree, SharedLeafMeans<TSample>& shared)
-    : Tree(tree)
-    , Shared(shared)
   {
   }
 
@@ -94,20 +64,14 @@ public:
     {
       return static_cast<double>(leaf.minimum); // the sample's value, already in cache
     }
-    if (leaf.count() <= fewSamples)
-    {
-      return meanOfLeaf(this->Tree, leaf);
-    }
-    const auto found = this->Means.find(nodeIndex);
-    return found != this->Means.end()
-             ? found->second
-             : this->Means.emplace(nodeIndex, this->Shared.at(nodeIndex)).first->second;
+    return leaf.count() <= fewSamples
+             ? meanOfLeaf(this->Tree, leaf)
+             : this->Means.at(nodeIndex, [&]() { return meanOfLeaf(this->Tree, leaf); });
   }
 
 private:
   const SampleTree<TSample>& Tree;
-  SharedLeafMeans<TSample>& Shared;
-  std::unordered_map<std::size_t, double> Means; // by node index
+  ConcurrentMemo<double> Means; // by node index
 };
 
 } // namespace isopoint

@@ -11,6 +11,8 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -172,6 +174,21 @@ bool searchRegion(
     }
   }
   return false;
+}
+
+/// Sorts disjoint nodes by their samples, in the order that all ranks share.
+template <class TSample>
+void sortInTreeOrder(const SampleTree<TSample>& tree, std::vector<std::size_t>& nodes)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> byBegin; // far faster than looking up begins
+  byBegin.reserve(nodes.size());
+  for (const std::size_t node : nodes)
+  {
+    byBegin.emplace_back(tree.nodes[node].begin, node);
+  }
+  std::sort(byBegin.begin(), byBegin.end());
+  std::transform(
+    byBegin.begin(), byBegin.end(), nodes.begin(), [](const auto& begin) { return begin.second; });
 }
 
 inline std::size_t siblingOf(std::size_t nodeIndex)

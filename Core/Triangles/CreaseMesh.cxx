@@ -192,10 +192,9 @@ std::vector<Facet> withoutShortEdges(
         cross(difference(positions[b], positions[a]), difference(positions[c], positions[a])));
       return mesh.signedArea(moved) >= leastCosine * area;
     };
-    for (const ShortEdge& edge : shortEdges(whole.surface.positions, triangles))
+    for (const auto& [a, b] : shortEdges(whole.surface.positions, triangles))
     {
-      for (const auto& [from, to] :
-        { std::pair(edge.second, edge.first), std::pair(edge.first, edge.second) })
+      for (const auto& [from, to] : { std::pair(b, a), std::pair(a, b) })
       {
         if (mesh.facetAt(from, to) && isOnPiecesOf(mesh, to, from) &&
             mesh.collapse(from, to, staysOnPiece))

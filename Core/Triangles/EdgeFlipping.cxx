@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/EdgeFlipping.h"
 
+#include "Core/Base/Lists.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace isopoint
@@ -92,37 +93,22 @@ private:
   /// Pairs the sides of edges with exactly two triangles.
   void findTwins()
   {
-    std::vector<Side> begins(this->Positions.size() + 1, 0); // by the lower vertex
-    const Side sideCount = this->Twins.size();
-    const auto lowerOf = [this](Side side)
-    { return std::min(this->startOf(side), this->endOf(side)); };
-    for (Side side = 0; side < sideCount; ++side)
-    {
-      ++begins[lowerOf(side) + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<Side> sides(sideCount);
-    std::vector<Side> next(begins.begin(), begins.end() - 1);
-    for (Side side = 0; side < sideCount; ++side)
-    {
-      sides[next[lowerOf(side)]++] = side;
-    }
+    const ItemLists byLowerEnd(this->Positions.size(), this->Twins.size(),
+      [this](Side side) { return std::array{ std::min(this->startOf(side), this->endOf(side)) }; });
     forEachIndex(this->Run, this->Positions.size(),
       [&](std::size_t vertex)
       {
-        const auto placeOf = [&](std::size_t of)
-        { return sides.begin() + static_cast<std::ptrdiff_t>(begins[of]); };
-        const auto begin = placeOf(vertex);
-        const auto end = placeOf(vertex + 1);
+        const NodeList<Side> list = byLowerEnd.at(vertex);
+        std::vector<Side> sides(list.begin(), list.end());
         const auto upperOf = [this](Side side)
         { return std::max(this->startOf(side), this->endOf(side)); };
-        std::sort(begin, end,
+        std::sort(sides.begin(), sides.end(),
           [&](Side a, Side b)
           { return upperOf(a) != upperOf(b) ? upperOf(a) < upperOf(b) : a < b; });
-        for (auto first = begin; first != end;)
+        for (auto first = sides.begin(); first != sides.end();)
         {
-          const auto last =
-            std::find_if(first, end, [&](Side side) { return upperOf(side) != upperOf(*first); });
+          const auto last = std::find_if(
+            first, sides.end(), [&](Side side) { return upperOf(side) != upperOf(*first); });
           if (last - first == 2 && this->startOf(first[0]) == this->endOf(first[1]))
           {
             this->Twins[first[0]] = first[1];

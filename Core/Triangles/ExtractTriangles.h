@@ -56,7 +56,7 @@ public:
     , Neighborhoods(neighborhoods)
     , Kept(band)
     , Request(request)
-    , Means(tree)
+    , Values(tree)
   {
   }
 
@@ -97,7 +97,7 @@ public:
         .refine(this->Ranks);
     const Execution part = partOf(execution, bandEnd, 1.0);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Means, this->Request.isovalue, this->Kept);
+      part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     if (!this->Request.keepsBand)
     {
@@ -120,7 +120,7 @@ private:
     {
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
-    return MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Means,
+    return MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
       this->Request.isovalue, this->Request.regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
       .march();
   }
@@ -242,7 +242,7 @@ private:
   const NeighborhoodCache<Id>& Neighborhoods;
   std::unique_ptr<KeptTetrahedra>& Kept;
   const IsosurfaceRequest& Request;
-  SharedLeafMeans<TSample> Means;
+  LeafValues<TSample> Values;
   TetrahedraCounts Counts;
   std::size_t Dropped = 0;
 };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -93,15 +94,6 @@ public:
 private:
   using Edge = std::array<std::size_t, 2>; // directed counterclockwise in its facet
 
-  struct EdgeHash
-  {
-    std::size_t operator()(const Edge& edge) const
-    {
-      constexpr std::size_t odd = 0x9e3779b97f4a7c15;
-      return edge[0] * odd ^ (edge[1] + (edge[0] >> 7));
-    }
-  };
-
   struct EdgeFacet
   {
     std::size_t facet;
@@ -129,7 +121,7 @@ private:
   const std::vector<bool>& IsInner;
   std::vector<Facet> Facets;
   std::vector<bool> IsRemoved;
-  std::unordered_map<Edge, EdgeFacet, EdgeHash> Edges;
+  std::map<Edge, EdgeFacet> Edges;
   std::unordered_map<std::size_t, std::vector<std::size_t>> FacetsAround; // vertices
 };
 

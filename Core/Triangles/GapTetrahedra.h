@@ -193,9 +193,7 @@ private:
         corners.push_back(leaf);
       }
     }
-    std::sort(corners.begin(), corners.end(),
-      [this](std::size_t a, std::size_t b)
-      { return this->Tree.nodes[a].begin < this->Tree.nodes[b].begin; });
+    sortInTreeOrder(this->Tree, corners);
     std::vector<char> marks(corners.size(), 0);
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(

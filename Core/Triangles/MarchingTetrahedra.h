@@ -38,11 +38,11 @@ public:
 
   /// @param tetrahedra their corners are leaves of the tree
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
-    SharedLeafMeans<TSample>& means, double isovalue, EdgeOrder order,
+    LeafValues<TSample>& values, double isovalue, EdgeOrder order,
     const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
     : Run(execution)
     , Tree(tree)
-    , Means(means)
+    , Values(values)
     , Isovalue(isovalue)
     , Order(order)
     , Tetrahedra(tetrahedra)
@@ -90,26 +90,14 @@ private:
         isCorner[static_cast<std::size_t>(corner)] = true;
       }
     }
-    struct LeafPlace
-    {
-      std::uint64_t place; // in the order of the tree
-      std::size_t leaf;
-
-      bool operator<(const LeafPlace& other) const { return this->place < other.place; }
-      bool operator==(const LeafPlace& other) const { return this->place == other.place; }
-    };
-    std::vector<LeafPlace> places;
-    for (const std::size_t leaf : markedOf(isCorner))
-    {
-      places.push_back({ this->Tree.nodes[leaf].begin, leaf });
-    }
-    std::sort(places.begin(), places.end());
-    this->Leaves.reserve(places.size());
+    std::vector<std::size_t> leaves = markedOf(isCorner);
+    sortInTreeOrder(this->Tree, leaves);
+    this->Leaves.reserve(leaves.size());
     this->NumberOf.resize(this->Tree.nodes.size());
-    for (const LeafPlace& place : places)
+    for (const std::size_t leaf : leaves)
     {
-      this->NumberOf[place.leaf] = static_cast<Id>(this->Leaves.size());
-      this->Leaves.push_back(static_cast<Id>(place.leaf));
+      this->NumberOf[leaf] = static_cast<Id>(this->Leaves.size());
+      this->Leaves.push_back(static_cast<Id>(leaf));
     }
   }
 
@@ -178,23 +166,22 @@ private:
     forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
-        LeafValueCache<TSample> values(this->Tree, this->Means);
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->placeVertex(i, values);
+          this->placeVertex(i);
         }
       });
   }
 
-  void placeVertex(std::size_t vertex, LeafValueCache<TSample>& values)
+  void placeVertex(std::size_t vertex)
   {
     const auto [lower, upper] = this->Pairs[vertex];
     const std::size_t lowerLeaf = this->leafOf(lower);
     const std::size_t upperLeaf = this->leafOf(upper);
     const TSample& lowerSample = this->Tree.sampleOf(lowerLeaf);
     const TSample& upperSample = this->Tree.sampleOf(upperLeaf);
-    const double lowerValue = values.at(lowerLeaf);
-    const double upperValue = values.at(upperLeaf);
+    const double lowerValue = this->Values.at(lowerLeaf);
+    const double upperValue = this->Values.at(upperLeaf);
     const double upwards = edgeParameter(lowerValue, upperValue, this->Isovalue);
     this->NearerEnds[vertex] = static_cast<std::size_t>(upwards <= 0.5 ? lower : upper);
     const bool isLowerFirst = lowerSample.id < upperSample.id;
@@ -342,7 +329,7 @@ private:
 
   const Execution& Run;
   const SampleTree<TSample>& Tree;
-  SharedLeafMeans<TSample>& Means;
+  LeafValues<TSample>& Values;
   const double Isovalue;
   const EdgeOrder Order;
   const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace isopoint
 {
 
-std::vector<ShortEdge> shortEdges(
+std::vector<VertexPair> shortEdges(
   const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
 {
   constexpr double shortEdge = 0.55;
@@ -25,7 +26,7 @@ std::vector<ShortEdge> shortEdges(
       counts[vertex] += 1.0;
     }
   }
-  std::vector<ShortEdge> edges;
+  std::vector<std::pair<double, VertexPair>> byLength;
   for (const SurfaceTriangle& triangle : triangles)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -35,11 +36,14 @@ std::vector<ShortEdge> shortEdges(
       const double share = lengthOf(edgeOf(a, b)) / (equilateral * std::sqrt(area));
       if (share < shortEdge)
       {
-        edges.push_back({ share, a, b });
+        byLength.push_back({ share, { a, b } });
       }
     }
   }
-  std::sort(edges.begin(), edges.end());
+  std::sort(byLength.begin(), byLength.end());
+  std::vector<VertexPair> edges;
+  std::transform(byLength.begin(), byLength.end(), std::back_inserter(edges),
+    [](const auto& edge) { return edge.second; });
   return edges;
 }
 

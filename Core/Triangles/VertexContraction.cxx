@@ -8,7 +8,6 @@
 #include <array>
 #include <iterator>
 #include <numeric>
-#include <tuple>
 
 namespace isopoint
 {
@@ -16,21 +15,7 @@ namespace
 {
 
 /// An edge from a vertex outside a part, or the vertex it was merged into, to a member of the part.
-struct Spoke
-{
-  std::size_t root;
-  std::size_t from;
-  std::size_t to;
-
-  bool operator<(const Spoke& other) const
-  {
-    return std::tie(this->root, this->from, this->to) < std::tie(other.root, other.from, other.to);
-  }
-  bool operator==(const Spoke& other) const
-  {
-    return this->from == other.from && this->to == other.to;
-  }
-};
+using Spoke = std::array<std::size_t, 3>; // root, from, to
 
 } // namespace
 
@@ -48,8 +33,8 @@ struct VertexContraction::Surroundings
     this->vanished.clear();
   }
 
-  /// Whether all spokes lead to vertices of the link, and the spokes to each of them form a tree,
-  /// connected by vanished triangles: one spoke more than triangles.
+  /// Whether vanished triangles connect the spokes of each vertex of the link without a cycle (one
+  /// spoke more than triangles), and no spoke leads elsewhere.
   bool haveTrees()
   {
     keepUnique(this->spokes);
@@ -57,9 +42,9 @@ struct VertexContraction::Surroundings
     std::size_t count = 0;
     for (auto first = this->spokes.begin(); first != this->spokes.end(); ++count)
     {
-      const std::size_t root = first->root;
+      const std::size_t root = first->front();
       const auto last = std::find_if(
-        first, this->spokes.end(), [root](const Spoke& spoke) { return spoke.root != root; });
+        first, this->spokes.end(), [root](const Spoke& spoke) { return spoke.front() != root; });
       const auto [begin, end] =
         std::equal_range(this->vanished.begin(), this->vanished.end(), root);
       if (!this->link.hasVertex(root) || last - first != end - begin + 1)

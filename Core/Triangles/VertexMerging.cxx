@@ -132,12 +132,12 @@ private:
     std::vector<std::size_t> groups(this->count());
     std::iota(groups.begin(), groups.end(), std::size_t{ 0 });
     std::vector<bool> isTaken(this->count(), false);
-    for (const ShortEdge& edge : shortEdges(this->Vertices.positions, this->Result.triangles))
+    for (const auto& [a, b] : shortEdges(this->Vertices.positions, this->Result.triangles))
     {
-      if (!isTaken[edge.first] && !isTaken[edge.second])
+      if (!isTaken[a] && !isTaken[b])
       {
-        isTaken[edge.first] = isTaken[edge.second] = true;
-        groups[edge.second] = edge.first;
+        isTaken[a] = isTaken[b] = true;
+        groups[b] = a;
       }
     }
     return groups;

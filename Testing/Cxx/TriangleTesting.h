@@ -151,7 +151,7 @@ public:
   {
     auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Run).refine(this->Rank);
     nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
-    isopoint::SharedLeafMeans<TSample> means(this->Tree);
+    isopoint::LeafValues<TSample> means(this->Tree);
     isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
       this->Run, this->Tree, this->Rank, means, isovalue, this->Band);
     const auto tetrahedra = finder.find(nodes);
