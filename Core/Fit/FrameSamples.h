@@ -22,17 +22,17 @@ public:
   double& operator[](std::size_t sample) { return this->Numbers[sample]; }
   double operator[](std::size_t sample) const { return this->Numbers[sample]; }
 
-  Lanes group(std::size_t i) const { return Lanes::load(this->Numbers.data() + laneCount * i); }
+  Lanes group(std::size_t i) const { return Lanes::Map(this->Numbers.data() + laneCount * i); }
   void setGroup(std::size_t i, const Lanes& lanes)
   {
-    lanes.store(this->Numbers.data() + laneCount * i);
+    Lanes::Map(this->Numbers.data() + laneCount * i) = lanes;
   }
 
   /// The first `Count` numbers.
   template <std::size_t Count>
   Pack<Count> first() const
   {
-    return Pack<Count>::load(this->Numbers.data());
+    return Pack<Count>::Map(this->Numbers.data());
   }
 
 private:
@@ -69,7 +69,7 @@ public:
   /// The mean distance of the samples from the origin.
   double meanDistance() const
   {
-    return sumOf(Lanes::load(this->DistanceSums.data())) / static_cast<double>(this->Count);
+    return sumOf(this->DistanceSums) / static_cast<double>(this->Count);
   }
 
   FrameSamples() { this->clear(); }
@@ -77,7 +77,7 @@ public:
   void clear()
   {
     this->Count = 0;
-    this->DistanceSums = {};
+    this->DistanceSums.setZero();
     for (std::size_t group = 0; group < nearest / laneCount; ++group)
     {
       this->clearGroup(group);
@@ -107,12 +107,12 @@ private:
     for (SampleNumbers* const numbers :
       { &this->x, &this->y, &this->z, &this->value, &this->squaredDistance })
     {
-      numbers->setGroup(group, 0.0);
+      numbers->setGroup(group, Lanes::Zero());
     }
   }
 
   std::uint32_t Count = 0; // not wider: the compiler knows that groupCount() is in range
-  std::array<double, laneCount> DistanceSums{}; // from the origin, by lane
+  Lanes DistanceSums;      // from the origin
 };
 
 using FrameWeights = SampleNumbers;
@@ -145,7 +145,7 @@ void weigh(const FrameSamples& samples, double offset, FrameWeights& weights)
   for (std::size_t group = 0; group < groups; ++group)
   {
     const Lanes base = offset + scale * samples.squaredDistance.group(group);
-    weights.setGroup(group, 1.0 / (Power == 1 ? base : base * base * base));
+    weights.setGroup(group, 1.0 / (Power == 1 ? base : Lanes(base * base * base)));
   }
   endWeights(samples, weights);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Core/Base/AlwaysInline.h"
 #include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/Polynomial.h"
 
@@ -112,7 +111,7 @@ private:
   {
     constexpr std::size_t count = Order - A - B + 1;
     std::array<Lanes, count> sums;
-    sums.fill(0.0);
+    sums.fill(Lanes::Zero());
     const std::size_t groups = samples.groupCount();
     for (std::size_t i = 0; i < groups; ++i)
     {
@@ -133,7 +132,7 @@ private:
 
   /// Adds product z, product z^2 and so on to all sums but the first. Unrolled for registers.
   template <std::size_t Count, std::size_t... Indices>
-  ISOPOINT_ALWAYS_INLINE static void addPowers(
+  static void addPowers(
     Lanes product, const Lanes& z, std::array<Lanes, Count>& sums, std::index_sequence<Indices...>)
   {
     ((product *= z, sums[Indices + 1] += product), ...);
@@ -143,12 +142,12 @@ private:
   template <int A, int B>
   void addLastRows(const FrameSamples& samples, const SampleNumbers& powers, Products& products)
   {
-    Lanes one = 0.0;
-    Lanes ofZ = 0.0;
-    Lanes ofZZ = 0.0;
-    Lanes ofY = 0.0;
-    Lanes ofYZ = 0.0;
-    Lanes ofYY = 0.0;
+    Lanes one = Lanes::Zero();
+    Lanes ofZ = Lanes::Zero();
+    Lanes ofZZ = Lanes::Zero();
+    Lanes ofY = Lanes::Zero();
+    Lanes ofYZ = Lanes::Zero();
+    Lanes ofYY = Lanes::Zero();
     const std::size_t groups = samples.groupCount();
     for (std::size_t i = 0; i < groups; ++i)
     {
@@ -178,10 +177,10 @@ private:
   template <int A>
   void addLastPlanes(const FrameSamples& samples, const SampleNumbers& powers)
   {
-    Lanes one = 0.0;
-    Lanes ofZ = 0.0;
-    Lanes ofY = 0.0;
-    Lanes ofX = 0.0;
+    Lanes one = Lanes::Zero();
+    Lanes ofZ = Lanes::Zero();
+    Lanes ofY = Lanes::Zero();
+    Lanes ofX = Lanes::Zero();
     const std::size_t groups = samples.groupCount();
     for (std::size_t i = 0; i < groups; ++i)
     {
@@ -268,13 +267,13 @@ public:
     }
   }
 
-  /// The monomials at a place.
-  template <class Number>
-  static std::array<Number, size> products(const Number& x, const Number& y, const Number& z)
+  /// The monomials at several places side by side.
+  template <class Numbers>
+  static std::array<Numbers, size> products(const Numbers& x, const Numbers& y, const Numbers& z)
   {
-    const std::array<const Number*, 3> coordinates{ &x, &y, &z };
-    std::array<Number, size> result;
-    result[0] = 1.0;
+    const std::array<const Numbers*, 3> coordinates{ &x, &y, &z };
+    std::array<Numbers, size> result;
+    result[0].setOnes();
     for (std::size_t i = 1; i < size; ++i)
     {
       const auto& [former, axis] = coordinateProducts[i];

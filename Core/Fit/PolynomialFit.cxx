@@ -37,7 +37,7 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   equations.reduce(polynomial.degree, reduced);
   const auto effectOn = [&](const auto& unit)
   {
-    Numbers effect = 0.0;
+    Numbers effect = Numbers::Zero();
     for (std::size_t i = 0; i < coefficientCount(polynomial.degree); ++i)
     {
       effect += unit(i) * reduced[i];
@@ -50,18 +50,17 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
     weight * (samples.value.first<nearest>() - polynomial.valueAt(x, y, z)) / rest;
   // The value and the slopes, side by side.
   std::array<Lanes, NormalEquations<Degree>::size> units;
-  units.fill(0.0);
+  units.fill(Lanes::Zero());
   for (std::size_t i = 0; i < laneCount; ++i)
   {
-    std::array<double, laneCount> unit{};
-    unit[i] = 1.0;
-    units[i] = Lanes::load(unit.data());
+    units[i][i] = 1.0;
   }
   equations.reduce(polynomial.degree, units);
   std::array<double, laneCount> effects; // of all samples on them
   for (std::size_t i = 0; i < laneCount; ++i)
   {
-    effects[i] = sumOfSquares(weight * effectOn([&](std::size_t j) { return units[j][i]; }));
+    effects[i] =
+      sumOfSquares(Numbers(weight * effectOn([&](std::size_t j) { return units[j][i]; })));
   }
   // If the other samples determine less, a residual is only rounding.
   bool isDetermined = true;
