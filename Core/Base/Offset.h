@@ -20,7 +20,7 @@ struct Offset
 inline Offset offsetBetween(const Vector& from, const Vector& to)
 {
   Offset offset;
-  offset.vector = difference(to, from);
+  offset.vector = to - from;
   offset.squaredLength = dot(offset.vector, offset.vector);
   offset.length = std::sqrt(offset.squaredLength);
   return offset;

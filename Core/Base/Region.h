@@ -18,7 +18,7 @@ struct Region
   /// The longest axis; the lowest one among equals.
   int longestSide() const
   {
-    const Vector side = difference(this->upper, this->lower);
+    const Vector side = this->upper - this->lower;
     const int longest = side[1] > side[0] ? 1 : 0;
     return side[2] > side[longest] ? 2 : longest;
   }

@@ -30,18 +30,27 @@ inline Vector cross(const Vector& a, const Vector& b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-inline Vector difference(const Vector& a, const Vector& b)
+inline Vector operator+(const Vector& a, const Vector& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
+
+inline Vector& operator+=(Vector& a, const Vector& b)
+{
+  return a = a + b;
+}
+
+inline Vector operator-(const Vector& a, const Vector& b)
 {
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
-/// a + factor * b
-inline Vector sum(const Vector& a, double factor, const Vector& b)
+inline Vector operator-(const Vector& a)
 {
-  return { a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2] };
+  return { -a[0], -a[1], -a[2] };
 }
 
-inline Vector scaled(double factor, const Vector& a)
+inline Vector operator*(double factor, const Vector& a)
 {
   return { factor * a[0], factor * a[1], factor * a[2] };
 }
@@ -97,12 +106,11 @@ inline std::array<Vector, extentCount> extentDirections(const Vector& normal)
 {
   constexpr double diagonal = 0.70710678118654752; // 1 / sqrt 2
   const TangentFrame frame(normal);
-  const Vector upwards = scaled(diagonal, frame.second);
-  const Vector downwards = scaled(-1.0, upwards);
-  return { frame.first, sum(upwards, diagonal, frame.first), frame.second,
-    sum(upwards, -diagonal, frame.first), scaled(-1.0, frame.first),
-    sum(downwards, -diagonal, frame.first), scaled(-1.0, frame.second),
-    sum(downwards, diagonal, frame.first) };
+  const Vector upwards = diagonal * frame.second;
+  const Vector downwards = -upwards;
+  return { frame.first, upwards + diagonal * frame.first, frame.second,
+    upwards - diagonal * frame.first, -frame.first, downwards - diagonal * frame.first,
+    -frame.second, downwards + diagonal * frame.first };
 }
 
 /// The parameter at which linear interpolation yields `value`: 0 at `first`, 1 at `second`, which
@@ -131,8 +139,8 @@ inline Vector interpolate(const Vector& first, const Vector& second, double para
 /// The parameter, in [0, 1], of the point on an edge that is nearest to a position.
 inline double nearestParameter(const Vector& first, const Vector& second, const Vector& position)
 {
-  const Vector along = difference(second, first);
-  const double parameter = dot(difference(position, first), directionOf(along)) / lengthOf(along);
+  const Vector along = second - first;
+  const double parameter = dot(position - first, directionOf(along)) / lengthOf(along);
   return std::min(std::max(parameter, 0.0), 1.0);
 }
 

@@ -161,9 +161,9 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
       {
         const std::size_t first = surface.edgeBegin(i);
         const CrossingEdge<TSample>& own = isopoints.edges[first];
-        const Vector along = difference(positionAt(own.secondLeaf), positionAt(own.firstLeaf));
+        const Vector along = positionAt(own.secondLeaf) - positionAt(own.firstLeaf);
         const bool isDecreasing = !(context.leafValues.at(own.firstLeaf) < context.isovalue);
-        surface.decreasingEdges[i] = isDecreasing ? along : scaled(-1.0, along);
+        surface.decreasingEdges[i] = isDecreasing ? along : -along;
         const auto crossingOf = [&](const CrossingEdge<TSample>& edge) {
           return interpolate(
             positionAt(edge.firstLeaf), positionAt(edge.secondLeaf), edge.crossing);
@@ -171,13 +171,12 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
         const bool followsFit = isMoved && surface.fits[i].order;
         const Vector start = isopoints.starts.empty() ? crossingOf(own) : isopoints.starts[i];
         surface.positions[i] = followsFit ? surface.fits[i].position : start;
-        const Vector move = difference(surface.positions[i], start);
+        const Vector move = surface.positions[i] - start;
         const std::size_t last = surface.edgeBegin(i + 1);
         for (std::size_t k = first; k < last; ++k)
         {
           const CrossingEdge<TSample>& edge = isopoints.edges[k];
-          const Vector place =
-            last == first + 1 ? surface.positions[i] : sum(crossingOf(edge), 1.0, move);
+          const Vector place = last == first + 1 ? surface.positions[i] : crossingOf(edge) + move;
           const double parameter = followsFit ? nearestParameter(positionAt(edge.firstLeaf),
                                                   positionAt(edge.secondLeaf), place)
                                               : edge.crossing;

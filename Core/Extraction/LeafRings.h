@@ -136,7 +136,7 @@ public:
       this->Spacing.clear();
       for (const Id neighbor : rings.first)
       {
-        this->Spacing.add(difference(this->positionOfLeaf(neighbor), center));
+        this->Spacing.add(this->positionOfLeaf(neighbor) - center);
       }
       rings.spacing = this->Spacing.spacing();
     }

@@ -65,8 +65,8 @@ private:
     const bool increases = first.value < this->Isovalue;
     FitEdge edge;
     edge.position = interpolate(first.position, second.position, crossing.crossing);
-    edge.increasing = increases ? difference(second.position, first.position)
-                                : difference(first.position, second.position);
+    edge.increasing =
+      increases ? second.position - first.position : first.position - second.position;
     edge.increase = increases ? second.value - first.value : first.value - second.value;
     edge.spacing = this->Gatherer.spacing();
     edge.valueError = this->ValueError;

@@ -56,7 +56,7 @@ inline std::optional<Vector> fieldNormal(const SurfacePoints& points, std::size_
   }
   const Vector& gradient = points.fits[point].gradient;
   return std::isnormal(lengthOf(gradient)) // denormal gradients have no direction
-           ? std::optional(scaled(-1.0, directionOf(gradient)))
+           ? std::optional(-directionOf(gradient))
            : std::nullopt;
 }
 

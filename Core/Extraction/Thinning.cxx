@@ -39,7 +39,7 @@ bool hasSheet(const LocalFit& fit, double minimumSpacing)
 bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
 {
   const double reach = minimumSpacing * std::min(one.spacing, other.spacing);
-  const Vector offset = difference(other.position, one.position);
+  const Vector offset = other.position - one.position;
   if (!(lengthOf(offset) < reach))
   {
     return false;

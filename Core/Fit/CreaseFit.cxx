@@ -210,8 +210,8 @@ std::vector<CreasePlane> creasesAround(const CreaseFit& fit, std::size_t piece, 
                      : zeroNear(fit.pieces[other], std::numeric_limits<double>::max(), place);
     if (zero)
     {
-      const Vector inward = scaled(-fit.sense, directionOf(fit.pieces[other].gradientAt(*zero)));
-      const double distance = std::max(0.0, dot(inward, difference(place, *zero)));
+      const Vector inward = -fit.sense * directionOf(fit.pieces[other].gradientAt(*zero));
+      const double distance = std::max(0.0, dot(inward, place - *zero));
       const double alongPiece = distance / lengthOf(cross(inward, normal));
       if (std::isfinite(alongPiece)) // or else the pieces are parallel
       {
@@ -243,8 +243,8 @@ std::optional<Vector> commonZeroNear(
       const double determinant = dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b);
       const double f = first.valueAt(place);
       const double g = second.valueAt(place);
-      return sum(scaled((dot(a, b) * g - dot(b, b) * f) / determinant, a),
-        (dot(a, b) * f - dot(a, a) * g) / determinant, b);
+      return (dot(a, b) * g - dot(b, b) * f) / determinant * a +
+             (dot(a, b) * f - dot(a, a) * g) / determinant * b;
     });
 }
 

@@ -50,7 +50,7 @@ void FitFrame::enter(const FitEdge& edge, double isovalue)
     this->Samples.valueError = edge.valueError / this->Value;
     this->PerLength = 1.0 / this->Length;
     this->PerValue = 1.0 / this->Value;
-    this->Increasing = scaled(this->PerLength, edge.increasing);
+    this->Increasing = this->PerLength * edge.increasing;
   }
 }
 
@@ -126,12 +126,12 @@ FitFrame::NearestChoice FitFrame::choiceOf(std::size_t count)
 
 Vector FitFrame::positionAt(const Vector& place) const
 {
-  return sum(this->Origin, this->Length, place);
+  return this->Origin + this->Length * place;
 }
 
 Vector FitFrame::gradientOf(const Vector& gradient) const
 {
-  return scaled(this->Value / this->Length, gradient);
+  return this->Value / this->Length * gradient;
 }
 
 Hessian FitFrame::hessianOf(const Hessian& hessian) const

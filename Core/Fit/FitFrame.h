@@ -62,7 +62,7 @@ private:
   }
   Vector placeOf(const Vector& position) const
   {
-    return scaled(this->PerLength, difference(position, this->Origin));
+    return this->PerLength * (position - this->Origin);
   }
 
   FrameSamples Samples;

@@ -36,7 +36,7 @@ LocalFit LocalFitter::onEdge(const FitEdge& edge)
   fit.position = edge.position;
   fit.spacing = edge.spacing;
   const double length = lengthOf(edge.increasing);
-  fit.gradient = scaled(edge.increase / length / length, edge.increasing);
+  fit.gradient = edge.increase / length / length * edge.increasing;
   return fit;
 }
 
@@ -258,7 +258,7 @@ void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
   const double share = squaredMove > 0.0
                          ? squaredMove / (squaredMove + doubt * found.zeroError * found.zeroError)
                          : 1.0;
-  fit.position = this->Frame.positionAt(scaled(share, *found.zero));
+  fit.position = this->Frame.positionAt(share * *found.zero);
   fit.order = static_cast<FitOrder>(found.polynomial.degree);
   fit.gradient = this->Frame.gradientOf(found.polynomial.gradientAt(*found.zero));
   fit.isGradientFitted = true;
@@ -277,8 +277,8 @@ void LocalFitter::preferMildGradient(const std::optional<PolynomialFit>& found, 
   {
     const std::optional<Polynomial> mild = this->mildPolynomial(degree);
     const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
-    if (mild && (!found || lengthOf(difference(directionOf(gradient), direction)) <
-                             mostErrors * found->directionError))
+    if (mild && (!found ||
+                  lengthOf(directionOf(gradient) - direction) < mostErrors * found->directionError))
     {
       fit.gradient = this->Frame.gradientOf(gradient);
       fit.isGradientFitted = true;

@@ -85,8 +85,8 @@ std::optional<Vector> followToZero(const Vector& start, double farthest, const S
   for (int i = 0; i < mostSteps; ++i)
   {
     const Vector step = stepAt(place);
-    place = sum(place, 1.0, step);
-    const Vector offset = difference(place, start);
+    place += step;
+    const Vector offset = place - start;
     if (!(dot(offset, offset) <= farthest * farthest)) // NaN if the slope is 0
     {
       return std::nullopt;
@@ -107,7 +107,7 @@ inline std::optional<Vector> zeroNear(
     [&polynomial](const Vector& place)
     {
       const Vector gradient = polynomial.gradientAt(place);
-      return scaled(-polynomial.valueAt(place) / dot(gradient, gradient), gradient);
+      return -polynomial.valueAt(place) / dot(gradient, gradient) * gradient;
     });
 }
 

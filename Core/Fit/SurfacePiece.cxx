@@ -20,7 +20,7 @@ SurfacePiece::SurfacePiece(const LocalFit& fit)
 }
 
 SurfacePiece::SurfacePiece(const Vector& isopoint, const CreasePlane& plane)
-  : place(sum(isopoint, -plane.distance, plane.inward))
+  : place(isopoint - plane.distance * plane.inward)
   , slope(plane.inward)
   , bend{}
 {
@@ -28,13 +28,13 @@ SurfacePiece::SurfacePiece(const Vector& isopoint, const CreasePlane& plane)
 
 double SurfacePiece::valueAt(const Vector& position) const
 {
-  const Vector offset = difference(position, this->place);
-  return 0.5 * dot(sum(this->slope, 1.0, this->slopeAt(position)), offset);
+  const Vector offset = position - this->place;
+  return 0.5 * dot(this->slope + this->slopeAt(position), offset);
 }
 
 Vector SurfacePiece::slopeAt(const Vector& position) const
 {
-  const Vector o = difference(position, this->place);
+  const Vector o = position - this->place;
   const Hessian& h = this->bend;
   return { this->slope[0] + h[0] * o[0] + h[3] * o[1] + h[4] * o[2],
     this->slope[1] + h[3] * o[0] + h[1] * o[1] + h[5] * o[2],

@@ -179,7 +179,7 @@ private:
   bool isSmall(const Node<TSample>& node, double size) const
   {
     const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
-    const Vector diagonal = difference(offsets.upper, offsets.lower);
+    const Vector diagonal = offsets.upper - offsets.lower;
     return dot(diagonal, diagonal) < size * size * offsets.leastSquaredLength;
   }
 

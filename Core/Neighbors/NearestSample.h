@@ -106,7 +106,7 @@ private:
 
   void consider(const TSample& sample)
   {
-    const Vector offset = difference(positionOf(sample), this->Place);
+    const Vector offset = positionOf(sample) - this->Place;
     if (this->isFarther(offset))
     {
       return;

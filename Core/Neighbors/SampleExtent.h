@@ -48,7 +48,7 @@ public:
   /// Includes the samples in a cube of side 2 * half, at the distance `ahead` along the direction.
   void search(double ahead, double half)
   {
-    const Vector center = sum(this->Query.place, ahead, this->Query.direction);
+    const Vector center = this->Query.place + ahead * this->Query.direction;
     Region box;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -134,7 +134,7 @@ private:
 
   void include(const Vector& position)
   {
-    const Vector offset = difference(position, this->Query.place);
+    const Vector offset = position - this->Query.place;
     const double height = dot(offset, this->Query.normal);
     const double ahead = dot(offset, this->Query.direction);
     if (!this->isOfUse(height, ahead))

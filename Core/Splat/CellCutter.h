@@ -123,7 +123,7 @@ private:
   {
     for (const CreasePlane& crease : this->creasesAt(point))
     {
-      cell.cut(scaled(-1.0, crease.inward), crease.distance / unit, TangentPolygon::plane);
+      cell.cut(-crease.inward, crease.distance / unit, TangentPolygon::plane);
     }
     this->cutTowardsRings(point, 2, unit, cell);
     if (cell.squaredReach() > largeReach * largeReach)
@@ -212,9 +212,8 @@ private:
     std::size_t point, const TangentFrame& frame, const TangentPolygon::Corner& corner) const
   {
     const LocalFit& fit = this->Points.fits[point];
-    const Vector place =
-      sum(sum(this->Points.positions[point], fit.spacing * corner.x, frame.first),
-        fit.spacing * corner.y, frame.second);
+    const Vector place = this->Points.positions[point] + fit.spacing * corner.x * frame.first +
+                         fit.spacing * corner.y * frame.second;
     constexpr double reach = 2.0; // in spacings
     const auto* const sample = this->Extents->nearestTo(place, reach * fit.spacing);
     if (!sample)
@@ -222,16 +221,16 @@ private:
       return false;
     }
     const Vector position = positionOf(*sample);
-    const Vector o = difference(position, this->Points.positions[point]);
+    const Vector o = position - this->Points.positions[point];
     const Hessian& h = fit.hessian;
     const double bend = 0.5 * (h[0] * o[0] * o[0] + h[1] * o[1] * o[1] + h[2] * o[2] * o[2]) +
                         h[3] * o[0] * o[1] + h[4] * o[0] * o[2] + h[5] * o[1] * o[2];
     const double error = static_cast<double>(sample->value) - this->Points.isovalue -
                          dot(fit.gradient, o) - (fit.isSmooth ? bend : 0.0);
-    const double unit = std::max(fit.spacing, lengthOf(difference(position, place)));
+    const double unit = std::max(fit.spacing, lengthOf(position - place));
     return std::abs(error) > contradiction * unit * lengthOf(fit.gradient) &&
            !this->isBetweenSides(
-             place, scaled(sideShare * unit, this->Normals[point]), reach * fit.spacing);
+             place, sideShare * unit * this->Normals[point], reach * fit.spacing);
   }
 
   /// Whether the samples nearest to two places, on either side of a place on the surface, lie on
@@ -242,12 +241,12 @@ private:
   {
     const auto isBelow = [&](const auto& sample)
     { return static_cast<double>(sample.value) < this->Points.isovalue; };
-    const auto* const below = this->Extents->nearestTo(sum(place, 1.0, down), reach);
+    const auto* const below = this->Extents->nearestTo(place + down, reach);
     if (!below || !isBelow(*below))
     {
       return false;
     }
-    const auto* const above = this->Extents->nearestTo(sum(place, -1.0, down), reach);
+    const auto* const above = this->Extents->nearestTo(place - down, reach);
     return above && !isBelow(*above);
   }
 
@@ -281,8 +280,8 @@ private:
   void cutTowards(
     std::size_t point, const NearbyPoint& other, double unit, TangentPolygon& cell) const
   {
-    const Vector offset = scaled(
-      1.0 / unit, difference(this->Points.positions[other.point], this->Points.positions[point]));
+    const Vector offset =
+      1.0 / unit * (this->Points.positions[other.point] - this->Points.positions[point]);
     const double a = dot(offset, cell.frame().first);
     const double b = dot(offset, cell.frame().second);
     const double along = std::sqrt(other.squaredDistance * (a * a + b * b));
@@ -320,7 +319,7 @@ private:
     for (const CreasePlane& crease : this->creasesAt(other))
     {
       const double tolerance = creaseTolerance * lengthOf(offset);
-      const Vector outward = scaled(-crease.turn, this->Normals[other]);
+      const Vector outward = -crease.turn * this->Normals[other];
       const double height = dot(outward, offset);
       if (this->isOnPiece(point, other, crease) && height > -tolerance &&
           crease.distance / unit - dot(crease.inward, offset) < tolerance)

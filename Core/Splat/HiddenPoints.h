@@ -59,7 +59,7 @@ private:
     constexpr double leastCosine = 0.7;
     const double reach =
       closeness * std::min(unitAt(this->Points, point), unitAt(this->Points, other));
-    const Vector offset = difference(this->Points.positions[other], this->Points.positions[point]);
+    const Vector offset = this->Points.positions[other] - this->Points.positions[point];
     return this->Points.positions[point] == this->Points.positions[other] ||
            (lengthOf(offset) < reach &&
              dot(this->Normals[point], this->Normals[other]) > leastCosine);

@@ -44,7 +44,7 @@ public:
     this->Nearby.clear();
     const auto add = [&](std::size_t other)
     {
-      const Vector offset = scaled(scale, difference(this->Points.positions[other], position));
+      const Vector offset = scale * (this->Points.positions[other] - position);
       this->All.push_back({ dot(offset, offset), other });
     };
     for (const std::size_t other : this->Finder.find(point, rings))

@@ -143,8 +143,7 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
   {
     const VoronoiCell& cell = cells[point];
     const TangentFrame frame(planes[point]);
-    const Vector offset =
-      scaled(1.0 / cell.unit, difference(points.positions[other], points.positions[point]));
+    const Vector offset = 1.0 / cell.unit * (points.positions[other] - points.positions[point]);
     const double a = dot(offset, frame.first);
     const double b = dot(offset, frame.second);
     return std::any_of(cell.begin(), cell.end(),

@@ -48,11 +48,11 @@ std::optional<Vector> fitPlane(
   }
   // Centered and scaled, so that a far origin or a tiny scale costs no digits.
   const Vector& origin = positions[point];
-  const double scale = 1.0 / lengthOf(difference(positions[around.back()], origin));
+  const double scale = 1.0 / lengthOf(positions[around.back()] - origin);
   std::vector<Eigen::Vector3d> points(1, Eigen::Vector3d::Zero());
   for (const std::size_t other : around)
   {
-    const Vector offset = scaled(scale, difference(positions[other], origin));
+    const Vector offset = scale * (positions[other] - origin);
     points.emplace_back(offset[0], offset[1], offset[2]);
   }
   return planeNormal(points);
@@ -69,7 +69,7 @@ Vector decreasingSide(
     const Vector other = directionOf(points.decreasingEdges[point]);
     if (dot(other, own) > 0.0)
     {
-      mean = sum(mean, 1.0, other);
+      mean += other;
     }
   }
   return mean;
@@ -86,7 +86,7 @@ Vector planeNormal(
   {
     return own;
   }
-  return dot(*normal, decreasingSide(points, own, around)) < 0.0 ? scaled(-1.0, *normal) : *normal;
+  return dot(*normal, decreasingSide(points, own, around)) < 0.0 ? -*normal : *normal;
 }
 
 } // namespace isopoint

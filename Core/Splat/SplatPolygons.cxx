@@ -50,10 +50,10 @@ LoweredCell loweredCell(
     const double slopeX = cell.curvature.xx * x + cell.curvature.xy * y;
     const double slopeY = cell.curvature.xy * x + cell.curvature.yy * y;
     const double height = 0.5 * (slopeX * x + slopeY * y);
-    Vector place = sum(position, cell.unit * x, frame.first);
-    place = sum(place, cell.unit * y, frame.second);
-    place = sum(place, cell.unit * height, plane);
-    const Vector upwards = sum(sum(normal, -slopeX, frame.first), -slopeY, frame.second);
+    Vector place = position + cell.unit * x * frame.first;
+    place += cell.unit * y * frame.second;
+    place += cell.unit * height * plane;
+    const Vector upwards = normal - slopeX * frame.first - slopeY * frame.second;
     lowered.corners[i] = { place, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y),
       beyond, overlaps };
   }
@@ -132,7 +132,7 @@ public:
       {
         const double rise = this->riseToMeanHeight(corner);
         this->moveOutward(corner, result);
-        result.position = sum(result.position, rise, this->Planes[corner.point]);
+        result.position += rise * this->Planes[corner.point];
       }
       return result;
     }
@@ -142,10 +142,10 @@ public:
     for (std::size_t i = 0; i < meeting.count; ++i)
     {
       const LoweredCell::Corner& other = this->at(meeting.corners[i]);
-      offset = sum(offset, 1.0, difference(other.position, origin));
-      normal = sum(normal, 1.0, other.normal);
+      offset = offset + (other.position - origin);
+      normal += other.normal;
     }
-    result.position = sum(origin, 1.0 / static_cast<double>(meeting.count), offset);
+    result.position = origin + 1.0 / static_cast<double>(meeting.count) * offset;
     result.normal = directionOf(normal);
     return result;
   }
@@ -168,8 +168,8 @@ private:
         std::min(leastCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
       if (side.overlaps)
       {
-        longest = std::max(longest,
-          lengthOf(difference(this->next(corner, isOnward).position, this->at(corner).position)));
+        longest = std::max(
+          longest, lengthOf(this->next(corner, isOnward).position - this->at(corner).position));
       }
     }
     return std::min(most,
@@ -183,15 +183,14 @@ private:
     constexpr double mostSlope = 0.2;
     const double overlap = this->overlapAt(corner);
     const Vector& plane = this->Planes[corner.point];
-    const Vector outward = difference(moved.position, this->Points.positions[corner.point]);
+    const Vector outward = moved.position - this->Points.positions[corner.point];
     const double most = mostSlope * moved.distance;
     const double height = std::clamp((1.0 + overlap) * dot(outward, plane), -most, most);
-    moved.position = sum(sum(moved.position, overlap, outward), overlap * height, plane);
+    moved.position = moved.position + overlap * outward + overlap * height * plane;
     const double upwards = dot(moved.normal, plane);
     if (upwards > 0.0)
     {
-      moved.normal =
-        directionOf(sum(scaled((1.0 + overlap) / upwards, moved.normal), -overlap, plane));
+      moved.normal = directionOf((1.0 + overlap) / upwards * moved.normal - overlap * plane);
     }
   }
 
@@ -223,7 +222,7 @@ private:
     constexpr double mostSlope = 0.5;
     const LoweredCell& cell = this->Cells[point];
     const TangentFrame frame(this->Planes[point]);
-    const Vector offset = difference(place, this->Points.positions[point]);
+    const Vector offset = place - this->Points.positions[point];
     const double x = dot(offset, frame.first) / cell.unit;
     const double y = dot(offset, frame.second) / cell.unit;
     const double rise =
@@ -281,8 +280,7 @@ private:
     const LoweredCell::Corner& atA = this->at(a);
     const LoweredCell::Corner& atB = this->at(b);
     return dot(this->Planes[a.point], this->Planes[b.point]) > 0.0 &&
-           lengthOf(difference(atA.position, atB.position)) <=
-             mostShare * 0.5 * (atA.distance + atB.distance);
+           lengthOf(atA.position - atB.position) <= mostShare * 0.5 * (atA.distance + atB.distance);
   }
 
   /// Adds the corners that follow the first one, from cell to cell around their meeting place.
@@ -329,11 +327,11 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   for (std::size_t i = 0; i < cell.count; ++i)
   {
     const LoweredCell::Corner corner = joiner.joined({ point, i }, splat.counts);
-    offsets[i] = difference(corner.position, position);
+    offsets[i] = corner.position - position;
     normals[i] = corner.normal;
     splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
   }
-  splat.axis = scaled(splat.radius, frame.first);
+  splat.axis = splat.radius * frame.first;
   splat.corners = {};
   const bool isFiniteShape = std::all_of(
     offsets.begin(), offsets.end(), [](const Vector& offset) { return isFinite(offset); });

@@ -23,10 +23,10 @@ std::optional<Vector> umbrellaNormal(
       return std::nullopt;
     }
     const auto offsetOf = [&](std::size_t other)
-    { return scaled(1.0 / cell.unit, difference(positions[other], positions[point])); };
+    { return 1.0 / cell.unit * (positions[other] - positions[point]); };
     const Vector area = cross(offsetOf(a), offsetOf(b));
     const double size = lengthOf(area);
-    normal = size > 0.0 ? sum(normal, 1.0 / std::sqrt(size), area) : normal;
+    normal = size > 0.0 ? normal + 1.0 / std::sqrt(size) * area : normal;
   }
   return cell.count >= 3 && std::isnormal(lengthOf(normal)) ? std::optional(directionOf(normal))
                                                             : std::nullopt;
@@ -43,7 +43,7 @@ std::optional<Vector> turnedNormal(
   const double cosine = umbrella ? dot(*umbrella, normal) : 1.0;
   return cosine < leastCosine || cosine > mostCosine
            ? std::nullopt
-           : std::optional(directionOf(sum(normal, 1.0, *umbrella)));
+           : std::optional(directionOf(normal + *umbrella));
 }
 
 } // namespace isopoint

@@ -30,7 +30,7 @@ void makeTriangles(SplatFan& fan, bool isClosed)
 Vector unitNormal(const Vector& normal)
 {
   const double length = std::sqrt(dot(normal, normal));
-  return length == 0.0 ? normal : scaled(1.0 / length, normal);
+  return length == 0.0 ? normal : 1.0 / length * normal;
 }
 
 SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
@@ -51,8 +51,8 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   {
     const double* const corner = numbers.data() + numbersOfCorner * i; // see SplatCorner
     const std::size_t next = fan.vertexCount;
-    const Vector offset = sum(sum(scaled(corner[0] * scale, axis), corner[1] * scale, across),
-      corner[2] * scale * scale * radius, normal);
+    const Vector offset = corner[0] * scale * axis + corner[1] * scale * across +
+                          corner[2] * scale * scale * radius * normal;
     if (!isFinite(offset))
     {
       return {};
@@ -63,8 +63,8 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
     }
     steepest = std::max({ steepest, rootOfSquares(corner[3], corner[4]), std::abs(corner[2]) });
     fan.positions[next] = offset;
-    fan.normals[next] = unitNormal(
-      sum(sum(normal, scale * corner[3] / radius, axis), scale * corner[4] / radius, across));
+    fan.normals[next] =
+      unitNormal(normal + scale * corner[3] / radius * axis + scale * corner[4] / radius * across);
     ++fan.vertexCount;
   }
   if (fan.vertexCount < 4)
@@ -84,7 +84,7 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   makeTriangles(fan, !isFlat);
   for (std::size_t i = 0; i < fan.vertexCount; ++i)
   {
-    fan.positions[i] = sum(position, 1.0, fan.positions[i]);
+    fan.positions[i] = position + fan.positions[i];
   }
   // Corners are sums of a few float numbers.
   fan.tolerance = static_cast<float>(16.0 * std::numeric_limits<float>::epsilon() * radius);

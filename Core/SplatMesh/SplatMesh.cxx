@@ -16,8 +16,8 @@ std::array<std::size_t, 3> facingTriangle(const SplatFan& fan, std::size_t trian
 {
   std::array<std::size_t, 3> corners = fan.triangles[triangle];
   const Vector& a = fan.positions[corners[0]];
-  const Vector side = difference(fan.positions[corners[1]], a);
-  const Vector other = difference(fan.positions[corners[2]], a);
+  const Vector side = fan.positions[corners[1]] - a;
+  const Vector other = fan.positions[corners[2]] - a;
   if (dot(cross(side, other), fan.normals[corners[0]]) < 0.0)
   {
     std::swap(corners[1], corners[2]);

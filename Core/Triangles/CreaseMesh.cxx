@@ -20,7 +20,7 @@ CreaseSurface::CreaseSurface(Isosurface& vertices)
   this->normals.reserve(vertices.size());
   for (const LocalFit& fit : vertices.fits)
   {
-    this->normals.push_back(scaled(-1.0, directionOf(fit.gradient)));
+    this->normals.push_back(-directionOf(fit.gradient));
   }
 }
 
@@ -29,7 +29,7 @@ Vector CreaseSurface::normalOf(std::initializer_list<std::size_t> vertices) cons
   Vector all{};
   for (const std::size_t vertex : vertices)
   {
-    all = sum(all, 1.0, this->normals[vertex]);
+    all += this->normals[vertex];
   }
   return directionOf(all);
 }
@@ -51,7 +51,7 @@ std::size_t CreaseSurface::addVertex(
   const std::size_t vertex = this->surface.size();
   LocalFit fit = this->surface.fits[like];
   fit.position = place;
-  fit.gradient = scaled(-slope, normal);
+  fit.gradient = -slope * normal;
   fit.hessian = {};
   fit.isSmooth = false;
   fit.order = FitOrder::Crease;
@@ -116,8 +116,7 @@ bool slideAt(
     Vector& position = whole.surface.positions[vertex];
     const Vector former = position;
     const double formerArea = mesh.invertedAreaAround(vertex);
-    position =
-      scaled(0.5, sum(whole.surface.positions[along[0]], 1.0, whole.surface.positions[along[1]]));
+    position = 0.5 * (whole.surface.positions[along[0]] + whole.surface.positions[along[1]]);
     if (mesh.invertedAreaAround(vertex) < formerArea)
     {
       whole.surface.fits[vertex].position = position;
@@ -188,8 +187,7 @@ std::vector<Facet> withoutShortEdges(
       constexpr double leastCosine = 0.95;
       const auto& [a, b, c] = moved.corners;
       const std::vector<Vector>& positions = whole.surface.positions;
-      const double area = lengthOf(
-        cross(difference(positions[b], positions[a]), difference(positions[c], positions[a])));
+      const double area = lengthOf(cross(positions[b] - positions[a], positions[c] - positions[a]));
       return mesh.signedArea(moved) >= leastCosine * area;
     };
     for (const auto& [a, b] : shortEdges(whole.surface.positions, triangles))

@@ -133,10 +133,7 @@ private:
     std::vector<Facet>& parts) const
   {
     const auto lengthBetween = [this](std::size_t p, std::size_t q)
-    {
-      return lengthOf(
-        difference(this->Whole.surface.positions[p], this->Whole.surface.positions[q]));
-    };
+    { return lengthOf(this->Whole.surface.positions[p] - this->Whole.surface.positions[q]); };
     const Vector normal = this->Whole.normalOf({ b, c });
     parts.push_back({ { a, ab, ca }, this->Whole.normals[a] });
     if (lengthBetween(ab, c) < lengthBetween(ca, b))
@@ -177,13 +174,11 @@ private:
   {
     const auto& [a, b, c] = corners;
     const std::vector<Vector>& positions = this->Whole.surface.positions;
-    const Vector center =
-      scaled(1.0 / 3.0, sum(sum(positions[a], 1.0, positions[b]), 1.0, positions[c]));
+    const Vector center = 1.0 / 3.0 * (positions[a] + positions[b] + positions[c]);
     const Vector place = meetingOf(this->piecesAt({ a, b, c }), center);
-    const double longest = std::max({ lengthOf(difference(positions[a], positions[b])),
-      lengthOf(difference(positions[b], positions[c])),
-      lengthOf(difference(positions[c], positions[a])) });
-    return isFinite(place) && lengthOf(difference(place, center)) <= mostCornerOffset * longest
+    const double longest = std::max({ lengthOf(positions[a] - positions[b]),
+      lengthOf(positions[b] - positions[c]), lengthOf(positions[c] - positions[a]) });
+    return isFinite(place) && lengthOf(place - center) <= mostCornerOffset * longest
              ? std::optional(place)
              : std::nullopt;
   }
@@ -222,8 +217,8 @@ private:
     {
       if (isWanted(neighbor))
       {
-        byDistance.emplace_back(lengthOf(difference(this->Whole.surface.positions[neighbor],
-                                  this->Whole.surface.positions[vertex])),
+        byDistance.emplace_back(
+          lengthOf(this->Whole.surface.positions[neighbor] - this->Whole.surface.positions[vertex]),
           neighbor);
       }
     }
@@ -325,24 +320,23 @@ private:
     const Vector& p = this->Whole.surface.positions[a];
     const Vector& q = this->Whole.surface.positions[b];
     const std::vector<SurfacePiece> pieces = this->piecesAt({ a, b });
-    const Vector center = scaled(0.5, sum(p, 1.0, q));
+    const Vector center = 0.5 * (p + q);
     const Vector meeting = meetingOf(pieces, center);
     const Vector along = directionOf(cross(this->Whole.normals[a], this->Whole.normals[b]));
     const auto offsetOf = [&](const Vector& place)
     {
-      const Vector offset = difference(place, meeting);
+      const Vector offset = place - meeting;
       const double shift = dot(offset, along);
-      return std::pair(shift, lengthOf(sum(offset, -shift, along)));
+      return std::pair(shift, lengthOf(offset - shift * along));
     };
     const auto [pShift, pOff] = offsetOf(p);
     const auto [qShift, qOff] = offsetOf(q);
     const double off = pOff + qOff;
     const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
-    const Vector place = meetingOf(pieces, sum(meeting, shift, along));
-    const double length = lengthOf(difference(q, p));
-    return isFinite(place) && lengthOf(difference(place, center)) <= mostOffset * length
-             ? std::optional(place)
-             : std::nullopt;
+    const Vector place = meetingOf(pieces, meeting + shift * along);
+    const double length = lengthOf(q - p);
+    return isFinite(place) && lengthOf(place - center) <= mostOffset * length ? std::optional(place)
+                                                                              : std::nullopt;
   }
 
   std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const

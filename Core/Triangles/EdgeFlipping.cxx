@@ -86,8 +86,7 @@ private:
 
   Vector normalOf(std::size_t a, std::size_t b, std::size_t c) const
   {
-    return cross(difference(this->Positions[b], this->Positions[a]),
-      difference(this->Positions[c], this->Positions[a]));
+    return cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]);
   }
 
   /// Pairs the sides of edges with exactly two triangles.
@@ -127,7 +126,7 @@ private:
       const Vector normal = this->normalOf(a, b, c);
       for (const std::size_t vertex : { a, b, c })
       {
-        this->Normals[vertex] = sum(this->Normals[vertex], 1.0, normal);
+        this->Normals[vertex] += normal;
         ++this->Degrees[vertex];
       }
     }
@@ -135,8 +134,7 @@ private:
       [this](std::size_t vertex)
       {
         const double length = lengthOf(this->Normals[vertex]);
-        this->Normals[vertex] =
-          length > 0.0 ? scaled(1.0 / length, this->Normals[vertex]) : Vector{};
+        this->Normals[vertex] = length > 0.0 ? 1.0 / length * this->Normals[vertex] : Vector{};
       });
   }
 
@@ -157,8 +155,8 @@ private:
   {
     const auto angleAt = [&](std::size_t corner)
     {
-      const Vector toA = difference(this->Positions[a], this->Positions[corner]);
-      const Vector toB = difference(this->Positions[b], this->Positions[corner]);
+      const Vector toA = this->Positions[a] - this->Positions[corner];
+      const Vector toB = this->Positions[b] - this->Positions[corner];
       return std::array{ dot(toA, toB), lengthOf(cross(toA, toB)) }; // cosine, sine
     };
     const auto [cosC, sinC] = angleAt(c);
@@ -174,7 +172,7 @@ private:
   {
     const auto& [a, b, c] = triangle;
     const Vector normal = this->normalOf(a, b, c);
-    const Vector around = sum(sum(this->Normals[a], 1.0, this->Normals[b]), 1.0, this->Normals[c]);
+    const Vector around = this->Normals[a] + this->Normals[b] + this->Normals[c];
     const double lengths = lengthOf(normal) * lengthOf(around);
     return lengths > 0.0 ? dot(normal, around) / lengths : -1.0;
   }

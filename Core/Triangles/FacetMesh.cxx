@@ -72,8 +72,8 @@ bool FacetMesh::hasEdge(std::size_t a, std::size_t b) const
 double FacetMesh::signedArea(const Facet& facet) const
 {
   const auto& [a, b, c] = facet.corners;
-  return dot(facet.normal, cross(difference(this->Positions[b], this->Positions[a]),
-                             difference(this->Positions[c], this->Positions[a])));
+  return dot(facet.normal,
+    cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]));
 }
 
 double FacetMesh::invertedArea(const Facet& a, const Facet& b) const
@@ -144,7 +144,7 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
     {
       continue;
     }
-    const Vector normal = directionOf(sum(own.normal, 1.0, this->Facets[*other].normal));
+    const Vector normal = directionOf(own.normal + this->Facets[*other].normal);
     const Facet former[2] = { { own.corners, normal }, { corners, normal } };
     const Facet flipped[2] = { { { a, d, c }, normal }, { { d, b, c }, normal } };
     const double gain =

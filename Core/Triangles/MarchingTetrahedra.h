@@ -302,7 +302,7 @@ private:
   bool cutsFirst(const std::array<std::size_t, 4>& corners) const
   {
     const auto lengthBetween = [&](std::size_t a, std::size_t b)
-    { return lengthOf(difference(this->Positions[corners[b]], this->Positions[corners[a]])); };
+    { return lengthOf(this->Positions[corners[b]] - this->Positions[corners[a]]); };
     const double first = lengthBetween(0, 2);
     const double second = lengthBetween(1, 3);
     if (first != second)

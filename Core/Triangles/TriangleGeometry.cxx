@@ -20,8 +20,8 @@ namespace
 /// The normal of a triangle, scaled to avoid overflow and underflow: only its direction matters.
 Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
 {
-  const Vector u = difference(b, a);
-  const Vector v = difference(c, a);
+  const Vector u = b - a;
+  const Vector v = c - a;
   double largest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -47,8 +47,7 @@ void takeBackFarMoves(const std::vector<Vector>& unmoved,
     double length = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      length = std::max(
-        length, lengthOf(difference(unmoved[triangle[(i + 1) % 3]], unmoved[triangle[i]])));
+      length = std::max(length, lengthOf(unmoved[triangle[(i + 1) % 3]] - unmoved[triangle[i]]));
     }
     for (const std::size_t vertex : triangle)
     {
@@ -59,7 +58,7 @@ void takeBackFarMoves(const std::vector<Vector>& unmoved,
   {
     LocalFit& fit = fits[vertex];
     if (fit.order && fit.order != FitOrder::Crease &&
-        lengthOf(difference(fit.position, unmoved[vertex])) > mostReach * longest[vertex])
+        lengthOf(fit.position - unmoved[vertex]) > mostReach * longest[vertex])
     {
       fit.order.reset();
       fit.position = unmoved[vertex];
@@ -118,7 +117,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   takeBackFarMoves(unmoved, triangles, fits);
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
   const auto fallingAt = [&fits](std::size_t vertex)
-  { return scaled(-1.0, directionOf(fits[vertex].gradient)); };
+  { return -directionOf(fits[vertex].gradient); };
   const auto isTurned = [&](const SurfaceTriangle& triangle)
   {
     const auto& [a, b, c] = triangle;
@@ -132,7 +131,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     { return isMoved(vertex) ? fits[vertex].position : unmoved[vertex]; };
     const Vector before = scaledNormal(unmoved[a], unmoved[b], unmoved[c]);
     const Vector after = scaledNormal(placeOf(a), placeOf(b), placeOf(c));
-    const Vector falling = sum(sum(fallingAt(a), 1.0, fallingAt(b)), 1.0, fallingAt(c));
+    const Vector falling = fallingAt(a) + fallingAt(b) + fallingAt(c);
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   // All triangles at first, then the changed ones.

@@ -194,7 +194,7 @@ Vector VertexContraction::meanOf(const std::vector<std::size_t>& vertices) const
   for (const std::size_t vertex : vertices)
   {
     const Vector& position = positionOf(vertex);
-    mean = sum(mean, this->Vertices.weights[vertex] / weight, difference(position, origin));
+    mean = mean + this->Vertices.weights[vertex] / weight * (position - origin);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       least[axis] = std::min(least[axis], position[axis]);
@@ -268,14 +268,13 @@ std::size_t VertexContraction::cornerOf(
     return VertexParts::none;
   }
   const Vector& start = this->Vertices.positions[outside[0]];
-  const Vector along = difference(this->Vertices.positions[outside[1]], start);
+  const Vector along = this->Vertices.positions[outside[1]] - start;
   const Vector direction = directionOf(along);
   std::size_t farthest = VertexParts::none;
   double most = cornerShare * lengthOf(along);
   for (const std::size_t vertex : atBorder)
   {
-    const double offset =
-      lengthOf(cross(difference(this->Vertices.positions[vertex], start), direction));
+    const double offset = lengthOf(cross(this->Vertices.positions[vertex] - start, direction));
     if (offset > most)
     {
       most = offset;

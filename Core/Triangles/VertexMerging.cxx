@@ -150,7 +150,7 @@ private:
     const auto end = this->Result.members.begin() +
                      static_cast<std::ptrdiff_t>(this->Result.memberBegins[vertex + 1]);
     const auto distanceOf = [&](std::size_t crossing)
-    { return lengthOf(difference(this->Crossings[crossing], this->Result.positions[vertex])); };
+    { return lengthOf(this->Crossings[crossing] - this->Result.positions[vertex]); };
     const auto nearest = std::min_element(
       begin, end, [&](std::size_t a, std::size_t b) { return distanceOf(a) < distanceOf(b); });
     std::rotate(begin, nearest, nearest + 1);

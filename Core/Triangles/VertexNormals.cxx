@@ -24,11 +24,10 @@ std::vector<Vector> triangleNormals(
   for (const SurfaceTriangle& triangle : triangles)
   {
     const auto& [a, b, c] = triangle;
-    const Vector normal =
-      cross(difference(positions[b], positions[a]), difference(positions[c], positions[a]));
+    const Vector normal = cross(positions[b] - positions[a], positions[c] - positions[a]);
     for (const std::size_t vertex : triangle)
     {
-      sums[vertex] = sum(sums[vertex], 1.0, normal);
+      sums[vertex] += normal;
     }
   }
   return sums;
@@ -41,9 +40,9 @@ std::vector<Vector> sumsAround(
   std::vector<Vector> sums(all.size());
   for (const auto& [a, b, c] : triangles)
   {
-    sums[a] = sum(sums[a], 1.0, sum(all[b], 1.0, all[c]));
-    sums[b] = sum(sums[b], 1.0, sum(all[c], 1.0, all[a]));
-    sums[c] = sum(sums[c], 1.0, sum(all[a], 1.0, all[b]));
+    sums[a] += all[b] + all[c];
+    sums[b] += all[c] + all[a];
+    sums[c] += all[a] + all[b];
   }
   return sums;
 }
