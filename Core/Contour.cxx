@@ -22,7 +22,7 @@ std::vector<ExtractedIsosurface> extractIsovalues(const Execution& execution,
   for (std::size_t i = 0; i < count; ++i)
   {
     request.isosurface.isovalue = report.isovalues[i];
-    request.isosurface.keepsBand = i + 1 < count || options.keepBand;
+    request.isosurface.keepsTetrahedra = i + 1 < count || options.keepTetrahedra;
     surfaces.push_back(extractor.extract(
       partOf(execution, shareAt(i), shareAt(i + 1)), request, hasGhosts ? &ghosts[i] : nullptr));
     report.countSurface(i, surfaces.back());

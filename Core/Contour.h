@@ -63,7 +63,8 @@ void loadOrReplace(const Execution& execution, ProcessGroup* processes,
 /// Extracts all isovalues of a report from the loaded samples, and counts in the report. Throws as
 /// IsosurfaceExtractor::extract().
 /// @param options effective ones
-/// @param ghostRings on ranks: see ExtractionRequest; for points, positive if ghosts are requested
+/// @param ghostRings on several ranks: how many rings of ghost triangles to add; for points, any
+/// positive number requests ghosts
 /// @returns one surface per isovalue; then, if requested, the ghosts of each
 std::vector<ExtractedIsosurface> extractIsovalues(const Execution& execution,
   IsosurfaceExtractor& extractor, const Options& options, int ghostRings, Report& report);

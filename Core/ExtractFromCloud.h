@@ -167,11 +167,6 @@ ExtractedIsosurface extractFromCloud(const Execution& execution, SampleCloud<TSa
 {
   if (request.triangles)
   {
-    if (ghosts)
-    {
-      *ghosts = ExtractedIsosurface();
-      ghosts->surface.isovalue = request.isosurface.isovalue;
-    }
     return extractTriangles(execution, cloud, processes, request);
   }
   if (processes)

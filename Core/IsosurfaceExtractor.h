@@ -48,10 +48,10 @@ using SampleFor = std::conditional_t<std::is_same_v<TCoordinate, float>,
   std::conditional_t<std::is_same_v<TValue, float>, DoubleSampleOfFloat, WideSample>>;
 
 /// Extracts isosurfaces from a cloud of samples: the facade of the core. Keeps the tree, the
-/// neighborhoods and, for triangles, the tetrahedralization (see IsosurfaceRequest::keepsBand)
-/// between extractions. The first extraction takes O(n) for each level of the tree whose regions
-/// are not smaller than the surface; others only process the vicinity of their surface. The
-/// progress of a load or an extraction rises to 1.
+/// neighborhoods and, for triangles, the tetrahedralization (see
+/// IsosurfaceRequest::keepsTetrahedra) between extractions. The first extraction takes O(n) for
+/// each level of the tree whose regions are not smaller than the surface; others only process the
+/// vicinity of their surface. The progress of a load or an extraction rises to 1.
 class IsosurfaceExtractor
 {
 public:
@@ -144,8 +144,8 @@ public:
 
   /// The canonical isosurface and, if requested, its splats; independent of execution and former
   /// calls. On ranks, each isopoint, and each triangle with its vertices, is returned on one rank.
-  /// @param ghosts null, or receives the isopoints of other ranks within some rings around this
-  /// rank's, with all data (docs/ranks.md); nothing with triangles. The same choice on all ranks
+  /// @param ghosts null, as for triangles, or receives the isopoints of other ranks within some
+  /// rings around this rank's, with all data (docs/ranks.md). The same choice on all ranks
   /// @throws std::bad_alloc, Aborted, std::length_error (see NarrowBand); later calls still work
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
     ExtractedIsosurface* ghosts = nullptr);

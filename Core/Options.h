@@ -47,8 +47,8 @@ struct Options
   // Only for triangles:
   bool regularize = true; // see IsosurfaceRequest::regularizes
 
-  /// See IsosurfaceRequest::keepsBand.
-  bool keepBand = true;
+  /// See IsosurfaceRequest::keepsTetrahedra.
+  bool keepTetrahedra = true;
 };
 
 /// An option's name in messages, and its range, including both ends.

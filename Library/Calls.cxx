@@ -109,7 +109,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::compute_splats, &Core::computeSplats);
   visit(&C::angle, &Core::angle);
   visit(&C::minimum_spacing, &Core::minimumSpacing);
-  visit(&C::keep_tetrahedra, &Core::keepBand);
+  visit(&C::keep_tetrahedra, &Core::keepTetrahedra);
   visit(&C::regularize, &Core::regularize);
 }
 

@@ -16,7 +16,7 @@ namespace isopoint
 
 /// A view of a list of numbers such as node indices.
 template <class TId>
-struct NodeList
+struct IndexSpan
 {
   const TId* first = nullptr;
   std::size_t count = 0;
@@ -124,7 +124,7 @@ public:
     }
   }
 
-  NodeList<std::size_t> at(std::size_t place) const
+  IndexSpan<std::size_t> at(std::size_t place) const
   {
     const std::size_t begin = this->Begins[place];
     return { this->Items.data() + begin, this->Begins[place + 1] - begin };

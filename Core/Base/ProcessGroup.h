@@ -105,9 +105,9 @@ inline std::size_t rankAt(const std::vector<std::uint64_t>& begins, std::uint64_
 
 /// A process group. Work runs inside together(); all functions but rank(), size() and traffic() are
 /// collective and are called from there.
-/// A rank may throw anywhere. Every collective function begins with a max-reduction, to which a
-/// failed rank contributes a number above all others: the ranks that reach the function throw
-/// before they send anything. The cost is negligible in a group of one rank.
+/// A rank may throw anywhere. Every collective function first reduces a status by maximum. If a
+/// rank has failed, all others throw here, before they send any data. The cost is negligible in a
+/// group of one rank.
 class ProcessGroup
 {
 public:

@@ -237,7 +237,7 @@ private:
   const AngleCriterion& Criterion;
   const bool ListsGaps;
   ImplicitNeighborhood<TSample> Implicit;
-  NodeList<Id> Neighbors;
+  IndexSpan<Id> Neighbors;
   std::vector<Id> Records; // kept records, then that of the current leaf
   std::size_t KeptRecords = 0;
   std::vector<Offset> Offsets; // of the neighbors

@@ -135,9 +135,9 @@ struct IsopointEdges
   const std::vector<Vector>& starts;
 };
 
-/// The isosurface of edges. Isopoints are at the positions of their fits, or else of `starts`.
+/// Makes isopoints of crossing edges. Each is at the position of its fit if one holds and `isMoved`
+/// is true; otherwise at its start.
 /// @param fits one per isopoint, or empty
-/// @param isMoved whether fits move isopoints
 template <class TSample>
 Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>& context,
   const IsopointEdges<TSample>& isopoints, std::vector<LocalFit> fits, bool isMoved)

@@ -102,7 +102,7 @@ public:
     /// within 2 rings + 1 steps, each to a touching leaf, from this edge affect the result.
     /// @param rings at least 1
     /// @returns isopoints, each once, mostly including this one; valid until the next call
-    NodeList<std::size_t> find(std::size_t isopoint, int rings)
+    IndexSpan<std::size_t> find(std::size_t isopoint, int rings)
     {
       const Id leaf = this->Neighbors.Ends[isopoint][0];
       if (this->RingEnds.empty() || leaf != this->Leaf)
@@ -194,14 +194,14 @@ private:
   static constexpr std::size_t mostIsopoints = 2048;
 
   /// The isopoints whose edges end in a leaf; none if there are more than `most`.
-  NodeList<std::size_t> isopointsAt(Id leaf) const
+  IndexSpan<std::size_t> isopointsAt(Id leaf) const
   {
-    const NodeList<std::size_t> isopoints = this->Isopoints->at(leaf);
-    return isopoints.count > most ? NodeList<std::size_t>{} : isopoints;
+    const IndexSpan<std::size_t> isopoints = this->Isopoints->at(leaf);
+    return isopoints.count > most ? IndexSpan<std::size_t>{} : isopoints;
   }
 
   /// The leaves that touch a leaf.
-  NodeList<Id> touching(Id leaf) const
+  IndexSpan<Id> touching(Id leaf) const
   {
     const std::size_t begin = this->TouchingEnds[leaf - 1];
     return { this->Touching.data() + begin, this->TouchingEnds[leaf] - begin };
@@ -251,10 +251,10 @@ private:
           const std::size_t last = std::min(count, (part + 1) * grain);
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
-            const NodeList<Id> touching =
+            const IndexSpan<Id> touching =
               isSurrounded[leaf] ? fewNeighborsOf(tree, known,
                                      static_cast<std::size_t>(this->Leaves[leaf]), most, memory)
-                                 : NodeList<Id>{};
+                                 : IndexSpan<Id>{};
             for (const Id node : touching)
             {
               if (numbers[node] != 0)

@@ -68,7 +68,7 @@ struct IsosurfaceRequest
   std::optional<FitRequest> fit = std::nullopt;
   /// Triangles only: whether to keep the tetrahedralization near the surface for the next
   /// extraction, unless it is large (see KeptTetrahedra).
-  bool keepsBand = true;
+  bool keepsTetrahedra = true;
   /// Triangles with creases only: whether vertices are repeated on each side, for separate normals.
   bool partsCreases = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
@@ -114,7 +114,7 @@ struct Isosurface
 
   std::vector<LocalFit> fits; // or empty if none were requested
 
-  std::vector<CoincidentSamples> coincident; // all at ends of edges, and others; by lowest id
+  std::vector<CoincidentSamples> coincident; // groups at the ends of edges, by lowest id
 
   std::size_t droppedEdges = 0; // crossing edges in gaps
 

@@ -31,8 +31,8 @@ public:
   struct Rings
   {
     Id leaf;
-    bool hasTooMany;    // neighbors to list them all
-    NodeList<Id> first; // neighbors; if too many, none or representatives
+    bool hasTooMany;     // neighbors to list them all
+    IndexSpan<Id> first; // neighbors; if too many, none or representatives
     std::vector<Id> representatives;
     std::optional<std::vector<Id>> second;
     std::optional<double> spacing;
@@ -71,7 +71,7 @@ public:
     {
       return known->second;
     }
-    const NodeList<Id> first = this->neighborsOf(leaf);
+    const IndexSpan<Id> first = this->neighborsOf(leaf);
     return this->Known.try_emplace(leaf, Rings{ leaf, first.isEmpty(), first, {}, {}, {} })
       .first->second;
   }
@@ -147,7 +147,7 @@ public:
 
 private:
   /// The neighbors of a leaf; none if there are too many. Valid until the next call of makeRoom().
-  NodeList<Id> neighborsOf(Id leaf)
+  IndexSpan<Id> neighborsOf(Id leaf)
   {
     constexpr std::size_t mostNeighbors = 256;
     const auto found = this->Found.find(leaf);
@@ -156,7 +156,7 @@ private:
       return { found->second.data(), found->second.size() };
     }
     std::vector<Id> memory;
-    const NodeList<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
+    const IndexSpan<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
       static_cast<std::size_t>(leaf), mostNeighbors, memory);
     if (!memory.empty())
     {

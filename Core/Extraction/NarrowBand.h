@@ -282,8 +282,8 @@ private:
            this->unfinishedSamples(this->Tree.nodes[node.upperNode()], levels - 1);
   }
 
-  /// Marks the crossing nodes of a depth and all that touch one. The parent of a crossing node is
-  /// crossing. Nodes next to unknown ones wait until those are fetched.
+  /// Marks the crossing nodes of a depth and all that touch one. Only children of crossing nodes
+  /// can be crossing. A node with neighbors on another rank is tried again once those are fetched.
   template <class TRanks>
   void mark(const Execution& execution, TRanks& ranks, std::vector<BandNode> front, int depth)
   {

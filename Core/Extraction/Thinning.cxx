@@ -181,14 +181,11 @@ std::vector<std::size_t> keptPoints(
 
 void thin(const Execution& execution, double minimumSpacing, Isosurface& surface)
 {
-  const std::vector<std::size_t> kept = keptPoints(execution, minimumSpacing, surface.fits);
-  if (kept.size() == surface.size())
+  if (minimumSpacing > 0.0 && !surface.fits.empty())
   {
-    return;
+    surface =
+      chosenIsopoints(execution, surface, keptPoints(execution, minimumSpacing, surface.fits));
   }
-  Isosurface thinned = chosenIsopoints(execution, surface, kept);
-  thinned.coincident = std::move(surface.coincident);
-  surface = std::move(thinned);
 }
 
 } // namespace isopoint

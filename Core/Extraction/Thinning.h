@@ -19,7 +19,7 @@ namespace isopoint
 /// `mostCreaseCosine`. So points on two sheets or on both sides of a crease are never close:
 /// consecutive sheets of one isovalue have opposite gradients, and the next but one is off the
 /// tangent plane. Points with spacings over 1e290 are not close to any.
-/// @param surface nothing is dropped without fits; all its coincident samples remain
+/// @param surface without coincident samples; nothing is dropped without fits
 /// @param minimumSpacing from 0, which drops nothing, to 1
 /// @throws std::bad_alloc or Aborted, the surface unchanged
 /// Complexity: O(n) for each power of two between the smallest and the largest spacing

@@ -60,12 +60,12 @@ private:
   std::vector<std::size_t> Indices;
 };
 
-/// The isopoints that an extraction works on, for one rank that has all. SurfaceHalo implements the
-/// same functions, and those of AllPoints, for several ranks:
+/// The isopoints of one process. SurfaceHalo implements the same functions, and those of AllPoints,
+/// for several ranks:
 /// - gather(rings, isShared): fetches rings of other ranks' isopoints, none or at least 3.
 ///   isShared: whether share() sends all results to ranks with copies, or only normals;
 /// - surface(): all isopoints, each once, without coincident samples;
-/// - numbers(): their order among points at one position; empty for that of surface();
+/// - numbers(): numbers that break ties between points; empty if their indices do;
 /// - inner(): per isopoint, whether neighbors are needed around it; null for all;
 /// - home(), elsewhere(): indices of this rank's isopoints, and of all others;
 /// - takeHome(): moves out the surface of home().

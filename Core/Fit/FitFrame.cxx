@@ -118,7 +118,7 @@ FitFrame::NearestChoice FitFrame::choiceOf(std::size_t count)
     return { std::numeric_limits<double>::infinity(), count };
   }
   this->Ranked = this->Distances;
-  const double limit = numberOfRank(this->Ranked.data(), this->Ranked.size(), count - 1);
+  const double limit = selectNth(this->Ranked.data(), this->Ranked.size(), count - 1);
   const auto less = std::count_if(this->Distances.begin(), this->Distances.end(),
     [limit](double distance) { return distance < limit; });
   return { limit, count - static_cast<std::size_t>(less) };

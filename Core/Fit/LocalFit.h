@@ -59,8 +59,9 @@ struct CreasePlane
 struct LocalFit
 {
   Vector position; // of the isopoint; moved if requested and a fit holds
-  /// Of the field there; or of an affine function of the samples, if it is more certain or no fit
-  /// holds; or else the slope along the edge.
+  /// The gradient of the fit there. A polynomial of degree one or two with mild weights replaces it
+  /// if both agree within their errors; an affine one also if no fit holds. Else the slope along
+  /// the edge.
   Vector gradient;
   bool isGradientFitted;         // false for the slope along the edge
   Hessian hessian;               // of the field there, or all 0

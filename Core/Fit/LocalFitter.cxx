@@ -173,7 +173,7 @@ void LocalFitter::weighRobustly()
     {
       all[i] = std::abs(residuals[i]);
     }
-    const double middle = numberOfRank(all.data(), all.size(), all.size() / 2);
+    const double middle = selectNth(all.data(), all.size(), all.size() / 2);
     if (!(middle > 0.0))
     {
       return;

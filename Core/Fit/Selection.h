@@ -26,7 +26,7 @@ std::size_t moveToFront(double* numbers, std::size_t count, const Belongs& belon
 /// The number at a place in sorted order; any number if one is NaN. Reorders the numbers. Faster
 /// than std::nth_element() for hundreds. O(n) on average, O(n^2) at worst
 /// @param place below count
-inline double numberOfRank(double* numbers, std::size_t count, std::size_t place)
+inline double selectNth(double* numbers, std::size_t count, std::size_t place)
 {
   constexpr std::size_t few = 8;
   while (count > few)

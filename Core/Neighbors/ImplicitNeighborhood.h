@@ -14,7 +14,8 @@
 namespace isopoint
 {
 
-/// The neighborhood of a leaf, searched by the bounding boxes of nodes' samples instead of listed.
+/// Searches the neighborhood of a leaf by branch and bound, without listing it: the bounding boxes
+/// of nodes' samples bound the results.
 /// For n neighbors, as of samples on two skew lines, a search takes about O(log n). Memory is kept
 /// between leaves. For one thread.
 template <class TSample>

@@ -142,11 +142,11 @@ bool visitNeighbors(
 /// The neighbors of a leaf, from `known` or from a search, which lists them in `memory`; an empty
 /// list if there are more than `most`.
 template <class TSample>
-NodeList<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
+IndexSpan<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
   const NeighborhoodCache<typename TSample::Id>& known, std::size_t leaf, std::size_t most,
   std::vector<typename TSample::Id>& memory)
 {
-  using List = NodeList<typename TSample::Id>;
+  using List = IndexSpan<typename TSample::Id>;
   const List list = known.at(leaf);
   if (!list.isEmpty())
   {

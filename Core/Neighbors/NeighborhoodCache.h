@@ -23,7 +23,7 @@ class NeighborhoodCache
 {
 public:
   /// The neighborhood of a leaf; an empty list if it is not known. O(1)
-  NodeList<TId> at(std::size_t nodeIndex) const
+  IndexSpan<TId> at(std::size_t nodeIndex) const
   {
     if (nodeIndex >= this->Offsets.size() || this->Offsets[nodeIndex] == 0)
     {

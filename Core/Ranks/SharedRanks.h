@@ -138,7 +138,7 @@ public:
     keepUnique(found);
   }
 
-  /// The order of the surface spans all ranks: one rank thins for all, with memory for all fits.
+  /// Thinning depends on the order of all isopoints: one rank gathers all fits and decides for all.
   void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
   {
     std::vector<ByteBuffer> questions(this->rankCount());

@@ -29,8 +29,8 @@ namespace isopoint
 
 /// WholeSurface for several ranks: this rank's isopoints and those of others within some rings
 /// around them, in the order of the whole surface. Each ring adds the isopoints of edges adjacent
-/// to the previous ring's; one ring more than IsopointNeighbors::Finder is asked for has all that
-/// it finds. Collective: gather(), forEach(), share() and shareCells().
+/// to the previous ring's. An IsopointNeighbors::Finder for k rings needs k + 1 rings here.
+/// Collective: gather(), forEach(), share() and shareCells().
 template <class TSample>
 class SurfaceHalo
 {
@@ -203,7 +203,7 @@ private:
       this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
       [&](std::vector<Id>& memory, std::size_t i)
       {
-        const NodeList<Id> touching =
+        const IndexSpan<Id> touching =
           fewNeighborsOf(this->Tree, this->Cache, leaves[i], most, memory);
         const std::lock_guard<std::mutex> lock(mutex);
         std::copy_if(touching.begin(), touching.end(), std::back_inserter(all),

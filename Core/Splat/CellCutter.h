@@ -331,7 +331,8 @@ private:
     return false;
   }
 
-  /// Whether a point's normal matches the plane across a crease better than the crease owner's.
+  /// Whether a point is on the far side of another point's crease: its normal is closer to that of
+  /// the plane across than the other point's is.
   bool isOnPiece(std::size_t point, std::size_t own, const CreasePlane& across) const
   {
     const Vector& normal = this->Normals[point];

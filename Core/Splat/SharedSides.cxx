@@ -86,8 +86,8 @@ bool isBetween(const VoronoiCell& cell, std::size_t before, std::size_t point, s
          cell.after(side).beyond == after;
 }
 
-/// Whether the cells before and after a side share one as well, which would cross it: rounding and
-/// curvature decide which of the four cells at a common corner meet. All four find the same.
+/// Whether a side crosses another one. Four cells meet nearly in one corner, and rounding and
+/// curvature make both diagonal pairs share a side. The test gives the same result in all four.
 bool isCrossed(const RawArray<VoronoiCell>& cells, std::size_t point, std::size_t side)
 {
   const VoronoiCell& cell = cells[point];

@@ -17,7 +17,7 @@ enum class SplatState : char
   Hidden // a visible point represents it
 };
 
-/// Counts the corners of a splat between two sides with a neighbor, where the surface continues.
+/// Counts the inner corners of a splat: those between two sides that have a neighbor.
 struct SplatCornerCounts
 {
   std::uint32_t inner = 0;

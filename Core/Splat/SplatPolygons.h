@@ -15,8 +15,9 @@ namespace isopoint
 /// The maximum number of corners that are joined.
 constexpr std::size_t mostMeeting = 6;
 
-/// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Each of the cells
-/// that meet is in the third ring of the next, and so are the cells that share its sides.
+/// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Up to mostMeeting
+/// cells meet in a corner. The next cell is within three rings of the last one, and the cells that
+/// share a side with it within one more.
 constexpr int splatRings = 4 * static_cast<int>(mostMeeting);
 
 /// Makes splats from cells: projects the corners onto the surface and joins those that meet; see

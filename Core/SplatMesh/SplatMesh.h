@@ -40,7 +40,7 @@ struct SplatMesh
   template <class NumberOf>
   double meanAt(std::size_t vertex, const NumberOf& numberOf) const
   {
-    const NodeList<std::size_t> met = this->meeting.at(this->meetsAt[vertex]);
+    const IndexSpan<std::size_t> met = this->meeting.at(this->meetsAt[vertex]);
     if (met.count == 1)
     {
       return numberOf(this->pointOfVertex[vertex]);

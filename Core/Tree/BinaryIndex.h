@@ -28,8 +28,8 @@ constexpr bool operator!=(const BinaryIndex& a, const BinaryIndex& b)
 }
 
 /// The greatest depth that 128 bits can name. n distinct positions need ceil(log2 n) levels.
-/// Coincident samples stay together, so a split may part off only one sample on each axis before
-/// they are alone: nested groups of them take up to four levels per halving, 4 log2 n in all.
+/// Coincident samples, which are never separated, can take up to four levels to halve a node: at
+/// most 4 log2 n in all.
 constexpr int maximumDepth = 127;
 
 /// @throws std::length_error if the tree would exceed maximumDepth

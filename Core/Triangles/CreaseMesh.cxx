@@ -300,9 +300,7 @@ private:
     this->Triangles = renumbered(this->Run, this->Triangles, kept, surface.size());
     if (kept.size() < surface.size())
     {
-      const std::size_t dropped = surface.droppedEdges;
       surface = chosenIsopoints(this->Run, surface, kept);
-      surface.droppedEdges = dropped;
     }
   }
 

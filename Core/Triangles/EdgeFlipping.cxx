@@ -97,7 +97,7 @@ private:
     forEachIndex(this->Run, this->Positions.size(),
       [&](std::size_t vertex)
       {
-        const NodeList<Side> list = byLowerEnd.at(vertex);
+        const IndexSpan<Side> list = byLowerEnd.at(vertex);
         std::vector<Side> sides(list.begin(), list.end());
         const auto upperOf = [this](Side side)
         { return std::max(this->startOf(side), this->endOf(side)); };

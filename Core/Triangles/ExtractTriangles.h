@@ -99,7 +99,7 @@ public:
     CrossingTetrahedraFinder<TSample, TRanks> finder(
       part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept);
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
-    if (!this->Request.keepsBand)
+    if (!this->Request.keepsTetrahedra)
     {
       this->Kept.reset();
     }

@@ -191,7 +191,8 @@ std::vector<std::size_t> FacetMesh::neighborsOf(std::size_t vertex) const
   return neighbors;
 }
 
-/// The facets around a vertex that survive a move onto a neighbor; nothing if not manifold then.
+/// The facets that remain when the edge from a vertex to a neighbor collapses; nothing if the mesh
+/// would not stay manifold.
 std::optional<std::vector<std::size_t>> FacetMesh::facetsToMove(
   std::size_t vertex, std::size_t neighbor) const
 {

@@ -163,7 +163,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
       {
         if (isMoved(vertex))
         {
-          const NodeList<std::size_t> around = trianglesAt->at(vertex);
+          const IndexSpan<std::size_t> around = trianglesAt->at(vertex);
           suspects.insert(suspects.end(), around.begin(), around.end());
         }
         fits[vertex].order.reset();

@@ -168,7 +168,7 @@ std::vector<std::size_t> VertexContraction::lowestAmongNeighbors(
 
 void VertexContraction::merge(std::size_t part)
 {
-  const NodeList<std::size_t> vertices = this->Parts.verticesOf(part);
+  const IndexSpan<std::size_t> vertices = this->Parts.verticesOf(part);
   const std::size_t root = vertices[0];
   for (const std::size_t vertex : vertices)
   {
@@ -221,7 +221,7 @@ void VertexContraction::separate(std::size_t part)
 /// The vertices that place a merged part: its border corner, else its border vertices, else all.
 std::vector<std::size_t> VertexContraction::placingMembers(std::size_t part) const
 {
-  const NodeList<std::size_t> vertices = this->Parts.verticesOf(part);
+  const IndexSpan<std::size_t> vertices = this->Parts.verticesOf(part);
   std::vector<std::size_t> atBorder;
   std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(atBorder),
     [this](std::size_t vertex) { return this->IsAtBorder[vertex] != 0; });

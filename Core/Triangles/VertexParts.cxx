@@ -52,7 +52,7 @@ public:
   /// Sorts the vertices of a group by part, and appends the parts.
   /// @param own the vertices, at `begin` among those of all groups
   void label(std::size_t* own, std::size_t count, std::size_t begin,
-    const NodeList<std::size_t>& around, std::vector<Part>& parts)
+    const IndexSpan<std::size_t>& around, std::vector<Part>& parts)
   {
     this->Members.assign(own, own + count);
     this->Roots.resize(count);
@@ -89,7 +89,7 @@ private:
   }
 
   /// The edges between members, and the triangles between three members.
-  void findEdges(const NodeList<std::size_t>& around)
+  void findEdges(const IndexSpan<std::size_t>& around)
   {
     const std::size_t group = this->Groups[this->Members.front()];
     this->Edges.clear();

@@ -30,7 +30,7 @@ public:
   /// The part of a vertex, or none if it is alone. Parts are ordered by group and first vertex.
   std::size_t partOf(std::size_t vertex) const { return this->PartOf[vertex]; }
 
-  NodeList<std::size_t> verticesOf(std::size_t part) const
+  IndexSpan<std::size_t> verticesOf(std::size_t part) const
   {
     const Part& own = this->Parts[part];
     return { this->Vertices.data() + own.begin, own.end - own.begin };
@@ -39,7 +39,7 @@ public:
   /// Whether a part is simply connected: vertices - edges + triangles = 1.
   bool isSimple(std::size_t part) const { return this->Parts[part].isSimple; }
 
-  NodeList<std::size_t> trianglesAround(std::size_t part) const
+  IndexSpan<std::size_t> trianglesAround(std::size_t part) const
   {
     return this->Triangles->at(part);
   }

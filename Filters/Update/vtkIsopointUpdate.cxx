@@ -90,7 +90,7 @@ void vtkIsopointUpdate::Extract(vtkInformation* inputInfo, vtkInformation* outpu
 {
   this->Options.Core = isopoint::effectiveOptions(this->Options.Core);
   // Small bands of many blocks would add up.
-  this->Options.Core.keepBand = this->Options.KeepTree && !this->Options.ContourBlocks;
+  this->Options.Core.keepTetrahedra = this->Options.KeepTree && !this->Options.ContourBlocks;
   this->Execution = vtkMakeIsopointExecution(
     this->Filter, this->Options.UseAllCores, vtkCountIsopointRanksOnCores(this->Processes));
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
