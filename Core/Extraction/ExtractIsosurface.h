@@ -6,18 +6,20 @@
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/EdgeFinder.h"
 #include "Core/Extraction/ExtractionContext.h"
-#include "Core/Extraction/GapEdges.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NarrowBand.h"
 #include "Core/Extraction/NeighborhoodFits.h"
+#include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Tree/Path.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -106,6 +108,92 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
   } while (ranks.fetchNodes(left.missing, maximumDepth + 1));
   ranks.shareEdges(found.edges);
   return found;
+}
+
+/// Crossing edges as parts of a surface for GapSpread; edges with a common end are connected.
+template <class TSample>
+class EdgeParts
+{
+public:
+  /// @param edges each once
+  /// @param nodeCount of the tree
+  EdgeParts(const std::vector<CrossingEdge<TSample>>& edges, std::size_t nodeCount)
+    : Edges(edges)
+    , NodeCount(nodeCount)
+  {
+  }
+
+  std::size_t size() const { return this->Edges.size(); }
+  bool isCounted(std::size_t) const { return true; }
+
+  template <class TRanks>
+  void unite(TRanks& ranks, std::vector<std::size_t>& found) const
+  {
+    ranks.uniteEdges(this->Edges, found);
+  }
+
+  template <class Test>
+  bool anyEdge(std::size_t edge, const Test& test) const
+  {
+    return test(static_cast<std::size_t>(this->Edges[edge].firstLeaf),
+      static_cast<std::size_t>(this->Edges[edge].secondLeaf));
+  }
+
+  /// Visits the edges at both ends; skips ends that were visited before.
+  template <class Visit>
+  void forEachNeighbor(std::size_t edge, const Visit& visit)
+  {
+    const auto leavesOfEdge = [this](std::size_t i)
+    {
+      return std::array{ static_cast<std::size_t>(this->Edges[i].firstLeaf),
+        static_cast<std::size_t>(this->Edges[i].secondLeaf) };
+    };
+    if (!this->EdgesAt)
+    {
+      this->IsVisited.resize(this->NodeCount, 0);
+      this->EdgesAt.emplace(this->NodeCount, this->Edges.size(), leavesOfEdge);
+    }
+    for (const std::size_t leaf : leavesOfEdge(edge))
+    {
+      if (!this->IsVisited[leaf])
+      {
+        const IndexSpan<std::size_t> edges = this->EdgesAt->at(leaf);
+        std::for_each(edges.begin(), edges.end(), visit);
+        this->IsVisited[leaf] = 1;
+      }
+    }
+  }
+
+private:
+  const std::vector<CrossingEdge<TSample>>& Edges;
+  const std::size_t NodeCount;
+  // By leaf, once there is a gap.
+  std::optional<ItemLists> EdgesAt;
+  std::vector<char> IsVisited;
+};
+
+/// By edge, whether it lies in a gap of the cloud (docs/algorithm.md, section 6). Collective.
+/// @param edges sorted, each once
+/// @param strong edges that the strong gap criterion rejects, in any order, with repetitions
+/// @param ranks SingleRank or SharedRanks
+/// @throws std::bad_alloc, Aborted, FailedElsewhere
+template <class TSample, class TRanks>
+std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSample>& tree,
+  TRanks& ranks, const std::vector<CrossingEdge<TSample>>& edges,
+  const std::vector<CrossingEdge<TSample>>& strong)
+{
+  EdgeParts<TSample> parts(edges, tree.nodes.size());
+  GapSpread<TSample, TRanks, EdgeParts<TSample>> spread(execution, tree, ranks, parts);
+  std::vector<std::size_t> seeds;
+  for (const CrossingEdge<TSample>& edge : strong)
+  {
+    const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+    seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
+  }
+  keepUnique(seeds);
+  parts.unite(ranks, seeds);
+  spread.spread(GapCriterion::weak(), std::move(seeds));
+  return spread.takeInGap();
 }
 
 /// Drops the edges in gaps. @returns the number of dropped edges that belong to this rank

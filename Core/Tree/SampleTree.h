@@ -3,7 +3,7 @@
 
 #include "Core/Base/RawArray.h"
 #include "Core/Base/Region.h"
-#include "Core/Tree/Sample.h"
+#include "Core/Base/Vector.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +16,43 @@
 
 namespace isopoint
 {
+
+/// One sample in the tree, with all data for building and searching. Positions and values keep the
+/// input's type; the id is the sample's number in the input.
+template <class TCoordinate, class TValue, class TId>
+struct Sample
+{
+  using Coordinate = TCoordinate;
+  using Value = TValue;
+  using Id = TId;
+
+  TCoordinate position[3];
+  TId id;
+  TValue value;
+};
+
+/// The layouts in use. Those with 32-bit ids hold fewer than 2^30 samples, since ids also number
+/// nodes: two for each sample, and some that are reserved but unused. WideSample holds any cloud,
+/// since float converts to double exactly.
+using FloatSample = Sample<float, float, std::uint32_t>;
+using FloatSampleOfDouble = Sample<float, double, std::uint32_t>;
+using DoubleSampleOfFloat = Sample<double, float, std::uint32_t>;
+using WideSample = Sample<double, double, std::uint64_t>;
+
+static_assert(sizeof(FloatSample) == 20, "the commonest layout has no padding");
+
+template <class TSample>
+Vector positionOf(const TSample& sample)
+{
+  return { sample.position[0], sample.position[1], sample.position[2] };
+}
+
+template <class TSample>
+bool haveOnePosition(const TSample& a, const TSample& b)
+{
+  return a.position[0] == b.position[0] && a.position[1] == b.position[1] &&
+         a.position[2] == b.position[2];
+}
 
 /// A node of the kd-tree, identified by its index in SampleTree::nodes. Siblings are adjacent and
 /// form a pair with one number; pair 0 never holds children.

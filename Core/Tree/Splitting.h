@@ -4,7 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Region.h"
 #include "Core/Tree/MedianSelection.h"
-#include "Core/Tree/Sample.h"
+#include "Core/Tree/SampleTree.h"
 #include "Core/Tree/Separation.h"
 
 #include <algorithm>
@@ -14,6 +14,32 @@
 
 namespace isopoint
 {
+
+/// The strict total order on an axis: by this coordinate, the next two cyclically, then id.
+template <class TSample>
+struct SplittingOrder
+{
+  explicit SplittingOrder(int axis)
+    : First(axis)
+    , Second((axis + 1) % 3)
+    , Third((axis + 2) % 3)
+  {
+  }
+
+  bool operator()(const TSample& a, const TSample& b) const
+  {
+    const auto keyOf = [this](const TSample& sample)
+    {
+      return std::tuple(sample.position[this->First], sample.position[this->Second],
+        sample.position[this->Third], sample.id);
+    };
+    return keyOf(a) < keyOf(b);
+  }
+
+  int First;
+  int Second;
+  int Third;
+};
 
 /// Result of halving a node: the first `lowerCount` samples form the lower child.
 struct Halves
