@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointCellCenters.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
-#include "Input/vtkIsopointAllocation.h"
 #include "Input/vtkIsopointGhosts.h"
 
 #include "vtkCellData.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInputState.h"
 
+#include "Common/vtkIsopointCompatibility.h"
 #include "Core/Base/Hash.h"
-#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"

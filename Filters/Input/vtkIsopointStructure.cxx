@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointStructure.h"
 
+#include "Common/vtkIsopointCompatibility.h"
 #include "Core/Base/ProcessGroup.h"
 #include "Core/Failure.h"
-#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"

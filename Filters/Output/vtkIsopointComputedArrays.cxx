@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointComputedArrays.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Options.h"
 #include "Core/OutputArrays.h"
-#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointEndSamples.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/ProcessGroup.h"
-#include "Input/vtkIsopointAllocation.h"
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"
@@ -199,12 +199,7 @@ vtkSmartPointer<vtkPointData> copiedInOrder(
     vtkAbstractArray* const array = name ? copied->GetAbstractArray(name, index) : nullptr;
     if (array && index != contoured)
     {
-      const int added = ordered->AddArray(array);
-      const int attribute = copied->IsArrayAnAttribute(index);
-      if (attribute >= 0)
-      {
-        ordered->SetActiveAttribute(added, attribute);
-      }
+      vtkAddAttribute(copied->IsArrayAnAttribute(index), array, ordered);
     }
   }
   ordered->AddArray(copied->GetAbstractArray(contoured));

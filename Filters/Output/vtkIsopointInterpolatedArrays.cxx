@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointInterpolatedArrays.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/OutputArrays.h"
-#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
@@ -78,26 +78,6 @@ void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAb
   }
 }
 
-vtkSmartPointer<vtkAbstractArray> newArrayLike(vtkAbstractArray* input, vtkIdType tuples)
-{
-  auto output = vtkSmartPointer<vtkAbstractArray>::Take(input->NewInstance());
-  output->SetName(input->GetName());
-  output->SetNumberOfComponents(input->GetNumberOfComponents());
-  output->CopyComponentNames(input);
-  vtkAllocateTuples(output, tuples);
-  return output;
-}
-
-/// Adds an array, as the active attribute of this type unless it is -1.
-void addArray(int attribute, vtkAbstractArray* array, vtkPointData* output)
-{
-  const int index = output->AddArray(array);
-  if (attribute >= 0)
-  {
-    output->SetActiveAttribute(index, attribute);
-  }
-}
-
 bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
@@ -120,7 +100,7 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       continue;
     }
     const vtkSmartPointer<vtkAbstractArray> result =
-      newArrayLike(array, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
+      vtkNewArrayLike(array, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
     vtkIdType firstTuple = 0;
@@ -138,7 +118,7 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       }
       firstTuple += static_cast<vtkIdType>(surface.size());
     }
-    addArray(attribute, result, output);
+    vtkAddAttribute(attribute, result, output);
   }
 }
 
@@ -158,5 +138,5 @@ void vtkAddContouredArray(
       result->SetComponent(tuple++, 0, extracted.surface.isovalue);
     }
   }
-  addArray(vtkDataSetAttributes::SCALARS, result, output);
+  vtkAddAttribute(vtkDataSetAttributes::SCALARS, result, output);
 }
