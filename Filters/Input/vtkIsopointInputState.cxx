@@ -171,8 +171,3 @@ vtkIsopointInputState vtkGetIsopointGeometryState(
   addGhosts(execution, state, leaf->GetAttributes(vtkDataObject::CELL));
   return state;
 }
-
-void vtkAppendIsopointArrayState(vtkIsopointInputState& state, vtkDataArray* array)
-{
-  add(state, array);
-}

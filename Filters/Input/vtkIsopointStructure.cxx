@@ -147,11 +147,6 @@ void vtkIsopointStructure::AddNumbers(
   }
 }
 
-void vtkIsopointStructure::Merge(const vtkIsopointStructure& other)
-{
-  this->Merge(other, "");
-}
-
 void vtkIsopointStructure::Merge(const vtkIsopointStructure& other, const std::string& place)
 {
   if (this->Name.empty())

@@ -146,7 +146,7 @@ void vtkIsopointUpdate::CollectBlocks(
   {
     blocks.Collect(this->Execution, input, array, wholeExtent);
   }
-  catch (const vtkIsopointNothingError& error)
+  catch (const vtkIsopointNoSamplesError& error)
   {
     nothing = error.what();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Update/vtkIsopointRanks.h"
+#include "Update/vtkIsopointCommunicator.h"
 
 #include "Core/Base/Threads.h"
 #include "Core/Failure.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef vtkIsopointRanks_h
-#define vtkIsopointRanks_h
+#ifndef vtkIsopointCommunicator_h
+#define vtkIsopointCommunicator_h
 
 #include "Core/Base/ProcessGroup.h"
 
