@@ -4,10 +4,9 @@
 #include "Core/Contour.h"
 #include "Input/vtkIsopointInput.h"
 #include "Input/vtkIsopointStructure.h"
-#include "Output/vtkIsopointComputedArrays.h"
 #include "Output/vtkIsopointEndSamples.h"
-#include "Output/vtkIsopointInterpolatedArrays.h"
 #include "Output/vtkIsopointOutput.h"
+#include "Output/vtkIsopointOutputArrays.h"
 #include "Output/vtkIsopointPiece.h"
 #include "Update/vtkIsopointExecution.h"
 

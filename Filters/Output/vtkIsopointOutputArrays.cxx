@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Output/vtkIsopointInterpolatedArrays.h"
+#include "Output/vtkIsopointOutputArrays.h"
 
 #include "Common/vtkIsopointArrays.h"
+#include "Core/Options.h"
 #include "Core/OutputArrays.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
+#include <type_traits>
 
 namespace
 {
@@ -23,38 +32,27 @@ using isopoint::ExtractedIsosurface;
 using isopoint::IsopointEdge;
 using isopoint::Isosurface;
 
-/// Interpolates arrays that VTK can dispatch, in parallel.
-struct TypedInterpolation
-{
-  const isopoint::Execution& Run;
-  const Isosurface& Surface;
-  vtkIdType FirstTuple;
-
-  /// @param output its class may differ: NewInstance() of an implicit array yields another
-  template <class TInput, class TOutput>
-  void operator()(TInput* input, TOutput* output) const
-  {
-    using T = typename TOutput::ValueType;
-    isopoint::interpolateComponents(
-      this->Run, this->Surface, input->GetNumberOfComponents(),
-      [&](std::uint64_t sample, int component)
-      {
-        return static_cast<double>(
-          input->GetTypedComponent(static_cast<vtkIdType>(sample), component));
-      },
-      [&](std::size_t i, int component, double value)
-      {
-        output->SetTypedComponent(
-          this->FirstTuple + static_cast<vtkIdType>(i), component, isopoint::toArrayType<T>(value));
-      });
-  }
-};
-
 void interpolateArray(const isopoint::Execution& execution, const Isosurface& surface,
   vtkDataArray* input, vtkDataArray* output, vtkIdType firstTuple)
 {
-  const TypedInterpolation typed{ execution, surface, firstTuple };
-  if (vtkArrayDispatch::Dispatch2SameValueType::Execute(input, output, typed))
+  // Arrays that VTK can dispatch, in parallel. Their classes may differ: NewInstance() of an
+  // implicit array yields another.
+  const auto interpolateTyped = [&](auto* from, auto* to)
+  {
+    using T = typename std::decay_t<decltype(*to)>::ValueType;
+    isopoint::interpolateComponents(
+      execution, surface, from->GetNumberOfComponents(),
+      [&](std::uint64_t sample, int component) {
+        return static_cast<double>(
+          from->GetTypedComponent(static_cast<vtkIdType>(sample), component));
+      },
+      [&](std::size_t i, int component, double value)
+      {
+        to->SetTypedComponent(
+          firstTuple + static_cast<vtkIdType>(i), component, isopoint::toArrayType<T>(value));
+      });
+  };
+  if (vtkArrayDispatch::Dispatch2SameValueType::Execute(input, output, interpolateTyped))
   {
     return;
   }
@@ -84,6 +82,24 @@ bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
          array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
          (array->GetName() &&
            std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+}
+
+/// A new array, or null unless `isComputed`.
+/// @param values receives its memory, or null
+template <class TArray>
+vtkSmartPointer<TArray> newArray(bool isComputed, const char* name, int components,
+  vtkIdType tuples, typename TArray::ValueType*& values)
+{
+  if (!isComputed)
+  {
+    return nullptr;
+  }
+  auto array = vtkSmartPointer<TArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  vtkAllocateTuples(array, tuples);
+  values = array->GetPointer(0);
+  return array;
 }
 
 } // namespace
@@ -139,4 +155,59 @@ void vtkAddContouredArray(
     }
   }
   vtkAddAttribute(vtkDataSetAttributes::SCALARS, result, output);
+}
+
+std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution& execution,
+  const isopoint::Options& options, const std::vector<ExtractedIsosurface>& surfaces,
+  vtkPolyData* output)
+{
+  const vtkIdType count = output->GetNumberOfPoints();
+  const bool hasSplats = options.computeSplats;
+  isopoint::OutputArrays memory;
+  const auto normals =
+    newArray<vtkFloatArray>(options.computeNormals, "Normals", 3, count, memory.normals);
+  const auto radii = newArray<vtkFloatArray>(hasSplats, "Radius", 1, count, memory.radii);
+  const auto gradients =
+    newArray<vtkFloatArray>(options.computeGradients, "Gradients", 3, count, memory.gradients);
+  const auto orders = newArray<vtkUnsignedCharArray>(
+    options.computeProjectionOrders, "ProjectionOrder", 1, count, memory.projectionOrders);
+  const auto axes = newArray<vtkFloatArray>(hasSplats, "SplatAxis", 3, count, memory.splatAxes);
+  const auto polygons = newArray<vtkFloatArray>(hasSplats, "SplatPolygon",
+    static_cast<int>(isopoint::numbersOfSplat), count, memory.splatPolygons);
+  std::size_t first = 0;
+  for (const ExtractedIsosurface& surface : surfaces)
+  {
+    isopoint::writeArrays(execution, surface, options.projection != 0, first, memory);
+    first += surface.surface.size();
+  }
+
+  vtkPointData* const pointData = output->GetPointData();
+  std::vector<std::string> replaced;
+  for (vtkDataArray* const array :
+    std::initializer_list<vtkDataArray*>{ normals, radii, gradients, orders })
+  {
+    if (array)
+    {
+      if (pointData->HasArray(array->GetName()))
+      {
+        replaced.emplace_back(array->GetName());
+      }
+      pointData->AddArray(array);
+    }
+  }
+  if (normals)
+  {
+    pointData->SetActiveNormals(normals->GetName());
+  }
+  if (hasSplats)
+  {
+    vtkCellData* const cellData = output->GetCellData();
+    cellData->SetVectors(axes); // transforms of points rotate active vectors
+    cellData->AddArray(polygons);
+    for (vtkFloatArray* const array : { axes.Get(), polygons.Get() })
+    {
+      array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    }
+  }
+  return replaced;
 }
