@@ -5,6 +5,8 @@
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -56,6 +58,13 @@ inline void vtkAddAttribute(int type, vtkAbstractArray* array, vtkDataSetAttribu
   {
     attributes->SetActiveAttribute(index, type);
   }
+}
+
+/// The type of the coordinates of points; double if no array has them.
+inline int vtkGetTypeOfPoints(vtkDataSet* data)
+{
+  auto* const points = vtkPointSet::SafeDownCast(data);
+  return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
 }
 
 #endif

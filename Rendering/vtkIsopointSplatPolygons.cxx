@@ -311,7 +311,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   const SplatMesh mesh = isopoint::buildSplatMesh(isopoint::partOf(execution, 0.0, withMesh),
     static_cast<std::size_t>(count),
     [&shapes](std::size_t point) { return shapes.Fan(static_cast<vtkIdType>(point)); });
-  setGeometry(execution, mesh, vtkIsopointTypeOfPoints(input), output);
+  setGeometry(execution, mesh, vtkGetTypeOfPoints(input), output);
   setTriangles(mesh, output);
   reportProgress(execution, withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
