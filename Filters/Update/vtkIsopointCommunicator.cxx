@@ -135,12 +135,6 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
 }
 
-bool vtkHasOtherProcesses()
-{
-  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
-
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes)
 {
   if (processes.size() == 1)

@@ -40,9 +40,6 @@ private:
   std::vector<unsigned long long> AllNumbers;
 };
 
-/// Whether VTK's global controller has several processes.
-bool vtkHasOtherProcesses();
-
 /// The number of ranks that share cores with this rank, including itself. Collective.
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes);
 

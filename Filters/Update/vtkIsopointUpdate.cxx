@@ -20,6 +20,7 @@
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkLogger.h"
+#include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -132,7 +133,9 @@ void vtkIsopointUpdate::Extract(vtkInformation* inputInfo, vtkInformation* outpu
   {
     const int piece = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER());
     vtkTakeIsopointPiece(piece, pieces, output);
-    this->Report.isPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
+    auto* const controller = vtkMultiProcessController::GetGlobalController();
+    this->Report.isPieceOfProcess =
+      piece == 0 && controller && controller->GetNumberOfProcesses() > 1;
   }
 }
 
