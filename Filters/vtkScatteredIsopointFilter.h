@@ -51,8 +51,12 @@
  *    not all blocks have with the same type. A computed array ("Normals", "Radius", ...) replaces
  *    an input array of the same name, with a warning.
  * 6. Each update gives at most one warning for each of these: isovalues outside the range of the
- *    array; skipped samples, unless all are ghosts or hidden; and more than half of the points not
- *    moved although fits were requested. In a process group, the first rank reports for all.
+ *    array; isovalues in the range without a surface; all samples skipped; no fit at more than half
+ *    of the points although fits were requested; splats apart at more than a tenth of their
+ *    corners; each array that a computed one replaces; and pieces of several processes (see
+ *    vtkScatteredContourFilter). If only some samples are skipped, there is a MessageEvent instead.
+ *    There is neither if all skipped samples are ghosts or hidden, nor while the cause of the last
+ *    update's message lasts. In a process group, the first rank reports for all.
  * 7. Invalid input, invalid options and a lack of memory give one error and an empty output; an
  *    abort gives an empty output. The filter can be updated again afterwards.
  *

@@ -79,16 +79,11 @@ public:
                        ". Pass at least one component, and memory for all tuples.");
     }
     const std::size_t size = sizeOfType(array->type);
-    this->ComponentStride = static_cast<std::uint64_t>(array->component_stride);
-    if (array->component_stride == 0)
-    {
-      this->ComponentStride = size;
-    }
-    this->Stride = static_cast<std::uint64_t>(array->stride);
-    if (array->stride == 0)
-    {
-      this->Stride = this->ComponentStride * static_cast<std::uint64_t>(array->components);
-    }
+    this->ComponentStride =
+      array->component_stride == 0 ? size : static_cast<std::uint64_t>(array->component_stride);
+    this->Stride = array->stride == 0
+                     ? this->ComponentStride * static_cast<std::uint64_t>(array->components)
+                     : static_cast<std::uint64_t>(array->stride);
   }
 
   std::int32_t type() const { return this->Array.type; }

@@ -75,6 +75,18 @@ void require(const void* pointer, const char* name)
   }
 }
 
+/// Runs a call on an object, unless it is null.
+template <class Call>
+isopoint_status runOn(const void* object, const char* name, const Call& call)
+{
+  return run(
+    [&]()
+    {
+      require(object, name);
+      call();
+    });
+}
+
 /// Converts the name of an option, such as DropGaps, to that of its member, drop_gaps.
 std::string memberName(const char* name)
 {
@@ -226,10 +238,9 @@ void isopoint_destroy_extractor(isopoint_extractor* extractor)
 
 isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads)
 {
-  return run(
+  return runOn(extractor, "extractor",
     [&]()
     {
-      require(extractor, "extractor");
       if (threads < 0)
       {
         throw UsageError("The number of threads is " + std::to_string(threads) +
@@ -242,10 +253,9 @@ isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t thre
 isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
 {
-  return run(
+  return runOn(extractor, "extractor",
     [&]()
     {
-      require(extractor, "extractor");
       extractor->Progress = progress;
       extractor->Cancels = cancels;
       extractor->User = user;
@@ -255,10 +265,9 @@ isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
 isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
   const isopoint_array* values, const isopoint_array* excluded)
 {
-  const isopoint_status status = run(
+  const isopoint_status status = runOn(extractor, "extractor",
     [&]()
     {
-      require(extractor, "extractor");
       const isopoint::SampleReader read(positions, values, excluded);
       const isopoint::SampleTypes types = read.types();
       isopoint::loadOrReplace(
@@ -303,10 +312,9 @@ void isopoint_get_value_range(const isopoint_extractor* extractor, double range[
 isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* isovalues,
   int64_t count, const isopoint_options* options, isopoint_surface** surface)
 {
-  return run(
+  return runOn(extractor, "extractor",
     [&]()
     {
-      require(extractor, "extractor");
       require(surface, "place for the surface");
       constexpr std::int64_t most = 1 << 24;
       if (count < 0 || count > most || (count > 0 && !isovalues))
@@ -373,10 +381,9 @@ int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
 isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array)
 {
-  return run(
+  return runOn(surface, "surface",
     [&]()
     {
-      require(surface, "surface");
       require(array, "place for the array");
       *array = surface->array(array_id);
     });
@@ -385,42 +392,24 @@ isopoint_status isopoint_get_array(
 isopoint_status isopoint_interpolate(
   const isopoint_surface* surface, const isopoint_array* of_samples, void* result)
 {
-  return run(
-    [&]()
-    {
-      require(surface, "surface");
-      surface->interpolate(of_samples, result);
-    });
+  return runOn(surface, "surface", [&]() { surface->interpolate(of_samples, result); });
 }
 
 isopoint_status isopoint_create_surface(const isopoint_array* points, const isopoint_array* normals,
   const isopoint_array* axes, const isopoint_array* polygons, isopoint_surface** surface)
 {
-  return run(
+  return runOn(surface, "place for the surface",
     [&]()
-    {
-      require(surface, "place for the surface");
-      *surface = new isopoint_surface(executionOnThreads(0), points, normals, axes, polygons);
-    });
+    { *surface = new isopoint_surface(executionOnThreads(0), points, normals, axes, polygons); });
 }
 
 isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale)
 {
-  return run(
-    [&]()
-    {
-      require(surface, "surface");
-      surface->makeSplatMesh(scale);
-    });
+  return runOn(surface, "surface", [&]() { surface->makeSplatMesh(scale); });
 }
 
 isopoint_status isopoint_average_at_splat_vertices(
   const isopoint_surface* surface, const isopoint_array* of_points, void* result)
 {
-  return run(
-    [&]()
-    {
-      require(surface, "surface");
-      surface->averageAtSplatVertices(of_points, result);
-    });
+  return runOn(surface, "surface", [&]() { surface->averageAtSplatVertices(of_points, result); });
 }

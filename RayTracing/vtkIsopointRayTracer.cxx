@@ -4,7 +4,6 @@
 #include "Core/Base/Threads.h"
 #include "vtkIsopointTracedDisplay.h"
 #include "vtkIsopointTracedScene.h"
-#include "vtkIsopointTracedState.h"
 #include "vtkIsopointTracedView.h"
 
 #include "vtkActor.h"
@@ -121,7 +120,7 @@ std::vector<vtkActor*> tracedActorsOf(vtkRenderer* renderer)
   renderer->GetViewProps()->InitTraversal(iterator);
   while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
   {
-    if (vtkIsopointIsTraced(prop))
+    if (vtkIsTraced(prop))
     {
       actors.push_back(vtkActor::SafeDownCast(prop));
     }

@@ -19,7 +19,7 @@ struct vtkIsopointTracedFrame
   }
 };
 
-inline raytracing::Vector vtkIsopointTracedVector(const double* vector)
+inline raytracing::Vector vtkToTracedVector(const double* vector)
 {
   return { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
     static_cast<float>(vector[2]) };

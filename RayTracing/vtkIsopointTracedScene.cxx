@@ -2,8 +2,6 @@
 #include "vtkIsopointTracedScene.h"
 
 #include "vtkIsopointCompositeMapper.h"
-#include "vtkIsopointTracedBlocks.h"
-#include "vtkIsopointTracedState.h"
 #include "vtkIsopointTracedSurfaces.h"
 
 #include "vtkActor.h"
@@ -32,7 +30,7 @@ void describe(vtkActor* actor, vtkIsopointTracedState& state)
   {
     state.Add(row[0], row[1], row[2], row[3]);
   }
-  for (const vtkIsopointTracedBlock& block : vtkIsopointTracedBlocks(mapper))
+  for (const vtkIsopointTracedBlock& block : vtkGetTracedBlocks(mapper))
   {
     state.Add(block.Data, block.Data->GetMTime(), block.Visible, block.HasColor, block.Color[0],
       block.Color[1], block.Color[2]);
@@ -65,17 +63,11 @@ vtkIsopointTracedFrame frameOf(const std::vector<vtkActor*>& actors)
 
 } // namespace
 
-bool vtkIsopointIsTraced(vtkProp* prop)
+bool vtkIsTraced(vtkProp* prop)
 {
   const auto actor = vtkActor::SafeDownCast(prop);
-  if (!actor || !actor->GetVisibility() || !actor->GetMapper())
-  {
-    return false;
-  }
-  vtkMapper* const mapper = actor->GetMapper();
-  const bool isPolyData =
-    vtkPolyDataMapper::SafeDownCast(mapper) || vtkIsopointCompositeMapper::SafeDownCast(mapper);
-  if (!isPolyData)
+  vtkMapper* const mapper = actor && actor->GetVisibility() ? actor->GetMapper() : nullptr;
+  if (!vtkPolyDataMapper::SafeDownCast(mapper) && !vtkIsopointCompositeMapper::SafeDownCast(mapper))
   {
     return false;
   }
@@ -87,7 +79,7 @@ bool vtkIsopointIsTraced(vtkProp* prop)
   {
     return false;
   }
-  const std::vector<vtkIsopointTracedBlock> blocks = vtkIsopointTracedBlocks(mapper);
+  const std::vector<vtkIsopointTracedBlock> blocks = vtkGetTracedBlocks(mapper);
   return std::any_of(blocks.begin(), blocks.end(),
     [](const vtkIsopointTracedBlock& block)
     { return block.Data->GetNumberOfPolys() + block.Data->GetNumberOfStrips() > 0; });
@@ -110,7 +102,7 @@ bool vtkIsopointTracedScene::Update(const std::vector<vtkActor*>& actors, double
   std::vector<std::shared_ptr<const raytracing::Surface>> surfaces;
   for (vtkActor* const actor : actors)
   {
-    for (auto& surface : vtkIsopointTracedSurfaces(actor, absorptionDistance, this->Frame))
+    for (auto& surface : vtkMakeTracedSurfaces(actor, absorptionDistance, this->Frame))
     {
       surfaces.push_back(std::move(surface));
     }

@@ -5,7 +5,9 @@
 #include "Tracer/Scene.h"
 #include "vtkIsopointTracedFrame.h"
 
+#include <ios>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,25 @@ class vtkActor;
 class vtkProp;
 
 /// Whether a prop is visible and can be traced: an actor with triangles shown as a surface.
-bool vtkIsopointIsTraced(vtkProp* prop);
+bool vtkIsTraced(vtkProp* prop);
+
+/// A text that differs if any of its values differ.
+class vtkIsopointTracedState
+{
+public:
+  vtkIsopointTracedState() { this->Text << std::hexfloat; }
+
+  template <class... Values>
+  void Add(const Values&... values)
+  {
+    ((this->Text << values << ' '), ...);
+  }
+
+  std::string Get() const { return this->Text.str(); }
+
+private:
+  std::ostringstream Text;
+};
 
 /// The traced surfaces of a renderer's actors, rebuilt only when these change.
 class vtkIsopointTracedScene

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointTracedSurfaces.h"
 
-#include "vtkIsopointTracedBlocks.h"
+#include "Core/Base/Vector.h"
+#include "vtkIsopointCompositeMapper.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkIdList.h"
 #include "vtkMapper.h"
 #include "vtkMatrix3x3.h"
@@ -24,7 +29,77 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <stdexcept>
+
+namespace
+{
+
+/// Applies the attributes of a data object to itself or the blocks in it.
+void applyAttributes(vtkDataObject* object, vtkCompositeDataDisplayAttributes* attributes,
+  std::vector<vtkIsopointTracedBlock>& blocks)
+{
+  const bool hasVisibility = attributes->HasBlockVisibility(object);
+  const bool hasColor = attributes->HasBlockColor(object);
+  if (!hasVisibility && !hasColor)
+  {
+    return;
+  }
+  const std::vector<vtkPolyData*> leaves = vtkCompositeDataSet::GetDataSets<vtkPolyData>(object);
+  const std::set<vtkPolyData*> within(leaves.begin(), leaves.end());
+  for (vtkIsopointTracedBlock& block : blocks)
+  {
+    if (within.count(block.Data) == 0)
+    {
+      continue;
+    }
+    if (hasVisibility)
+    {
+      block.Visible = attributes->GetBlockVisibility(object);
+    }
+    if (hasColor)
+    {
+      block.HasColor = true;
+      attributes->GetBlockColor(object, block.Color.data());
+    }
+  }
+}
+
+} // namespace
+
+std::vector<vtkIsopointTracedBlock> vtkGetTracedBlocks(vtkMapper* mapper)
+{
+  vtkDataObject* const input = mapper->GetInputDataObject(0, 0);
+  std::vector<vtkIsopointTracedBlock> blocks;
+  for (vtkPolyData* const data : vtkCompositeDataSet::GetDataSets<vtkPolyData>(input))
+  {
+    if (data->GetNumberOfPoints() > 0)
+    {
+      blocks.emplace_back();
+      blocks.back().Data = data;
+    }
+  }
+  const auto compositeMapper = vtkIsopointCompositeMapper::SafeDownCast(mapper);
+  vtkCompositeDataDisplayAttributes* const attributes =
+    compositeMapper ? compositeMapper->GetCompositeDataDisplayAttributes() : nullptr;
+  vtkCompositeDataSet* const composite = vtkCompositeDataSet::SafeDownCast(input);
+  if (!composite || !attributes)
+  {
+    return blocks;
+  }
+  // The iterator visits outer blocks before inner ones, whose attributes take precedence.
+  applyAttributes(composite, attributes, blocks);
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  if (const auto tree = vtkDataObjectTreeIterator::SafeDownCast(iterator))
+  {
+    tree->VisitOnlyLeavesOff();
+  }
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    applyAttributes(iterator->GetCurrentDataObject(), attributes, blocks);
+  }
+  return blocks;
+}
 
 namespace
 {
@@ -36,7 +111,6 @@ public:
   Placement(vtkMatrix4x4* modelToWorld, const vtkIsopointTracedFrame& frame)
   {
     this->Matrix->DeepCopy(modelToWorld);
-    vtkNew<vtkMatrix3x3> linear;
     for (int row = 0; row < 3; ++row)
     {
       for (int column = 0; column < 4; ++column)
@@ -46,17 +120,13 @@ public:
         this->Matrix->SetElement(row, column, element);
         if (column < 3)
         {
-          linear->SetElement(row, column, element);
+          this->NormalMatrix->SetElement(row, column, element);
         }
       }
     }
-    this->IsSingular = !(std::abs(linear->Determinant()) > 0.0);
-    if (!this->IsSingular)
-    {
-      linear->Invert();
-      linear->Transpose();
-      this->NormalMatrix->DeepCopy(linear);
-    }
+    this->IsSingular = !(std::abs(this->NormalMatrix->Determinant()) > 0.0);
+    this->NormalMatrix->Invert();
+    this->NormalMatrix->Transpose();
   }
 
   /// Whether the actor's transform has no inverse, so that it cannot be placed.
@@ -67,14 +137,14 @@ public:
     const double from[4] = { point[0], point[1], point[2], 1.0 };
     double to[4];
     this->Matrix->MultiplyPoint(from, to);
-    return vtkIsopointTracedVector(to);
+    return vtkToTracedVector(to);
   }
 
   raytracing::Vector Normal(const double* normal) const
   {
     double result[3];
     this->NormalMatrix->MultiplyPoint(normal, result);
-    return raytracing::directionOf(vtkIsopointTracedVector(result), { 0.0f, 0.0f, 0.0f });
+    return raytracing::directionOf(vtkToTracedVector(result), { 0.0f, 0.0f, 0.0f });
   }
 
 private:
@@ -97,7 +167,7 @@ raytracing::Material materialOf(
   material.diffuse = isLit ? static_cast<float>(property->GetDiffuse()) : 0.0f;
   material.specular = isLit ? static_cast<float>(property->GetSpecular()) : 0.0f;
   material.specularPower = static_cast<float>(property->GetSpecularPower());
-  material.specularColor = vtkIsopointTracedVector(property->GetSpecularColor());
+  material.specularColor = vtkToTracedVector(property->GetSpecularColor());
   material.metallic = static_cast<float>(property->GetMetallic());
   material.roughness = static_cast<float>(property->GetRoughness());
   material.refractiveIndex = static_cast<float>(property->GetBaseIOR());
@@ -165,9 +235,9 @@ private:
   {
     for (const vtkIdType corner : { a, b, c })
     {
-      double position[3];
-      this->Data->GetPoint(corner, position);
-      if (!std::isfinite(position[0]) || !std::isfinite(position[1]) || !std::isfinite(position[2]))
+      isopoint::Vector position;
+      this->Data->GetPoint(corner, position.data());
+      if (!isopoint::isFinite(position))
       {
         return;
       }
@@ -261,7 +331,7 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
       surface->normals.push_back(placement.Normal(values));
     }
   }
-  surface->color = vtkIsopointTracedVector(
+  surface->color = vtkToTracedVector(
     block.HasColor ? block.Color.data() : actor->GetProperty()->GetDiffuseColor());
   const MappedColors mapped =
     block.HasColor ? MappedColors() : mappedColors(actor->GetMapper(), block.Data);
@@ -276,7 +346,7 @@ std::shared_ptr<raytracing::Surface> surfaceOf(
 
 } // namespace
 
-std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
+std::vector<std::shared_ptr<raytracing::Surface>> vtkMakeTracedSurfaces(
   vtkActor* actor, double absorptionDistance, const vtkIsopointTracedFrame& frame)
 {
   std::vector<std::shared_ptr<raytracing::Surface>> surfaces;
@@ -285,7 +355,7 @@ std::vector<std::shared_ptr<raytracing::Surface>> vtkIsopointTracedSurfaces(
   {
     return surfaces;
   }
-  for (const vtkIsopointTracedBlock& block : vtkIsopointTracedBlocks(actor->GetMapper()))
+  for (const vtkIsopointTracedBlock& block : vtkGetTracedBlocks(actor->GetMapper()))
   {
     const auto surface = block.Visible ? surfaceOf(actor, block, placement) : nullptr;
     if (surface)

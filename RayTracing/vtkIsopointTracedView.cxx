@@ -20,7 +20,7 @@ namespace
 
 raytracing::Color scaledColor(double factor, const double* color)
 {
-  return static_cast<float>(factor) * vtkIsopointTracedVector(color);
+  return static_cast<float>(factor) * vtkToTracedVector(color);
 }
 
 /// The pixels of a texture; empty if it has no image.
@@ -129,19 +129,19 @@ void vtkIsopointTracedView::SetLights(
     raytracing::Light result;
     result.diffuse = scaledColor(light->GetIntensity(), light->GetDiffuseColor());
     result.specular = scaledColor(light->GetIntensity(), light->GetSpecularColor());
-    result.towards = raytracing::directionOf(vtkIsopointTracedVector(towards));
+    result.towards = raytracing::directionOf(vtkToTracedVector(towards));
     result.isPositional = light->GetPositional() != 0;
     result.extent = static_cast<float>(extent);
     if (result.isPositional)
     {
       const std::array<double, 3> position = frame.ToScene(from);
-      result.position = vtkIsopointTracedVector(position.data());
+      result.position = vtkToTracedVector(position.data());
       result.extent *= static_cast<float>(distance / frame.Length);
       const double* const attenuation = light->GetAttenuationValues();
       const double unit = frame.Length;
       const double scaled[3] = { attenuation[0], attenuation[1] * unit,
         attenuation[2] * unit * unit };
-      result.attenuation = vtkIsopointTracedVector(scaled);
+      result.attenuation = vtkToTracedVector(scaled);
       constexpr double widestCone = 90.0; // as in VTK, wider ones shine in all directions
       if (light->GetConeAngle() < widestCone)
       {
@@ -157,9 +157,9 @@ void vtkIsopointTracedView::SetLights(
 void vtkIsopointTracedView::SetEnvironment(vtkRenderer* renderer, double aspect)
 {
   raytracing::Environment& environment = this->Environment;
-  environment.bottom = vtkIsopointTracedVector(renderer->GetBackground());
+  environment.bottom = vtkToTracedVector(renderer->GetBackground());
   environment.top = renderer->GetGradientBackground()
-                      ? vtkIsopointTracedVector(renderer->GetBackground2())
+                      ? vtkToTracedVector(renderer->GetBackground2())
                       : environment.bottom;
   if (renderer->GetTexturedBackground())
   {
@@ -169,9 +169,9 @@ void vtkIsopointTracedView::SetEnvironment(vtkRenderer* renderer, double aspect)
 
   vtkCamera* const camera = renderer->GetActiveCamera();
   vtkMatrix4x4* const view = camera->GetViewTransformMatrix();
-  environment.right = vtkIsopointTracedVector(view->Element[0]);
-  environment.up = vtkIsopointTracedVector(view->Element[1]);
-  environment.ahead = -vtkIsopointTracedVector(view->Element[2]);
+  environment.right = vtkToTracedVector(view->Element[0]);
+  environment.up = vtkToTracedVector(view->Element[1]);
+  environment.ahead = -vtkToTracedVector(view->Element[2]);
   constexpr double half = 0.5;
   const double tangent = std::tan(half * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
   const bool isHorizontal = camera->GetUseHorizontalViewAngle() != 0;

@@ -4,6 +4,8 @@
 #include "vtkIsopointSplatShapes.h"
 #include "vtkIsopointVertexCells.h"
 
+#include "Common/vtkIsopointArrays.h"
+#include "Common/vtkIsopointSMPTools.h"
 #include "Core/Base/Execution.h"
 #include "Core/SplatMesh/SplatMesh.h"
 
@@ -25,7 +27,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 #include "vtkVersionMacros.h"
@@ -44,22 +45,6 @@ namespace
 
 using isopoint::Execution;
 using isopoint::SplatMesh;
-
-Execution executionOf(vtkAlgorithm* filter)
-{
-  Execution execution;
-  execution.threads =
-    static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
-  execution.parallelFor = [](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
-  {
-    vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain),
-      [&task](vtkIdType begin, vtkIdType end)
-      { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
-  };
-  execution.progress = [filter](double share) { filter->UpdateProgress(share); };
-  execution.aborted = [filter]() { return filter->GetAbortExecute() != 0; };
-  return execution;
-}
 
 void reportProgress(const Execution& execution, double share)
 {
@@ -106,16 +91,6 @@ void setTriangles(const SplatMesh& mesh, vtkPolyData* output)
   output->SetPolys(triangles);
 }
 
-vtkSmartPointer<vtkAbstractArray> newLike(vtkAbstractArray* array, std::size_t tuples)
-{
-  const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
-  copy->SetName(array->GetName());
-  copy->SetNumberOfComponents(array->GetNumberOfComponents());
-  copy->CopyComponentNames(array);
-  copy->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return copy;
-}
-
 /// Calls of(tuple) for each tuple of an array.
 template <class Function>
 void forTuples(
@@ -151,7 +126,7 @@ bool setMeans(
 vtkSmartPointer<vtkAbstractArray> atVertices(
   const Execution& execution, vtkAbstractArray* array, const SplatMesh& mesh)
 {
-  const auto copy = newLike(array, mesh.vertices.size());
+  const auto copy = vtkNewArrayLike(array, static_cast<vtkIdType>(mesh.vertices.size()));
   if (setMeans<float>(execution, mesh, array, copy) ||
       setMeans<double>(execution, mesh, array, copy))
   {
@@ -209,14 +184,10 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
     {
       continue;
     }
-    const int added = to->AddArray(copied(array));
-    // These ids are no longer unique.
     const int attribute = from->IsArrayAnAttribute(i);
-    if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS &&
-        attribute != vtkDataSetAttributes::PEDIGREEIDS)
-    {
-      to->SetActiveAttribute(added, attribute);
-    }
+    const bool areUniqueIds = attribute == vtkDataSetAttributes::GLOBALIDS ||
+                              attribute == vtkDataSetAttributes::PEDIGREEIDS;
+    vtkAddAttribute(areUniqueIds ? -1 : attribute, copied(array), to); // they are repeated now
   }
 }
 
@@ -332,7 +303,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   }
   double first[3];
   input->GetPoint(0, first); // computes what data sets cache
-  const Execution execution = executionOf(this);
+  const Execution execution = vtkMakeSMPExecution(this);
   // Shares of the progress.
   constexpr double withMesh = 0.6;
   constexpr double withTriangles = 0.65;
@@ -340,7 +311,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   const SplatMesh mesh = isopoint::buildSplatMesh(isopoint::partOf(execution, 0.0, withMesh),
     static_cast<std::size_t>(count),
     [&shapes](std::size_t point) { return shapes.Fan(static_cast<vtkIdType>(point)); });
-  setGeometry(execution, mesh, vtkIsopointTypeOfPoints(input), output);
+  setGeometry(execution, mesh, vtkGetTypeOfPoints(input), output);
   setTriangles(mesh, output);
   reportProgress(execution, withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
@@ -359,7 +330,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   copyArrays(input->GetCellData(), output->GetCellData(),
     [&](vtkAbstractArray* array)
     {
-      const auto copy = newLike(array, mesh.triangles.size());
+      const auto copy = vtkNewArrayLike(array, static_cast<vtkIdType>(mesh.triangles.size()));
       forTuples(execution, array, mesh.triangles.size(),
         [&](std::size_t triangle)
         { copy->SetTuple(static_cast<vtkIdType>(triangle), ids[triangle], array); });

@@ -3,6 +3,8 @@
 
 #include "vtkIsopointVertexCells.h"
 
+#include "Common/vtkIsopointArrays.h"
+
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -10,8 +12,6 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
@@ -102,12 +102,6 @@ double automaticRadius(vtkDataSet* data)
 
 } // namespace
 
-int vtkIsopointTypeOfPoints(vtkDataSet* data)
-{
-  const auto points = vtkPointSet::SafeDownCast(data);
-  return points && points->GetPoints() ? points->GetPoints()->GetDataType() : VTK_DOUBLE;
-}
-
 vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   const vtkIsopointVertexCells& cells, const char* radiusArrayName, double radius, double scale)
   : Data(data)
@@ -115,7 +109,7 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   , Shapes(data->GetCellData())
   , Radius(radius)
   , Scale(scale)
-  , PositionError(isopoint::positionErrorOf(vtkIsopointTypeOfPoints(data) == VTK_FLOAT))
+  , PositionError(isopoint::positionErrorOf(vtkGetTypeOfPoints(data) == VTK_FLOAT))
 {
   vtkPointData* const arrays = data->GetPointData();
   const vtkIdType count = data->GetNumberOfPoints();

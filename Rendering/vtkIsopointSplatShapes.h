@@ -14,8 +14,6 @@ class vtkDataSetAttributes;
 class vtkIsopointVertexCells;
 class vtkUnsignedCharArray;
 
-int vtkIsopointTypeOfPoints(vtkDataSet* data);
-
 /// The splat shapes of a data set, from its arrays and those of its vertex cells. Thread-safe.
 class vtkIsopointSplatShapes
 {

@@ -10,7 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 cxx_files()
 {
   # clang-format 14 indents extern "C" blocks.
-  find Benchmark Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
+  find Benchmark Common Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
     \( -name '*.h' -o -name '*.cxx' \) -print0
 }
 

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <sstream>
 #include <utility>
 
 namespace
@@ -67,19 +66,23 @@ vtkIdType elementCount(vtkDataObject* leaf)
   return trees ? trees->GetNumberOfLeaves() : 0;
 }
 
+/// The begin of an error message.
+std::string describe(vtkAbstractArray* array)
+{
+  return std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
+}
+
 /// @throws isopoint::UsageError unless the array is numeric with one component
 vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
 {
-  const std::string described =
-    std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
   auto* const scalars = vtkDataArray::SafeDownCast(array);
   if (!scalars)
   {
-    throw isopoint::UsageError(described + "holds no numbers." + remedyFor(leaf));
+    throw isopoint::UsageError(describe(array) + "holds no numbers." + remedyFor(leaf));
   }
   if (scalars->GetNumberOfComponents() != 1)
   {
-    throw isopoint::UsageError(described + "has " +
+    throw isopoint::UsageError(describe(array) + "has " +
                                std::to_string(scalars->GetNumberOfComponents()) +
                                " components, but a scalar array has one. Compute a component"
                                " or the magnitude first, with vtkArrayCalculator or ParaView's"
@@ -168,28 +171,27 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
 {
   this->ReleaseInput();
   std::string remedy;
-  std::size_t leaves = 0;
-  vtkForEachIsopointLeaf(input,
-    [&](vtkDataObject* leaf, std::size_t number)
+  const std::vector<vtkDataObject*> leaves = vtkListIsopointLeaves(input);
+  for (std::size_t number = 0; number < leaves.size(); ++number)
+  {
+    vtkDataObject* const leaf = leaves[number];
+    if (elementCount(leaf) == 0)
     {
-      leaves = number + 1;
-      if (elementCount(leaf) == 0)
-      {
-        this->Kept.erase(number);
-        return;
-      }
-      remedy = remedy.empty() ? remedyFor(leaf) : remedy;
-      this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
-    });
-  this->Kept.erase(this->Kept.lower_bound(leaves), this->Kept.end());
+      this->Kept.erase(number);
+      continue;
+    }
+    remedy = remedy.empty() ? remedyFor(leaf) : remedy;
+    this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
+  }
+  this->Kept.erase(this->Kept.lower_bound(leaves.size()), this->Kept.end());
   if (remedy.empty())
   {
-    throw vtkIsopointNothingError(
+    throw vtkIsopointNoSamplesError(
       "The input has no points or cells. Connect a data set with a scalar array.");
   }
   if (this->Blocks.empty())
   {
-    throw vtkIsopointNothingError("The input has no " + choice.Describe() + "." + remedy);
+    throw vtkIsopointNoSamplesError("The input has no " + choice.Describe() + "." + remedy);
   }
 }
 
@@ -240,13 +242,12 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
 
   if (block.Scalars->GetNumberOfTuples() != block.GetNumberOfSamples())
   {
-    std::ostringstream message;
-    message << "The array \"" << (block.Scalars->GetName() ? block.Scalars->GetName() : "")
-            << "\" has " << block.Scalars->GetNumberOfTuples() << " values for "
-            << block.GetNumberOfSamples() << (ofPoints ? " points." : " cells.") << remedyFor(leaf);
-    throw isopoint::UsageError(message.str());
+    throw isopoint::UsageError(describe(block.Scalars) + "has " +
+                               std::to_string(block.Scalars->GetNumberOfTuples()) + " values for " +
+                               std::to_string(block.GetNumberOfSamples()) +
+                               (ofPoints ? " points." : " cells.") + remedyFor(leaf));
   }
-  vtkAppendIsopointArrayState(state, block.Scalars);
+  state.push_back(block.Scalars->GetMTime());
   if (block.GetNumberOfSamples() > 0)
   {
     this->Blocks.push_back(block);
@@ -306,19 +307,18 @@ void vtkIsopointBlocks::ReleaseInput()
   this->PointsWithoutArray = 0;
 }
 
-void vtkForEachIsopointLeaf(
-  vtkDataObject* input, const std::function<void(vtkDataObject* leaf, std::size_t number)>& visit)
+std::vector<vtkDataObject*> vtkListIsopointLeaves(vtkDataObject* input)
 {
   auto* const composite = vtkCompositeDataSet::SafeDownCast(input);
   if (!composite)
   {
-    visit(input, 0);
-    return;
+    return { input };
   }
+  std::vector<vtkDataObject*> leaves;
   const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  std::size_t number = 0;
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
-    visit(iterator->GetCurrentDataObject(), number++);
+    leaves.push_back(iterator->GetCurrentDataObject());
   }
+  return leaves;
 }

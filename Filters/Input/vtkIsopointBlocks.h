@@ -10,7 +10,6 @@
 #include "vtkType.h"
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,7 +26,8 @@ class vtkInformation;
 class vtkUnsignedCharArray;
 
 /// The samples of a data set or hyper tree grid: its points, or the centers of its cells, with
-/// their ids. References the input; only centers may be computed.
+/// their ids. References the input's arrays. Cell centers and inherited ghost flags may be
+/// computed.
 struct vtkIsopointBlock
 {
   vtkSmartPointer<vtkDataSet> Positions; // one point per sample; its attributes are ignored
@@ -76,7 +76,7 @@ private:
 };
 
 /// There is nothing to contour. In a process group this is an error only if it holds for all ranks.
-struct vtkIsopointNothingError : isopoint::UsageError
+struct vtkIsopointNoSamplesError : isopoint::UsageError
 {
   using isopoint::UsageError::UsageError;
 };
@@ -128,9 +128,8 @@ private:
   std::map<std::size_t, Computed> Kept; // by leaf
 };
 
-/// Calls visit(leaf, number) for each leaf of a composite, numbered in the order of traversal, or
-/// for a data object that is no composite, with the number 0.
-void vtkForEachIsopointLeaf(
-  vtkDataObject* input, const std::function<void(vtkDataObject* leaf, std::size_t number)>& visit);
+/// The leaves of a composite that are not null, in the order of traversal. Another data object is
+/// its only leaf.
+std::vector<vtkDataObject*> vtkListIsopointLeaves(vtkDataObject* input);
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointCellCenters.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
-#include "Input/vtkIsopointAllocation.h"
 #include "Input/vtkIsopointGhosts.h"
 
 #include "vtkCellData.h"
@@ -17,7 +17,6 @@
 #include "vtkHyperTreeGridNonOrientedGeometryCursor.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
@@ -175,12 +174,9 @@ vtkSmartPointer<vtkDataSet> vtkMakeDualGrid(vtkDataSet* input)
 vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const isopoint::Execution& execution, vtkDataSet* input)
 {
-  auto* const pointSet = vtkPointSet::SafeDownCast(input);
-  const bool isFloat =
-    pointSet && pointSet->GetPoints() && pointSet->GetPoints()->GetDataType() == VTK_FLOAT;
   const vtkIdType count = input->GetNumberOfCells();
   auto centers = vtkSmartPointer<vtkPoints>::New();
-  centers->SetDataType(isFloat ? VTK_FLOAT : VTK_DOUBLE);
+  centers->SetDataType(vtkGetTypeOfPoints(input) == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
   vtkAllocateTuples(centers->GetData(), count);
   if (count == 0)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointGhosts.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
-#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"

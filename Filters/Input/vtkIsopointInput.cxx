@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInput.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Contour.h"
 #include "Input/vtkIsopointBlocks.h"
 
@@ -45,10 +46,9 @@ class AnyPositions
 public:
   explicit AnyPositions(vtkDataSet* input)
     : Input(input)
+    , Floats(packedArray<float>(coordinatesOf(input)))
+    , Doubles(packedArray<double>(coordinatesOf(input)))
   {
-    vtkDataArray* const points = coordinatesOf(input);
-    this->Floats = points ? packedArray<float>(points) : nullptr;
-    this->Doubles = points ? packedArray<double>(points) : nullptr;
   }
 
   void operator()(std::size_t point, double position[3]) const
@@ -153,9 +153,8 @@ isopoint::SampleTypes vtkGetIsopointSampleTypes(const std::vector<vtkIsopointBlo
   isopoint::SampleTypes types{ true, true, true };
   for (const vtkIsopointBlock& block : blocks)
   {
-    vtkDataArray* const points = coordinatesOf(block.Positions);
     const int type = block.Scalars->GetDataType();
-    types.areFloatPositions &= points && points->GetDataType() == VTK_FLOAT;
+    types.areFloatPositions &= vtkGetTypeOfPoints(block.Positions) == VTK_FLOAT;
     types.areFloatValues &= type == VTK_FLOAT || block.Scalars->GetDataTypeSize() <= 2;
     types.areIntegers &= type != VTK_FLOAT && type != VTK_DOUBLE;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointInputState.h"
 
+#include "Common/vtkIsopointCompatibility.h"
 #include "Core/Base/Hash.h"
-#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
@@ -170,9 +170,4 @@ vtkIsopointInputState vtkGetIsopointGeometryState(
   addGhosts(execution, state, leaf->GetAttributes(vtkDataObject::POINT));
   addGhosts(execution, state, leaf->GetAttributes(vtkDataObject::CELL));
   return state;
-}
-
-void vtkAppendIsopointArrayState(vtkIsopointInputState& state, vtkDataArray* array)
-{
-  add(state, array);
 }

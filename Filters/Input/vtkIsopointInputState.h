@@ -10,7 +10,6 @@ namespace isopoint
 {
 struct Execution;
 }
-class vtkDataArray;
 class vtkDataObject;
 
 /// A key for data computed from an input: equal states mean the same, unchanged input objects.
@@ -24,8 +23,5 @@ using vtkIsopointInputState = std::vector<vtkMTimeType>;
 /// @throws std::bad_alloc, isopoint::Aborted
 vtkIsopointInputState vtkGetIsopointGeometryState(
   const isopoint::Execution& execution, vtkDataObject* leaf);
-
-/// Appends the state of an array of values.
-void vtkAppendIsopointArrayState(vtkIsopointInputState& state, vtkDataArray* array);
 
 #endif

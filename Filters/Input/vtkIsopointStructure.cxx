@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointStructure.h"
 
+#include "Common/vtkIsopointCompatibility.h"
 #include "Core/Base/ProcessGroup.h"
 #include "Core/Failure.h"
-#include "Input/vtkIsopointCompatibility.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -145,11 +145,6 @@ void vtkIsopointStructure::AddNumbers(
   {
     next += this->Children[visited].GetNumberOfLeaves();
   }
-}
-
-void vtkIsopointStructure::Merge(const vtkIsopointStructure& other)
-{
-  this->Merge(other, "");
 }
 
 void vtkIsopointStructure::Merge(const vtkIsopointStructure& other, const std::string& place)

@@ -38,8 +38,9 @@ public:
 
   /// Adds the parts of another structure that are missing in this one. Null matches anything, and a
   /// composite without children matches one with any; partitioned data sets may differ in size.
+  /// @param place of both structures in the tree, for messages
   /// @throws isopoint::UsageError if the structures contradict each other
-  void Merge(const vtkIsopointStructure& other);
+  void Merge(const vtkIsopointStructure& other, const std::string& place = {});
 
   /// Gives an output of vtkNewIsopointComposite() this structure, with surfaces as leaves.
   /// @param input of the output; names of blocks and assemblies are kept
@@ -58,7 +59,6 @@ private:
 
   void AddNumbers(
     vtkDataObject* object, std::size_t& next, std::vector<std::size_t>& numbers) const;
-  void Merge(const vtkIsopointStructure& other, const std::string& place);
   void FillChildren(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces, std::size_t& next,
     vtkDataObject* output) const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointArrayBytes.h"
 
-#include "Input/vtkIsopointAllocation.h"
+#include "Common/vtkIsopointArrays.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -120,11 +120,7 @@ vtkSmartPointer<vtkPointData> vtkReadIsopointArrays(const ByteBuffer& bytes)
   while (!reader.isAtEnd())
   {
     const auto attribute = reader.read<int>();
-    const int index = attributes->AddArray(readArray(reader));
-    if (attribute >= 0)
-    {
-      attributes->SetActiveAttribute(index, attribute);
-    }
+    vtkAddAttribute(attribute, readArray(reader), attributes);
   }
   return attributes;
 }

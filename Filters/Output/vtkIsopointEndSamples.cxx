@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointEndSamples.h"
 
+#include "Common/vtkIsopointArrays.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/ProcessGroup.h"
-#include "Core/EndSamples.h"
-#include "Input/vtkIsopointAllocation.h"
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"
@@ -20,33 +20,77 @@
 namespace
 {
 
-vtkIdType countOf(const vtkIsopointBlock& block)
+/// Calls visit(id) for the samples at the ends of edges, and for samples coincident with them.
+template <class Surfaces, class Visitor>
+void forEachEndSample(Surfaces& surfaces, const Visitor& visit)
 {
-  return block.Scalars->GetNumberOfTuples();
+  for (auto& extracted : surfaces)
+  {
+    for (auto& edge : extracted.surface.edges)
+    {
+      visit(edge.first);
+      visit(edge.second);
+    }
+    for (auto& group : extracted.surface.coincident)
+    {
+      std::for_each(group.ids.begin(), group.ids.end(), visit);
+    }
+  }
 }
 
-/// The sorted ids that belong to one block.
+/// The ids of these samples, sorted.
+std::vector<std::uint64_t> listEndSamples(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces)
+{
+  std::vector<std::uint64_t> ids;
+  forEachEndSample(surfaces, [&ids](std::uint64_t id) { ids.push_back(id); });
+  isopoint::keepUnique(ids);
+  return ids;
+}
+
+/// Replaces each id by its index in the list.
+void renumberEndSamples(
+  std::vector<isopoint::ExtractedIsosurface>& surfaces, const std::vector<std::uint64_t>& ids)
+{
+  forEachEndSample(surfaces,
+    [&ids](std::uint64_t& id) {
+      id = static_cast<std::uint64_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+    });
+}
+
+/// The numbers of samples.
+std::vector<std::uint64_t> countsOf(const std::vector<vtkIsopointBlock>& blocks)
+{
+  std::vector<std::uint64_t> counts;
+  counts.reserve(blocks.size());
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    counts.push_back(static_cast<std::uint64_t>(block.Scalars->GetNumberOfTuples()));
+  }
+  return counts;
+}
+
+/// The sorted ids that belong to one block or rank.
 struct IdRange
 {
-  std::size_t block;
   std::size_t begin; // index of a sorted id
   std::size_t end;
-  std::uint64_t firstId; // of the block's samples
+  std::uint64_t firstId; // of the samples of the block or rank
 };
 
+/// @param counts numbers of samples by block or rank
 std::vector<IdRange> idRangesOf(
-  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+  const std::vector<std::uint64_t>& counts, const std::vector<std::uint64_t>& ids)
 {
   std::vector<IdRange> ranges;
   std::uint64_t firstId = 0;
   std::size_t begin = 0;
-  for (std::size_t block = 0; block < blocks.size(); ++block)
+  for (const std::uint64_t count : counts)
   {
-    const auto endId = firstId + static_cast<std::uint64_t>(countOf(blocks[block]));
-    const auto end =
-      static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), endId) - ids.begin());
-    ranges.push_back({ block, begin, end, firstId });
-    firstId = endId;
+    const auto end = static_cast<std::size_t>(
+      std::lower_bound(ids.begin(), ids.end(), firstId + count) - ids.begin());
+    ranges.push_back({ begin, end, firstId });
+    firstId += count;
     begin = end;
   }
   return ranges;
@@ -59,7 +103,7 @@ vtkSmartPointer<vtkPointData> completeAttributes(const vtkIsopointBlock& block)
   complete->ShallowCopy(block.Attributes);
   for (int i = complete->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != countOf(block))
+    if (complete->GetAbstractArray(i)->GetNumberOfTuples() != block.Scalars->GetNumberOfTuples())
     {
       complete->RemoveArray(i);
     }
@@ -86,9 +130,10 @@ void gatherAttributes(const std::vector<vtkIsopointBlock>& blocks,
   {
     vtkAllocateTuples(gathered->GetAbstractArray(i), count);
   }
-  for (const IdRange& range : ranges)
+  for (std::size_t block = 0; block < blocks.size(); ++block)
   {
-    common.TransformData(static_cast<int>(range.block), inputs[range.block], gathered,
+    const IdRange& range = ranges[block];
+    common.TransformData(static_cast<int>(block), inputs[block], gathered,
       [&](vtkAbstractArray* input, vtkAbstractArray* output)
       {
         for (std::size_t i = range.begin; i < range.end; ++i)
@@ -110,13 +155,14 @@ vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>&
     vtkDataArray::CreateDataArray(areFloat ? VTK_FLOAT : VTK_DOUBLE));
   scalars->SetName(blocks.front().Scalars->GetName());
   vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
-  for (const IdRange& range : ranges)
+  for (std::size_t block = 0; block < blocks.size(); ++block)
   {
-    vtkDataArray* const ofBlock = blocks[range.block].Scalars;
+    const IdRange& range = ranges[block];
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       const auto from = static_cast<vtkIdType>(ids[i] - range.firstId);
-      scalars->SetComponent(static_cast<vtkIdType>(i), 0, ofBlock->GetComponent(from, 0));
+      const double value = blocks[block].Scalars->GetComponent(from, 0);
+      scalars->SetComponent(static_cast<vtkIdType>(i), 0, value);
     }
   }
   return scalars;
@@ -127,7 +173,7 @@ vtkSmartPointer<vtkPointData> copiedSamples(
   const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
 {
   auto copied = vtkSmartPointer<vtkPointData>::New();
-  const std::vector<IdRange> ranges = idRangesOf(blocks, ids);
+  const std::vector<IdRange> ranges = idRangesOf(countsOf(blocks), ids);
   gatherAttributes(blocks, ranges, ids, copied);
   const vtkSmartPointer<vtkDataArray> scalars = gatherScalars(blocks, ranges, ids);
   if (scalars->GetName())
@@ -153,12 +199,7 @@ vtkSmartPointer<vtkPointData> copiedInOrder(
     vtkAbstractArray* const array = name ? copied->GetAbstractArray(name, index) : nullptr;
     if (array && index != contoured)
     {
-      const int added = ordered->AddArray(array);
-      const int attribute = copied->IsArrayAnAttribute(index);
-      if (attribute >= 0)
-      {
-        ordered->SetActiveAttribute(added, attribute);
-      }
+      vtkAddAttribute(copied->IsArrayAnAttribute(index), array, ordered);
     }
   }
   ordered->AddArray(copied->GetAbstractArray(contoured));
@@ -176,9 +217,9 @@ vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::ProcessGroup& processes,
   }
   else if (blocks.size() > 1)
   {
-    const std::vector<std::uint64_t> ids = isopoint::endSamples(surfaces);
+    const std::vector<std::uint64_t> ids = listEndSamples(surfaces);
     this->Use(copiedSamples(blocks, ids));
-    isopoint::renumberEndSamples(surfaces, ids);
+    renumberEndSamples(surfaces, ids);
   }
   else
   {
@@ -192,19 +233,26 @@ vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
 void vtkIsopointEndSamples::CopyFromRanks(isopoint::ProcessGroup& processes,
   const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
 {
-  const std::uint64_t ownCount = std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{ 0 },
-    [](std::uint64_t sum, const vtkIsopointBlock& block)
-    { return sum + static_cast<std::uint64_t>(countOf(block)); });
-  const std::vector<std::uint64_t> ids = isopoint::endSamples(surfaces);
+  const std::vector<std::uint64_t> ids = listEndSamples(surfaces);
+  const std::vector<std::uint64_t> counts = countsOf(blocks);
+  const std::uint64_t ownCount = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
+  std::vector<std::vector<std::uint64_t>> wanted; // by rank; ids count from its first sample
+  for (const IdRange& range : idRangesOf(processes.gather(ownCount), ids))
+  {
+    wanted.emplace_back();
+    for (std::size_t i = range.begin; i < range.end; ++i)
+    {
+      wanted.back().push_back(ids[i] - range.firstId);
+    }
+  }
   std::vector<isopoint::ByteBuffer> answers;
-  for (const auto& wanted :
-    processes.exchange(isopoint::idsByRank(ids, processes.gather(ownCount))))
+  for (const std::vector<std::uint64_t>& asked : processes.exchange(wanted))
   {
     answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
-                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, wanted)));
+                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, asked)));
   }
   this->Join(processes.exchange(answers), ids.size());
-  isopoint::renumberEndSamples(surfaces, ids);
+  renumberEndSamples(surfaces, ids);
 }
 
 void vtkIsopointEndSamples::Join(

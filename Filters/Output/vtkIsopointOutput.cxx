@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointOutput.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/OutputArrays.h"
-#include "Input/vtkIsopointAllocation.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Output/vtkIsopointPiece.h"
 
+#include "Input/vtkIsopointBlocks.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -94,15 +94,8 @@ void takePiece(int piece, int pieces, vtkPolyData* surface)
 
 void vtkTakeIsopointPiece(int piece, int pieces, vtkDataObject* output)
 {
-  if (auto* const surface = vtkPolyData::SafeDownCast(output))
+  for (vtkDataObject* const leaf : vtkListIsopointLeaves(output))
   {
-    takePiece(piece, pieces, surface);
-    return;
-  }
-  auto* const composite = vtkCompositeDataSet::SafeDownCast(output);
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    takePiece(piece, pieces, vtkPolyData::SafeDownCast(iterator->GetCurrentDataObject()));
+    takePiece(piece, pieces, vtkPolyData::SafeDownCast(leaf));
   }
 }

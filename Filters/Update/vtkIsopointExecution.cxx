@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Update/vtkIsopointExecution.h"
 
+#include "Common/vtkIsopointCompatibility.h"
+#include "Common/vtkIsopointSMPTools.h"
 #include "Core/Base/Threads.h"
-#include "Input/vtkIsopointCompatibility.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"
-#include "vtkType.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,13 +13,6 @@
 
 namespace
 {
-
-void forOnSMPTools(std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
-{
-  const auto range = [&task](vtkIdType begin, vtkIdType end)
-  { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); };
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), range);
-}
 
 /// Whether the backend is sequential by default rather than by choice.
 bool isSequentialByDefault()
@@ -47,18 +39,10 @@ std::size_t allowedThreads(std::size_t processes)
 isopoint::Execution vtkMakeIsopointExecution(
   vtkAlgorithm* filter, bool useAllCores, std::size_t processes)
 {
-  isopoint::Execution execution;
+  isopoint::Execution execution = vtkMakeSMPExecution(filter);
   if (isopoint::hasThreads && useAllCores && isSequentialByDefault())
   {
     isopoint::useThreads(execution, allowedThreads(processes));
   }
-  else
-  {
-    execution.threads =
-      static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
-    execution.parallelFor = forOnSMPTools;
-  }
-  execution.progress = [filter](double fraction) { filter->UpdateProgress(fraction); };
-  execution.aborted = [filter]() { return vtkIsAborted(filter); };
   return execution;
 }

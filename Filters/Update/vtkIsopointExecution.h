@@ -8,10 +8,10 @@
 
 class vtkAlgorithm;
 
-/// Runs the core for a filter: on the threads of vtkSMPTools, with the filter's progress and abort
-/// flag. If vtkSMPTools is sequential merely by default and useAllCores is set, uses oneTBB if
-/// available (see vtkScatteredContourFilter::SetUseAllCores()). The backend of vtkSMPTools is not
-/// changed: it is global, and changing it is unsafe while other filters run.
+/// Runs the core for a filter as vtkMakeSMPExecution() or, if vtkSMPTools is sequential merely by
+/// default and useAllCores is set, on oneTBB if available (see
+/// vtkScatteredContourFilter::SetUseAllCores()). The backend of vtkSMPTools is not changed: it is
+/// global, and changing it is unsafe while other filters run.
 /// @param processes number of processes that share the cores, including this one
 isopoint::Execution vtkMakeIsopointExecution(
   vtkAlgorithm* filter, bool useAllCores, std::size_t processes = 1);

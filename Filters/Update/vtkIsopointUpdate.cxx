@@ -4,10 +4,9 @@
 #include "Core/Contour.h"
 #include "Input/vtkIsopointInput.h"
 #include "Input/vtkIsopointStructure.h"
-#include "Output/vtkIsopointComputedArrays.h"
 #include "Output/vtkIsopointEndSamples.h"
-#include "Output/vtkIsopointInterpolatedArrays.h"
 #include "Output/vtkIsopointOutput.h"
+#include "Output/vtkIsopointOutputArrays.h"
 #include "Output/vtkIsopointPiece.h"
 #include "Update/vtkIsopointExecution.h"
 
@@ -21,6 +20,7 @@
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkLogger.h"
+#include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -133,7 +133,9 @@ void vtkIsopointUpdate::Extract(vtkInformation* inputInfo, vtkInformation* outpu
   {
     const int piece = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER());
     vtkTakeIsopointPiece(piece, pieces, output);
-    this->Report.isPieceOfProcess = piece == 0 && vtkHasOtherProcesses();
+    auto* const controller = vtkMultiProcessController::GetGlobalController();
+    this->Report.isPieceOfProcess =
+      piece == 0 && controller && controller->GetNumberOfProcesses() > 1;
   }
 }
 
@@ -146,7 +148,7 @@ void vtkIsopointUpdate::CollectBlocks(
   {
     blocks.Collect(this->Execution, input, array, wholeExtent);
   }
-  catch (const vtkIsopointNothingError& error)
+  catch (const vtkIsopointNoSamplesError& error)
   {
     nothing = error.what();
   }

@@ -9,8 +9,8 @@
 #include "Core/Report.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Input/vtkIsopointInputState.h"
+#include "Update/vtkIsopointCommunicator.h"
 #include "Update/vtkIsopointOptions.h"
-#include "Update/vtkIsopointRanks.h"
 
 #include "vtkWeakPointer.h"
 

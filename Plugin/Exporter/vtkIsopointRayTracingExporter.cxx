@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointRayTracingExporter.h"
 
-#include "vtkIsopointRayTracer.h"
-
 #include "vtkCallbackCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
@@ -43,41 +41,6 @@ vtkIsopointRayTracingExporter::vtkIsopointRayTracingExporter() = default;
 vtkIsopointRayTracingExporter::~vtkIsopointRayTracingExporter()
 {
   this->SetFileName(nullptr);
-}
-
-void vtkIsopointRayTracingExporter::SetSamplesPerPixel(int samples)
-{
-  this->Tracer->SetSamplesPerPixel(samples);
-}
-
-void vtkIsopointRayTracingExporter::SetShadows(bool shadows)
-{
-  this->Tracer->SetShadows(shadows);
-}
-
-void vtkIsopointRayTracingExporter::SetLightAngle(double angle)
-{
-  this->Tracer->SetLightAngle(angle);
-}
-
-void vtkIsopointRayTracingExporter::SetAmbientLight(double light)
-{
-  this->Tracer->SetAmbientLight(light);
-}
-
-void vtkIsopointRayTracingExporter::SetAmbientDistance(double distance)
-{
-  this->Tracer->SetAmbientDistance(distance);
-}
-
-void vtkIsopointRayTracingExporter::SetMaximumNumberOfBounces(int bounces)
-{
-  this->Tracer->SetMaximumNumberOfBounces(bounces);
-}
-
-void vtkIsopointRayTracingExporter::SetAbsorptionDistance(double distance)
-{
-  this->Tracer->SetAbsorptionDistance(distance);
 }
 
 void vtkIsopointRayTracingExporter::WriteData()

@@ -10,12 +10,12 @@
 #define vtkIsopointRayTracingExporter_h
 
 #include "vtkExporter.h"
+#include "vtkIsopointRayTracer.h" // for the properties
 #include "vtkNew.h"
 #include "vtkScatteredIsopointExportersModule.h" // for the export macro
 
 #include <functional> // for the monitor
 
-class vtkIsopointRayTracer;
 class vtkRenderer;
 
 class VTKSCATTEREDISOPOINTEXPORTERS_EXPORT vtkIsopointRayTracingExporter : public vtkExporter
@@ -45,13 +45,13 @@ public:
   /**
    * Properties of the ray tracer, see vtkIsopointRayTracer.
    */
-  void SetSamplesPerPixel(int samples);
-  void SetShadows(bool shadows);
-  void SetLightAngle(double angle);
-  void SetAmbientLight(double light);
-  void SetAmbientDistance(double distance);
-  void SetMaximumNumberOfBounces(int bounces);
-  void SetAbsorptionDistance(double distance);
+  void SetSamplesPerPixel(int samples) { this->Tracer->SetSamplesPerPixel(samples); }
+  void SetShadows(bool shadows) { this->Tracer->SetShadows(shadows); }
+  void SetLightAngle(double angle) { this->Tracer->SetLightAngle(angle); }
+  void SetAmbientLight(double light) { this->Tracer->SetAmbientLight(light); }
+  void SetAmbientDistance(double distance) { this->Tracer->SetAmbientDistance(distance); }
+  void SetMaximumNumberOfBounces(int bounces) { this->Tracer->SetMaximumNumberOfBounces(bounces); }
+  void SetAbsorptionDistance(double distance) { this->Tracer->SetAbsorptionDistance(distance); }
   ///@}
 
   /**

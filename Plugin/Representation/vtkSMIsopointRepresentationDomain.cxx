@@ -31,19 +31,18 @@ bool hasSplats(vtkPVDataInformation* data)
   return data && hasPointArray(data, "Normals", 3) && hasPointArray(data, "Radius", 1);
 }
 
-bool hasVerticesAlone(vtkPVDataInformation* data)
-{
-  const auto cells = data->GetNumberOfCells();
-  return cells == 0 || cells == data->GetNumberOfPoints();
-}
-
 const char* const splats = "Isopoint Splats";
 
 } // namespace
 
 bool vtkSMIsopointRepresentationDomain::AreIsopoints(vtkPVDataInformation* data)
 {
-  return hasSplats(data) && hasVerticesAlone(data);
+  if (!hasSplats(data))
+  {
+    return false;
+  }
+  const auto cells = data->GetNumberOfCells();
+  return cells == 0 || cells == data->GetNumberOfPoints();
 }
 
 void vtkSMIsopointRepresentationDomain::Update(vtkSMProperty* requestingProperty)

@@ -59,7 +59,9 @@ struct Scene::Parts
       std::copy(surface->vertices.begin(), surface->vertices.end(), vertices);
       rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
         surface->triangles.data(), 0, 3 * sizeof(std::uint32_t), surface->triangles.size());
-      rtcSetGeometryMask(geometry.get(), maskOf(*surface));
+      const Scene::Mask mask = maskOf(*surface);
+      this->hasTransparent |= mask == Scene::Transparent;
+      rtcSetGeometryMask(geometry.get(), mask);
       rtcCommitGeometry(geometry.get());
       rtcAttachGeometryByID(
         this->scene.get(), geometry.get(), static_cast<unsigned int>(this->surfaces.size()));
@@ -141,11 +143,8 @@ Color passing(const Hit& hit, const Ray& ray)
 } // namespace
 
 Scene::Scene(std::vector<std::shared_ptr<const Surface>> surfaces)
+  : Content(std::make_unique<Parts>(std::move(surfaces)))
 {
-  const bool hasTransparent = std::any_of(surfaces.begin(), surfaces.end(),
-    [](const auto& surface) { return maskOf(*surface) == Scene::Transparent; });
-  this->Content = std::make_unique<Parts>(std::move(surfaces));
-  this->Content->hasTransparent = hasTransparent;
 }
 
 Scene::~Scene() = default;

@@ -2,7 +2,7 @@
 // Every kind of data set yields the same output as a point cloud of the same samples.
 #include "InputTesting.h"
 
-#include "Input/vtkIsopointCompatibility.h"
+#include "Common/vtkIsopointCompatibility.h"
 
 #include "vtkCellCenters.h"
 

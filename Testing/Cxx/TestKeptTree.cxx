@@ -3,7 +3,7 @@
 // new filter.
 #include "InputTesting.h"
 
-#include "Input/vtkIsopointCompatibility.h"
+#include "Common/vtkIsopointCompatibility.h"
 
 #include "vtkMappedUnstructuredGrid.h"
 #include "vtkMatrix3x3.h"

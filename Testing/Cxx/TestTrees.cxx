@@ -2,7 +2,7 @@
 // Adaptive grids: AMR and hyper trees.
 #include "InputTesting.h"
 
-#include "Input/vtkIsopointCompatibility.h"
+#include "Common/vtkIsopointCompatibility.h"
 
 #include "vtkAMRBox.h"
 #include "vtkHyperTreeGridNonOrientedGeometryCursor.h"

@@ -16,7 +16,7 @@ CORE_FOLDERS = {
     "Triangles": (*TO_SPLAT, "Extraction", "Tetrahedra"),
     "Ranks": (*TO_TRIANGLES, "Triangles")}
 # Each folder with sources, and the headers of the project that they may include besides its own.
-FROM_FILTERS = ("Core/*.h", "Core/Base/*.h", "Core/Ranks/ByteBuffer.h")
+FROM_FILTERS = ("Common/*.h", "Core/*.h", "Core/Base/*.h", "Core/Ranks/ByteBuffer.h")
 FOLDERS = {
     "Filters": ("Filters/Update/*.h", "Filters/Output/*.h", "Filters/Input/*.h"),
     "Filters/Update": ("Filters/Output/*.h", "Filters/Input/*.h", *FROM_FILTERS),
@@ -25,7 +25,8 @@ FOLDERS = {
     "Core": ("Core/*/*.h",),
     **{f"Core/{name}": [f"Core/{lower}/*.h" for lower in lowers] for name, lowers in CORE_FOLDERS.items()},
     "Library": ("Core/*.h", "Core/Base/*.h", "Core/SplatMesh/*.h"),
-    "Rendering": ("Core/SplatMesh/*.h", "Core/Base/*.h"),
+    "Common": ("Core/Base/*.h",),
+    "Rendering": ("Common/*.h", "Core/SplatMesh/*.h", "Core/Base/*.h"),
     "RayTracing": ("RayTracing/Tracer/*.h", "Rendering/*.h", "Core/Base/*.h"),
     "RayTracing/Tracer": ("Core/Base/*.h",),
     "Plugin/Window": ("Plugin/Exporter/vtkIsopointRayTracingExporter.h",
@@ -38,12 +39,12 @@ OTHERS = {
     r"vtk": r"(?!Core|Library|RayTracing/Tracer)",
     r"vtk(PV|SM(?!P[A-Z])|SI(?!L)|ClientServer|ProcessModule|ParaView)|pq[A-Z]": r"Plugin",
     r"vtk(\w*(OpenGL|Render|Mapper|Actor|Shader|Camera|Texture|Light|View|HardwareSelector)|(Prop|Volume)|\w*Window\b)":
-        r"(?!Filters)"}
+        r"(?!Filters|Common)"}
 
 
 def problems_of(root):
     root = pathlib.Path(root)
-    paths = [path for top in ("Core", "Library", "Filters", "Rendering", "RayTracing", "Plugin")
+    paths = [path for top in ("Core", "Library", "Common", "Filters", "Rendering", "RayTracing", "Plugin")
              for path in sorted((root / top).rglob("*"))]
     files = {path.relative_to(root).as_posix(): path.read_text() for path in paths if path.suffix in (".h", ".cxx")}
     problems = [f"{path}: an unexpected suffix" for path in paths

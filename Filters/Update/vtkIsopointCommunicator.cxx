@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Update/vtkIsopointRanks.h"
+#include "Update/vtkIsopointCommunicator.h"
 
 #include "Core/Base/Threads.h"
 #include "Core/Failure.h"
@@ -133,12 +133,6 @@ void vtkIsopointCommunicator::Receive(const isopoint::IncomingBytes& message, in
   char* const bytes = static_cast<char*>(message.bytes);
   forParts(message.count, [&](std::size_t begin, vtkIdType length)
     { this->Controller->Receive(bytes + begin, length, rank, tag); });
-}
-
-bool vtkHasOtherProcesses()
-{
-  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
 }
 
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pqIsopointVisibility.h"
+#include "pqIsopointFilters.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
@@ -16,8 +16,11 @@
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
+#include "vtkSelectionNode.h"
+#include "vtkSmartPointer.h"
 
 #include <QList>
 #include <QObject>
@@ -40,7 +43,7 @@ bool isOpaqueSplats(pqDataRepresentation* representation)
 
 } // namespace
 
-void pqIsopointVisibility::startup()
+void pqIsopointFilters::startup()
 {
   pqServerManagerModel* const model = pqApplicationCore::instance()->getServerManagerModel();
   this->Following = std::make_unique<QObject>();
@@ -50,33 +53,74 @@ void pqIsopointVisibility::startup()
     [this](pqServerManagerModelItem* item) { this->NewItems.remove(item); });
 }
 
-void pqIsopointVisibility::shutdown()
+void pqIsopointFilters::shutdown()
 {
   this->Following.reset();
 }
 
-void pqIsopointVisibility::follow(pqServerManagerModelItem* item)
+void pqIsopointFilters::follow(pqServerManagerModelItem* item)
 {
-  auto* const proxy = qobject_cast<pqProxy*>(item);
-  if (!proxy)
+  auto* const filter = qobject_cast<pqPipelineFilter*>(item);
+  if (!filter)
   {
     return;
   }
-  if (proxy->modifiedState() == pqProxy::UNINITIALIZED)
+  if (filter->modifiedState() == pqProxy::UNINITIALIZED)
   {
     this->NewItems.insert(item);
+    return;
   }
-  else if (this->NewItems.remove(item) && proxy->modifiedState() == pqProxy::UNMODIFIED)
+  const bool isNew = this->NewItems.remove(item);
+  if (filter->modifiedState() != pqProxy::UNMODIFIED)
   {
-    if (auto* const filter = qobject_cast<pqPipelineFilter*>(item))
-    {
-      hideSplatsBehind(filter);
-      explainEmptySlice(filter);
-    }
+    return;
+  }
+  keepVertices(filter);
+  if (isNew)
+  {
+    hideSplatsBehind(filter);
+    explainEmptySlice(filter);
   }
 }
 
-void pqIsopointVisibility::hideSplatsBehind(pqPipelineFilter* filter)
+void pqIsopointFilters::keepVertices(pqPipelineFilter* filter)
+{
+  if (!filter->getAnyInput() ||
+      std::strcmp(filter->getProxy()->GetXMLName(), "ExtractSelection") != 0 ||
+      !vtkSMIsopointRepresentationDomain::AreIsopoints(filter->getAnyInput()->getDataInformation()))
+  {
+    return;
+  }
+  vtkSMProxy* const selection = vtkSMPropertyHelper(filter->getProxy(), "Selection").GetAsProxy();
+  if (!selection || !selection->GetProperty("Input"))
+  {
+    return; // nothing is selected
+  }
+  vtkSMPropertyHelper sources(selection, "Input");
+  for (unsigned int i = 0; i < sources.GetNumberOfElements(); ++i)
+  {
+    vtkSMProxy* const source = sources.GetAsProxy(i);
+    if (!source || !source->GetProperty("ContainingCells") || !source->GetProperty("FieldType") ||
+        vtkSMPropertyHelper(source, "FieldType").GetAsInt() != vtkSelectionNode::POINT ||
+        vtkSMPropertyHelper(source, "ContainingCells").GetAsInt() != 0)
+    {
+      continue;
+    }
+    // The active selection may have the same source.
+    vtkSMSessionProxyManager* const proxies = source->GetSessionProxyManager();
+    const auto own = vtkSmartPointer<vtkSMProxy>::Take(
+      proxies->NewProxy(source->GetXMLGroup(), source->GetXMLName()));
+    own->Copy(source);
+    vtkSMPropertyHelper(own, "ContainingCells").Set(1);
+    own->UpdateVTKObjects();
+    const std::string name = "selection_sources." + std::string(own->GetGlobalIDAsString());
+    proxies->RegisterProxy("selection_sources", name.c_str(), own); // so that states contain it
+    sources.Set(i, own);
+    selection->UpdateVTKObjects();
+  }
+}
+
+void pqIsopointFilters::hideSplatsBehind(pqPipelineFilter* filter)
 {
   if (filter->replaceInput() == 0)
   {
@@ -99,7 +143,7 @@ void pqIsopointVisibility::hideSplatsBehind(pqPipelineFilter* filter)
   }
 }
 
-void pqIsopointVisibility::explainEmptySlice(pqPipelineFilter* filter)
+void pqIsopointFilters::explainEmptySlice(pqPipelineFilter* filter)
 {
   static const QStringList filtersOfCells{ "Cut", "SliceWithPlane", "SliceAlongPolyLine",
     "Contour" };

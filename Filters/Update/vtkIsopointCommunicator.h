@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef vtkIsopointRanks_h
-#define vtkIsopointRanks_h
+#ifndef vtkIsopointCommunicator_h
+#define vtkIsopointCommunicator_h
 
 #include "Core/Base/ProcessGroup.h"
 
@@ -39,9 +39,6 @@ private:
   std::vector<unsigned long long> OwnNumbers;
   std::vector<unsigned long long> AllNumbers;
 };
-
-/// Whether VTK's global controller has several processes.
-bool vtkHasOtherProcesses();
 
 /// The number of ranks that share cores with this rank, including itself. Collective.
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes);

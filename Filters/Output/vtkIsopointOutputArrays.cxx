@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Output/vtkIsopointOutputArrays.h"
+
+#include "Common/vtkIsopointArrays.h"
+#include "Core/Options.h"
+#include "Core/OutputArrays.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkArrayDispatch.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <type_traits>
+
+namespace
+{
+
+using isopoint::ExtractedIsosurface;
+using isopoint::IsopointEdge;
+using isopoint::Isosurface;
+
+void interpolateArray(const isopoint::Execution& execution, const Isosurface& surface,
+  vtkDataArray* input, vtkDataArray* output, vtkIdType firstTuple)
+{
+  // Arrays that VTK can dispatch, in parallel. Their classes may differ: NewInstance() of an
+  // implicit array yields another.
+  const auto interpolateTyped = [&](auto* from, auto* to)
+  {
+    using T = typename std::decay_t<decltype(*to)>::ValueType;
+    isopoint::interpolateComponents(
+      execution, surface, from->GetNumberOfComponents(),
+      [&](std::uint64_t sample, int component) {
+        return static_cast<double>(
+          from->GetTypedComponent(static_cast<vtkIdType>(sample), component));
+      },
+      [&](std::size_t i, int component, double value)
+      {
+        to->SetTypedComponent(
+          firstTuple + static_cast<vtkIdType>(i), component, isopoint::toArrayType<T>(value));
+      });
+  };
+  if (vtkArrayDispatch::Dispatch2SameValueType::Execute(input, output, interpolateTyped))
+  {
+    return;
+  }
+  isopoint::interpolateComponents(
+    isopoint::Execution(), surface, input->GetNumberOfComponents(),
+    [&](std::uint64_t sample, int component)
+    { return input->GetComponent(static_cast<vtkIdType>(sample), component); },
+    [&](std::size_t i, int component, double value)
+    { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
+}
+
+/// Copies the tuples of the nearer ends.
+void copyFromNearerEnd(const Isosurface& surface, vtkAbstractArray* input, vtkAbstractArray* output,
+  vtkIdType firstTuple)
+{
+  for (std::size_t i = 0; i < surface.size(); ++i)
+  {
+    const IsopointEdge& edge = surface.edgeOf(i);
+    const std::uint64_t nearer = edge.parameter < 0.5 ? edge.first : edge.second;
+    output->SetTuple(firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(nearer), input);
+  }
+}
+
+bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
+{
+  return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
+         array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
+         (array->GetName() &&
+           std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+}
+
+/// A new array, or null unless `isComputed`.
+/// @param values receives its memory, or null
+template <class TArray>
+vtkSmartPointer<TArray> newArray(bool isComputed, const char* name, int components,
+  vtkIdType tuples, typename TArray::ValueType*& values)
+{
+  if (!isComputed)
+  {
+    return nullptr;
+  }
+  auto array = vtkSmartPointer<TArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  vtkAllocateTuples(array, tuples);
+  values = array->GetPointer(0);
+  return array;
+}
+
+} // namespace
+
+void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
+{
+  for (int index = 0; index < input->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = input->GetAbstractArray(index);
+    const int attribute = input->IsArrayAnAttribute(index);
+    if (isExcluded(array, attribute, contoured))
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkAbstractArray> result =
+      vtkNewArrayLike(array, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
+    auto* const numbers = vtkDataArray::SafeDownCast(array);
+    const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
+    vtkIdType firstTuple = 0;
+    for (const ExtractedIsosurface& extracted : surfaces)
+    {
+      const Isosurface& surface = extracted.surface;
+      if (isNumeric)
+      {
+        interpolateArray(
+          execution, surface, numbers, vtkDataArray::SafeDownCast(result), firstTuple);
+      }
+      else
+      {
+        copyFromNearerEnd(surface, array, result, firstTuple);
+      }
+      firstTuple += static_cast<vtkIdType>(surface.size());
+    }
+    vtkAddAttribute(attribute, result, output);
+  }
+}
+
+void vtkAddContouredArray(
+  vtkDataArray* contoured, const std::vector<ExtractedIsosurface>& surfaces, vtkPointData* output)
+{
+  const int type = contoured->GetDataType();
+  const auto result = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(type == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE));
+  result->SetName(contoured->GetName());
+  vtkAllocateTuples(result, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
+  vtkIdType tuple = 0;
+  for (const ExtractedIsosurface& extracted : surfaces)
+  {
+    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    {
+      result->SetComponent(tuple++, 0, extracted.surface.isovalue);
+    }
+  }
+  vtkAddAttribute(vtkDataSetAttributes::SCALARS, result, output);
+}
+
+std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution& execution,
+  const isopoint::Options& options, const std::vector<ExtractedIsosurface>& surfaces,
+  vtkPolyData* output)
+{
+  const vtkIdType count = output->GetNumberOfPoints();
+  const bool hasSplats = options.computeSplats;
+  isopoint::OutputArrays memory;
+  const auto normals =
+    newArray<vtkFloatArray>(options.computeNormals, "Normals", 3, count, memory.normals);
+  const auto radii = newArray<vtkFloatArray>(hasSplats, "Radius", 1, count, memory.radii);
+  const auto gradients =
+    newArray<vtkFloatArray>(options.computeGradients, "Gradients", 3, count, memory.gradients);
+  const auto orders = newArray<vtkUnsignedCharArray>(
+    options.computeProjectionOrders, "ProjectionOrder", 1, count, memory.projectionOrders);
+  const auto axes = newArray<vtkFloatArray>(hasSplats, "SplatAxis", 3, count, memory.splatAxes);
+  const auto polygons = newArray<vtkFloatArray>(hasSplats, "SplatPolygon",
+    static_cast<int>(isopoint::numbersOfSplat), count, memory.splatPolygons);
+  std::size_t first = 0;
+  for (const ExtractedIsosurface& surface : surfaces)
+  {
+    isopoint::writeArrays(execution, surface, options.projection != 0, first, memory);
+    first += surface.surface.size();
+  }
+
+  vtkPointData* const pointData = output->GetPointData();
+  std::vector<std::string> replaced;
+  for (vtkDataArray* const array :
+    std::initializer_list<vtkDataArray*>{ normals, radii, gradients, orders })
+  {
+    if (array)
+    {
+      if (pointData->HasArray(array->GetName()))
+      {
+        replaced.emplace_back(array->GetName());
+      }
+      pointData->AddArray(array);
+    }
+  }
+  if (normals)
+  {
+    pointData->SetActiveNormals(normals->GetName());
+  }
+  if (hasSplats)
+  {
+    vtkCellData* const cellData = output->GetCellData();
+    cellData->SetVectors(axes); // transforms of points rotate active vectors
+    cellData->AddArray(polygons);
+    for (vtkFloatArray* const array : { axes.Get(), polygons.Get() })
+    {
+      array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    }
+  }
+  return replaced;
+}
