@@ -140,7 +140,7 @@ def measure(cloud):
     seconds = []
     for _ in range(2):
         isopoints = common.configured(common.POINTS(), data, ISOVALUE)
-        seconds.append(common.measure(isopoints.Update)[0])
+        seconds.append(common.timed(isopoints.Update)[0])
     return min(seconds), isopoints.GetOutput().GetNumberOfPoints()
 
 

@@ -43,7 +43,7 @@ taken = [], []
 for run in range(31):
     for i in (0, 1) if run % 2 else (1, 0):
         filters[i].SetValue(0, side / 4 + 0.001 * side * (run + 1))
-        taken[i].append(common.measure(filters[i].Update)[:2])
+        taken[i].append(common.timed(filters[i].Update))
 common.print_head(f"{side**3} points", "without ghosts, s", "with ghosts, s", "ratio")
 for name, without, with_ghosts in zip(("elapsed", "processor"), *(np.median(each, axis=0) for each in taken)):
     common.print_row(name, f"{without:.4f}", f"{with_ghosts:.4f}", f"{with_ghosts / without:.2f}")

@@ -145,7 +145,9 @@ class Table:
         interpolator.SetSourceData(self.samples)
         interpolator.SetLocator(vtkStaticPointLocator())
         interpolator.SetKernel(kernel)
-        return self.contour_of(interpolator, vtkFlyingEdges3D())
+        contour = self.contour_of(interpolator, vtkFlyingEdges3D())
+        contour.ComputeNormalsOff()
+        return contour
 
     def delaunay(self):
         tetrahedra = vtkDelaunay3D()
@@ -155,7 +157,6 @@ class Table:
     def contour_of(self, source, contour):
         contour.SetInputConnection(source.GetOutputPort())
         contour.SetInputArrayToProcess(0, 0, 0, 0, "values")
-        contour.ComputeNormalsOff()
         contour.SetValue(0, self.isovalue)
         return contour
 

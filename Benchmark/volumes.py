@@ -52,7 +52,7 @@ def extract_both(samples, isovalue):
     found = []
     for properties in (common.alone(), {}):
         isopoints = common.configured(common.POINTS(), samples, isovalue, **properties)
-        seconds = common.measure(isopoints.Update)[1]
+        seconds = common.timed(isopoints.Update)[1]
         found.append((isopoints.GetOutput(), seconds))
     return found
 

@@ -3,10 +3,10 @@
 """Checks README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md of a source tree.
 
 Links, anchors, and the paths and identifiers in backticks exist. Blocks marked bash parse, and name presets, targets,
-options, tests and executable scripts that exist. Blocks marked python, pvpython or py (with PyVista) compile; the
-first two run on request. Tables of constants and of defaults have the values of the sources. Prints file:line: message
-for each defect and exits with 1 if there is any. The comment <!-- setup: FILE.py --> or <!-- setup: code --> before
-a block runs before it.
+options, tests and executable scripts that exist. Nothing is left to be filled in. Blocks marked python, pvpython or py
+(with PyVista) compile; the first two run on request. Tables of constants and of defaults have the values of the
+sources. Prints file:line: message for each defect and exits with 1 if there is any. The comment <!-- setup: FILE.py -->
+or <!-- setup: code --> before a block runs before it.
 """
 
 import argparse
@@ -23,16 +23,20 @@ from markdown_document import Document, read
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
 SOURCES = (".h", ".cxx", ".py", ".sh", ".cmake")  # in backticks, files of the tree have these suffixes
-WITH_IDENTIFIERS = (*SOURCES, ".xml", ".in", "CMakeLists.txt", "vtk.module")
+WITH_IDENTIFIERS = (".h", ".cxx", ".xml", ".py", ".cmake", ".in", "CMakeLists.txt")
 NOT_HERE = ("check-documents.py", "TestCheckDocuments.py")  # name identifiers that do not exist
 LANGUAGES = ("bash", "cmake", "pvpython", "py", "python", "text")
-KNOWN = {"GetX", "SetX", "XOff", "XOn", "all", "clean", "install", "package", "test"}
+PLACEHOLDERS = {"GetX", "SetX", "XOff", "XOn"}  # stand for identifiers
+STANDARD_TARGETS = {"all", "clean", "install", "package", "test"}
+# What waits to be filled in: words such as RESULTS or TESTS12 that no source has.
+UNFINISHED = re.compile(r"(\?\?\?|\b(?:TODO|TBD|FIXME|XXX|TKTK)\b|\b[A-Z]{4,}\d*[A-Z]*\b)")
+CAPITALS = {"BRDF", "DATA", "EPYC", "FILE", "IEEE", "PSNR", "README", "SIGGRAPH", "VGTC"}
 LINKS = re.compile(r"""\]\(\s*<?([^)\s>]+)|^ {0,3}\[[^\]^]+\]:\s*<?([^\s>]+)"""
                    r"""|<\w+\s[^>]*?\b(?:src|href)\s*=\s*["']?([^"'\s>]+)""", re.MULTILINE)
 CODE = re.compile(r"`([^`\n]+(?:\n[^`\n]+)*)`")
 IDENTIFIER = re.compile(r"\b(?:vtk\w+|(?=\w*[a-z])[A-Za-z]\w*[A-Z]\w*)\b")
 NAMED = re.compile(r"(--preset)[=\s]+([\w-]+)|(-D) *(SCATTEREDISOPOINTS_\w+)"
-                   r"|(--target|--tests-regex)[=\s]+((?:(?! --|[;&]| \|)[^\n])+)")
+                   r"|(--tests-regex)[=\s]+('[^']*'|\S+)|(--target)[=\s]+((?:(?! -|[;&]| \|)[^\n])+)")
 MEMBER = re.compile(r"^  (?:double|int|bool|vtkTypeBool) (\w+) = (?:static_cast<int>\(\w+::)?([\w.]+)\)?;", re.MULTILINE)
 SWITCHES = {"on": "1", "off": "0", "true": "1", "false": "0"}
 
@@ -49,14 +53,18 @@ def number_of(text):
 class Checker:
     def __init__(self, root, python_path, runs_pvbatch):
         self.root, self.python_path, self.runs_pvbatch = os.path.abspath(root), python_path, runs_pvbatch
-        self.defects, self.name, self.identifiers = [], "", set(KNOWN)
+        self.defects, self.name, self.identifiers = [], "", set(PLACEHOLDERS)
+        self.targets, self.options, self.tests = set(STANDARD_TARGETS), set(), set()
         self.sources, self.defaults, self.plugin_defaults, self.constants = {}, {}, {}, {}
         for folder, folders, names in os.walk(self.root):
             folders[:] = [name for name in folders if name != ".git" and not name.startswith("build")]
             for name in names:
                 self.sources.setdefault(name, os.path.join(folder, name))
                 self.identifiers.update(re.findall(r"\w+", name))
-                if name.endswith(WITH_IDENTIFIERS) and name not in NOT_HERE:
+                if name == "vtk.module":
+                    text = read(os.path.join(folder, name))
+                    self.targets.update(re.findall(r"^NAME\s+(?:\w+::)?(\w+)", text, re.MULTILINE))
+                elif name.endswith(WITH_IDENTIFIERS) and name not in NOT_HERE:
                     self.add_source(name, read(os.path.join(folder, name)))
         presets = json.loads(read(os.path.join(self.root, "CMakePresets.json")))["configurePresets"]
         self.presets = {preset["name"] for preset in presets if not preset.get("hidden")}
@@ -70,6 +78,23 @@ class Checker:
             found = [re.search(name + r'="([^"]*)"', element) for name in ("command", "default_values")]
             if all(found):
                 self.plugin_defaults.setdefault(found[0][1][3:], set()).add(found[1][1])
+        if name.endswith((".cmake", "CMakeLists.txt")):
+            self.add_cmake(re.sub(r"#.*", "", text))
+        for suite, test in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\((\w+),\s*(\w+)\)", text, re.MULTILINE):
+            self.tests.add(f"{name.removesuffix('.cxx')}.{suite}.{test}")
+
+    def add_cmake(self, text):
+        """Targets, options and tests, as far as a file of CMake names them."""
+        self.targets.update(re.findall(r"\badd_(?:executable|library|custom_target)\s*\(\s*(\w+)", text))
+        for wrapper in re.findall(r"\bfunction\s*\((\w+) name\b[^)]*\)\s*add_(?:executable|cxx_test)\b", text):
+            self.targets.update(re.findall(rf"\b{wrapper}\s*\((\w+)", text))
+        for names in re.findall(r"\bforeach\s*\(name ([\w\s]+)\)\s*add_\w+_test\b", text):
+            self.targets.update(names.split())
+        self.options.update(re.findall(r"\boption\s*\(\s*(\w+)", text))
+        self.options.update(re.findall(r"\bset\s*\(\s*(\w+)[^()]*\sCACHE\s", text))
+        self.tests.update(re.findall(r"\badd_test\s*\(NAME \"?([\w.]+)[\"\s]", text))
+        for prefix in re.findall(r'\badd_test\s*\(NAME "?([\w.]+)\$\{name\}', text):
+            self.tests.update(prefix + name for name in re.findall(r"\badd_\w+_(?:test|target)\s*\((\w+)", text))
 
     def report(self, line, message):
         self.defects.append(f"{self.name}:{line}: {message}")
@@ -89,9 +114,7 @@ class Checker:
         prose = CODE.sub(lambda code: re.sub(r"\S", "x", code[0]), text)
         for pattern, where, check in (
                 (LINKS, prose, self.check_link), (CODE, text, self.check_code),
-                (re.compile(r"(\?\?\?|\b(?:TODO|TBD|FIXME|XXX)\b)"), prose,
-                 lambda line, word: self.report(line, word + " is still to be filled in")),
-                (re.compile(r"(`{3,}|~{3,}|<!--)"), text,
+                (UNFINISHED, prose, self.check_finished), (re.compile(r"(`{3,}|~{3,}|<!--)"), text,
                  lambda line, word: self.report(line, word + " without an end"))):
             for match in pattern.finditer(where):
                 check(text.count("\n", 0, match.start(match.lastindex)) + 1, match[match.lastindex])
@@ -103,6 +126,10 @@ class Checker:
                 self.check_commands(line, code)
             elif language in ("python", "pvpython", "py"):
                 self.check_script(line, language, code, setup)
+
+    def check_finished(self, line, word):
+        if word not in CAPITALS and word not in self.identifiers:
+            self.report(line, word + " is still to be filled in")
 
     def check_link(self, line, target):
         path, _, anchor = target.partition("#")
@@ -127,11 +154,22 @@ class Checker:
         for word in re.split(r"[\s;&|()\"']+", text):
             self.check_path(line, re.sub(r"^\./", "", word.split("=")[-1].rstrip(",.;:)")))
         for option, value in (filter(None, found) for found in NAMED.findall(text)):
-            if option == "--preset" and value not in self.presets and not value.isupper():
-                self.report(line, f"no preset {value}")
-            for word in re.findall(r"\w{5,}", value) if option != "--preset" else ():
-                if word not in self.identifiers:
-                    self.report(line, f"no {word} in the sources")
+            if option == "--tests-regex" and not self.has_test(value.strip("'\"")):
+                self.report(line, f"no test for {value}")
+            kind, known = {"--preset": ("preset", self.presets), "-D": ("option", self.options),
+                           "--target": ("target", self.targets)}.get(option, ("", ()))
+            for word in value.split() if kind else ():
+                if word not in known and not (kind == "preset" and word.isupper()):
+                    self.report(line, f"no {kind} {word}")
+
+    def has_test(self, pattern):
+        """Whether each alternative of a pattern, as those in ^(a|b), is found in a test's name."""
+        before, group, after = re.fullmatch(r"([^()]*)(?:\(([^()]*)\))?(.*)", pattern).groups()
+        try:
+            patterns = [re.compile(before + each + after) for each in (group or "").split("|")]
+            return all(any(map(pattern.search, self.tests)) for pattern in patterns)
+        except re.error:
+            return False
 
     def check_path(self, line, word):
         if not re.fullmatch(r"[\w.*-]+(?:/[\w.*-]+)*/?", word):
@@ -190,12 +228,17 @@ class Checker:
             cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
             if not cells or not header:
                 header = cells
-            elif header[:3] == ["constant", "file", "value"] and not set(line) <= set("|-: "):
-                self.check_constant(number, cells[0].strip("`"), *cells[1:3])
-            elif "default" in header and len(cells) == len(header) and re.match(r"`\w+`", cells[0]):
+            elif len(cells) < len(header) or set(line) <= set("|-: "):
+                continue
+            elif header[:3] == ["constant", "file", "value"]:
+                self.check_constant(number, *cells[:3])
+            elif "default" in header and re.match(r"`\w+`", cells[0]):
                 self.check_default(number, re.match(r"`(\w+)", cells[0])[1], cells[header.index("default")])
 
     def check_constant(self, line, constant, file, value):
+        if not re.fullmatch(r"`\w+`", constant):
+            return self.report(line, f"{constant} is no constant's name in backticks")
+        constant = constant.strip("`")
         text = read(self.sources[file]) if file in self.sources else ""
         values = re.findall(r"\bconstexpr\b[^;={]*\b%s\s*(?:=\s*([^;]+)|\{([^;]+)\});" % re.escape(constant), text)
         values = [number_of(first or second) for first, second in values]

@@ -30,4 +30,5 @@ class Document:
         self.text = FENCES.sub(cut, source)
         headings = re.findall(r"^#+ (.*)", self.text, re.MULTILINE)
         headings = [re.sub(r"\]\([^)]*\)", "", heading).strip().lower() for heading in headings]
-        self.anchors = {re.sub(r"[^\w\- ]", "", heading).replace(" ", "-") for heading in headings}
+        anchors = [re.sub(r"[^\w\- ]", "", heading).replace(" ", "-") for heading in headings]
+        self.anchors = {f"{each}-{anchors[:i].count(each)}".removesuffix("-0") for i, each in enumerate(anchors)}

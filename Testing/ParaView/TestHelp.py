@@ -32,9 +32,11 @@ class HelpTest(unittest.TestCase):
         self.assertTrue(self.pages["comparison.png"].startswith(b"\x89PNG"))
         for name in ("ScatteredIsopoints", "ScatteredIsosurface"):
             page = self.pages[f"filters.{name}.html"].decode()
-            for mark, least in (('<img src="comparison.png"', 1), ("<h3>", 1), ("<p>", 5)):
+            for mark, least in (
+                    ('<img src="comparison.png"', 1), ("<p>", 5), ("<h3>When points, when triangles</h3>", 1)):
                 self.assertGreaterEqual(page.count(mark), least, mark)
             self.assertNotIn("**", page)
+            self.assertRegex(page, r"(?s)Clip\b.*Scattered\s+Isosurface" if "points" in name else "Slice and Clip")
 
 
 if __name__ == "__main__":

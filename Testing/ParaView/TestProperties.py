@@ -2,7 +2,8 @@
 """The XML of the plugin against its classes and the document of the properties:
 TestProperties.py PLUGIN PROPERTIES_MD REPRESENTATION_XML FILTER_XML...
 
-Properties offer the ranges that the classes accept and have their defaults, and so does the document."""
+Properties offer the ranges that the classes accept and have their defaults, and so does the document;
+help mentions only representations that exist."""
 
 import re
 import sys
@@ -10,12 +11,12 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import scatteredisopoints
-from paraview import servermanager
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from scripting import check, load
+from scripting import SPLATS, check, load
 
 LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
 
@@ -97,17 +98,20 @@ def check_filter(root, documented):
         value = getattr(filter_class(), "Get" + name_in_class)()
         check(value == default, f"{name}: the default {default}, in the class {value}")
         check_range(name, element, filter_accepts(filter_class(), name_in_class))
+        check(not contours or name in documented, f"{name} in {sorted(documented)}")
         if contours and element.find("EnumerationDomain") is None:
             text = documented[name].split()[0]
             check({"on": 1.0, "off": 0.0}.get(text) == default or text == f"{default:g}",
                   f"{name}: the default {default}, in the document {text}")
-        check(not contours or name in documented, f"{name} in {sorted(documented)}")
         names.append(name)
     check(len(names) >= (10 if contours else 3), f"properties of the filter: {names}")
     if contours:
         shown = [element.get("name") for element in proxy
                  if element.tag.endswith("VectorProperty") and not is_hidden(element)]
-        grouped = [element.get("name") for group in proxy.findall("PropertyGroup") for element in group]
+        groups = proxy.findall("PropertyGroup")
+        grouped = [element.get("name") for group in groups for element in group]
+        labels = [group.get("label") for group in groups]
+        check(labels == ["Isosurfaces", "Sampling", "Output Arrays", "Performance", "Last Update"], f"groups {labels}")
         check(shown[:2] == ["SelectInputScalars", "ContourValues"], f"first: {shown[:2]}")
         check(grouped == shown, f"groups have all properties in their order: {grouped}")
 
@@ -138,13 +142,28 @@ def check_representation(root):
     check(len(names) == 3, f"properties of the representation: {names}")
 
 
+def check_mentioned_representations(roots):
+    isopoints = simple.ScatteredIsopoints(Input=simple.Wavelet(), Isosurfaces=[150.0])
+    known = list(simple.Show(isopoints, simple.CreateView("RenderView")).GetProperty("Representation").Available)
+    names = r"([A-Z]\w*(?: [A-Z]\w*)*)"
+    mentioned = set()
+    for element in (element for root in roots for element in root.iter("Documentation")):
+        texts = filter(None, (element.text, element.get("short_help"), element.get("long_help")))
+        text = " ".join(" ".join(texts).split())
+        for found in re.findall(rf"[Rr]epresentations? {names}(?: and {names})?", text):
+            mentioned.update(filter(None, found))
+    print("representations in help:", ", ".join(sorted(mentioned)))
+    check(SPLATS in mentioned <= set(known), f"{mentioned} among the representations {known}")
+
+
 plugin, document, *files = sys.argv[1:]
 load(plugin)
 with open(document) as text:
     documented = dict(re.findall(r"^\| `(\w+)`[^|]*\| ([^|]+) \|", text.read(), re.MULTILINE))
-of_representation, *of_filters = [ElementTree.parse(file).getroot() for file in files]
+of_representation, *of_filters = roots = [ElementTree.parse(file).getroot() for file in files]
 check(len(of_filters) == 3, "all filters")
 for of_filter in of_filters:
     check_filter(of_filter, documented)
 check_representation(of_representation)
+check_mentioned_representations(roots)
 print("passed")

@@ -54,7 +54,9 @@ STATES = {name: str(FOLDER / (name + ".pvsm")) for name in SITES}
 
 
 def found_by(name, text):
-    found, output = run_script(pvbatch, LOAD + text + REPORT + f"SaveState({STATES[name]!r})\n", PYTHONPATH=SITES[name])
+    """Only a pipeline that is built is saved, not one that was loaded."""
+    save = f"SaveState({STATES[name]!r})\n" if text is BUILD else ""
+    found, output = run_script(pvbatch, LOAD + text + REPORT + save, PYTHONPATH=SITES[name])
     check(len(found) > 10 and "rror" not in output, output)
     return found
 
@@ -68,4 +70,4 @@ for name, text in (("python", BUILD), ("python", f"LoadState({STATES['compiled']
 _, output = run_script(pvbatch, (
     "from paraview.simple import *\nimport inspect\ninspect.getargspec = inspect.getfullargspec\n"
     f"LoadPlugin({compiled_plugin!r})\nLoadPlugin({plugin!r}, remote=False)\n"), PYTHONPATH=SITES["python"])
-check("loaded already" in output and "rror" not in output, output)
+check("loaded already: the one in Python adds nothing" in output and "rror" not in output, output)

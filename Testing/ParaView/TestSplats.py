@@ -63,8 +63,9 @@ def level_of_detail():
         grab.SetInput(VIEW.GetRenderWindow())
         grab.ShouldRerenderOff()
         grab.Update()
+        width, height, _ = grab.GetOutput().GetDimensions()
         scalars = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
-        pictures.append(scalars.reshape(400, 400, -1)[..., :3].astype(int))
+        pictures.append(scalars.reshape(height, width, -1)[..., :3].astype(int))
     coarse, everything = pictures
     check(covered(coarse).sum() > 0.9 * covered(everything).sum(), "the ball in fewer triangles")
     check(not np.array_equal(coarse, everything), "fewer triangles while interacting")

@@ -66,7 +66,8 @@ isopoints.UpdatePipeline()
 """
     skipped, dropped = (FRAME + "isopoint_counts/NumberOf" + name for name in ("SkippedSamples", "DroppedInGaps"))
     for name in NAMES:
-        _, said = play([choose(name), expect_of(skipped, "text", ""), expect_of(dropped, "text", ""), APPLY,
+        _, said = play([choose(name), expect_of(skipped, "text", ""), expect_of(dropped, "text", ""),
+                        expect_of(FRAME + "1QWidget3/1QLabel0", "text", "<html><b>Last Update</b></html>"), APPLY,
                         expect_of(skipped, "text", "1 of 9261")], more)
         check(not re.search("WARN|Warning", others_of(said)), "no message without a problem")
 

@@ -143,11 +143,13 @@ class Mouse:
         window = self._find(title)
         if window is None:
             return
-        size = [ctypes.c_uint() for _ in range(7)]
-        self._x.XGetGeometry(self._display, window, *map(ctypes.byref, size))
+        # The root, the place, the size, and the border and depth.
+        found = ctypes.c_ulong(), *(ctypes.c_int() for _ in range(2)), *(ctypes.c_uint() for _ in range(4))
+        self._x.XGetGeometry(self._display, window, *map(ctypes.byref, found))
+        width, height = found[3].value, found[4].value
         for kind, state in ((4, 0), (5, 1 << 8)):  # press and release
             sent = _ButtonEvent(type=kind, display=self._display, window=window, root=self._root, state=state, button=1,
-                                x=size[3].value - right, y=size[4].value - bottom, same_screen=1)
+                                x=width - right, y=height - bottom, same_screen=1)
             self._x.XSendEvent(self._display, window, 1, 0, ctypes.byref(sent))
         self._x.XFlush(self._display)
 

@@ -12,7 +12,7 @@ import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
@@ -99,8 +99,13 @@ def offered_arrays(proxy):
 def leaves_of(proxy):
     """The data objects of a source, as one or as blocks."""
     data = servermanager.Fetch(proxy)
-    blocks = isinstance(data, vtkMultiBlockDataSet)
-    return [data.GetBlock(i) for i in range(data.GetNumberOfBlocks())] if blocks else [data]
+    if not isinstance(data, vtkCompositeDataSet):
+        return [data]
+    iterator, found = data.NewIterator(), []
+    while not iterator.IsDoneWithTraversal():
+        found.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return found
 
 
 def positions(proxy):

@@ -7,6 +7,8 @@ import subprocess
 import sys
 import unittest
 
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
 FOLDER = pathlib.Path(__file__).parents[2] / "Benchmark"
 COMMANDS = (
     "accuracy.py --samples 2000 --fields sphere,cube --noise 1", "cost.py --samples 0.02 --runs 1",
@@ -24,6 +26,15 @@ class Benchmarks(unittest.TestCase):
                 rows = [line.count("|") for line in done.stdout.splitlines() if line.startswith("|")]
                 self.assertGreater(len(rows), 2, done.stdout)
                 self.assertEqual(set(rows), {rows[0]}, done.stdout)
+
+    def test_misspelled_properties_raise(self):
+        sys.path.insert(0, str(FOLDER))
+        import common
+
+        for kind in (common.POINTS, common.TRIANGLES):
+            common.configured(kind(), vtkPolyData(), 0.5, **common.alone(), Regularize=False)
+            with self.assertRaises(AttributeError):
+                common.configured(kind(), vtkPolyData(), 0.5, UseAlCores=False)
 
 
 if __name__ == "__main__":

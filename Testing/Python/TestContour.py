@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from scatteredisopoints import contour, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtk_data import assert_same, centers_in, cloud_of, named, updated
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkTable
 
 
@@ -36,13 +37,27 @@ class ContourTest(unittest.TestCase):
         output = updated(kind, data, isovalues, **properties).GetOutput()
         assert_same(self, result.polydata, output)
         self.assertGreater(len(result), 100)
-        self.assertEqual(result.points.tobytes(), bytes(output.GetPoints().GetData()))
+        expected = vtk_to_numpy(output.GetPoints().GetData())
+        self.assertEqual((result.points.dtype, result.points.tobytes()), (expected.dtype, expected.tobytes()))
+        attributes = output.GetPointData()
+        self.assertEqual(set(result.arrays), {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())})
+        for name, array in result.arrays.items():
+            self.assertEqual(array.tobytes(), vtk_to_numpy(attributes.GetArray(name)).tobytes(), name)
+        for name, property_, width in (("Normals", result.normals, (3,)), ("Radius", result.radii, ())):
+            shape = None if property_ is None else property_.shape
+            self.assertEqual(shape, (len(result), *width) if attributes.HasArray(name) else None)
+        if kind is vtkScatteredIsopointFilter:
+            self.assertIsNone(result.triangles)
+        else:
+            corners = vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+            np.testing.assert_array_equal(result.triangles, corners)
 
     def test_arrays_and_options(self):
         for dtype in (np.float32, np.float64):
-            positions, values = samples(dtype=dtype)
+            positions, values = samples(7000, dtype)
             data = cloud_of(positions, values)
             self.same(contour(positions, values, 0.3), data)
+            self.assertGreater(len(contour(positions, values, 0.3)), 300)
             for options, properties in (
                     (dict(projection="quadratic_fit", drop_gaps=True, compute_gradients=True, compute_normals=False),
                      dict(Projection=2, DropGaps=True, ComputeGradients=1, ComputeNormals=0)),
@@ -52,7 +67,7 @@ class ContourTest(unittest.TestCase):
             for regularize in (True, False):
                 result = contour(positions, values, (0.2, 0.3), triangles=True, regularize=regularize)
                 self.same(result, data, (0.2, 0.3), vtkScatteredIsosurfaceFilter, Regularize=regularize)
-                self.assertGreater(len(result.triangles), 500)
+                self.assertGreater(len(result.triangles), 1000)
 
     def test_arrays_of_other_types(self):
         positions, values = samples()

@@ -168,9 +168,10 @@ class Arrays(unittest.TestCase):
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
                 ((3.0, values), ValueError, r"\(\).*\(n, 3\)"), ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
-                ((positions, positions), ValueError, r"values.*\(100, 3\)"), ((positions,), TypeError, "values"),
+                ((positions, positions), ValueError, r"values.*\(100, 3\)"), ((positions,), TypeError, "values.*missing"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
-                ((positions, ["a"] * 100), TypeError, "values"), ((positions, np.full(100, None)), TypeError, "object"),
+                ((positions, ["a"] * 100), TypeError, "values.*type"),
+                ((positions, np.full(100, None)), TypeError, "values.*object"),
                 ((positions, values, np.nan), ValueError, "not a number"),
                 *(((positions, values, wrong), TypeError, "isovalues|not numbers")
                   for wrong in ("0.3", None, [1j], ["0.3"]))):
@@ -284,6 +285,9 @@ class Results(unittest.TestCase):
         with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 99"):
             surface = contour(positions, values, 99.0, triangles=True)
         self.assertEqual((len(surface), surface.triangles.shape), (0, (0, 3)))
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 99"):
+            points = contour(positions, values, 99.0)
+        self.assertEqual((points.points.shape, points.triangles), ((0, 3), None))
         self.assertEqual(len(contour(positions, values, [])), 0)
 
     def test_docstrings(self):

@@ -9,7 +9,7 @@ import fingerprint
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import _vtk
-from vtk_data import assert_same, cloud_of, configured, updated
+from vtk_data import assert_same, cloud_of, configured, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
@@ -71,7 +71,7 @@ class PythonFilters(unittest.TestCase):
                     self.assertEqual(*(getattr(filter_, "Get" + name)() for filter_ in pair), (name, value))
 
     def test_outputs_are_the_same(self):
-        compared = 0
+        compared = with_points = with_splats = 0
         for number in range(60):
             for theirs, ours in PAIRS[:2]:
                 filter_, _ = fingerprint.configured(number, theirs)
@@ -87,29 +87,43 @@ class PythonFilters(unittest.TestCase):
                 other.Update()
                 with self.subTest(number=number, data=data.GetClassName()):
                     assert_same(self, other.GetOutputDataObject(0), filter_.GetOutputDataObject(0))
-                    self.same_splats(filter_.GetOutputDataObject(0))
+                    with_splats += self.same_splats(filter_.GetOutputDataObject(0))
                     for count in ("Samples", "ExtractedPoints", "SkippedSamples", "UnprojectedPoints",
                                   "DroppedInGaps"):
                         method = "GetNumberOf" + count
                         self.assertEqual(getattr(other, method)(), getattr(filter_, method)(), method)
                 compared += 1
+                with_points += filter_.GetOutputDataObject(0).GetNumberOfElements(0) > 0
         self.assertGreater(compared, 90)
+        self.assertGreater(with_points, 60)
+        self.assertGreater(with_splats, 10)
 
     def same_splats(self, points):
-        """The same triangles and the same means of floating-point arrays."""
-        arrays = points.GetPointData() if points.IsA("vtkPolyData") else None
+        """The same triangles, isopoints of vertices, and means of floating-point arrays. @returns whether there are any"""
+        arrays = points.GetPointData() if points.IsA("vtkPolyData") and points.GetNumberOfPoints() else None
         if not arrays or not arrays.HasArray("Radius") or not arrays.HasArray("Normals"):
-            return
-        for scale in (1.0, 0.4) if points.GetNumberOfPoints() else ():
-            theirs, ours = (updated(class_, points, RadiusScale=scale).GetOutputDataObject(0) for class_ in PAIRS[2])
-            for array in (lambda data: data.GetPoints().GetData(), lambda data: data.GetPolys().GetConnectivityArray()):
-                np.testing.assert_array_equal(*(vtk_to_numpy(array(data)) for data in (ours, theirs)))
-            names = [ours.GetPointData().GetArrayName(i) for i in range(ours.GetPointData().GetNumberOfArrays())]
+            return False
+        numbered = points.NewInstance()
+        numbered.ShallowCopy(points)
+        numbered.GetPointData().AddArray(named("number", np.arange(points.GetNumberOfPoints())))
+        for scale in (1.0, 0.4):
+            theirs, ours = (updated(class_, numbered, RadiusScale=scale).GetOutputDataObject(0) for class_ in PAIRS[2])
+            found, expected = ours.GetPointData(), theirs.GetPointData()
+            names = [found.GetArrayName(i) for i in range(found.GetNumberOfArrays())]
             self.assertLessEqual({"Normals", "vectors"}, set(names))
-            for name in names:
-                found, expected = (vtk_to_numpy(data.GetPointData().GetArray(name)) for data in (ours, theirs))
-                if found.dtype.kind == "f":  # means; integers are those of one isopoint
-                    np.testing.assert_array_equal(found, expected, name)
+            pairs = [("vertices", ours.GetPoints().GetData(), theirs.GetPoints().GetData()),
+                     ("triangles", ours.GetPolys().GetConnectivityArray(), theirs.GetPolys().GetConnectivityArray()),
+                     # Integers are those of one isopoint.
+                     ("vertex points", found.GetArray("number"), expected.GetArray("vtkOriginalPointIds")),
+                     *((name, found.GetArray(name), expected.GetArray(name)) for name in names)]
+            for name, *pair in pairs:
+                one, other = map(vtk_to_numpy, pair)
+                if name == "triangles":
+                    one, other = one.astype(np.int64), other.astype(np.int64)  # VTK stores cells in either
+                if one.dtype.kind == "f" or name in ("triangles", "vertex points"):
+                    self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape), name)
+                    self.assertEqual(one.tobytes(), other.tobytes(), name)
+        return True
 
     def test_the_tree_is_kept(self):
         data = cloud()
@@ -155,7 +169,7 @@ class PythonFilters(unittest.TestCase):
                 filter_.SetValue(0, isovalue)
                 filter_.Update()
         self.assertEqual(len(texts["WarningEvent"]), 1)
-        self.assertIn("process", texts["WarningEvent"][0])
+        self.assertIn("process contours its own samples", texts["WarningEvent"][0])
 
     def test_progress_and_aborts(self):
         """Progress rises; an abort leaves nothing, and the next update is complete."""
@@ -190,6 +204,16 @@ class PythonFilters(unittest.TestCase):
                 filter_.Update()
                 outputs.append(filter_.GetOutputDataObject(0))
             assert_same(self, outputs[1], outputs[0])
+        polygons = [class_() for class_ in PAIRS[2]]
+        for filter_ in polygons:
+            isopoints = configured(ISOPOINTS, cloud(), [0.3])
+            filter_.SetInputConnection(isopoints.GetOutputPort())
+            filter_.SetRadiusScale(0.8)
+            filter_.Update()
+        arrays = [[data.GetPoints().GetData(), data.GetPolys().GetConnectivityArray()] for data in (
+            filter_.GetOutputDataObject(0) for filter_ in polygons)]
+        for pair in zip(*arrays):
+            self.assertEqual(*(vtk_to_numpy(array).astype(float).tobytes() for array in pair))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from scatteredisopoints import vtkIsopointSplatPolygons, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
-from vtk_data import cloud_of, configured, leaves_of, named, positions_in
+from vtk_data import cloud_of, configured, leaves_of, named, names_of, positions_in
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
@@ -69,11 +69,11 @@ def content(data):
         for i in range(attributes.GetNumberOfArrays() if attributes else 0):
             array = attributes.GetAbstractArray(i)
             is_text = isinstance(array, vtkStringArray)
-            values = [array.GetValue(0)] if is_text else vtk_to_numpy(array).tobytes()
+            values = ([array.GetValue(k) for k in range(array.GetNumberOfValues())] if is_text
+                      else vtk_to_numpy(array).tobytes())
             result.append((association, array.GetName(), array.GetNumberOfTuples(), values))
     if isinstance(data, vtkCompositeDataSet):
-        names = data.GetMetaData(0).Get(vtkCompositeDataSet.NAME())
-        return [result, names, [content(leaf) for leaf in leaves_of(data, skips_empty=False)]]
+        return [result, names_of(data), [content(leaf) for leaf in leaves_of(data, skips_empty=False)]]
     return [result, positions_in(data).tolist(), data.GetNumberOfCells()]
 
 
@@ -84,6 +84,7 @@ class UnchangedInputs(unittest.TestCase):
                 data = make()
                 before = content(data)
                 self.assertIn("TimeValue", str(before))
+                self.assertEqual("left" in str(before), make is blocks)
                 contour = configured(filter_class, data)
                 for update, value in enumerate(values):
                     with self.subTest(filter_class.__name__, data=data.GetClassName(), update=update):

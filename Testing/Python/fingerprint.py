@@ -16,10 +16,10 @@ import hashlib
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from vtk_data import cloud_of, leaves_of, named
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid)
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 RANKS = vtkMultiProcessController.GetGlobalController()
@@ -55,21 +55,11 @@ POSITIONS = {
     "uniform": lambda n, r: r.random((n, 3))}
 
 
-def named(name, values):
-    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(name)
-    return array
-
-
 def add_arrays(attributes, p, values, types, random, dealt=slice(None)):
     attributes.SetScalars(named("values", values.astype(types[1])[dealt]))
     attributes.AddArray(named("vectors", np.sin(3 * p)[dealt]))
     attributes.AddArray(named("counts", (1000 * p[:, 0]).astype(np.int32)[dealt]))
-    names = vtkStringArray()
-    names.SetName("names")
-    for i in range(len(p))[dealt]:
-        names.InsertNextValue(str(i % 97))
-    attributes.AddArray(names)
+    attributes.AddArray(named("names", [str(i % 97) for i in range(len(p))[dealt]]))
     if random.random() < 0.3:
         attributes.AddArray(named("vtkGhostType", (random.random(len(p)) < 0.02).astype(np.uint8)[dealt]))
 
@@ -81,10 +71,7 @@ def cloud(kinds, types, random, offset=0.0):
         values[random.random(len(p)) < 0.01] = np.nan
     p = p * types[2] + types[3] + offset
     dealt = slice(RANK, None, SIZE)
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(p[dealt].astype(types[0])), deep=True))
-    data = vtkPolyData()
-    data.SetPoints(points)
+    data = cloud_of(p[dealt].astype(types[0]))
     add_arrays(data.GetPointData(), p, values, types, random, dealt)
     return data
 
@@ -168,22 +155,12 @@ def configured(number, filter_class):
     return isopoints, random
 
 
-def leaves(data):
-    if not isinstance(data, vtkCompositeDataSet):
-        return [data]
-    iterator, found = data.NewIterator(), []
-    while not iterator.IsDoneWithTraversal():
-        found.append(iterator.GetCurrentDataObject())
-        iterator.GoToNextItem()
-    return found
-
-
 def update(isopoints, digest):
     """Adds the filter's output to a hash; returns the number of points."""
     isopoints.Update()
     points = 0
     digest.update(b"%d %d" % (isopoints.GetNumberOfSkippedSamples(), isopoints.GetNumberOfUnprojectedPoints()))
-    for leaf in leaves(isopoints.GetOutputDataObject(0)):
+    for leaf in leaves_of(isopoints.GetOutputDataObject(0)):
         count = leaf.GetNumberOfPoints() if leaf else 0
         points += count
         digest.update(b"leaf %d" % count)

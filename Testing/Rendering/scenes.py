@@ -90,9 +90,8 @@ def isopoints(field, low, high, count, seed=1, creases=False):
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")
-    contour = vtkScatteredIsopointFilter()
-    return output_of(contour, InputData=samples, Value=(0, 0.0),
-                     Projection=contour.CREASE_FIT if creases else contour.CUBIC_FIT)
+    projection = dict(Projection=vtkScatteredIsopointFilter.CREASE_FIT) if creases else {}
+    return output_of(vtkScatteredIsopointFilter(), InputData=samples, Value=(0, 0.0), **projection)
 
 
 def ball_field(p):
