@@ -175,17 +175,3 @@ TEST(Gaps, DropNothingWhereCoarseCellsMeetFineOnes)
   EXPECT_GT(all, 1000u);
   EXPECT_EQ(edgesOf(cloud, isovalue, true).size(), all);
 }
-
-// Edges are dropped only if both their ends are dense, and nothing is behind a single far sample.
-TEST(Gaps, KeepTheEdgesOfASingleFarSample)
-{
-  clouds::Cloud cloud = clouds::uniform(2000, 30);
-  cloud.add(8.0, 0.5, 0.5, 100.0);
-  const auto countEdges = [&cloud](bool dropsGaps)
-  {
-    return clouds::countOf(edgesOf(cloud, 50.0, dropsGaps),
-      [&cloud](const IsopointEdge& edge) { return edge.second == cloud.size() - 1; });
-  };
-  EXPECT_GT(countEdges(false), 0u);
-  EXPECT_EQ(countEdges(true), countEdges(false));
-}
