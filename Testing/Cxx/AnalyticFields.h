@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -125,28 +125,23 @@ inline Surface gaussianMixture()
   const std::vector<Bell> bells{ { { 0.0, 0.1, 0.0 }, 0.35, 1.0 }, { { 0.4, 0.3, 0.1 }, 0.2, 0.8 },
     { { -0.4, 0.2, 0.3 }, 0.22, 0.9 }, { { 0.1, -0.5, -0.2 }, 0.25, 0.7 },
     { { -0.2, 0.0, -0.45 }, 0.18, 0.9 }, { { 0.35, -0.2, 0.4 }, 0.2, 0.8 } };
+  const auto valueOf = [](const Bell& bell, const Vector& d)
+  { return bell.weight * std::exp(-0.5 * dot(d, d) / (bell.width * bell.width)); };
   Surface surface{ "Gaussian mixture", 0.5 };
   surface.value = [=](const Vector& p)
   {
-    double total = 0.0;
-    for (const Bell& bell : bells)
-    {
-      const Vector d = difference(p, bell.center);
-      total += bell.weight * std::exp(-0.5 * dot(d, d) / (bell.width * bell.width));
-    }
-    return total;
+    return std::accumulate(bells.begin(), bells.end(), 0.0,
+      [&](double total, const Bell& bell)
+      { return total + valueOf(bell, difference(p, bell.center)); });
   };
   surface.gradient = [=](const Vector& p)
   {
-    Vector total{ 0.0, 0.0, 0.0 };
-    for (const Bell& bell : bells)
-    {
-      const Vector d = difference(p, bell.center);
-      const double squaredWidth = bell.width * bell.width;
-      total = sum(
-        total, scaled(d, -bell.weight * std::exp(-0.5 * dot(d, d) / squaredWidth) / squaredWidth));
-    }
-    return total;
+    return std::accumulate(bells.begin(), bells.end(), Vector{},
+      [&](const Vector& total, const Bell& bell)
+      {
+        const Vector d = difference(p, bell.center);
+        return isopoint::sum(total, -valueOf(bell, d) / (bell.width * bell.width), d);
+      });
   };
   findFeetByNewton(surface, 1.0);
   return surface;
@@ -219,14 +214,6 @@ inline Surface twoSheets(double separation)
     return footAt(p, scaled(outwards, middle + side * half), scaled(outwards, -side));
   };
   return surface;
-}
-
-/// All of them.
-/// @param spacing mean distance of the samples; the two sheets are twice that apart
-inline std::vector<Surface> allSurfaces(double spacing)
-{
-  return { sphere(), torus(), gyroid(), marschnerLobb(), gaussianMixture(), cube(),
-    twoSheets(2.0 * spacing) };
 }
 
 } // namespace analytic

@@ -44,6 +44,16 @@ struct Region
 {
   Vector lower;
   Vector upper;
+
+  /// Becomes the bounding box of both.
+  void add(const Region& other)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      this->lower[axis] = std::min(this->lower[axis], other.lower[axis]);
+      this->upper[axis] = std::max(this->upper[axis], other.upper[axis]);
+    }
+  }
 };
 
 /// The region of a leaf (section 3), with the position, the value and the id of its sample or, of
@@ -95,11 +105,7 @@ public:
     for (std::size_t id = 0; id < cloud.size(); ++id)
     {
       ids.push_back(id);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        box.lower[axis] = std::min(box.lower[axis], cloud.at(id)[axis]);
-        box.upper[axis] = std::max(box.upper[axis], cloud.at(id)[axis]);
-      }
+      box.add({ cloud.at(id), cloud.at(id) });
     }
     this->build(ids, box, {});
   }
@@ -200,14 +206,14 @@ private:
   const clouds::Cloud& Samples;
 };
 
-/// Section 4: whether two cells share a point.
-inline bool touch(const Cell& c, const Cell& other)
+/// Section 4: whether the regions of two cells share a point.
+template <class TRegion>
+bool touch(const TRegion& c, const TRegion& other)
 {
   bool touch = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    touch = touch && c.region.lower[axis] <= other.region.upper[axis] &&
-            other.region.lower[axis] <= c.region.upper[axis];
+    touch = touch && c.lower[axis] <= other.upper[axis] && other.lower[axis] <= c.upper[axis];
   }
   return touch;
 }
@@ -220,7 +226,7 @@ inline std::vector<std::vector<std::size_t>> neighborhoods(const std::vector<Cel
   {
     for (std::size_t b = a + 1; b < cells.size(); ++b)
     {
-      if (touch(cells[a], cells[b]))
+      if (touch(cells[a].region, cells[b].region))
       {
         neighbors[a].push_back(b);
         neighbors[b].push_back(a);

@@ -29,7 +29,7 @@ namespace clouds
 
 using isopoint::Vector;
 
-/// How much a long test looks at: less under the thread sanitizer, which is twenty times slower.
+/// The size of a long test: smaller under the thread sanitizer, which is twenty times slower.
 constexpr std::size_t lessIfSlow(std::size_t count)
 {
 #ifdef __SANITIZE_THREAD__
@@ -37,6 +37,31 @@ constexpr std::size_t lessIfSlow(std::size_t count)
 #else
   return count;
 #endif
+}
+
+/// The sum of a number of each item.
+template <class Items, class Number>
+double sumOf(const Items& items, const Number& number)
+{
+  return std::accumulate(std::begin(items), std::end(items), 0.0,
+    [&](double sum, const auto& item) { return sum + number(item); });
+}
+
+/// The largest of a number of each item.
+template <class Items, class Number>
+double largestOf(const Items& items, const Number& number)
+{
+  return std::accumulate(std::begin(items), std::end(items),
+    -std::numeric_limits<double>::infinity(),
+    [&](double largest, const auto& item)
+    { return std::max(largest, static_cast<double>(number(item))); });
+}
+
+/// How many items a condition holds for.
+template <class Items, class Condition>
+std::size_t countOf(const Items& items, const Condition& condition)
+{
+  return static_cast<std::size_t>(std::count_if(std::begin(items), std::end(items), condition));
 }
 
 /// Samples for the tests; ids are indices.
@@ -96,7 +121,7 @@ inline Cloud scaled(const Cloud& cloud, double x, double y, double z)
 
 /// The samples for whose positions a condition holds.
 template <class Condition>
-Cloud filtered(const Cloud& cloud, const Condition& condition)
+Cloud filtered(const Cloud& cloud, Condition condition)
 {
   Cloud rest;
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -134,9 +159,15 @@ inline std::vector<std::size_t> randomOrder(std::size_t count, std::uint64_t see
 }
 
 /// A smooth field with several sheets in the unit cube.
-inline double waves(double x, double y, double z)
+inline double waves(const Vector& p)
 {
-  return std::sin(7.0 * x) + std::cos(5.0 * y + x) + std::sin(6.0 * z - 2.0 * y);
+  return std::sin(7.0 * p[0]) + std::cos(5.0 * p[1] + p[0]) + std::sin(6.0 * p[2] - 2.0 * p[1]);
+}
+
+/// The distance to the middle of the unit cube.
+inline double fromMiddle(const Vector& p)
+{
+  return isopoint::lengthOf(isopoint::difference(p, { 0.5, 0.5, 0.5 }));
 }
 
 inline Cloud uniform(std::size_t count, std::uint64_t seed)
@@ -145,8 +176,8 @@ inline Cloud uniform(std::size_t count, std::uint64_t seed)
   Cloud cloud;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto [x, y, z] = random.place();
-    cloud.add(x, y, z, waves(x, y, z));
+    const Vector p = random.place();
+    cloud.add(p, waves(p));
   }
   return cloud;
 }
@@ -160,7 +191,7 @@ inline Cloud clustered(std::size_t count, std::uint64_t seed)
   {
     const double scale = std::pow(10.0, -4.0 * random());
     const auto [x, y, z] = random.inCube(scale);
-    cloud.add(x, y, z, waves(x / scale, y, z) + std::log(scale));
+    cloud.add(x, y, z, waves({ x / scale, y, z }) + std::log(scale));
   }
   return cloud;
 }
@@ -171,10 +202,8 @@ inline Cloud lattice(int nx, int ny, int nz)
   Cloud cloud;
   for (int i = 0; i < nx * ny * nz; ++i)
   {
-    const double x = i % nx;
-    const double y = i / nx % ny;
-    const double z = i / nx / ny;
-    cloud.add(x, y, z, std::round(5.0 * waves(0.1 * x, 0.1 * y, 0.1 * z)));
+    const Vector p{ 1.0 * (i % nx), 1.0 * (i / nx % ny), 1.0 * (i / nx / ny) };
+    cloud.add(p, std::round(5.0 * waves(isopoint::scaled(0.1, p))));
   }
   return cloud;
 }
@@ -197,6 +226,17 @@ inline Cloud coarse(std::size_t count, int steps, std::uint64_t seed)
 inline Cloud flattened(const Cloud& cloud, int dimensions)
 {
   return moved(cloud, [dimensions](double* p) { std::fill(p + dimensions, p + 3, 0.25); });
+}
+
+/// Rounds coordinates and values to float.
+inline Cloud roundedToFloat(Cloud cloud)
+{
+  for (std::vector<double>* const numbers : { &cloud.positions, &cloud.values })
+  {
+    std::copy_n(std::vector<float>(numbers->begin(), numbers->end()).begin(), numbers->size(),
+      numbers->begin());
+  }
+  return cloud;
 }
 
 /// Moves a share of the samples to one position.
@@ -267,7 +307,7 @@ inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uin
     p[line % 3] = place();
     p[(line + 1) % 3] = offsets[2 * line];
     p[(line + 2) % 3] = offsets[2 * line + 1];
-    cloud.add(p, line % 2 ? random() - 0.25 : waves(p[0], p[1], p[2]));
+    cloud.add(p, line % 2 ? random() - 0.25 : waves(p));
   }
   return cloud;
 }

@@ -14,16 +14,8 @@
 namespace fitdefinition
 {
 
+using namespace isopoint;
 using Eigen::Index;
-using isopoint::difference;
-using isopoint::FitEdge;
-using isopoint::FitOrder;
-using isopoint::FitSample;
-using isopoint::Hessian;
-using isopoint::lengthOf;
-using isopoint::scaled;
-using isopoint::sum;
-using isopoint::Vector;
 using Samples = std::vector<FitSample>;
 using Weights = std::vector<double>;
 using Powers = std::array<int, 3>; // of x, y, z
@@ -70,17 +62,20 @@ struct Polynomial
     return total;
   }
 
-  Vector gradientAt(const Vector& place) const
-  {
-    return { this->at(place, { 1, 0, 0 }), this->at(place, { 0, 1, 0 }),
-      this->at(place, { 0, 0, 1 }) };
-  }
+  Vector gradientAt(const Vector& place) const { return this->derivativesAt<1, 3>(place); }
+  Hessian hessianAt(const Vector& place) const { return this->derivativesAt<4, 6>(place); }
 
-  Hessian hessianAt(const Vector& place) const
+private:
+  /// The derivatives of the orders `allPowers` from a first one on.
+  template <std::size_t first, std::size_t count>
+  std::array<double, count> derivativesAt(const Vector& place) const
   {
-    return { this->at(place, { 2, 0, 0 }), this->at(place, { 0, 2, 0 }),
-      this->at(place, { 0, 0, 2 }), this->at(place, { 1, 1, 0 }), this->at(place, { 1, 0, 1 }),
-      this->at(place, { 0, 1, 1 }) };
+    std::array<double, count> all;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      all[i] = this->at(place, allPowers[first + i]);
+    }
+    return all;
   }
 };
 
@@ -131,49 +126,6 @@ inline std::optional<Polynomial> leastSquares(
   return solved(samples, weights, degree);
 }
 
-/// sigma, and the roots of the sums of l^2 and of |l'|^2 (10.3), over the first 16 samples.
-struct Errors
-{
-  double sigma;
-  double value;
-  double slope;
-};
-
-/// By fitting again: without each of the first samples, and to a value of 1 there alone. Nothing if
-/// one of them alone determines a coefficient.
-inline std::optional<Errors> errorsOf(const Samples& samples, const Weights& weights, int degree)
-{
-  double squares = 0.0;
-  double weightSquares = 0.0;
-  double value = 0.0;
-  double slope = 0.0;
-  const Eigen::MatrixXd whole = designOf(samples, weights, degree);
-  const Eigen::MatrixXd orthogonal =
-    whole.householderQr().householderQ() * Eigen::MatrixXd::Identity(whole.rows(), whole.cols());
-  for (std::size_t i = 0; i < std::min<std::size_t>(16, samples.size()); ++i)
-  {
-    if (1.0 - orthogonal.row(static_cast<Index>(i)).squaredNorm() <= 1e-7)
-    {
-      return std::nullopt;
-    }
-    Weights others = weights;
-    others[i] = 0.0;
-    const double residual =
-      samples[i].value - solved(samples, others, degree).at(samples[i].position);
-    squares += weights[i] * residual * weights[i] * residual;
-    weightSquares += weights[i] * weights[i];
-    Samples unit = samples;
-    for (FitSample& sample : unit)
-    {
-      sample.value = &sample == &unit[i] ? 1.0 : 0.0;
-    }
-    const Eigen::VectorXd effect = solved(unit, weights, degree).coefficients;
-    value += effect[0] * effect[0];
-    slope += effect.segment(1, 3).squaredNorm();
-  }
-  return Errors{ std::sqrt(squares / weightSquares), std::sqrt(value), std::sqrt(slope) };
-}
-
 /// The samples of both rings in the frame of an edge (10.2): those of the first ring by distance,
 /// so that the nearest come first, those that the second one adds in their order; but if the first
 /// ring has fewer than 16, the nearest of the second one come next.
@@ -200,9 +152,6 @@ struct Frame
       this->h += lengthOf(sample.position) / static_cast<double>(this->samples.size());
     }
   }
-
-  /// sigma, which is no less than the error of values.
-  double residualOf(const Errors& errors) const { return std::max(errors.sigma, this->valueError); }
 
   Weights steep() const { return this->weights(0.1, -3); }
   Weights mild() const { return this->weights(1.0, -1); }
@@ -244,7 +193,7 @@ private:
 
 inline bool contradicts(const Vector& gradient, const Vector& r)
 {
-  return isopoint::dot(gradient, r) <= -0.2 * lengthOf(gradient) * lengthOf(r);
+  return dot(gradient, r) <= -0.2 * lengthOf(gradient) * lengthOf(r);
 }
 
 /// The zero of a polynomial that holds (10.3).
@@ -270,33 +219,56 @@ inline std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& 
   return std::nullopt;
 }
 
-/// A polynomial that holds, with its errors (10.3), which are over the slope at p.
+/// A polynomial with its errors (10.3), which are over its slope at p.
 struct Candidate
 {
   Polynomial polynomial;
   int degree;
-  Vector zero;
-  Vector gradient;
+  std::optional<Vector> zero; // if it holds
+  double sigma;
   double s;
   double a;
 };
 
-/// The cubic or, if it does not hold, the quadratic (10.4, step 3).
-inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& weights, int highest)
+/// Errors by fitting again: without each of the first 16 samples, and to a value of 1 there alone.
+/// Nothing if the samples do not determine it, or one of these alone determines a coefficient.
+inline std::optional<Candidate> candidateOf(const Frame& frame, const Weights& weights, int degree)
 {
-  for (int degree = highest; degree > 1; --degree)
+  const Samples& samples = frame.samples;
+  const auto polynomial = leastSquares(samples, weights, degree);
+  if (!polynomial)
   {
-    const auto polynomial = leastSquares(frame.samples, weights, degree);
-    const auto zero = polynomial ? zeroOf(*polynomial, frame.increasing) : std::nullopt;
-    const auto errors = zero ? errorsOf(frame.samples, weights, degree) : std::nullopt;
-    if (errors)
-    {
-      const double relative = frame.residualOf(*errors) / lengthOf(polynomial->gradientAt({}));
-      return Candidate{ *polynomial, degree, *zero, polynomial->gradientAt(*zero),
-        relative * errors->value, relative * errors->slope };
-    }
+    return std::nullopt;
   }
-  return std::nullopt;
+  double squares = 0.0;
+  double weightSquares = 0.0;
+  double value = 0.0;
+  double slope = 0.0;
+  const Eigen::MatrixXd whole = designOf(samples, weights, degree);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(whole);
+  const Eigen::MatrixXd orthogonal =
+    decomposition.householderQ() * Eigen::MatrixXd::Identity(whole.rows(), whole.cols());
+  for (std::size_t i = 0; i < std::min<std::size_t>(16, samples.size()); ++i)
+  {
+    if (1.0 - orthogonal.row(static_cast<Index>(i)).squaredNorm() <= 1e-7)
+    {
+      return std::nullopt;
+    }
+    Weights others = weights;
+    others[i] = 0.0;
+    const double residual =
+      samples[i].value - solved(samples, others, degree).at(samples[i].position);
+    squares += weights[i] * residual * weights[i] * residual;
+    weightSquares += weights[i] * weights[i];
+    const Eigen::VectorXd effect = decomposition.solve(
+      std::sqrt(weights[i]) * Eigen::VectorXd::Unit(whole.rows(), static_cast<Index>(i)));
+    value += effect[0] * effect[0];
+    slope += effect.segment(1, 3).squaredNorm();
+  }
+  const double sigma = std::max(std::sqrt(squares / weightSquares), frame.valueError) /
+                       lengthOf(polynomial->gradientAt({}));
+  return Candidate{ *polynomial, degree, zeroOf(*polynomial, frame.increasing), sigma,
+    sigma * std::sqrt(value), sigma * std::sqrt(slope) };
 }
 
 /// Robust weights (10.4, step 2).
@@ -357,6 +329,23 @@ struct Result
     }
   }
 
+  /// Step 4, after step 3.
+  /// @param a the error of the gradient's direction
+  void simplify(const Frame& frame, double a)
+  {
+    for (const int degree : { 1, 2 })
+    {
+      const auto mild = mildPolynomial(frame, degree);
+      if (mild && lengthOf(difference(directionOf(mild->gradientAt({})),
+                    directionOf(this->gradient))) < 2.0 * a) // the chord
+      {
+        this->setDerivatives(frame, *mild, {});
+        this->isSmooth = degree > 1;
+        return;
+      }
+    }
+  }
+
   /// Moves by a share of the way to a zero, whose error is s.
   void move(const Frame& frame, const Vector& zero, double s)
   {
@@ -380,70 +369,64 @@ inline Result stay(const Frame& frame, const FitEdge& edge)
   return result;
 }
 
-/// Step 1: the result, if it is a clear case.
-inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
+/// The result of a polynomial that holds.
+inline Result take(const Frame& frame, const FitEdge& edge, const Candidate& candidate)
 {
-  const auto quadratic = leastSquares(frame.samples, frame.steep(), 2);
-  const auto errors = quadratic ? errorsOf(frame.samples, frame.steep(), 2) : std::nullopt;
-  if (!errors)
-  {
-    return std::nullopt;
-  }
-  const double relative = frame.residualOf(*errors) / lengthOf(quadratic->gradientAt({}));
-  if (relative > 0.0002 * frame.h)
-  {
-    return relative * errors->slope > 1.0 ? std::optional<Result>(stay(frame, edge)) : std::nullopt;
-  }
-  const auto zero = zeroOf(*quadratic, frame.increasing);
-  if (!zero)
-  {
-    return std::nullopt;
-  }
   Result result;
   result.position = edge.position;
-  result.move(frame, *zero, relative * errors->value);
-  result.setDerivatives(frame, *quadratic, *zero);
+  result.move(frame, *candidate.zero, candidate.s);
+  result.setDerivatives(frame, candidate.polynomial, *candidate.zero);
   result.isSmooth = true;
-  result.order = FitOrder::Quadratic;
+  result.order = static_cast<FitOrder>(candidate.degree);
   return result;
 }
 
-/// The rule (10.4) for the orders 2 and 3.
+/// Step 1: the result, if it is a clear case.
+inline std::optional<Result> clearCase(const Frame& frame, const FitEdge& edge)
+{
+  const auto quadratic = candidateOf(frame, frame.steep(), 2);
+  if (quadratic && quadratic->sigma > 0.0002 * frame.h)
+  {
+    return quadratic->a > 1.0 ? std::optional(stay(frame, edge)) : std::nullopt;
+  }
+  return quadratic && quadratic->zero ? std::optional(take(frame, edge, *quadratic)) : std::nullopt;
+}
+
+/// The rule (10.4) for the orders 1 to 3.
 /// @param more the samples that the second ring adds to the first
 inline Result fit(
   const FitEdge& edge, double isovalue, const Samples& first, const Samples& more, FitOrder highest)
 {
+  const Frame frame(edge, isovalue, first, more);
+  if (highest == FitOrder::Linear)
+  {
+    Result result = stay(frame, edge);
+    const auto affine = leastSquares(frame.samples, frame.mild(), 1);
+    if (const auto zero = affine ? zeroOf(*affine, frame.increasing) : std::nullopt)
+    {
+      result.move(frame, *zero, 0.0);
+      result.order = FitOrder::Linear;
+    }
+    return result;
+  }
   if (const auto clear = clearCase(Frame(edge, isovalue, first), edge))
   {
     return *clear;
   }
-  const Frame frame(edge, isovalue, first, more);
-  const int most = highest == FitOrder::Quadratic ? 2 : 3;
-  const auto robust = candidateOf(frame, robustWeights(frame), most);
-  const auto taken = robust ? robust : candidateOf(frame, frame.steep(), most);
-  if (!taken)
+  for (const Weights& weights : { robustWeights(frame), frame.steep() })
   {
-    return stay(frame, edge);
-  }
-  Result result;
-  result.position = edge.position;
-  result.move(frame, taken->zero, taken->s);
-  result.order = static_cast<FitOrder>(taken->degree);
-  for (const int degree : { 1, 2 })
-  {
-    const auto mild = mildPolynomial(frame, degree);
-    const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
-    if (mild && lengthOf(difference(isopoint::directionOf(gradient),
-                  isopoint::directionOf(taken->gradient))) < 2.0 * taken->a) // the chord
+    for (int degree = highest == FitOrder::Quadratic ? 2 : 3; degree > 1; --degree)
     {
-      result.setDerivatives(frame, *mild, {});
-      result.isSmooth = degree > 1;
-      return result;
+      const auto candidate = candidateOf(frame, weights, degree);
+      if (candidate && candidate->zero)
+      {
+        Result result = take(frame, edge, *candidate);
+        result.simplify(frame, candidate->a);
+        return result;
+      }
     }
   }
-  result.setDerivatives(frame, taken->polynomial, taken->zero);
-  result.isSmooth = true;
-  return result;
+  return stay(frame, edge);
 }
 
 } // namespace fitdefinition

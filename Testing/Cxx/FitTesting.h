@@ -3,7 +3,7 @@
 
 #include "Clouds.h"
 
-#include "Core/Fit/LocalFit.h"
+#include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/LocalFitter.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +12,7 @@
 namespace fittesting
 {
 
-using isopoint::cross;
-using isopoint::difference;
-using isopoint::dot;
-using isopoint::FitEdge;
-using isopoint::FitOrder;
-using isopoint::FitSample;
-using isopoint::lengthOf;
-using isopoint::LocalFit;
-using isopoint::scaled;
-using isopoint::Vector;
+using namespace isopoint;
 using Field = std::function<double(const Vector&)>;
 
 constexpr FitOrder allOrders[] = { FitOrder::Linear, FitOrder::Quadratic, FitOrder::Cubic,
@@ -41,13 +32,35 @@ inline std::vector<FitSample> samplesOf(
   return samples;
 }
 
+/// Samples and weights, as the parts of fits take them.
+struct FrameCase
+{
+  FrameSamples samples;
+  FrameWeights weights;
+
+  explicit FrameCase(const std::vector<FitSample>& all = {})
+  {
+    for (const FitSample& sample : all)
+    {
+      this->add(sample.position, sample.value);
+    }
+  }
+
+  void add(const Vector& place, double value, double weight = 1.0)
+  {
+    this->samples.add(place, value);
+    this->weights[this->samples.count() - 1] = weight;
+    endWeights(this->samples, this->weights);
+  }
+};
+
 /// Fits to the samples around an edge, as is done for each isopoint.
 /// @param nearCount how many of them, the first ones, are next to its ends; 0: all
 inline LocalFit fitAll(const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest,
   double isovalue = 0.0, std::size_t nearCount = 0)
 {
   const std::size_t count = nearCount > 0 ? nearCount : samples.size();
-  isopoint::LocalFitter fitter(isovalue, highest);
+  LocalFitter fitter(isovalue, highest);
   const auto end = samples.begin() + static_cast<std::ptrdiff_t>(count);
   const std::optional<LocalFit> near = fitter.fitNear(edge, { samples.begin(), end });
   return near ? *near : fitter.fit(edge, samples, count);
@@ -59,14 +72,14 @@ inline FitEdge upwards()
   return { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, 2.0, 1.0 };
 }
 
-inline isopoint::Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
+inline Isosurface extractFitted(const clouds::Cloud& cloud, double isovalue, bool move,
   std::size_t threads = 2, std::optional<FitOrder> highest = FitOrder::Cubic,
   double valueError = 0.0)
 {
-  isopoint::IsosurfaceExtractor extractor = clouds::loaded(cloud, threads);
+  IsosurfaceExtractor extractor = clouds::loaded(cloud, threads);
   extractor.setValueError(valueError);
-  isopoint::ExtractionRequest request = clouds::requestOf(isovalue);
-  request.isosurface.fit = isopoint::FitRequest{ highest, move };
+  ExtractionRequest request = clouds::requestOf(isovalue);
+  request.isosurface.fit = FitRequest{ highest, move };
   return extractor.extract(clouds::executionOn(threads), request).surface;
 }
 

@@ -7,17 +7,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <cstring>
-#include <vector>
-
 /// Shared by the tests that compare isopoints with brute force.
 namespace isopointtesting
 {
 
 /// Expects the same edges in the same order and, bit for bit, the same parameters.
-inline void expectSameIsopoints(const std::vector<bruteforce::Isopoint>& expected,
-  const std::vector<isopoint::IsopointEdge>& found)
+/// @tparam TIsopoint a point by brute force, or an edge
+template <class TIsopoint>
+void expectSameIsopoints(
+  const std::vector<TIsopoint>& expected, const std::vector<isopoint::IsopointEdge>& found)
 {
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < expected.size(); ++i)

@@ -182,35 +182,29 @@ private:
 
   bool touches(std::size_t cell, const Node& node) const
   {
-    Cell whole = this->All[node.begin];
+    Region whole = this->All[node.begin].region;
     for (std::size_t c = node.begin; c < node.end; ++c)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        Region& region = whole.region;
-        region.lower[axis] = std::min(region.lower[axis], this->All[c].region.lower[axis]);
-        region.upper[axis] = std::max(region.upper[axis], this->All[c].region.upper[axis]);
-      }
+      whole.add(this->All[c].region);
     }
-    return bruteforce::touch(this->All[cell], whole);
+    return bruteforce::touch(this->All[cell].region, whole);
   }
 
   /// Whether the bounding box of a node's samples has a small diagonal from a cell's sample.
   bool isSmall(std::size_t cell, const Node& node) const
   {
-    bruteforce::Vector diagonal{};
+    Region box{ this->All[node.begin].position, this->All[node.begin].position };
+    for (std::size_t c = node.begin; c < node.end; ++c)
+    {
+      box.add({ this->All[c].position, this->All[c].position });
+    }
     bruteforce::Vector nearest{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto [least, greatest] =
-        std::minmax_element(this->All.begin() + static_cast<std::ptrdiff_t>(node.begin),
-          this->All.begin() + static_cast<std::ptrdiff_t>(node.end),
-          [axis](const Cell& a, const Cell& b) { return a.position[axis] < b.position[axis]; });
       const double own = this->All[cell].position[axis];
-      diagonal[axis] = greatest->position[axis] - least->position[axis];
-      nearest[axis] =
-        std::max({ 0.0, least->position[axis] - own, own - greatest->position[axis] });
+      nearest[axis] = std::max({ 0.0, box.lower[axis] - own, own - box.upper[axis] });
     }
+    const bruteforce::Vector diagonal = bruteforce::difference(box.upper, box.lower);
     return bruteforce::dot(diagonal, diagonal) < 0.2 * 0.2 * bruteforce::dot(nearest, nearest);
   }
 

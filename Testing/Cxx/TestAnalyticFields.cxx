@@ -13,7 +13,9 @@ using analytic::length;
 using analytic::sum;
 using analytic::Vector;
 
-const std::vector<analytic::Surface> surfaces = analytic::allSurfaces(0.04);
+const std::vector<analytic::Surface> surfaces{ analytic::sphere(), analytic::torus(),
+  analytic::gyroid(), analytic::marschnerLobb(), analytic::gaussianMixture(), analytic::cube(),
+  analytic::twoSheets(0.08) };
 
 } // namespace
 

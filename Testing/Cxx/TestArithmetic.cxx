@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = 3.14159265358979323846;
 
-/// All that can be done with numbers side by side, on two groups of eight.
+/// The results of all operations on two groups of eight numbers.
 template <class Pair>
 std::vector<double> calculate(const std::array<double, 8>& a, const std::array<double, 8>& b)
 {

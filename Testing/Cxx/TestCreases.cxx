@@ -59,13 +59,12 @@ struct Body
 void expectFewErrors(const Body& body, double misplaced, double turned)
 {
   const Field field = [&](const Vector& p) { return body.value(p); };
-  const isopoint::Isosurface surface =
+  const Isosurface surface =
     extractFitted(cloudOf(field, 100000, 46.4), 0.0, true, 2, FitOrder::Crease);
   EXPECT_GT(surface.fits.size(), 500u);
   const auto perThousand = [&](const auto& condition)
   {
-    return 1000.0 *
-           static_cast<double>(std::count_if(surface.fits.begin(), surface.fits.end(), condition)) /
+    return 1000.0 * static_cast<double>(clouds::countOf(surface.fits, condition)) /
            static_cast<double>(surface.fits.size());
   };
   EXPECT_LT(perThousand([&](const LocalFit& fit) { return std::abs(field(fit.position)) > 0.1; }),
@@ -104,27 +103,9 @@ void expectFewCreases(
 {
   const std::vector<LocalFit> fits = extractFitted(cloud, isovalue, true, 2, FitOrder::Crease).fits;
   ASSERT_GT(fits.size(), least);
-  EXPECT_LT(static_cast<std::size_t>(std::count_if(fits.begin(), fits.end(),
-              [](const LocalFit& fit) { return fit.order == FitOrder::Crease; })),
-    fits.size() / share);
+  const auto isAtCrease = [](const LocalFit& fit) { return fit.order == FitOrder::Crease; };
+  EXPECT_LT(clouds::countOf(fits, isAtCrease), fits.size() / share);
 }
-
-/// Samples in the frame of a fit, of weight 1.
-struct FrameCase
-{
-  isopoint::FrameSamples samples;
-  isopoint::FrameWeights weights;
-
-  FrameCase(const Field& field, std::size_t count, std::uint64_t seed)
-  {
-    for (const FitSample& sample : samplesOf(field, count, 0.0, seed))
-    {
-      this->samples.add(sample.position, sample.value);
-      this->weights[this->samples.count() - 1] = 1.0;
-    }
-    endWeights(this->samples, this->weights);
-  }
-};
 
 /// The largest of the distances from the first planes through places close to the origin.
 double cornerValue(std::size_t planes, const Vector& p)
@@ -148,9 +129,9 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
       int found = 0;
       for (std::uint64_t seed = 1; seed <= 10; ++seed)
       {
-        const FrameCase fitted(
-          [&](const Vector& p) { return sense * cornerValue(planes, p); }, 120, seed);
-        const auto crease = isopoint::fitCrease(fitted.samples, fitted.weights);
+        const auto field = [&](const Vector& p) { return sense * cornerValue(planes, p); };
+        const FrameCase fitted(samplesOf(field, 120, 0.0, seed));
+        const auto crease = fitCrease(fitted.samples, fitted.weights);
         ASSERT_TRUE(crease);
         if (crease->residual > 1e-9) // another local optimum
         {
@@ -160,17 +141,15 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
         EXPECT_EQ(crease->sense, sense);
         EXPECT_TRUE(crease->isSharp());
         EXPECT_NEAR(crease->leastSlope(), 1.0, 1e-9);
-        for (const FitSample& sample : samplesOf([](const Vector&) { return 0.0; }, 50))
+        for (const auto& [place, value] : samplesOf(field, 50))
         {
-          const isopoint::Polynomial& piece = crease->pieces[crease->pieceAt(sample.position)];
-          EXPECT_NEAR(
-            piece.valueAt(sample.position), sense * cornerValue(planes, sample.position), 1e-8);
+          EXPECT_NEAR(crease->pieces[crease->pieceAt(place)].valueAt(place), value, 1e-8);
         }
         ASSERT_EQ(crease->pieces.size(), planes);
         for (std::size_t i = 0; i < planes; ++i)
         {
           EXPECT_TRUE(std::any_of(crease->pieces.begin(), crease->pieces.end(),
-            [&](const isopoint::Polynomial& piece) {
+            [&](const Polynomial& piece) {
               return lengthOf(difference(piece.gradientAt({}), scaled(sense, faces[i]))) < 1e-8;
             }));
         }
@@ -184,24 +163,18 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
 TEST(CreaseFit, ResidualsAreCorrectedForTheCoefficients)
 {
   clouds::Random random(4);
-  const FrameCase fitted(
-    [&](const Vector& p) { return cornerValue(2, p) + 0.1 * (random() - 0.5); }, 120, 1);
-  const auto crease = isopoint::fitCrease(fitted.samples, fitted.weights);
+  const auto field = [&](const Vector& p) { return cornerValue(2, p) + 0.1 * (random() - 0.5); };
+  const FrameCase fitted(samplesOf(field, 120, 0.0, 1));
+  const auto crease = fitCrease(fitted.samples, fitted.weights);
   ASSERT_TRUE(crease);
   double squares = 0.0;
-  double coefficients = 0.0;
-  for (const isopoint::Polynomial& piece : crease->pieces)
-  {
-    coefficients += piece.degree == 1 ? 4.0 : 10.0;
-  }
+  const double coefficients = clouds::sumOf(
+    crease->pieces, [](const Polynomial& piece) { return piece.degree == 1 ? 4.0 : 10.0; });
   for (std::size_t i = 0; i < 120; ++i)
   {
     const Vector p{ fitted.samples.x[i], fitted.samples.y[i], fitted.samples.z[i] };
-    double value = -1e9;
-    for (const isopoint::Polynomial& piece : crease->pieces)
-    {
-      value = std::max(value, crease->sense * piece.valueAt(p));
-    }
+    const double value = clouds::largestOf(
+      crease->pieces, [&](const Polynomial& piece) { return crease->sense * piece.valueAt(p); });
     const double residual = fitted.samples.value[i] - crease->sense * value;
     squares += residual * residual;
   }
@@ -212,7 +185,7 @@ TEST(CreaseFit, SidesMeetAtTwentyFiveDegreesOrMore)
 {
   for (const double degrees : { 24.9, 25.1, 150.0 })
   {
-    isopoint::CreaseFit fit;
+    CreaseFit fit;
     fit.pieces.resize(2);
     fit.pieces[0].coefficients[3] = 2.0;
     fit.pieces[1].coefficients[1] = std::sin(degrees * degree);
@@ -223,7 +196,7 @@ TEST(CreaseFit, SidesMeetAtTwentyFiveDegreesOrMore)
 
 TEST(CreaseFit, CreasesAtOneDistanceAreInTheOrderOfThePieces)
 {
-  isopoint::CreaseFit fit;
+  CreaseFit fit;
   fit.pieces.resize(4);
   fit.pieces[0].coefficients[1] = 1.0;
   for (const auto& [piece, axis, side] :
@@ -232,7 +205,7 @@ TEST(CreaseFit, CreasesAtOneDistanceAreInTheOrderOfThePieces)
     fit.pieces[piece].coefficients[0] = -0.25;
     fit.pieces[piece].coefficients[axis] = side;
   }
-  const auto found = isopoint::zeroNear(fit, 2.0);
+  const auto found = zeroNear(fit, 2.0);
   ASSERT_TRUE(found);
   ASSERT_EQ(found->creases.size(), 3u);
   EXPECT_EQ(found->creases[0].inward, (Vector{ 0.0, 0.0, -1.0 }));
@@ -244,7 +217,7 @@ TEST(CreaseFit, CreasesAtOneDistanceAreInTheOrderOfThePieces)
 // or the crease itself.
 TEST(CreaseFit, ZerosBelongToTheWholeSurface)
 {
-  isopoint::CreaseFit fit; // a ridge along y: of z and x + z / 2, moved
+  CreaseFit fit; // a ridge along y: of z and x + z / 2, moved
   fit.pieces.resize(2);
   const auto setPiece = [&](std::size_t piece, double offset, double x, double z)
   {
@@ -260,7 +233,7 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
     fit.sense = i % 2 == 0 ? 1.0 : -1.0;
     setPiece(0, random() - 0.5, 2.0 * random() - 1.0, 1.0);
     setPiece(1, random() - 0.5, 1.0, 2.0 * random() - 1.0);
-    const auto found = isopoint::zeroNear(fit, 2.0);
+    const auto found = zeroNear(fit, 2.0);
     if (!found)
     {
       continue;
@@ -272,7 +245,7 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
     onOne += isOnBoth ? 0 : 1;
     onBoth += isOnBoth ? 1 : 0;
     // The gradient is that of a piece that is zero there.
-    const isopoint::Polynomial& own =
+    const Polynomial& own =
       fit.pieces[std::abs(one) <= 1e-6 && found->gradient == fit.pieces[0].gradientAt(found->zero)
                    ? 0
                    : 1];
@@ -280,8 +253,8 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
     EXPECT_NEAR(own.valueAt(found->zero), 0.0, 1e-5);
     // The plane of the other piece, that the surface turns to.
     ASSERT_EQ(found->creases.size(), 1u);
-    const isopoint::Polynomial& beyond = &own == &fit.pieces[0] ? fit.pieces[1] : fit.pieces[0];
-    const Vector normal = isopoint::directionOf(beyond.gradientAt({}));
+    const Polynomial& beyond = &own == &fit.pieces[0] ? fit.pieces[1] : fit.pieces[0];
+    const Vector normal = directionOf(beyond.gradientAt({}));
     EXPECT_EQ(found->creases[0].turn, fit.sense);
     EXPECT_LT(lengthOf(difference(found->creases[0].inward, scaled(-fit.sense, normal))), 1e-12);
     const double distance =
@@ -303,7 +276,8 @@ TEST(Creases, TheNearestSideIsFound)
   EXPECT_NEAR(std::max(std::abs(found.gradient[0]), std::abs(found.gradient[2])), 1.0, 1e-9);
 }
 
-// Among many samples those of one more piece do not determine it, next to the edge they do.
+// Among many samples, those of another piece are too few to determine it. Next to the edge they
+// suffice.
 TEST(Creases, SamplesNextToTheEdgeAreTriedByThemselves)
 {
   const auto blurred = [](const Vector& p)

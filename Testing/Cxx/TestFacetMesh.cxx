@@ -6,12 +6,10 @@
 
 #include <vector>
 
-using isopoint::Facet;
-using isopoint::FacetMesh;
-using isopoint::Vector;
-
 namespace
 {
+
+using namespace isopoint;
 
 const Vector up{ 0.0, 0.0, 1.0 };
 

@@ -65,16 +65,12 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
   return steps;
 }
 
-double distance(const Vector& p)
-{
-  return lengthOf(p);
-}
-
 } // namespace
 
 TEST(FitDefinition, OnSmoothFields)
 {
-  const clouds::Cloud sphere = cloudOf(distance, 600, 8.4);
+  const clouds::Cloud sphere = cloudOf(lengthOf, 600, 8.4);
+  EXPECT_GT(expectTheDefinition(sphere, 3.0, FitOrder::Linear).rough, 100u);
   EXPECT_GT(expectTheDefinition(sphere, 3.0, FitOrder::Quadratic).quadratic, 150u);
   EXPECT_GT(expectTheDefinition(sphere, 3.0, FitOrder::Cubic).cubic, 150u);
   const clouds::Cloud waves = cloudOf(gyroid(0.6), 600, 8.4);
@@ -96,6 +92,8 @@ TEST(FitDefinition, OnNoise)
   EXPECT_GT(stepsOf(0.02, FitOrder::Cubic).cubic, 150u);
   EXPECT_GT(stepsOf(0.2, FitOrder::Cubic).rough, 80u);
   EXPECT_GT(stepsOf(0.2, FitOrder::Quadratic).rough, 50u);
+  EXPECT_GT(stepsOf(0.2, FitOrder::Linear).rough, 100u);
+  EXPECT_GT(stepsOf(1.0, FitOrder::Linear).stayed, 10u);
   const Steps steps = stepsOf(1.0, FitOrder::Cubic);
   EXPECT_GT(steps.rough, 80u);
   EXPECT_GT(steps.stayed, 20u);
@@ -124,11 +122,11 @@ TEST(FitDefinition, OnRoundedValues)
 
 TEST(FitDefinition, OnStepsAndCreases)
 {
-  const Field step = [](const Vector& p) { return lengthOf(p) < 3.0 ? 0.1 * p[0] : 1.0; };
-  const Field cube = [](const Vector& p) {
+  const auto step = [](const Vector& p) { return lengthOf(p) < 3.0 ? 0.1 * p[0] : 1.0; };
+  const auto cube = [](const Vector& p) {
     return std::max({ std::abs(p[0] + 0.1 * p[1]), std::abs(p[1]), std::abs(p[2]) });
   };
-  const Field sheets = [](const Vector& p) { return std::abs(lengthOf(p) - 2.5); };
+  const auto sheets = [](const Vector& p) { return std::abs(lengthOf(p) - 2.5); };
   expectTheDefinition(cloudOf(step, 600, 8.4), 0.5, FitOrder::Cubic);
   expectTheDefinition(cloudOf(cube, 600, 8.4), 2.5, FitOrder::Cubic);
   expectTheDefinition(cloudOf(sheets, 600, 8.4), 0.6, FitOrder::Cubic);
@@ -138,7 +136,7 @@ TEST(FitDefinition, OnClustersSlicesAndCoincidentSamples)
 {
   const clouds::Cloud slices = clouds::withValuesOf(
     clouds::moved(clouds::uniform(500, 19), [](double* p) { p[2] = std::floor(4.0 * p[2]) / 4.0; }),
-    [](const Vector& p) { return clouds::waves(p[0], p[1], p[2]); });
+    clouds::waves);
   expectTheDefinition(clouds::clustered(500, 18), -4.0, FitOrder::Cubic);
   expectTheDefinition(slices, 0.5, FitOrder::Cubic);
   expectTheDefinition(clouds::coincident(clouds::uniform(500, 20), 0.2), 0.5, FitOrder::Cubic);

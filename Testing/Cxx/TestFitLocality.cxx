@@ -17,38 +17,33 @@ using Numbers = std::map<Ends, std::vector<double>>;
 
 Numbers extracted(const clouds::Cloud& cloud, double isovalue, FitOrder order, bool withSplats)
 {
-  isopoint::IsosurfaceExtractor extractor;
+  IsosurfaceExtractor extractor;
   const auto read = [all = clouds::readerOf(cloud)](std::size_t id, auto* position, auto& value)
   { return all(id, position, value) && !std::isnan(value); };
   extractor.load<double, double>({}, cloud.size(), read);
-  const isopoint::ExtractionRequest request = clouds::requestOf(isovalue, order);
-  const isopoint::ExtractedIsosurface found =
+  const ExtractionRequest request = clouds::requestOf(isovalue, order);
+  const ExtractedIsosurface found =
     extractor.extract({}, withSplats ? clouds::withSplats(request) : request);
   Numbers all;
   for (std::size_t i = 0; i < found.surface.size(); ++i)
   {
-    const isopoint::IsopointEdge& edge = found.surface.edges[i];
+    const IsopointEdge& edge = found.surface.edges[i];
     std::vector<double>& numbers = all[{ edge.first, edge.second }];
-    const auto put = [&numbers](const auto& list)
-    { numbers.insert(numbers.end(), std::begin(list), std::end(list)); };
+    const auto put = [&numbers](const auto&... lists)
+    { (numbers.insert(numbers.end(), std::begin(lists), std::end(lists)), ...); };
     const LocalFit& fit = found.surface.fits[i];
     put(std::array{ fit.spacing, fit.isGradientFitted ? 1.0 : 0.0, fit.isSmooth ? 1.0 : 0.0,
-      fit.order ? static_cast<double>(*fit.order) : 0.0 });
-    put(fit.position);
-    put(fit.gradient);
-    put(fit.hessian);
-    for (const isopoint::CreasePlane& plane : fit.creases)
+          fit.order ? static_cast<double>(*fit.order) : 0.0 },
+      fit.position, fit.gradient, fit.hessian);
+    for (const CreasePlane& plane : fit.creases)
     {
-      put(plane.inward);
-      put(std::array{ plane.distance, plane.turn });
+      put(plane.inward, std::array{ plane.distance, plane.turn });
     }
     if (withSplats)
     {
-      const isopoint::Splat& splat = found.splats[i];
-      put(splat.normal);
-      put(splat.axis);
-      put(std::array{ splat.radius });
-      for (const isopoint::SplatCorner& corner : splat.corners)
+      const Splat& splat = found.splats[i];
+      put(splat.normal, splat.axis, std::array{ splat.radius });
+      for (const SplatCorner& corner : splat.corners)
       {
         put(std::array{
           corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross });
@@ -176,7 +171,8 @@ TEST(FitLocality, GapsInTheIdsDoNotCount)
 }
 
 // Which end of an edge has the lower id decides on the last bits of the isopoint on it. Where that
-// stays, nothing changes; elsewhere the fit moves by rounding.
+// stays, nothing changes; elsewhere the parameter counts from the other end, and the fit moves by
+// rounding.
 TEST(FitLocality, PermutedIdsGiveTheSameFits)
 {
   const clouds::Cloud cloud =
@@ -202,6 +198,7 @@ TEST(FitLocality, PermutedIdsGiveTheSameFits)
     {
       EXPECT_NEAR(same->second[i], numbers[i], 1e-6);
     }
+    EXPECT_NEAR(1.0 - same->second.back(), numbers.back(), 1e-12);
   }
   EXPECT_GT(kept, 200u);
   EXPECT_GT(found.size() - kept, 200u);

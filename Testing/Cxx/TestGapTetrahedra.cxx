@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The crossing tetrahedra in gaps: against a search of CGAL's tetrahedralization, and against
 // clouds with and without gaps.
-#include "BruteForce.h"
 #include "RandomClouds.h"
+#include "Topology.h"
 #include "TriangleTesting.h"
 
 namespace
 {
 
 using clouds::Cloud;
+using clouds::fromMiddle;
 using clouds::Vector;
 using triangles::Corners;
 
@@ -89,34 +90,26 @@ std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
   return result;
 }
 
-/// Numbers pieces: tetrahedra of one kind that hang together have one number, others none (-1).
+/// The piece of each tetrahedron, by one of its tetrahedra. Connected ones of the kind are a piece.
 template <class Kind>
-std::vector<int> piecesOf(const std::vector<Tetrahedron>& all, const Kind& isOfKind)
+std::vector<std::size_t> piecesOf(const std::vector<Tetrahedron>& all, const Kind& isOfKind)
 {
-  std::vector<int> pieces(all.size(), -1);
-  int count = 0;
-  for (std::size_t first = 0; first < all.size(); ++first)
+  std::vector<std::size_t> roots(all.size());
+  std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (pieces[first] >= 0 || !isOfKind(first))
+    for (const std::size_t neighbor : all[i].neighbors)
     {
-      continue;
-    }
-    std::vector<std::size_t> open{ first };
-    pieces[first] = count;
-    while (!open.empty())
-    {
-      const std::size_t i = open.back();
-      open.pop_back();
-      for (const std::size_t neighbor : all[i].neighbors)
+      if (isOfKind(i) && isOfKind(neighbor))
       {
-        if (pieces[neighbor] < 0 && isOfKind(neighbor))
-        {
-          pieces[neighbor] = count;
-          open.push_back(neighbor);
-        }
+        roots[topology::rootOf(roots, i)] = topology::rootOf(roots, neighbor);
       }
     }
-    ++count;
+  }
+  std::vector<std::size_t> pieces;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    pieces.push_back(topology::rootOf(roots, i));
   }
   return pieces;
 }
@@ -125,20 +118,19 @@ std::vector<int> piecesOf(const std::vector<Tetrahedron>& all, const Kind& isOfK
 std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue)
 {
   const std::vector<Tetrahedron> all = allTetrahedra(cloud, isovalue);
-  const std::vector<int> weak = piecesOf(all, [&](std::size_t i) { return all[i].isWeak; });
-  std::vector<bool> isGap(all.size(), false); // by piece
+  const auto weak = piecesOf(all, [&](std::size_t i) { return all[i].isWeak; });
+  std::set<std::size_t> gaps; // pieces
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (weak[i] >= 0 && (all[i].isStrong || all[i].isAtHull))
+    if (all[i].isWeak && (all[i].isStrong || all[i].isAtHull))
     {
-      isGap[static_cast<std::size_t>(weak[i])] = true;
+      gaps.insert(weak[i]);
     }
   }
-  const auto isInGap = [&](std::size_t i)
-  { return weak[i] >= 0 && isGap[static_cast<std::size_t>(weak[i])]; };
-  const std::vector<int> kept = piecesOf(all, [&](std::size_t i) { return !isInGap(i); });
-  std::map<int, std::size_t> sizes;
-  std::map<int, bool> bordersOnGap;
+  const auto isInGap = [&](std::size_t i) { return gaps.count(weak[i]) > 0; };
+  const auto kept = piecesOf(all, [&](std::size_t i) { return !isInGap(i); });
+  std::map<std::size_t, std::size_t> sizes;
+  std::map<std::size_t, bool> bordersOnGap;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     ++sizes[kept[i]];
@@ -157,11 +149,6 @@ std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue)
   }
   std::sort(result.begin(), result.end());
   return result;
-}
-
-double fromMiddle(const Vector& p)
-{
-  return std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5);
 }
 
 } // namespace
@@ -249,7 +236,7 @@ TEST(GapTetrahedra, AreThoseBetweenABodyAndASheet)
   EXPECT_GT(shareInGaps(cloud, 0.75), 0.97);
 }
 
-/// The last of several slices is no farther from the next one than these are apart.
+/// There is no gap between slices at equal distances.
 TEST(GapTetrahedra, AreFewBetweenSlices)
 {
   const Cloud cloud = clouds::withValuesOf(clouds::moved(clouds::uniform(6000, 10), [](double* p)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The isopoints around each: those whose edges end in leaves around its own edge.
-#include "Clouds.h"
+#include "BruteForce.h"
 
 #include "Core/Extraction/ExtractIsosurface.h"
 #include "Core/Extraction/IsopointNeighbors.h"
@@ -14,16 +14,6 @@ namespace
 
 using TSample = isopoint::WideSample;
 using Cache = isopoint::NeighborhoodCache<TSample::Id>;
-
-bool doTouch(const isopoint::Region& a, const isopoint::Region& b)
-{
-  bool touch = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    touch = touch && a.lower[axis] <= b.upper[axis] && b.lower[axis] <= a.upper[axis];
-  }
-  return touch;
-}
 
 /// A surface, and the tree that it was extracted from.
 struct Extracted
@@ -50,17 +40,17 @@ struct Extracted
   /// The isopoints with an end in a leaf or in one that touches it, by comparing all regions.
   Isopoints around(std::size_t leaf) const
   {
-    const auto regionOf = [this](std::size_t other)
-    { return isopoint::pathToLeaf(this->tree, other).region; };
+    const auto touches = [&](std::size_t end)
+    {
+      return bruteforce::touch(isopoint::pathToLeaf(this->tree, end).region,
+        isopoint::pathToLeaf(this->tree, leaf).region);
+    };
     Isopoints found;
     for (std::size_t i = 0; i < this->surface.size(); ++i)
     {
-      for (const std::size_t end : this->Ends[i])
+      if (touches(this->Ends[i][0]) || touches(this->Ends[i][1]))
       {
-        if (doTouch(regionOf(end), regionOf(leaf)))
-        {
-          found.insert(i);
-        }
+        found.insert(i);
       }
     }
     return found;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits around isopoints, against dense least squares and fields whose surfaces are known.
+// Fits to the samples around an edge: fields whose surfaces are known, units, and what is not
+// fitted. TestFitDefinition compares fits with the rule.
 #include "FitTesting.h"
 
 #include "Core/Fit/FitFrame.h"
-
-#include <Eigen/Dense>
 
 using namespace fittesting;
 
@@ -15,12 +14,12 @@ namespace
 std::optional<LocalFit> fitNear(
   const std::vector<FitSample>& samples, const FitEdge& edge, FitOrder highest = FitOrder::Cubic)
 {
-  return isopoint::LocalFitter(0.0, highest).fitNear(edge, samples);
+  return LocalFitter(0.0, highest).fitNear(edge, samples);
 }
 
-Field bentField()
+double bentField(const Vector& p)
 {
-  return [](const Vector& p) { return lengthOf({ p[0], p[1], p[2] + 4.0 }) - 4.1; };
+  return lengthOf({ p[0], p[1], p[2] + 4.0 }) - 4.1;
 }
 
 std::vector<FitSample> inUnits(std::vector<FitSample> samples, double scale, double steepness)
@@ -50,7 +49,7 @@ TEST(FitFrame, EqualDistancesAreTakenInTheirOrder)
     sample.position[i % 3] = i % 2 == 0 ? 0.5 : -0.5;
     samples.push_back(sample);
   }
-  isopoint::FitFrame frame;
+  FitFrame frame;
   frame.enter(upwards(), 0.0);
   frame.add(samples.data(), samples.data() + samples.size());
   ASSERT_EQ(frame.samples().count(), 256u);
@@ -60,42 +59,12 @@ TEST(FitFrame, EqualDistancesAreTakenInTheirOrder)
   }
 }
 
-// The weighted least-squares solution by column-pivoted QR of the whole design matrix.
-TEST(LocalFit, AffineFitsAgreeWithDenseLeastSquares)
-{
-  const Field field = [](const Vector& p) { return 0.05 + 0.3 * p[1] + p[2]; };
-  const std::vector<FitSample> samples = samplesOf(field, 40, 0.2);
-  const LocalFit found = fitAll(samples, upwards(), FitOrder::Linear);
-  EXPECT_FALSE(found.isSmooth);
-  EXPECT_EQ(found.hessian, isopoint::Hessian{});
-  ASSERT_EQ(found.order, FitOrder::Linear);
-  const double spacing = std::accumulate(samples.begin(), samples.end(), 0.0,
-    [](double sum, const FitSample& sample) { return sum + lengthOf(sample.position) / 40.0; });
-  Eigen::MatrixXd design(40, 4);
-  Eigen::VectorXd values(40);
-  for (Eigen::Index i = 0; i < 40; ++i)
-  {
-    const auto& [p, value] = samples[static_cast<std::size_t>(i)];
-    const double root = 1.0 / std::hypot(1.0, lengthOf(p) / spacing);
-    design.row(i) << root, root * p[0], root * p[1], root * p[2];
-    values[i] = root * value;
-  }
-  const Eigen::Vector4d expected = design.colPivHouseholderQr().solve(values);
-  const Vector gradient{ expected[1], expected[2], expected[3] };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    EXPECT_NEAR(found.gradient[axis], gradient[axis], 1e-9);
-    EXPECT_NEAR(
-      found.position[axis], -expected[0] * gradient[axis] / dot(gradient, gradient), 1e-9);
-  }
-}
-
 // Units are powers of two: no digit changes.
 TEST(LocalFit, KeepsItsBitsInOtherUnits)
 {
   for (const double noise : { 0.0, 0.05, 1.0 })
   {
-    const std::vector<FitSample> samples = samplesOf(bentField(), 80, noise);
+    const std::vector<FitSample> samples = samplesOf(bentField, 80, noise);
     for (const FitOrder order : allOrders)
     {
       const LocalFit expected = fitAll(samples, upwards(), order);
@@ -110,7 +79,7 @@ TEST(LocalFit, KeepsItsBitsInOtherUnits)
           EXPECT_EQ(found.isSmooth, expected.isSmooth);
           EXPECT_EQ(found.position, scaled(scale, expected.position));
           EXPECT_EQ(found.gradient, scaled(steepness / scale, expected.gradient));
-          isopoint::Hessian hessian = expected.hessian;
+          Hessian hessian = expected.hessian;
           std::for_each(hessian.begin(), hessian.end(),
             [&](double& derivative) { derivative *= steepness / scale / scale; });
           EXPECT_EQ(found.hessian, hessian);
@@ -123,7 +92,7 @@ TEST(LocalFit, KeepsItsBitsInOtherUnits)
 // Denormal numbers have too few digits, and numbers at the limit of double overflow.
 TEST(LocalFit, NothingIsFittedInUnitsThatAreNotNormal)
 {
-  const std::vector<FitSample> samples = samplesOf(bentField(), 80);
+  const std::vector<FitSample> samples = samplesOf(bentField, 80);
   for (const auto& [scale, steepness] : { std::pair(1e-310, 1.0), std::pair(1.0, 1e-310),
          std::pair(1e308, 1.0), std::pair(1.0, 1e308), std::pair(1e-310, 1e-310) })
   {
@@ -142,7 +111,7 @@ TEST(LocalFit, NothingIsFittedInUnitsThatAreNotNormal)
 
 TEST(LocalFit, SamplesTooFarAwayForDoubleDoNotCount)
 {
-  std::vector<FitSample> samples = samplesOf(bentField(), 80);
+  std::vector<FitSample> samples = samplesOf(bentField, 80);
   const LocalFit expected = fitAll(samples, upwards(), FitOrder::Cubic);
   samples.insert(samples.begin() + 40, { { 1e200, 0.0, 0.0 }, 1.0 });
   const LocalFit found = fitAll(samples, upwards(), FitOrder::Cubic);
@@ -170,7 +139,7 @@ TEST(LocalFit, PointsStayWhereNoFitHolds)
       const LocalFit found = fitAll(samples, upwards(), order);
       EXPECT_EQ(found.order, std::nullopt);
       EXPECT_FALSE(found.isSmooth);
-      EXPECT_EQ(found.hessian, isopoint::Hessian{});
+      EXPECT_EQ(found.hessian, Hessian{});
       EXPECT_EQ(found.position, (Vector{ 0.0, 0.0, 0.0 }));
       EXPECT_TRUE(found.isGradientFitted || found.gradient == Vector({ 0.0, 0.0, 1.0 }));
     }
@@ -234,9 +203,9 @@ TEST(LocalFit, PointsAtTheLimitOfDoubleStayFinite)
 TEST(LocalFit, DoesNotChangeTheEdges)
 {
   const clouds::Cloud cloud = clouds::uniform(20000, 3);
-  const isopoint::Isosurface plain = clouds::extract(cloud, 0.5, 54.7);
-  const isopoint::Isosurface fitted = extractFitted(cloud, 0.5, false);
-  const isopoint::Isosurface moved = extractFitted(cloud, 0.5, true);
+  const Isosurface plain = clouds::extract(cloud, 0.5, 54.7);
+  const Isosurface fitted = extractFitted(cloud, 0.5, false);
+  const Isosurface moved = extractFitted(cloud, 0.5, true);
   ASSERT_EQ(fitted.edges, plain.edges);
   ASSERT_EQ(moved.edges, plain.edges);
   std::size_t held = 0;

@@ -1,47 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What samples determine of a polynomial, and what they do not. TestFitDefinition compares whole
 // fits.
-#include "Clouds.h"
+#include "FitTesting.h"
 
-#include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/NormalEquations.h"
 #include "Core/Fit/PolynomialFit.h"
 
-#include <gtest/gtest.h>
+using namespace fittesting;
 
 namespace
 {
 
-using isopoint::FrameSamples;
-using isopoint::FrameWeights;
-using isopoint::Vector;
-
-/// Samples and weights, as the core takes them.
-struct Case
+double nothing(const Vector&)
 {
-  FrameSamples samples;
-  FrameWeights weights;
-
-  void add(const Vector& place, double value, double weight)
-  {
-    this->samples.add(place, value);
-    this->weights[this->samples.count() - 1] = weight;
-    endWeights(this->samples, this->weights);
-  }
-};
-
-/// Samples at random places of a cube of side 4, moved, of the value 0 and the weight 1.
-Case randomCase(
-  std::size_t count, std::uint64_t seed, const std::function<Vector(const Vector&)>& moved = {})
-{
-  clouds::Random random(seed);
-  Case result;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Vector place = random.inCube(4.0);
-    result.add(moved ? moved(place) : place, 0.0, 1.0);
-  }
-  return result;
+  return 0.0;
 }
 
 } // namespace
@@ -50,8 +22,13 @@ TEST(NormalEquations, DetermineWhatTheSamplesDo)
 {
   const auto determined = [](std::size_t count, const std::function<Vector(const Vector&)>& moved)
   {
-    const Case sampled = randomCase(count, 3, moved);
-    return isopoint::NormalEquations<3>(sampled.samples, sampled.weights).determinedDegree();
+    std::vector<FitSample> samples = samplesOf(nothing, count, 0.0, 3);
+    for (FitSample& sample : samples)
+    {
+      sample.position = moved ? moved(sample.position) : sample.position;
+    }
+    const FrameCase sampled(samples);
+    return NormalEquations<3>(sampled.samples, sampled.weights).determinedDegree();
   };
   for (const auto& [count, degree] : { std::pair(3, 0), std::pair(4, 1), std::pair(9, 1),
          std::pair(10, 2), std::pair(19, 2), std::pair(30, 3) })
@@ -70,7 +47,7 @@ TEST(NormalEquations, DetermineWhatTheSamplesDo)
   {
     EXPECT_EQ(determined(60, onPlanes(count)), count - 1);
   }
-  EXPECT_EQ(determined(60, isopoint::directionOf), 1);
+  EXPECT_EQ(determined(60, directionOf), 1);
 }
 
 // The limit: a plane of samples with one off it, whose share of z^2 is the pivot of z.
@@ -78,7 +55,7 @@ TEST(NormalEquations, APivotDecidesOnWhatIsDetermined)
 {
   const auto isDetermined = [](double share)
   {
-    Case sampled;
+    FrameCase sampled;
     // The mean of z is 1, its variance that of both signs; twice, since four samples are too few.
     for (int i = 0; i < 8; ++i)
     {
@@ -86,7 +63,7 @@ TEST(NormalEquations, APivotDecidesOnWhatIsDetermined)
       const double y = i / 2 % 2 ? 1.0 : -1.0;
       sampled.add({ x, y, 1.0 + std::sqrt(share) * x * y }, 0.0, i < 4 ? 0.3 : 0.7);
     }
-    return isopoint::leastSquares(sampled.samples, sampled.weights, 1).has_value();
+    return leastSquares(sampled.samples, sampled.weights, 1).has_value();
   };
   EXPECT_FALSE(isDetermined(0.9e-7));
   EXPECT_TRUE(isDetermined(1.1e-7));
@@ -99,12 +76,12 @@ TEST(NormalEquations, NumbersOfNoUseDetermineNothing)
   {
     for (int degree = 1; degree <= 3; ++degree)
     {
-      Case place = randomCase(40, 4);
-      place.add({ bad, 0.0, 0.0 }, 0.0, 1.0);
-      EXPECT_FALSE(isopoint::leastSquares(place.samples, place.weights, degree));
-      Case weight = randomCase(40, 4);
+      FrameCase place(samplesOf(nothing, 40, 0.0, 4));
+      place.add({ bad, 0.0, 0.0 }, 0.0);
+      EXPECT_FALSE(leastSquares(place.samples, place.weights, degree));
+      FrameCase weight(samplesOf(nothing, 40, 0.0, 4));
       weight.add({ 0.5, 0.0, 0.0 }, 0.0, bad == 1e200 ? 0.0 / 0.0 : bad);
-      EXPECT_FALSE(isopoint::leastSquares(weight.samples, weight.weights, degree));
+      EXPECT_FALSE(leastSquares(weight.samples, weight.weights, degree));
     }
   }
 }
@@ -115,21 +92,20 @@ TEST(PolynomialFit, DoesNotHoldWhereASampleAloneDeterminesACoefficient)
 {
   const auto isDetermined = [](double planes, bool areMoreOff, int degree)
   {
-    Case sampled;
-    sampled.add({ 0.3, 0.2, 0.45 }, 0.45, 1.0);
+    FrameCase sampled;
+    sampled.add({ 0.3, 0.2, 0.45 }, 0.45);
     clouds::Random random(11);
     for (int i = 0; i < 60; ++i)
     {
       const Vector p = random.inCube(4.0);
       const double z = std::floor(0.25 * planes * (p[2] + 2.0)) - 0.5;
-      sampled.add({ p[0], p[1], z }, z + 0.1 * p[0] * p[1], 1.0);
+      sampled.add({ p[0], p[1], z }, z + 0.1 * p[0] * p[1]);
     }
     if (areMoreOff)
     {
-      sampled.add({ -0.3, 0.1, 0.4 }, 0.4, 1.0);
+      sampled.add({ -0.3, 0.1, 0.4 }, 0.4);
     }
-    return isopoint::fitPolynomial(sampled.samples, sampled.weights, { 0.0, 0.0, 2.0 }, degree)
-      .has_value();
+    return fitPolynomial(sampled.samples, sampled.weights, { 0.0, 0.0, 2.0 }, degree).has_value();
   };
   for (const int degree : { 2, 3 })
   {

@@ -10,11 +10,10 @@
 namespace
 {
 
+using namespace isopoint;
+using band::Kernel;
+using band::Point;
 using clouds::Random;
-using isopoint::CoordinateUnit;
-using isopoint::Vector;
-using isopoint::band::Kernel;
-using isopoint::band::Point;
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 double unitOf(const std::vector<Vector>& positions, double least = 0.0)

@@ -7,8 +7,7 @@
 namespace
 {
 
-using isopoint::Execution;
-using isopoint::ExtractionRequest;
+using namespace isopoint;
 
 /// An execution on one thread, so that batches are many, which notes its progress.
 Execution notedIn(std::vector<double>& seen)
@@ -36,10 +35,10 @@ void expectRise(
 /// Points alone, with fits, and with splats; triangles alone, and with all that moves and drops.
 std::vector<ExtractionRequest> requestsOfEveryStage(double isovalue)
 {
-  const auto fitted = clouds::requestOf(isovalue, isopoint::FitOrder::Quadratic);
+  const auto fitted = clouds::requestOf(isovalue, FitOrder::Quadratic);
   return { clouds::requestOf(isovalue), fitted, clouds::withSplats(fitted),
     clouds::withTriangles(clouds::requestOf(isovalue)),
-    clouds::withTriangles(clouds::requestOf(isovalue, isopoint::FitOrder::Quadratic, true)) };
+    clouds::withTriangles(clouds::requestOf(isovalue, FitOrder::Quadratic, true)) };
 }
 
 } // namespace
@@ -47,7 +46,7 @@ std::vector<ExtractionRequest> requestsOfEveryStage(double isovalue)
 TEST(Progress, LoadingReportsEachBatch)
 {
   std::vector<double> seen;
-  isopoint::IsosurfaceExtractor extractor;
+  IsosurfaceExtractor extractor;
   extractor.load<float, float>(notedIn(seen), std::size_t{ 1 } << 21,
     [](std::size_t id, auto* position, auto& value)
     {
@@ -62,7 +61,7 @@ TEST(Progress, ExtractionsReportEachStage)
   const clouds::Cloud cloud = clouds::uniform(clouds::lessIfSlow(200000), 1);
   for (ExtractionRequest request : requestsOfEveryStage(0.3))
   {
-    isopoint::IsosurfaceExtractor extractor = clouds::loaded(cloud);
+    IsosurfaceExtractor extractor = clouds::loaded(cloud);
     for (const double isovalue : { 0.3, 0.5 }) // the second from a tree that is kept
     {
       SCOPED_TRACE(isovalue);
@@ -79,7 +78,7 @@ TEST(Progress, IsReportedWhereThereIsNothing)
   for (const clouds::Cloud& cloud : { clouds::Cloud(), clouds::uniform(1000, 1) })
   {
     std::vector<double> seen;
-    isopoint::IsosurfaceExtractor extractor;
+    IsosurfaceExtractor extractor;
     extractor.load<double, double>(notedIn(seen), cloud.size(), clouds::readerOf(cloud));
     expectRise(seen);
     for (const ExtractionRequest& request : requestsOfEveryStage(1e9))
@@ -96,10 +95,10 @@ TEST(Progress, RisesOnEachRank)
   const std::vector<clouds::Cloud> parts =
     ranks::dealOut(clouds::uniform(20000, 2), 3, ranks::Deal::RoundRobin);
   ranks::onRanks(parts.size(),
-    [&](isopoint::ProcessGroup& processes, std::size_t rank)
+    [&](ProcessGroup& processes, std::size_t rank)
     {
       std::vector<double> seen;
-      isopoint::IsosurfaceExtractor extractor;
+      IsosurfaceExtractor extractor;
       extractor.load<double, double>(
         notedIn(seen), processes, parts[rank].size(), clouds::readerOf(parts[rank]));
       expectRise(seen, 4);
@@ -115,10 +114,10 @@ TEST(Progress, RisesOnEachRank)
 TEST(Progress, StaysWhereItWouldGoBack)
 {
   std::vector<double> seen;
-  const Execution rising = isopoint::withRisingProgress(notedIn(seen));
+  const Execution rising = withRisingProgress(notedIn(seen));
   for (const double share : { 0.2, 0.8, 0.1, 0.8, 0.9 })
   {
-    isopoint::partOf(rising, 0.0, 1.0).progress(share);
+    partOf(rising, 0.0, 1.0).progress(share);
   }
   EXPECT_EQ(seen, (std::vector<double>{ 0.2, 0.8, 0.8, 0.8, 0.9 }));
 }

@@ -45,11 +45,6 @@ std::shared_ptr<Surface> tracedSphere(std::uint32_t rows, float radius)
   return sphere;
 }
 
-Scene sceneOf(const std::shared_ptr<const Surface>& surface)
-{
-  return Scene({ surface });
-}
-
 /// A square around the origin, which faces along z.
 std::shared_ptr<Surface> squareOf(float side, float height)
 {
@@ -84,6 +79,16 @@ Camera cameraOf(double width)
     return Window{ { -0.5 * width, -0.5 * width, z }, { width, 0.0, 0.0 }, { 0.0, width, 0.0 } };
   };
   return { windowAt(2.0), windowAt(-2.0) };
+}
+
+/// A pixel half of which shows a square in light of this color.
+Radiance halfCovered(const Vector& light, std::uint32_t samples)
+{
+  const Scene scene({ squareOf(0.177f, 0.0f) });
+  const Illuminants illuminants = oneLight(light);
+  Picture picture(1, 1, samples);
+  picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), samples);
+  return picture.pixel(0);
 }
 
 } // namespace
@@ -151,7 +156,7 @@ TEST(Material, FacetsAreSeenAsTheirDensitySays)
 TEST(Scene, MeetsTheSphere)
 {
   const auto sphere = tracedSphere(100, 0.5f);
-  const Scene scene = sceneOf(sphere);
+  const Scene scene({ sphere });
   for (int i = 0; i < 200; ++i)
   {
     const auto t = static_cast<float>(i);
@@ -166,7 +171,7 @@ TEST(Scene, MeetsTheSphere)
 
 TEST(Scene, RaysLeaveTheirSurfaceAndMeetItAgain)
 {
-  const Scene scene = sceneOf(tracedSphere(100, 0.5f));
+  const Scene scene({ tracedSphere(100, 0.5f) });
   const Hit first = scene.closest({ { 0.01f, 0.02f, 2.0f }, { 0.0f, 0.0f, -1.0f } });
   const Vector place{ 0.01f, 0.02f, 2.0f - first.distance };
   for (const float slant : { 0.1f, 1.0f, 10.0f })
@@ -187,12 +192,12 @@ TEST(Scene, ColorsOfVerticesAndOfTriangles)
   square->colors = { { 255, 0, 0, 255 }, { 255, 0, 0, 255 }, { 0, 255, 0, 255 },
     { 0, 255, 0, 255 } };
   const Ray middle{ { 0.2f, 0.0f, 1.0f }, { 0.0f, 0.0f, -1.0f } };
-  const Hit interpolated = sceneOf(square).closest(middle);
+  const Hit interpolated = Scene({ square }).closest(middle);
   EXPECT_NEAR(interpolated.color.x, 0.5f, 1e-6f);
   EXPECT_NEAR(interpolated.color.y, 0.5f, 1e-6f);
   square->colors = { { 255, 0, 0, 255 }, { 0, 0, 255, 51 } };
   square->colorsOfTriangles = true;
-  const Hit upper = sceneOf(square).closest({ { -0.2f, 0.2f, 1.0f }, { 0.0f, 0.0f, -1.0f } });
+  const Hit upper = Scene({ square }).closest({ { -0.2f, 0.2f, 1.0f }, { 0.0f, 0.0f, -1.0f } });
   EXPECT_EQ(upper.color.z, 1.0f);
   EXPECT_NEAR(upper.opacity, 0.2f, 1e-6f);
 }
@@ -250,7 +255,7 @@ TEST(PathTracer, WhiteSurroundingsStayWhite)
     sphere->material.isPhysical = true;
     sphere->material.metallic = metallic;
     sphere->material.opacity = 0.0f;
-    const Scene scene = sceneOf(sphere);
+    const Scene scene({ sphere });
     Picture picture(16, 16, 64);
     EXPECT_TRUE(picture.addSamples({}, cameraOf(0.6), PathTracer(scene, illuminants), 64));
     for (std::size_t i = 0; i < 256; ++i)
@@ -266,7 +271,7 @@ TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
   const auto sphere = tracedSphere(40, 0.5f);
   sphere->material.isPhysical = true;
   sphere->material.metallic = 1.0f;
-  const Scene scene = sceneOf(sphere);
+  const Scene scene({ sphere });
   const Sampler sampler(0, 0, 1);
   const Ray ray{ { 0.0f, 0.0f, 2.0f }, { 0.0f, 0.0f, -1.0f } };
   EXPECT_EQ(PathTracer(scene, whiteSurroundings(0)).along(ray, sampler).color.x, 0.0f);
@@ -275,22 +280,14 @@ TEST(PathTracer, NoLightArrivesAfterTheLastBounce)
 
 TEST(Picture, NoSampleOutshinesTheOthers)
 {
-  // Half of the pixel shows a surface a hundred times as bright as white.
-  const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
-  const Illuminants illuminants = oneLight({ 100.0f, 100.0f, 100.0f });
-  Picture picture(1, 1, 400);
-  picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 400);
-  EXPECT_NEAR(picture.pixel(0).color.x, picture.pixel(0).alpha, 1e-4f);
-  EXPECT_NEAR(picture.pixel(0).alpha, 0.5f, 0.05f);
+  const Radiance pixel = halfCovered({ 100.0f, 100.0f, 100.0f }, 400); // times white
+  EXPECT_NEAR(pixel.color.x, pixel.alpha, 1e-4f);
+  EXPECT_NEAR(pixel.alpha, 0.5f, 0.05f);
 }
 
 TEST(Picture, APathWithoutAColorSpoilsNoPixel)
 {
-  const Scene scene = sceneOf(squareOf(0.177f, 0.0f));
-  const Illuminants illuminants = oneLight({ std::nanf(""), 1.0f, 1.0f });
-  Picture picture(1, 1, 16);
-  picture.addSamples({}, cameraOf(0.25), PathTracer(scene, illuminants), 16);
-  const Radiance pixel = picture.pixel(0);
+  const Radiance pixel = halfCovered({ std::nanf(""), 1.0f, 1.0f }, 16);
   EXPECT_TRUE(std::isfinite(pixel.color.x) && std::isfinite(pixel.color.y) &&
               std::isfinite(pixel.color.z) && std::isfinite(pixel.alpha));
 }
@@ -298,7 +295,7 @@ TEST(Picture, APathWithoutAColorSpoilsNoPixel)
 TEST(Picture, EndsAndGoesOn)
 {
   const auto sphere = tracedSphere(40, 0.5f);
-  const Scene scene = sceneOf(sphere);
+  const Scene scene({ sphere });
   const Illuminants illuminants = oneLight();
   const PathTracer tracer(scene, illuminants);
   Picture whole(64, 64, 200);

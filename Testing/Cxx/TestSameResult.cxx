@@ -8,11 +8,8 @@
 namespace
 {
 
+using namespace isopoint;
 using clouds::requestOf;
-using isopoint::ExtractedIsosurface;
-using isopoint::ExtractionRequest;
-using isopoint::FitOrder;
-using isopoint::IsosurfaceExtractor;
 
 /// Compares the bytes of everything that leaves the core.
 void expectSame(const ExtractedIsosurface& expected, const ExtractedIsosurface& found)
@@ -133,7 +130,7 @@ TEST(SameResult, OfSplatsWhateverIsFarAway)
     { std::optional<FitOrder>(), { FitOrder::Cubic }, { FitOrder::Crease } })
   {
     ExtractionRequest request = clouds::withSplats(requestOf(0.0));
-    request.isosurface.fit = isopoint::FitRequest{ order, true };
+    request.isosurface.fit = FitRequest{ order, true };
     const auto leftOf = [&](double far)
     {
       const ExtractedIsosurface found = extracted(blocks(far), request, 2);
@@ -155,7 +152,7 @@ TEST(SameResult, OfSplatsWhateverIsFarAway)
 
 TEST(SameResult, ForNewValuesAtKeptPositions)
 {
-  const isopoint::Execution execution = clouds::executionOn(2);
+  const Execution execution = clouds::executionOn(2);
   const clouds::Cloud cloud = clouds::coincident(clouds::uniform(30000, 4), 0.05);
   const clouds::Cloud other =
     clouds::withValuesOf(cloud, [](const clouds::Vector& p) { return p[0] - p[1]; });
@@ -200,7 +197,7 @@ TEST(SameResult, WithSamplesLeftOut)
   IsosurfaceExtractor extractor = loaded(partlyInvalid, 3);
   EXPECT_EQ(extractor.skippedCount(), cloud.size() - ids.size());
   ExtractedIsosurface expected = extracted(clouds::permuted(cloud, ids), requestOf(0.5));
-  for (isopoint::IsopointEdge& edge : expected.surface.edges)
+  for (IsopointEdge& edge : expected.surface.edges)
   {
     edge.first = ids[edge.first];
     edge.second = ids[edge.second];
@@ -212,17 +209,11 @@ TEST(SameResult, WithSamplesLeftOut)
 TEST(SameResult, ForVeryDeepTrees)
 {
   const clouds::Cloud cloud = clouds::nestedCoincident(std::size_t{ 1 } << 21);
-  const isopoint::Execution execution = clouds::executionOn(2);
-  auto tree =
-    isopoint::loadSamples<isopoint::WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
-  int deepest = 0;
-  isopoint::SingleRank<isopoint::WideSample> rank(tree);
-  for (const isopoint::BinaryIndex index :
-    isopoint::NarrowBand<isopoint::WideSample>(tree, 3.5, execution).refine(rank))
-  {
-    deepest = std::max(deepest, isopoint::depthOf(index));
-  }
-  EXPECT_GT(deepest, 64);
+  const Execution execution = clouds::executionOn(2);
+  auto tree = loadSamples<WideSample>(execution, cloud.size(), clouds::readerOf(cloud));
+  SingleRank<WideSample> rank(tree);
+  const auto band = NarrowBand<WideSample>(tree, 3.5, execution).refine(rank);
+  EXPECT_GT(clouds::largestOf(band, [](BinaryIndex index) { return depthOf(index); }), 64);
   expectSame(extracted(cloud, requestOf(3.5)), extracted(cloud, requestOf(3.5), 3));
 }
 
@@ -233,17 +224,17 @@ TEST(SameResult, AfterAnAbortAtAnyTime)
     { whole(0.5, FitOrder::Cubic, 0.5), triangles(0.5), triangles(0.5, true) })
   {
     int asked = 0;
-    isopoint::Execution counting;
+    Execution counting;
     counting.aborted = [&asked]() { return ++asked < 0; };
     const ExtractedIsosurface expected = loaded(cloud).extract(counting, request);
     ASSERT_GT(asked, 20);
     for (int last = 0; last < asked; last += 1 + asked / 12)
     {
       int left = last;
-      isopoint::Execution aborting;
+      Execution aborting;
       aborting.aborted = [&left]() { return left-- <= 0; };
       IsosurfaceExtractor extractor = loaded(cloud);
-      EXPECT_THROW(extractor.extract(aborting, request), isopoint::Aborted);
+      EXPECT_THROW(extractor.extract(aborting, request), Aborted);
       expectSame(expected, extractor.extract(clouds::executionOn(2), request));
     }
   }

@@ -24,7 +24,7 @@ void expectSame(const std::vector<FitSample>& expected, const std::vector<FitSam
     { return a.position == b.position && a.value == b.value; }));
 }
 
-/// What a cloud's edges have in common.
+/// How many edges of each kind there are.
 struct Seen
 {
   std::size_t edges = 0;

@@ -2,6 +2,7 @@
 // Splats of points whose surface is known: normals, shapes, coverage, creases.
 #include "Clouds.h"
 
+#include "Core/Extraction/WholeSurface.h"
 #include "Core/Splat/SharedSides.h"
 #include "Core/Splat/SplatGeometry.h"
 
@@ -10,16 +11,9 @@
 namespace
 {
 
-using isopoint::cross;
-using isopoint::difference;
-using isopoint::dot;
-using isopoint::FitOrder;
-using isopoint::lengthOf;
-using isopoint::scaled;
-using isopoint::Splat;
-using isopoint::SplatCorner;
-using isopoint::sum;
-using isopoint::Vector;
+using namespace isopoint;
+using clouds::countOf;
+using clouds::largestOf;
 
 constexpr Vector up{ 0.0, 0.0, 1.0 };
 constexpr Vector down{ 0.0, 0.0, -1.0 };
@@ -27,13 +21,13 @@ constexpr Vector down{ 0.0, 0.0, -1.0 };
 /// Samples that end at the plane x = 0.
 struct HalfSpace
 {
-  double at(const isopoint::ExtentQuery& query) const
+  double at(const ExtentQuery& query) const
   {
     const double along = query.direction[0];
     return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
   }
-  const isopoint::WideSample* nearest(const isopoint::ExtentQuery&) const { return nullptr; }
-  const isopoint::WideSample* nearestTo(const Vector&, double) const { return nullptr; }
+  const WideSample* nearest(const ExtentQuery&) const { return nullptr; }
+  const WideSample* nearestTo(const Vector&, double) const { return nullptr; }
 };
 
 /// Isopoints, one entry each. Without fits that list is empty.
@@ -41,7 +35,7 @@ struct Points
 {
   std::vector<Vector> positions;
   std::vector<Vector> decreasingEdges;
-  std::vector<isopoint::LocalFit> fits;
+  std::vector<LocalFit> fits;
 
   void addUnfitted(const Vector& position, const Vector& edge)
   {
@@ -49,11 +43,11 @@ struct Points
     this->decreasingEdges.push_back(edge);
   }
 
-  isopoint::LocalFit& add(const Vector& position, std::optional<FitOrder> order,
-    const Vector& gradient, double spacing = 1.0)
+  LocalFit& add(const Vector& position, std::optional<FitOrder> order, const Vector& gradient,
+    double spacing = 1.0)
   {
     this->addUnfitted(position, scaled(-1.0, gradient));
-    isopoint::LocalFit& fit = this->fits.emplace_back();
+    LocalFit& fit = this->fits.emplace_back();
     fit.order = order;
     fit.isGradientFitted = true;
     fit.isSmooth = order >= FitOrder::Quadratic;
@@ -62,13 +56,12 @@ struct Points
     return fit;
   }
 
-  /// Adds a point on one of two planes that meet at the y axis at a right angle. A fit with a
-  /// crease has the other one.
+  /// Adds a point on one of two planes that meet at the y axis at a right angle. A crease fit
+  /// also has the plane of the other side.
   void addOnWedge(bool top, double along, double off, FitOrder order, const Vector& tilt = {})
   {
     const Vector place = top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off };
-    isopoint::LocalFit& fit =
-      this->add(place, order, sum(top ? down : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+    LocalFit& fit = this->add(place, order, sum(top ? down : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
     if (order == FitOrder::Crease)
     {
       fit.creases = { { top ? Vector{ -1.0, 0.0, 0.0 } : down, -off, -1.0 } };
@@ -82,7 +75,7 @@ struct Points
     {
       this->fits[i].gradient = scaled(-1.0, this->fits[i].gradient);
       this->decreasingEdges[i] = scaled(-1.0, this->decreasingEdges[i]);
-      for (isopoint::CreasePlane& crease : this->fits[i].creases)
+      for (CreasePlane& crease : this->fits[i].creases)
       {
         crease.turn = -crease.turn;
       }
@@ -91,77 +84,74 @@ struct Points
 };
 
 /// Lists the points at the 48 nearest positions or, in two rings, at the 192 nearest.
-class NearestAround
+struct NearestAround
 {
-public:
-  explicit NearestAround(const std::vector<Vector>& positions)
-    : Positions(positions)
+  using Finder = NearestAround;
+
+  explicit NearestAround(const std::vector<Vector>& all)
+    : positions(all)
   {
-    for (std::size_t i = 0; i < positions.size(); ++i)
+    for (std::size_t i = 0; i < all.size(); ++i)
     {
-      this->At[positions[i]].push_back(i);
+      this->pointsAt[all[i]].push_back(i);
     }
   }
 
-  bool isAcrossGap(std::size_t, const isopoint::WideSample&, double) const { return false; }
+  bool isAcrossGap(std::size_t, const WideSample&, double) const { return false; }
 
-  class Finder
+  std::vector<std::size_t> find(std::size_t point, int rings) const
   {
-  public:
-    explicit Finder(const NearestAround& around)
-      : Around(around)
+    std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
+    for (const auto& [position, points] : this->pointsAt)
     {
+      near.emplace_back(lengthOf(difference(position, this->positions[point])), &points);
     }
-
-    const std::vector<std::size_t>& find(std::size_t point, int rings)
+    const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
+    std::nth_element(
+      near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < count; ++i)
     {
-      std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
-      for (const auto& [position, points] : this->Around.At)
-      {
-        near.emplace_back(lengthOf(difference(position, this->Around.Positions[point])), &points);
-      }
-      const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
-      std::nth_element(
-        near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count) - 1, near.end());
-      this->Found.clear();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        this->Found.insert(this->Found.end(), near[i].second->begin(), near[i].second->end());
-      }
-      return this->Found;
+      found.insert(found.end(), near[i].second->begin(), near[i].second->end());
     }
+    return found;
+  }
 
-  private:
-    const NearestAround& Around;
-    std::vector<std::size_t> Found;
-  };
-
-private:
-  const std::vector<Vector>& Positions;
-  std::map<Vector, std::vector<std::size_t>> At;
+  const std::vector<Vector>& positions;
+  std::map<Vector, std::vector<std::size_t>> pointsAt;
 };
 
-std::vector<Splat> splatsOf(const Points& points, const HalfSpace* extents = nullptr,
-  const isopoint::SplatOptions& options = {})
+/// A splat at its point.
+struct PlacedSplat : Splat
 {
-  isopoint::AllPoints all(points.positions.size());
-  const std::vector<Splat> splats = isopoint::computeSplats(clouds::executionOn(2),
-    { points.positions, points.decreasingEdges, points.fits }, NearestAround(points.positions),
-    extents, options, all);
+  Vector point;
+  Vector edge; // of the point, decreasing
+};
+
+std::vector<PlacedSplat> splatsOf(
+  const Points& points, const HalfSpace* extents = nullptr, const SplatOptions& options = {})
+{
+  AllPoints all(points.positions.size());
+  const std::vector<Splat> splats =
+    computeSplats(clouds::executionOn(2), { points.positions, points.decreasingEdges, points.fits },
+      NearestAround(points.positions), extents, options, all);
   EXPECT_EQ(splats.size(), points.positions.size());
-  return splats;
+  std::vector<PlacedSplat> placed;
+  for (std::size_t i = 0; i < splats.size(); ++i)
+  {
+    placed.push_back({ splats[i], points.positions[i], points.decreasingEdges[i] });
+  }
+  return placed;
 }
 
 /// The corners of a splat, each once: those that repeat the last one are left out.
 std::vector<SplatCorner> cornersOf(const Splat& splat)
 {
-  const auto areSame = [](const SplatCorner& a, const SplatCorner& b)
-  { return a.along == b.along && a.across == b.across && a.height == b.height; };
   std::vector<SplatCorner> corners(splat.corners.begin(), splat.corners.end());
-  while (corners.size() > 1 && areSame(corners.back(), corners[corners.size() - 2]))
-  {
-    corners.pop_back();
-  }
+  corners.erase(std::unique(corners.begin(), corners.end(),
+                  [](const SplatCorner& a, const SplatCorner& b)
+                  { return a.along == b.along && a.across == b.across && a.height == b.height; }),
+    corners.end());
   return corners;
 }
 
@@ -176,28 +166,24 @@ Vector offsetOf(const Splat& splat, const SplatCorner& corner)
 /// The area of a splat's triangles.
 double areaOf(const Splat& splat)
 {
-  double area = 0.0;
-  const std::vector<SplatCorner> corners = cornersOf(splat);
-  Vector before = offsetOf(splat, corners.back());
-  for (const SplatCorner& corner : corners)
-  {
-    area += 0.5 * lengthOf(cross(before, offsetOf(splat, corner)));
-    before = offsetOf(splat, corner);
-  }
-  return area;
+  Vector before = offsetOf(splat, splat.corners.back());
+  return clouds::sumOf(splat.corners,
+    [&](const SplatCorner& corner)
+    {
+      const Vector last = std::exchange(before, offsetOf(splat, corner));
+      return 0.5 * lengthOf(cross(last, before));
+    });
 }
 
 /// Whether a place lies within one of the splats, seen along its normal.
 /// @param step only one of so many splats is looked at, from the first one on
-bool isCovered(
-  const Vector& place, const Points& points, const std::vector<Splat>& splats, std::size_t step)
+bool isCovered(const Vector& place, const std::vector<PlacedSplat>& splats, std::size_t step)
 {
   constexpr double tolerance = 1e-6;
   for (std::size_t i = 0; i < splats.size(); i += step)
   {
-    const Splat& splat = splats[i];
-    const Vector offset =
-      scaled(1.0 / splat.radius / splat.radius, difference(place, points.positions[i]));
+    const PlacedSplat& splat = splats[i];
+    const Vector offset = scaled(1.0 / splat.radius / splat.radius, difference(place, splat.point));
     const double x = dot(offset, splat.axis);
     const double y = dot(offset, cross(splat.normal, splat.axis));
     const std::vector<SplatCorner> corners = cornersOf(splat);
@@ -216,15 +202,11 @@ bool isCovered(
   return false;
 }
 
-/// How far the corners of a splat reach along an axis.
-double reachAlong(const Splat& splat, std::size_t axis)
+/// The largest coordinate of a splat's corners along an axis.
+double reachAlong(const PlacedSplat& splat, std::size_t axis)
 {
-  double farthest = -1e9;
-  for (const SplatCorner& corner : cornersOf(splat))
-  {
-    farthest = std::max(farthest, offsetOf(splat, corner)[axis]);
-  }
-  return farthest;
+  return largestOf(splat.corners,
+    [&](const SplatCorner& corner) { return splat.point[axis] + offsetOf(splat, corner)[axis]; });
 }
 
 /// Random points of the unit sphere, scaled and moved, with oblique edges that decrease outwards.
@@ -249,11 +231,11 @@ Points sphere(std::size_t count, double scale = 1.0, double offset = 0.0)
 
 Points fittedSphere(std::size_t count, double spacing)
 {
+  const Hessian hessian{ -1.0, -1.0, -1.0, 0.0, 0.0, 0.0 };
   Points points;
   for (const Vector& p : sphere(count).positions)
   {
-    points.add(p, FitOrder::Quadratic, scaled(-1.0, p), spacing).hessian = { -1.0, -1.0, -1.0, 0.0,
-      0.0, 0.0 };
+    points.add(p, FitOrder::Quadratic, scaled(-1.0, p), spacing).hessian = hessian;
   }
   return points;
 }
@@ -272,19 +254,34 @@ Points wedge(FitOrder topOrder, FitOrder sideOrder, int count = 800)
   return points;
 }
 
+VoronoiCell cellOf(const std::vector<VoronoiCell::Corner>& corners)
+{
+  VoronoiCell cell{};
+  std::copy(corners.begin(), corners.end(), cell.corners.begin());
+  cell.count = corners.size();
+  cell.unit = 1.0;
+  return cell;
+}
+
+RawArray<VoronoiCell> arrayOf(const std::vector<VoronoiCell>& all)
+{
+  RawArray<VoronoiCell> cells;
+  cells.resize(all.size());
+  std::copy(all.begin(), all.end(), cells.data());
+  return cells;
+}
+
 } // namespace
 
 TEST(Splats, NormalsPointToDecreasingValues)
 {
   for (const double scale : { 1.0, 1e-20, 1e20 })
   {
-    const Points points = sphere(5000, scale, scale);
-    const std::vector<Splat> splats = splatsOf(points);
-    for (std::size_t i = 0; i < splats.size(); ++i)
+    for (const PlacedSplat& splat : splatsOf(sphere(5000, scale, scale)))
     {
-      ASSERT_NEAR(dot(splats[i].normal, splats[i].normal), 1.0, 1e-12);
-      const Vector outwards = difference(points.positions[i], { scale, scale, scale });
-      ASSERT_GT(dot(splats[i].normal, outwards), 0.98 * scale);
+      ASSERT_NEAR(dot(splat.normal, splat.normal), 1.0, 1e-12);
+      const Vector outwards = difference(splat.point, { scale, scale, scale });
+      ASSERT_GT(dot(splat.normal, outwards), 0.98 * scale);
     }
   }
 }
@@ -292,41 +289,34 @@ TEST(Splats, NormalsPointToDecreasingValues)
 // The corners lie on the sphere, have its normals, and are those of neighboring splats.
 TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
 {
-  const Points points = fittedSphere(800, 0.12);
-  const std::vector<Splat> splats = splatsOf(points);
-  double area = 0.0;
+  const std::vector<PlacedSplat> splats = splatsOf(fittedSphere(800, 0.12));
   double heights = 0.0;
   std::vector<Vector> corners;
-  for (std::size_t i = 0; i < splats.size(); ++i)
+  for (const PlacedSplat& splat : splats)
   {
-    const Splat& splat = splats[i];
     if (!(splat.radius > 0.0))
     {
       continue; // another one represents it
     }
-    area += areaOf(splat);
     const Vector along = scaled(1.0 / splat.radius, splat.axis);
     for (const SplatCorner& corner : cornersOf(splat))
     {
-      const Vector place = sum(points.positions[i], 1.0, offsetOf(splat, corner));
+      const Vector place = sum(splat.point, 1.0, offsetOf(splat, corner));
       ASSERT_NEAR(lengthOf(place), 1.0, 0.002);
       const Vector normal = sum(sum(splat.normal, corner.slopeAlong, along), corner.slopeAcross,
         cross(splat.normal, along));
-      ASSERT_GT(dot(isopoint::directionOf(normal), place), 0.9995);
+      ASSERT_GT(dot(directionOf(normal), place), 0.9995);
       heights = std::max(heights, std::abs(static_cast<double>(corner.height)));
       corners.push_back(place);
     }
   }
   EXPECT_GT(heights, 0.04);
   const double sphereArea = 4.0 * std::acos(-1.0);
-  EXPECT_NEAR(area, sphereArea, 0.02 * sphereArea);
-  const auto shared = std::count_if(corners.begin(), corners.end(), // by three splats or more
-    [&](const Vector& a)
-    {
-      return std::count_if(corners.begin(), corners.end(),
-               [&](const Vector& b) { return lengthOf(difference(a, b)) < 1e-6; }) >= 3;
-    });
-  EXPECT_GT(static_cast<std::size_t>(shared), corners.size() * 97 / 100);
+  EXPECT_NEAR(clouds::sumOf(splats, areaOf), sphereArea, 0.02 * sphereArea);
+  const auto splatsAt = [&](const Vector& a)
+  { return countOf(corners, [&](const Vector& b) { return lengthOf(difference(a, b)) < 1e-6; }); };
+  EXPECT_GT(countOf(corners, [&](const Vector& corner) { return splatsAt(corner) >= 3; }),
+    corners.size() * 97 / 100);
 }
 
 // Rows ten times farther apart than points in a row: the nearest points all lie in one row.
@@ -361,11 +351,10 @@ TEST(Splats, CoverTheGapsBetweenCrowds)
     points.add({ i / 14 / 9 - 4 + 0.001 * std::cos(n), i / 14 % 9 - 4 + 0.001 * std::sin(n), 0.0 },
       std::nullopt, down);
   }
-  const std::vector<Splat> splats = splatsOf(points);
   double farthest = 0.0; // of the splats at the middle
-  for (std::size_t i = splats.size() / 2 - 7; i < splats.size() / 2 + 7; ++i)
+  for (const PlacedSplat& splat : splatsOf(points))
   {
-    farthest = std::max(farthest, splats[i].radius);
+    farthest = std::max(farthest, lengthOf(splat.point) < 0.1 ? splat.radius : 0.0);
   }
   EXPECT_GT(farthest, 0.7);
   EXPECT_LT(farthest, 1.5);
@@ -383,10 +372,10 @@ TEST(Splats, PlanesAreFittedToAsManyPointsAsRequested)
   }
   const auto worstSlope = [&](int count)
   {
-    isopoint::SplatOptions options;
+    SplatOptions options;
     options.neighborCount = count;
     options.fieldNormals = false;
-    const std::vector<Splat> splats = splatsOf(points, nullptr, options);
+    const std::vector<PlacedSplat> splats = splatsOf(points, nullptr, options);
     double slope = 0.0;
     for (std::size_t i = 0; i < 11 * 11; ++i)
     {
@@ -404,10 +393,9 @@ TEST(Splats, OfASmallBlobDoNotStickOut)
 {
   for (const std::size_t count : { 8, 14, 40 })
   {
-    for (const Splat& splat : splatsOf(fittedSphere(count, 2.0)))
-    {
-      EXPECT_LT(splat.radius, 1.8);
-    }
+    EXPECT_LT(largestOf(splatsOf(fittedSphere(count, 2.0)),
+                [](const Splat& splat) { return splat.radius; }),
+      1.8);
   }
 }
 
@@ -421,12 +409,8 @@ TEST(Splats, EndSoonBeyondTheSamples)
     points.add({ -10.0 * random(), 40.0 * random(), 0.0 }, FitOrder::Quadratic, down);
   }
   const HalfSpace samples;
-  const std::vector<Splat> splats = splatsOf(points, &samples);
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < splats.size(); ++i)
-  {
-    farthest = std::max(farthest, points.positions[i][0] + reachAlong(splats[i], 0));
-  }
+  const double farthest = largestOf(
+    splatsOf(points, &samples), [](const PlacedSplat& splat) { return reachAlong(splat, 0); });
   EXPECT_GT(farthest, 0.1);
   EXPECT_LT(farthest, 1.5);
 }
@@ -445,15 +429,13 @@ TEST(Splats, OfPointsWithAndWithoutSmoothFitsDoNotOverlap)
     points.add(
       { x, y, 0.0 }, random() < 0.5 ? std::optional(FitOrder::Quadratic) : std::nullopt, down);
   }
-  const std::vector<Splat> splats = splatsOf(points);
   double area = 0.0;
   double inner = 0.0; // of Voronoi cells, which are one of the lattice's on average
-  for (std::size_t i = 0; i < splats.size(); ++i)
+  for (const PlacedSplat& splat : splatsOf(points))
   {
-    const Vector& place = points.positions[i];
-    if (std::max(std::abs(place[0]), std::abs(place[1])) < distance * (half - 2))
+    if (std::max(std::abs(splat.point[0]), std::abs(splat.point[1])) < distance * (half - 2))
     {
-      area += areaOf(splats[i]);
+      area += areaOf(splat);
       inner += distance * distance;
     }
   }
@@ -491,7 +473,7 @@ TEST(Splats, ShapesDoNotDependOnRounding)
 // A corner is listed once, however many cuts pass through it, and cuts that miss the cell leave it.
 TEST(Splats, CellsListEachCornerOnce)
 {
-  isopoint::TangentPolygon cell(up, 4.0);
+  TangentPolygon cell(up, 4.0);
   for (const double x : { -1.0, 1.0 })
   {
     cell.cut(x, 0.0, 1.0, 1);
@@ -518,7 +500,7 @@ TEST(Splats, CellsListEachCornerOnce)
 // Of many corners those at the shortest sides become one; nothing else changes.
 TEST(Splats, CellsLoseTheirShortestSides)
 {
-  isopoint::TangentPolygon cell(up, 1.0);
+  TangentPolygon cell(up, 1.0);
   cell.cut(1.0, 0.0, 0.99, 7);
   cell.cut(0.0, 1.0, 0.999, 8);
   EXPECT_EQ(cell.end() - cell.begin(), 10);
@@ -527,9 +509,9 @@ TEST(Splats, CellsLoseTheirShortestSides)
     cell.reduceTo(8);
     EXPECT_EQ(cell.end() - cell.begin(), 8);
   }
-  for (const isopoint::TangentPolygon::Corner& corner : cell)
+  for (const TangentPolygon::Corner& corner : cell)
   {
-    EXPECT_EQ(corner.side, isopoint::TangentPolygon::limit);
+    EXPECT_EQ(corner.side, TangentPolygon::limit);
     EXPECT_NEAR(std::hypot(corner.x, corner.y), 1.0, 0.011);
   }
 }
@@ -538,13 +520,13 @@ TEST(Splats, CellsLoseTheirShortestSides)
 TEST(Splats, CoincidentPointsCountOnceAmongTheNearest)
 {
   const Points points = sphere(800);
-  const std::vector<Splat> expected = splatsOf(points);
+  const std::vector<PlacedSplat> expected = splatsOf(points);
   Points repeated;
   for (std::size_t i = 0; i < 30 * expected.size(); ++i)
   {
     repeated.addUnfitted(points.positions[i / 30], points.decreasingEdges[i / 30]);
   }
-  const std::vector<Splat> splats = splatsOf(repeated);
+  const std::vector<PlacedSplat> splats = splatsOf(repeated);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     const bool isFirst = i % 30 == 0;
@@ -565,19 +547,15 @@ TEST(Splats, AreHiddenBesideVisibleOnesAlone)
     points.addUnfitted(
       { 0.02 * (i % 100 + 0.4 * random()), static_cast<double>(i / 100), 0.0 }, scaled(2.0, up));
   }
-  const std::vector<Splat> splats = splatsOf(points);
-  std::size_t hidden = 0;
-  for (std::size_t i = 0; i < splats.size(); ++i)
+  const std::vector<PlacedSplat> splats = splatsOf(points);
+  for (const PlacedSplat& splat : splats)
   {
-    double nearest = closeness; // visible point
-    for (std::size_t k = 0; k < splats.size(); ++k)
-    {
-      const double distance = lengthOf(difference(points.positions[i], points.positions[k]));
-      nearest = splats[k].radius > 0.0 ? std::min(nearest, distance) : nearest;
-    }
-    EXPECT_LT(nearest, closeness) << i;
-    hidden += splats[i].radius > 0.0 ? 0 : 1;
+    const auto isVisibleNear = [&](const PlacedSplat& other)
+    { return other.radius > 0.0 && lengthOf(difference(splat.point, other.point)) < closeness; };
+    EXPECT_GT(countOf(splats, isVisibleNear), 0u);
   }
+  const std::size_t hidden =
+    countOf(splats, [](const Splat& splat) { return splat.radius == 0.0; });
   EXPECT_GT(hidden, splats.size() / 3);
   EXPECT_LT(hidden, splats.size() * 3 / 4);
 }
@@ -585,60 +563,43 @@ TEST(Splats, AreHiddenBesideVisibleOnesAlone)
 // The second cell reaches over the side of the first one, the third one does not.
 TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
 {
-  using isopoint::VoronoiCell;
   const std::vector<Vector> positions{ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 } };
   const std::vector<Vector> planes(3, up);
-  const std::vector<isopoint::LocalFit> noFits;
-  const isopoint::TangentFrame frame(up);
-  const auto cellOf = [&](double reach, std::size_t right, std::size_t top)
+  const std::vector<LocalFit> noFits;
+  const TangentFrame frame(up);
+  constexpr std::size_t none = VoronoiCell::none;
+  const auto square = [&](double reach, std::size_t right, std::size_t top)
   {
+    const auto corner = [&](double x, double y, std::size_t beyond) -> VoronoiCell::Corner {
+      return { dot({ x, y, 0.0 }, frame.first), dot({ x, y, 0.0 }, frame.second), beyond };
+    };
     // Counterclockwise from the corner before the side on the right.
-    VoronoiCell cell{ {}, 0, 1.0, {} };
-    const std::array<std::pair<Vector, std::size_t>, 4> corners{ { { { reach, -reach, 0 }, right },
-      { { reach, reach, 0 }, top }, { { -reach, reach, 0 }, VoronoiCell::none },
-      { { -reach, -reach, 0 }, VoronoiCell::none } } };
-    for (const auto& [place, beyond] : corners)
-    {
-      cell.corners[cell.count++] = { dot(place, frame.first), dot(place, frame.second), beyond };
-    }
-    return cell;
+    return cellOf({ corner(reach, -reach, right), corner(reach, reach, top),
+      corner(-reach, reach, none), corner(-reach, -reach, none) });
   };
-  isopoint::RawArray<VoronoiCell> cells;
-  cells.resize(3);
-  cells[0] = cellOf(1.0, 1, 2);
-  cells[1] = cellOf(1.5, VoronoiCell::none, VoronoiCell::none);
-  cells[2] = cellOf(0.9, VoronoiCell::none, VoronoiCell::none);
-  EXPECT_EQ(isopoint::missedPoints({}, { positions, positions, noFits }, planes, cells),
-    std::vector<isopoint::MissedPoint>{ isopoint::MissedPoint(1, 0) });
+  const auto cells =
+    arrayOf({ square(1.0, 1, 2), square(1.5, none, none), square(0.9, none, none) });
+  EXPECT_EQ(missedPoints({}, { positions, positions, noFits }, planes, cells),
+    std::vector<MissedPoint>{ MissedPoint(1, 0) });
 }
 
 // The sides before and after it are parallel: they do not meet.
 TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
 {
-  using isopoint::VoronoiCell;
   for (const std::size_t cornersOfOther : { 7, 8 })
   {
-    isopoint::RawArray<VoronoiCell> cells;
-    cells.resize(4);
-    std::fill_n(cells.data(), cells.size(), VoronoiCell{});
-    cells[0].corners = { { { -1, -1, VoronoiCell::none }, { 1, -1, 2 }, { 1, 1, 1 },
-      { -1, 1, 3 } } };
-    cells[0].count = 4;
-    cells[1].count = cornersOfOther;
-    for (std::size_t i = 0; i < cornersOfOther; ++i)
-    {
-      cells[1].corners[i].beyond = i == 4 ? 3 : i == 5 ? 2 : VoronoiCell::none;
-    }
-    cells[2].count = cells[3].count = 1;
-    cells[2].corners[0].beyond = cells[3].corners[0].beyond = 0;
-    const VoronoiCell mutual = isopoint::withSharedSides(cells, 0);
-    const auto countOf = [&](const auto& condition)
-    { return std::count_if(mutual.begin(), mutual.end(), condition); };
-    const bool isDropped = cornersOfOther == isopoint::mostCorners;
+    std::vector<VoronoiCell::Corner> others(cornersOfOther, { 0, 0, VoronoiCell::none });
+    others[4].beyond = 3;
+    others[5].beyond = 2;
+    const VoronoiCell mutual = withSharedSides(
+      arrayOf({ cellOf({ { -1, -1, VoronoiCell::none }, { 1, -1, 2 }, { 1, 1, 1 }, { -1, 1, 3 } }),
+        cellOf(others), cellOf({ { 0, 0, 0 } }), cellOf({ { 0, 0, 0 } }) }),
+      0);
+    const bool isDropped = cornersOfOther == mostCorners;
     EXPECT_EQ(mutual.count, isDropped ? 3 : 4);
-    EXPECT_EQ(countOf([](const VoronoiCell::Corner& corner) { return corner.overlaps; }),
+    EXPECT_EQ(countOf(mutual, [](const VoronoiCell::Corner& corner) { return corner.overlaps; }),
       isDropped ? 0 : 1);
-    EXPECT_EQ(countOf([](const VoronoiCell::Corner& corner)
+    EXPECT_EQ(countOf(mutual, [](const VoronoiCell::Corner& corner)
                 { return corner.x == 0.0 && corner.y == 1.0 && corner.beyond == 3; }),
       isDropped ? 1 : 0);
   }
@@ -647,20 +608,17 @@ TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
 // Each of four cells around a corner has a short side for the one across it.
 TEST(Splats, SidesThatCrossBecomeOneCorner)
 {
-  using isopoint::VoronoiCell;
-  isopoint::RawArray<VoronoiCell> cells;
-  cells.resize(4);
+  std::vector<VoronoiCell> all;
   for (std::size_t i = 0; i < 4; ++i)
   {
     // Counterclockwise around the corner: the cells i + 1, i + 2 and i + 3.
-    cells[i] = {};
-    cells[i].corners = { { { 0.0, 0.0, (i + 1) % 4 }, { 2.0, 1.9, (i + 2) % 4 },
-      { 1.9, 2.0, (i + 3) % 4 }, { 0.0, 1.0, VoronoiCell::none } } };
-    cells[i].count = 4;
+    all.push_back(cellOf({ { 0.0, 0.0, (i + 1) % 4 }, { 2.0, 1.9, (i + 2) % 4 },
+      { 1.9, 2.0, (i + 3) % 4 }, { 0.0, 1.0, VoronoiCell::none } }));
   }
+  const RawArray<VoronoiCell> cells = arrayOf(all);
   for (std::size_t i = 0; i < 4; ++i)
   {
-    const VoronoiCell cell = isopoint::withSharedSides(cells, i);
+    const VoronoiCell cell = withSharedSides(cells, i);
     ASSERT_EQ(cell.count, 3);
     EXPECT_EQ(cell.corners[1].beyond, (i + 3) % 4);
     EXPECT_EQ(cell.corners[1].x, 1.95);
@@ -677,7 +635,7 @@ TEST(Splats, NormalsOfTooFewOrCollinearPointsAreThoseOfTheirEdges)
     Points points;
     points.positions = positions;
     points.decreasingEdges.assign(positions.size(), { 0.0, 2.0, 0.0 });
-    const std::vector<Splat> splats = splatsOf(points);
+    const std::vector<PlacedSplat> splats = splatsOf(points);
     for (std::size_t i = 0; i < splats.size(); ++i)
     {
       EXPECT_EQ(splats[i].normal, (Vector{ 0.0, 1.0, 0.0 }));
@@ -695,27 +653,23 @@ TEST(Splats, NormalsOfSheetsCloseByPointToTheirOwnDecreasingSide)
   for (int i = 0; i < 4000; ++i)
   {
     const double side = i % 2 ? 1.0 : -1.0;
-    points.positions.push_back({ random(), random(), 0.004 * side });
-    points.decreasingEdges.push_back(
+    points.addUnfitted({ random(), random(), 0.004 * side },
       { 0.02 * (random() - 0.5), 0.02 * (random() - 0.5), 0.02 * side });
   }
-  const std::vector<Splat> splats = splatsOf(points);
-  for (std::size_t i = 0; i < splats.size(); ++i)
+  for (const PlacedSplat& splat : splatsOf(points))
   {
-    EXPECT_GT(dot(splats[i].normal, points.decreasingEdges[i]), 0.0);
+    EXPECT_GT(dot(splat.normal, splat.edge), 0.0);
   }
 }
 
 // Crease fits on both planes: each splat that reaches the other plane ends there.
 TEST(SplatCreases, EndAtTheOtherSide)
 {
-  const Points points = wedge(FitOrder::Crease, FitOrder::Crease, 2000);
-  const std::vector<Splat> splats = splatsOf(points);
+  const std::vector<PlacedSplat> splats = splatsOf(wedge(FitOrder::Crease, FitOrder::Crease, 2000));
   int ending = 0;
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    const std::size_t across = i % 2 == 0 ? 0 : 2;
-    const double beyond = points.positions[i][across] + reachAlong(splats[i], across);
+    const double beyond = reachAlong(splats[i], i % 2 == 0 ? 0 : 2);
     ASSERT_LT(beyond, 1e-6) << i;
     ending += beyond > -1e-6 ? 1 : 0;
   }
@@ -733,11 +687,11 @@ TEST(SplatCreases, OfOnePointAllCount)
     points.add(place, FitOrder::Crease, down).creases = { { { -1.0, 0.0, 0.0 }, -place[0], -1.0 },
       { { 0.0, -1.0, 0.0 }, -place[1], -1.0 } };
   }
-  const std::vector<Splat> splats = splatsOf(points);
+  const std::vector<PlacedSplat> splats = splatsOf(points);
   int ending = 0;
   for (std::size_t i = 0; i < 2 * splats.size(); ++i)
   {
-    const double beyond = points.positions[i / 2][i % 2] + reachAlong(splats[i / 2], i % 2);
+    const double beyond = reachAlong(splats[i / 2], i % 2);
     ASSERT_LT(beyond, 1e-6);
     ending += beyond > -1e-6 ? 1 : 0;
   }
@@ -749,13 +703,12 @@ TEST(SplatCreases, CoverAFaceUpToItsCrease)
 {
   for (const FitOrder order : { FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease })
   {
-    const Points points = wedge(order, FitOrder::Crease);
-    const std::vector<Splat> splats = splatsOf(points);
+    const std::vector<PlacedSplat> splats = splatsOf(wedge(order, FitOrder::Crease));
     clouds::Random random(8);
     for (int k = 0; k < 4000; ++k)
     {
       const Vector place{ -0.5 * random(), 1.0 + 8.0 * random(), 0.0 };
-      ASSERT_TRUE(isCovered(place, points, splats, 2)) << place[0] << ' ' << place[1];
+      ASSERT_TRUE(isCovered(place, splats, 2)) << place[0] << ' ' << place[1];
     }
   }
 }
@@ -774,7 +727,7 @@ TEST(SplatCreases, OfPointsOnACreaseCoverTheirOwnSide)
     {
       points.negate();
     }
-    const std::vector<Splat> splats = splatsOf(points);
+    const std::vector<PlacedSplat> splats = splatsOf(points);
     std::size_t hidden = 0; // behind a point close by
     for (std::size_t i = 0; i < 40; ++i)
     {
@@ -800,9 +753,9 @@ TEST(SplatCreases, OfTheNegatedFieldHaveTheSameShape)
     points.addOnWedge(top, 10.0 * along, -3.0 * off, FitOrder::Crease,
       top ? Vector{ turn, 0.0, 0.0 } : Vector{ 0.0, 0.0, turn });
   }
-  const std::vector<Splat> splats = splatsOf(points);
+  const std::vector<PlacedSplat> splats = splatsOf(points);
   points.negate();
-  const std::vector<Splat> turned = splatsOf(points);
+  const std::vector<PlacedSplat> turned = splatsOf(points);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
     ASSERT_EQ(turned[i].normal, scaled(-1.0, splats[i].normal));
@@ -822,10 +775,10 @@ TEST(SplatCreases, OfASingleWrongFitHarmNoOthers)
   {
     points.add({ 10.0 * random() - 5.0, 10.0 * random() - 5.0, 0.0 }, FitOrder::Quadratic, down);
   }
-  const std::vector<Splat> splats = splatsOf(points);
+  const std::vector<PlacedSplat> splats = splatsOf(points);
   for (int k = 0; k < 4000; ++k)
   {
     const Vector place{ 4.0 * random() - 2.0, 4.0 * random() - 2.0, 0.0 };
-    ASSERT_TRUE(isCovered(place, points, splats, 1)) << place[0] << ' ' << place[1];
+    ASSERT_TRUE(isCovered(place, splats, 1)) << place[0] << ' ' << place[1];
   }
 }

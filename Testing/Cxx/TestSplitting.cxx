@@ -10,8 +10,7 @@
 namespace
 {
 
-using isopoint::FloatSample;
-using isopoint::Halves;
+using namespace isopoint;
 
 std::vector<FloatSample> samplesOf(
   std::size_t count, const std::function<double(std::size_t, int)>& coordinate)
@@ -46,7 +45,7 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
   {
     std::vector<FloatSample> expected = samples;
     const std::optional<Halves> byDefinition =
-      isopoint::halveByDefinition(expected.data(), expected.size(), axis);
+      halveByDefinition(expected.data(), expected.size(), axis);
     ASSERT_TRUE(byDefinition);
     const auto check = [&](std::vector<FloatSample>& found, const std::optional<Halves>& halves)
     {
@@ -61,12 +60,11 @@ void expectHalvedByDefinition(const std::vector<FloatSample>& samples)
       EXPECT_EQ(sortedIds(expected.data() + lower, expected.data() + expected.size()),
         sortedIds(begin + lower, end));
     };
-    isopoint::HalvingScratch<FloatSample> reused;
+    HalvingScratch<FloatSample> reused;
     std::vector<FloatSample> alone = samples;
-    check(alone, isopoint::halve(alone.data(), alone.size(), axis, reused));
+    check(alone, halve(alone.data(), alone.size(), axis, reused));
     std::vector<FloatSample> together = samples;
-    check(together,
-      isopoint::halveTogether(clouds::executionOn(3), together.data(), together.size(), axis));
+    check(together, halveTogether(clouds::executionOn(3), together.data(), together.size(), axis));
   }
 }
 
@@ -102,9 +100,9 @@ TEST(Splitting, CoincidentSamplesAreNotSplit)
     {
       std::vector<FloatSample> samples =
         samplesOf(count, [=](std::size_t i, int) { return i == 0 ? 0.0 : zero; });
-      isopoint::HalvingScratch<FloatSample> reused;
-      EXPECT_FALSE(isopoint::halve(samples.data(), count, 0, reused));
-      EXPECT_FALSE(isopoint::halveByDefinition(samples.data(), count, 0));
+      HalvingScratch<FloatSample> reused;
+      EXPECT_FALSE(halve(samples.data(), count, 0, reused));
+      EXPECT_FALSE(halveByDefinition(samples.data(), count, 0));
     }
   }
 }
@@ -112,21 +110,20 @@ TEST(Splitting, CoincidentSamplesAreNotSplit)
 // A way down from the root and back, by the turns taken.
 TEST(BinaryIndex, NamesAWayThroughTheTree)
 {
-  std::vector<isopoint::BinaryIndex> way{ isopoint::rootIndex };
+  std::vector<BinaryIndex> way{ rootIndex };
   std::vector<bool> turns;
-  for (int depth = 0; depth < isopoint::maximumDepth; ++depth)
+  for (int depth = 0; depth < maximumDepth; ++depth)
   {
     turns.push_back(depth % 3 == 0 || depth % 7 == 2);
-    way.push_back(
-      turns.back() ? isopoint::upperChild(way.back()) : isopoint::lowerChild(way.back()));
-    EXPECT_EQ(isopoint::depthOf(way.back()), depth + 1);
-    EXPECT_EQ(isopoint::isUpperChild(way.back()), turns.back());
+    way.push_back(turns.back() ? upperChild(way.back()) : lowerChild(way.back()));
+    EXPECT_EQ(depthOf(way.back()), depth + 1);
+    EXPECT_EQ(isUpperChild(way.back()), turns.back());
   }
   for (std::size_t from = 0; from < way.size(); ++from)
   {
     for (std::size_t to = 0; to <= from; ++to)
     {
-      EXPECT_TRUE(isopoint::ancestorOf(way[from], static_cast<int>(from - to)) == way[to]);
+      EXPECT_TRUE(ancestorOf(way[from], static_cast<int>(from - to)) == way[to]);
       EXPECT_TRUE(from == to || way[from] != way[to]);
     }
   }
@@ -134,14 +131,14 @@ TEST(BinaryIndex, NamesAWayThroughTheTree)
 
 TEST(BinaryIndex, LevelsThatHalveSamples)
 {
-  EXPECT_EQ(isopoint::levelsToHalve(1), 0);
-  EXPECT_EQ(isopoint::levelsToHalve(2), 1);
-  EXPECT_EQ(isopoint::levelsToHalve(3), 2);
+  EXPECT_EQ(levelsToHalve(1), 0);
+  EXPECT_EQ(levelsToHalve(2), 1);
+  EXPECT_EQ(levelsToHalve(3), 2);
   for (int level = 2; level < 60; ++level)
   {
     const std::size_t power = std::size_t{ 1 } << level;
-    EXPECT_EQ(isopoint::levelsToHalve(power - 1), level);
-    EXPECT_EQ(isopoint::levelsToHalve(power), level);
-    EXPECT_EQ(isopoint::levelsToHalve(power + 1), level + 1);
+    EXPECT_EQ(levelsToHalve(power - 1), level);
+    EXPECT_EQ(levelsToHalve(power), level);
+    EXPECT_EQ(levelsToHalve(power + 1), level + 1);
   }
 }

@@ -9,16 +9,13 @@
 namespace
 {
 
+using namespace isopoint;
 using clouds::Cloud;
 using clouds::withValuesOf;
-using isopoint::ExtractedIsosurface;
-using isopoint::FitOrder;
-using isopoint::SurfaceTriangle;
-using isopoint::Vector;
 using topology::distanceFromSphere;
 using topology::normalOf;
 
-isopoint::ExtractionRequest requestOf(
+ExtractionRequest requestOf(
   double isovalue, std::optional<FitOrder> order = std::nullopt, bool dropsGaps = false)
 {
   return clouds::withTriangles(clouds::withSplats(clouds::requestOf(isovalue, order, dropsGaps)));
@@ -61,13 +58,9 @@ void expectClosedManifold(const ExtractedIsosurface& extracted, long eulerCharac
 /// The volume that the surface encloses, positive if its normals point outwards.
 double volumeOf(const ExtractedIsosurface& extracted)
 {
-  double sum = 0.0;
-  for (const SurfaceTriangle& triangle : extracted.triangles)
-  {
-    sum += isopoint::dot(
-      extracted.surface.positions[triangle[0]], normalOf(extracted.surface.positions, triangle));
-  }
-  return sum / 6.0;
+  const std::vector<Vector>& p = extracted.surface.positions;
+  return clouds::sumOf(extracted.triangles, [&](const SurfaceTriangle& triangle)
+    { return dot(p[triangle[0]], normalOf(p, triangle)) / 6.0; });
 }
 
 double distanceFromTorus(const Vector& p)
@@ -77,12 +70,8 @@ double distanceFromTorus(const Vector& p)
 
 double largestDistance(const ExtractedIsosurface& extracted, double (*distance)(const Vector&))
 {
-  double largest = 0.0;
-  for (const Vector& position : extracted.surface.positions)
-  {
-    largest = std::max(largest, std::abs(distance(position)));
-  }
-  return largest;
+  return clouds::largestOf(
+    extracted.surface.positions, [&](const Vector& p) { return std::abs(distance(p)); });
 }
 
 /// A grid around a post, with cells that are stretched up to 30 times.
@@ -124,7 +113,7 @@ struct FlatSheet
       for (int x = 0; x < size; ++x)
       {
         this->positions.push_back({ double(x), double(y), 0.0 });
-        isopoint::LocalFit& fit = this->fits[vertexAt(x, y)];
+        LocalFit& fit = this->fits[vertexAt(x, y)];
         fit.position = this->positions.back();
         fit.gradient = { 0.0, 0.0, -1.0 };
         fit.isGradientFitted = true;
@@ -143,13 +132,13 @@ struct FlatSheet
 
   std::vector<Vector> positions;
   std::vector<SurfaceTriangle> triangles;
-  std::vector<isopoint::LocalFit> fits;
+  std::vector<LocalFit> fits;
 
 private:
   std::vector<Vector> normals(bool areOfField) const
   {
     const std::vector<Vector> decreasing(this->positions.size(), Vector{ 0.0, 0.0, 1.0 });
-    return isopoint::vertexNormals(
+    return vertexNormals(
       {}, { this->positions, decreasing, this->fits }, this->triangles, areOfField);
   }
 };
@@ -173,8 +162,8 @@ TEST(Triangles, OfASphereAreClosedWithNormalsAgainstTheGradient)
     ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      const Vector inward = isopoint::difference({ 0.5, 0.5, 0.5 }, extracted.surface.positions[i]);
-      EXPECT_GT(isopoint::dot(isopoint::directionOf(inward), extracted.normals[i]), leastCosine);
+      const Vector inward = difference({ 0.5, 0.5, 0.5 }, extracted.surface.positions[i]);
+      EXPECT_GT(dot(directionOf(inward), extracted.normals[i]), leastCosine);
     }
   };
   expectInward(fitted, 0.99);
@@ -196,17 +185,17 @@ TEST(Triangles, OfATorusAreClosedFollowTheFitsAndAreNotTurnedOver)
   const auto turnedOver = [&](const ExtractedIsosurface& extracted)
   {
     const std::vector<Vector>& positions = extracted.surface.positions;
-    return std::count_if(extracted.triangles.begin(), extracted.triangles.end(),
+    return clouds::countOf(extracted.triangles,
       [&](const SurfaceTriangle& triangle)
       {
-        const auto [x, y, z] = isopoint::difference(positions[triangle[0]], { 0.5, 0.5, 0.5 });
+        const auto [x, y, z] = difference(positions[triangle[0]], { 0.5, 0.5, 0.5 });
         const double ring = 1.0 - 0.28 / std::hypot(x, y);
-        return isopoint::dot({ ring * x, ring * y, z }, normalOf(positions, triangle)) >= 0.0;
+        return dot({ ring * x, ring * y, z }, normalOf(positions, triangle)) >= 0.0;
       });
   };
   // Flat tetrahedra have a few before anything moves.
   EXPECT_LE(turnedOver(fitted), turnedOver(onEdges));
-  EXPECT_LT(turnedOver(onEdges), 20);
+  EXPECT_LT(turnedOver(onEdges), 20u);
 }
 
 /// A vertex that a fit would move across the opposite edge of its triangle stays, and so do its
@@ -216,22 +205,22 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
   const std::vector<Vector> unmoved{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },
     { 1.0, 1.0, 0.0 } };
   const std::vector<SurfaceTriangle> triangles{ { 0, 1, 2 }, { 1, 3, 2 } };
-  std::vector<isopoint::LocalFit> fits(4);
+  std::vector<LocalFit> fits(4);
   for (std::size_t i = 0; i < 4; ++i)
   {
     fits[i].order = FitOrder::Cubic;
     fits[i].gradient = { 0.0, 0.1, -2.0 };
-    fits[i].position = isopoint::sum(unmoved[i], 0.1, { 0.1, 0.2, 1.0 });
+    fits[i].position = sum(unmoved[i], 0.1, { 0.1, 0.2, 1.0 });
   }
-  const std::vector<isopoint::LocalFit> before = fits;
-  isopoint::keepTrianglesUpright({}, unmoved, triangles, fits);
+  const std::vector<LocalFit> before = fits;
+  keepTrianglesUpright({}, unmoved, triangles, fits);
   for (std::size_t i = 0; i < 4; ++i)
   {
     EXPECT_TRUE(fits[i].order.has_value());
     EXPECT_EQ(fits[i].position, before[i].position);
   }
   fits[0].position = { 1.2, 1.2, 0.0 };
-  isopoint::keepTrianglesUpright({}, unmoved, triangles, fits);
+  keepTrianglesUpright({}, unmoved, triangles, fits);
   for (const std::size_t i : { 0, 1, 2 })
   {
     EXPECT_FALSE(fits[i].order.has_value());
@@ -245,7 +234,7 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
 TEST(Triangles, StayNearTheirTriangles)
 {
   FlatSheet sheet;
-  for (isopoint::LocalFit& fit : sheet.fits)
+  for (LocalFit& fit : sheet.fits)
   {
     fit.position[2] = 0.5;
   }
@@ -255,8 +244,8 @@ TEST(Triangles, StayNearTheirTriangles)
   sheet.fits[FlatSheet::vertexAt(5, 1)].position[2] = 2.8; // shorter than two diagonals
   sheet.fits[crease].position[2] = 2.9;
   sheet.fits[crease].order = FitOrder::Crease;
-  const std::vector<isopoint::LocalFit> before = sheet.fits;
-  isopoint::keepTrianglesUpright({}, sheet.positions, sheet.triangles, sheet.fits);
+  const std::vector<LocalFit> before = sheet.fits;
+  keepTrianglesUpright({}, sheet.positions, sheet.triangles, sheet.fits);
   for (std::size_t i = 0; i < before.size(); ++i)
   {
     EXPECT_EQ(sheet.fits[i].order.has_value(), i != far) << i;
@@ -268,8 +257,8 @@ TEST(Triangles, StayNearTheirTriangles)
 TEST(Triangles, HaveTheirOwnNormalsWhereAFitFailed)
 {
   FlatSheet sheet;
-  const Vector slanted = isopoint::directionOf({ 0.1, 0.2, -1.0 });
-  for (isopoint::LocalFit& fit : sheet.fits)
+  const Vector slanted = directionOf({ 0.1, 0.2, -1.0 });
+  for (LocalFit& fit : sheet.fits)
   {
     fit.gradient = slanted;
   }
@@ -287,9 +276,8 @@ TEST(Triangles, HaveTheirOwnNormalsWhereAFitFailed)
   for (std::size_t i = 0; i < normals.size(); ++i)
   {
     const bool isTurned = std::count(turned.begin(), turned.end(), i) > 0;
-    EXPECT_EQ(normals[i], isTurned
-                            ? Vector({ 0.0, 0.0, 1.0 })
-                            : isopoint::scaled(-1.0, isopoint::directionOf(sheet.fits[i].gradient)))
+    EXPECT_EQ(normals[i],
+      isTurned ? Vector({ 0.0, 0.0, 1.0 }) : scaled(-1.0, directionOf(sheet.fits[i].gradient)))
       << i;
   }
 }
@@ -322,7 +310,7 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
   for (const Cloud& cloud :
     { withValuesOf(gridAroundAPost(), plane), withValuesOf(gridAroundAPost(), curved) })
   {
-    isopoint::ExtractionRequest request = requestOf(0.0, FitOrder::Cubic, true);
+    ExtractionRequest request = requestOf(0.0, FitOrder::Cubic, true);
     const std::vector<Vector> ofFits = clouds::extracted(cloud, request).normals;
     request.splats->fieldNormals = false;
     const std::vector<Vector> ofTriangles = clouds::extracted(cloud, request).normals;
@@ -330,7 +318,7 @@ TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
     std::size_t same = 0;
     for (std::size_t i = 0; i < ofFits.size(); ++i)
     {
-      EXPECT_GT(isopoint::dot(ofFits[i], ofTriangles[i]), 0.25); // of 76 degrees
+      EXPECT_GT(dot(ofFits[i], ofTriangles[i]), 0.25); // of 76 degrees
       same += ofFits[i] == ofTriangles[i] ? 1 : 0;
     }
     EXPECT_LT(same, ofFits.size() / 100);
@@ -374,7 +362,7 @@ TEST(Triangles, MeetAtSamplesWithTheIsovalue)
     EXPECT_EQ(std::set<Vector>(positions.begin(), positions.end()).size(), positions.size());
     for (const SurfaceTriangle& triangle : extracted.triangles)
     {
-      EXPECT_GT(isopoint::lengthOf(normalOf(positions, triangle)), 0.0);
+      EXPECT_GT(lengthOf(normalOf(positions, triangle)), 0.0);
     }
   }
 }
@@ -387,11 +375,8 @@ TEST(Triangles, AreBalancedForAnyCloud)
     clouds::Dice dice(seed);
     Cloud cloud = clouds::randomCloud(dice, seed);
     // Values of few kinds, the isovalue among them, inside a hull of samples above it.
-    double side = 3.0;
-    for (const double coordinate : cloud.positions)
-    {
-      side = std::max(side, 3.0 * std::abs(coordinate));
-    }
+    const double side = 3.0 * std::max(1.0, clouds::largestOf(cloud.positions, [](double coordinate)
+                                              { return std::abs(coordinate); }));
     std::generate(
       cloud.values.begin(), cloud.values.end(), [&]() { return static_cast<double>(dice(5)); });
     for (int corner = 0; corner < 8; ++corner)
@@ -422,11 +407,11 @@ TEST(Triangles, DropWhatSpansGaps)
   }
   const auto countBetween = [](const ExtractedIsosurface& extracted)
   {
-    return std::count_if(extracted.surface.positions.begin(), extracted.surface.positions.end(),
-      [](const Vector& p) { return p[0] > 1.5 && p[0] < 7.5; });
+    return clouds::countOf(
+      extracted.surface.positions, [](const Vector& p) { return p[0] > 1.5 && p[0] < 7.5; });
   };
   const ExtractedIsosurface whole = clouds::extracted(cloud, requestOf(0.5));
-  EXPECT_GT(countBetween(whole), 50);
+  EXPECT_GT(countBetween(whole), 50u);
   const ExtractedIsosurface cut = clouds::extracted(cloud, requestOf(0.5, std::nullopt, true));
   // Behind samples at corners of the hull there are not two others: their edges stay.
   EXPECT_LT(countBetween(cut), countBetween(whole) / 10);

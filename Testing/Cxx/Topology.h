@@ -15,7 +15,10 @@ using isopoint::Vector;
 using Triangles = std::vector<isopoint::SurfaceTriangle>;
 using Edge = std::pair<std::size_t, std::size_t>;
 
-inline std::size_t rootOf(std::vector<std::size_t>& roots, std::size_t vertex)
+/// The root of a vertex's tree, of those that unite vertices.
+/// @tparam TRoots a list or map
+template <class TRoots>
+std::size_t rootOf(TRoots& roots, std::size_t vertex)
 {
   while (roots[vertex] != vertex)
   {
@@ -27,23 +30,18 @@ inline std::size_t rootOf(std::vector<std::size_t>& roots, std::size_t vertex)
 /// The components that edges connect vertices to.
 inline std::size_t componentsOf(const std::set<Edge>& edges)
 {
-  std::map<std::size_t, std::size_t> numbers;
+  std::map<std::size_t, std::size_t> roots;
+  std::size_t united = 0;
   for (const auto& [a, b] : edges)
   {
-    numbers.emplace(a, numbers.size());
-    numbers.emplace(b, numbers.size());
-  }
-  std::vector<std::size_t> roots(numbers.size());
-  std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
-  std::size_t count = roots.size();
-  for (const auto& [a, b] : edges)
-  {
-    const std::size_t first = rootOf(roots, numbers[a]);
-    const std::size_t second = rootOf(roots, numbers[b]);
-    count -= first != second ? 1 : 0;
+    roots.emplace(a, a);
+    roots.emplace(b, b);
+    const std::size_t first = rootOf(roots, a);
+    const std::size_t second = rootOf(roots, b);
+    united += first != second ? 1 : 0;
     roots[first] = second;
   }
-  return count;
+  return roots.size() - united;
 }
 
 /// How many triangles each edge has.
@@ -59,7 +57,7 @@ inline std::map<Edge, int> edgesOf(const Triangles& triangles)
   return edges;
 }
 
-/// What stays of a surface if its triangles change.
+/// What regularization keeps of a surface.
 struct Topology
 {
   long eulerCharacteristic = 0;
@@ -124,7 +122,7 @@ inline Vector normalOf(const std::vector<Vector>& p, const isopoint::SurfaceTria
 /// Of radius 0.35, in the middle of the unit cube.
 inline double distanceFromSphere(const Vector& p)
 {
-  return isopoint::lengthOf(isopoint::difference(p, { 0.5, 0.5, 0.5 })) - 0.35;
+  return clouds::fromMiddle(p) - 0.35;
 }
 
 } // namespace topology

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Clouds.h"
+#include "BruteForce.h"
 
 #include "Core/Extraction/SingleRank.h"
 #include "Core/Tree/Loading.h"
@@ -45,18 +45,11 @@ public:
     for (const auto& [p, same] : idsAt)
     {
       points.push_back({ Kernel::Point_3(p[0], p[1], p[2]), this->Ids.size() });
-      double sum = 0.0;
-      double lowest = cloud.values[same[0]];
-      double highest = lowest;
-      for (const std::uint64_t id : same)
-      {
-        sum += cloud.values[id];
-        lowest = std::min(lowest, cloud.values[id]);
-        highest = std::max(highest, cloud.values[id]);
-      }
-      const double mean = same.size() == 1 ? sum : sum / static_cast<double>(same.size());
+      std::vector<double> values;
+      std::transform(same.begin(), same.end(), std::back_inserter(values),
+        [&](std::uint64_t id) { return cloud.values[id]; });
       this->Ids.push_back(same[0]);
-      this->Values.push_back(std::min(std::max(mean, lowest), highest));
+      this->Values.push_back(bruteforce::meanOf(values));
     }
     this->cells.insert(points.begin(), points.end());
   }
@@ -146,7 +139,7 @@ public:
     return this->compared(extraction.tetrahedra(this->Run), extraction.counts(), isovalue);
   }
 
-  /// The same from a band of a share of the nodes that a narrow band yields, the first of them.
+  /// The same from a first band of only a share of the narrow band's nodes.
   Found expectSameFromPart(double isovalue, double share)
   {
     auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Run).refine(this->Rank);
@@ -203,10 +196,14 @@ private:
 
   template <class Tetrahedra>
   Found compared(
-    const Tetrahedra& tetrahedra, const isopoint::TetrahedraCounts& counts, double isovalue) const
+    const Tetrahedra& tetrahedra, const isopoint::TetrahedraCounts& counts, double isovalue)
   {
+    if (!this->Full)
+    {
+      this->Full.emplace(this->Samples);
+    }
     const Found found{ this->cornersOf(tetrahedra), counts };
-    const auto expected = FullTetrahedralization(this->Samples).tetrahedra(isovalue);
+    const auto expected = this->Full->tetrahedra(isovalue);
     EXPECT_EQ(found.corners.size(), expected.size()) << isovalue;
     EXPECT_TRUE(found.corners == expected) << isovalue;
     return found;
@@ -218,6 +215,7 @@ private:
   isopoint::SingleRank<TSample> Rank{ this->Tree };
   isopoint::NeighborhoodCache<typename TSample::Id> None;
   std::unique_ptr<isopoint::KeptTetrahedra> Band;
+  std::optional<FullTetrahedralization> Full; // once it is needed
 };
 
 /// Expects the same crossing tetrahedra from both. @returns what was found
