@@ -119,7 +119,7 @@ TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
   struct Case
   {
     std::array<unsigned char, 8> bitsOfCells;
-    bool hasGhostsOfPoints; // the first point is a duplicate
+    bool hasGhostsOfPoints; // the first point is a duplicate, the sixth is hidden
     std::array<bool, 9> areSamples;
   };
   const std::vector<Case> cases{
@@ -131,7 +131,7 @@ TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
       { true, true, true, true, true, false, false, false, false } },
     // A ghost array of the points determines the duplicates.
     { { duplicate, duplicate, 0, 0, 0, duplicate, hidden, hidden }, true,
-      { false, true, true, true, true, true, true, false, false } },
+      { false, true, true, true, true, false, true, false, false } },
   };
   for (const Case& along : cases)
   {
@@ -145,7 +145,8 @@ TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
       addGhosts(input, ofCells, [&](vtkIdType cell) { return at(along.bitsOfCells, cell); });
       if (along.hasGhostsOfPoints)
       {
-        addGhosts(input, ofPoints, [](vtkIdType i) { return i % 9 == 0 ? duplicatePoint : 0; });
+        addGhosts(input, ofPoints,
+          [](vtkIdType i) { return i % 9 == 0 ? duplicatePoint : (i % 9 == 5 ? hiddenPoint : 0); });
       }
       expectSamples(input, ofPoints, [&](vtkIdType i) { return at(along.areSamples, i); });
     }
