@@ -177,6 +177,22 @@ inline vtkSmartPointer<vtkPolyData> cloudOf(const Samples& samples)
   return cloud;
 }
 
+/// Each n-th sample of a cloud, from a first one on.
+inline vtkSmartPointer<vtkPolyData> everyNth(vtkPolyData* cloud, vtkIdType first, vtkIdType n)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud->GetPoints()->GetDataType());
+  auto part = vtkSmartPointer<vtkPolyData>::New();
+  part->SetPoints(points);
+  part->GetPointData()->CopyAllocate(cloud->GetPointData());
+  for (vtkIdType i = first; i < cloud->GetNumberOfPoints(); i += n)
+  {
+    const vtkIdType copy = points->InsertNextPoint(cloud->GetPoint(i));
+    part->GetPointData()->CopyData(cloud->GetPointData(), i, copy);
+  }
+  return part;
+}
+
 /// newCloud() as a grid of vertices, whose arrays are those of its cells.
 inline vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
 {

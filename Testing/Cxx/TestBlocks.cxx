@@ -119,10 +119,7 @@ TEST(Blocks, OnlyArraysOfAllBlocksAreInTheOutput)
     vtkDataSet* const block = blocks[i];
     const vtkIdType count = block->GetNumberOfPoints();
     vtkPointData* const data = block->GetPointData();
-    vtkNew<vtkStringArray> names;
-    names->SetName("names");
-    names->SetNumberOfTuples(count);
-    data->AddArray(names);
+    data->AddArray(textsOf("names", count, [](vtkIdType) { return ""; }));
     data->AddArray(arrayOf(
       "everywhere", count, [&](vtkIdType point) { return 2.0 * block->GetPoint(point)[0]; }));
     data->AddArray(newArray("short", 2));

@@ -200,20 +200,3 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
     EXPECT_EQ(points, expected);
   }
 }
-
-TEST(Robustness, AFilterMayBeFreedWhileAnotherSharesItsInput)
-{
-  const auto cloud = newCloud(10000);
-  const auto kept = newFilter(cloud);
-  {
-    const auto freed = newFilter(cloud);
-    freed->Update();
-    kept->Update();
-  }
-  const std::vector<double> before = pointsOf(kept->GetOutput());
-  EXPECT_FALSE(before.empty());
-  kept->SetAngle(50.0);
-  kept->Update();
-  kept->SetAngle(54.7);
-  EXPECT_EQ(pointsOf(outputOf(kept)), before);
-}
