@@ -14,24 +14,17 @@ using splatcoverage::Splat;
 
 constexpr double tolerance = 0.02;
 
-Vector randomVector(clouds::Random& random)
-{
-  const double x = 2.0 * random() - 1.0;
-  const double y = 2.0 * random() - 1.0;
-  return { x, y, 2.0 * random() - 1.0 };
-}
-
 /// Polygons on circles whose sizes vary a thousandfold, seen along one direction.
 std::vector<Splat> randomSplats(std::size_t count)
 {
   clouds::Random random(1);
-  const Vector normal = analytic::directionOf(randomVector(random));
-  const Vector first = analytic::directionOf(analytic::cross(normal, randomVector(random)));
+  const Vector normal = analytic::directionOf(random.inCube(2.0));
+  const Vector first = analytic::directionOf(analytic::cross(normal, random.inCube(2.0)));
   const Vector second = analytic::cross(normal, first);
   std::vector<Splat> splats(count);
   for (Splat& splat : splats)
   {
-    splat.center = randomVector(random);
+    splat.center = random.inCube(2.0);
     splat.normal = normal;
     const double radius = std::pow(10.0, -3.0 * random());
     for (int i = 0; i < 64; ++i)
@@ -65,7 +58,7 @@ int countUncovered(
   int uncovered = 0;
   for (int i = 0; i < places; ++i)
   {
-    const analytic::Foot foot = surface.footOf(randomVector(random));
+    const analytic::Foot foot = surface.footOf(random.inCube(2.0));
     uncovered += foot.normals.size() == 1 && !coverage.covers(foot.point, foot.normals[0]) ? 1 : 0;
   }
   return uncovered;
@@ -116,7 +109,7 @@ TEST(Coverage, AgreesWithATestOfAllSplats)
   constexpr int count = 20000;
   for (int i = 0; i < count; ++i)
   {
-    const Vector place = randomVector(random);
+    const Vector place = random.inCube(2.0);
     const auto expected = [&](double share)
     {
       return std::any_of(splats.begin(), splats.end(),
@@ -219,7 +212,7 @@ TEST(Coverage, SplatsDoNotExtendFarOverABorderBesideOtherSheets)
   Samples samples;
   while (samples.size() < 11494)
   {
-    const Vector p = analytic::scaled(randomVector(random), ball);
+    const Vector p = analytic::scaled(random.inCube(2.0), ball);
     if (length(p) < ball)
     {
       samples.push_back({ p[0], p[1], p[2], std::sin(0.25 * analytic::pi * p[2]) });
