@@ -4,7 +4,6 @@
 
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkTable.h"
 
 using namespace inputtesting;
 
@@ -278,14 +277,4 @@ TEST(Blocks, MixedTypesOfPointsAndScalarsLoseNoPrecision)
   upper->GetPointData()->SetScalars(whole);
   all.insert(all.begin(), lower.begin(), lower.end());
   expectSame(blocksOf({ cloudOf(lower), upper.Get() }), ofPoints, all);
-}
-
-TEST(Blocks, ACompositeWithoutPointsYieldsOneError)
-{
-  vtkNew<vtkPolyData> nothing;
-  vtkNew<vtkTable> table;
-  const auto filter = filterOf(blocksOf({ nothing.Get(), table.Get() }));
-  const auto errors = watchErrors(filter);
-  expectEmpty(outputOf(filter));
-  EXPECT_EQ(errors->count(), 1u);
 }

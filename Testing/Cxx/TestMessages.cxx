@@ -2,6 +2,8 @@
 // Errors, warnings and notes: one short message of each cause, with figures and a remedy.
 #include "InputTesting.h"
 
+#include "vtkTable.h"
+
 #include <cerrno>
 
 using namespace inputtesting;
@@ -281,7 +283,7 @@ TEST(Messages, EachInvalidUseIsOneError)
   const auto unloaded = newImage({ 4, 4, 4 }, 0.25);
   unloaded->GetPointData()->AddArray(ghostsOf(125, [](vtkIdType) { return 0; }));
   vtkNew<vtkPolyData> nothing;
-  const auto emptyBlocks = blocksOf({ nothing.Get() });
+  const auto emptyBlocks = blocksOf({ nothing.Get(), vtkSmartPointer<vtkTable>::New() });
   constexpr int ofAny = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
   const std::string remedy = "SetInputArrayToProcess()";
   const std::string offer = "distance, x, position, names, short";

@@ -240,17 +240,6 @@ TEST(Library, ResultsDependOnNeitherThreadsNorWhatWasExtractedBefore)
   }
 }
 
-TEST(Library, NewValuesAtTheSamePositionsReplaceTheFormerOnes)
-{
-  Cloud cloud;
-  const Extractor extractor(cloud);
-  extractor.extract();
-  std::transform(cloud.values.begin(), cloud.values.end(), cloud.values.begin(),
-    [](double value) { return 2.0 * value * value; });
-  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
-  EXPECT_EQ(bytesOf(extractor.extract()), bytesOf(Extractor(cloud).extract()));
-}
-
 TEST(Library, StridesMayBeAnyEvenNegative)
 {
   const Cloud cloud;
