@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Descriptions.h"
+#include "RandomClouds.h"
 #include "ThreadRanks.h"
 
 #include <gtest/gtest.h>
@@ -20,6 +21,35 @@ inline std::vector<clouds::Cloud> variousClouds()
     clouds::curves(900, 8), clouds::flattened(clouds::uniform(900, 9), 2),
     clouds::flattened(clouds::uniform(300, 10), 1), clouds::nestedCoincident(400),
     clouds::layerBeforeOne(900, 11) };
+}
+
+/// Points with options by chance.
+inline Request randomRequest(clouds::Dice& dice)
+{
+  using isopoint::FitOrder;
+  constexpr double angles[] = { 54.7, 54.7, 54.7, 0.0, 30.0, 120.0, 180.0 };
+  Request request;
+  request.isosurface.isovalue = 3.0 * dice.real() - 1.0;
+  request.isosurface.angle = angles[dice(7)];
+  request.isosurface.dropsGaps = dice(2) == 0;
+  const std::size_t order = dice(7);
+  if (order > 0)
+  {
+    request.isosurface.fit = isopoint::FitRequest{ std::nullopt, false };
+  }
+  if (order > 1)
+  {
+    request.isosurface.fit =
+      isopoint::FitRequest{ static_cast<FitOrder>(std::min<std::size_t>(order - 1, 4)),
+        dice(3) > 0 };
+    request.minimumSpacing = dice(3) == 0 ? dice.real() : 0.0;
+  }
+  if (dice(4) > 0)
+  {
+    request.splats =
+      isopoint::SplatOptions{ 3 + static_cast<int>(dice(12)), dice(5) > 0, dice(5) > 0 };
+  }
+  return request;
 }
 
 /// How a cloud is dealt out. Ids count through the ranks: the cloud of one rank is that of all

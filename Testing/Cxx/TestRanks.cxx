@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whatever ranks a cloud is dealt out to, they yield together what one rank does.
-#include "RandomRequests.h"
 #include "RankTesting.h"
 
 #include "Core/Triangles/SurfacePart.h"
@@ -175,11 +174,11 @@ TEST(Ranks, SendManySamplesInSlices)
 }
 
 /// The environment variables RANKS_FIRST_SEED and RANKS_SEEDS choose other clouds, options and
-/// ranks than the first hundred.
-TEST(Ranks, YieldTheRandomPointsOfOneRank)
+/// ranks than the first hundred and fifty.
+TEST(Ranks, YieldTheRandomResultsOfOneRank)
 {
   const std::uint64_t first = clouds::numberFrom("RANKS_FIRST_SEED", 1);
-  const std::uint64_t count = clouds::numberFrom("RANKS_SEEDS", 100);
+  const std::uint64_t count = clouds::numberFrom("RANKS_SEEDS", 150);
   for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -188,31 +187,22 @@ TEST(Ranks, YieldTheRandomPointsOfOneRank)
     const Deal deal = ranks::allDeals[dice(6)];
     const std::size_t size = 2 + dice(dice(4) == 0 ? 12 : 5);
     std::vector<Request> requests(1 + dice(3));
-    std::generate(requests.begin(), requests.end(), [&]() { return clouds::randomRequest(dice); });
+    std::generate(requests.begin(), requests.end(), [&]() { return ranks::randomRequest(dice); });
+    if (seed - first < clouds::lessIfSlow(count))
+    {
+      const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
+      Request crease = triangles(isovalue, FitOrder::Crease);
+      crease.isosurface.partsCreases = seed % 2 == 0;
+      requests.insert(requests.end(), { triangles(isovalue, FitOrder::Cubic), crease,
+                                        triangles(isovalue, std::nullopt, dice(2) == 0),
+                                        triangles(isovalue, FitOrder::Cubic, false, true),
+                                        triangles(isovalue, std::nullopt, dice(2) == 0, true) });
+    }
     const std::size_t threads = 1 + dice(2);
     const auto values = dice(3) == 0 ? ranks::Values::Replaced : ranks::Values::Loaded;
     const auto expectSame = dice(2) == 0 ? ranks::expectSameAsOneRank<float, float>
                                          : ranks::expectSameAsOneRank<double, double>;
     expectSame(cloud, size, deal, requests, threads, values);
-  }
-}
-
-TEST(Ranks, YieldTheTrianglesOfAnyCloud)
-{
-  for (std::uint64_t seed = 1; seed <= clouds::lessIfSlow(150); ++seed)
-  {
-    SCOPED_TRACE(seed);
-    clouds::Dice dice(seed);
-    const Cloud cloud = clouds::randomCloud(dice, seed);
-    const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
-    const std::size_t size = 2 + dice(4);
-    Request crease = triangles(isovalue, FitOrder::Crease);
-    crease.isosurface.partsCreases = seed % 2 == 0;
-    ranks::expectSameAsOneRank(cloud, size, Deal::RoundRobin,
-      { triangles(isovalue, FitOrder::Cubic), crease,
-        triangles(isovalue, std::nullopt, dice(2) == 0),
-        triangles(isovalue, FitOrder::Cubic, false, true),
-        triangles(isovalue, std::nullopt, dice(2) == 0, true) });
   }
 }
 
