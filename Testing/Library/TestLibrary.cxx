@@ -40,13 +40,9 @@ struct Cloud
     std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
     for (std::size_t i = 0; i < count; ++i)
     {
-      double square = 0.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->positions.push_back(anywhere(random));
-        square += this->positions.back() * this->positions.back();
-      }
-      this->values.push_back(std::sqrt(square));
+      const std::array<double, 3> p{ anywhere(random), anywhere(random), anywhere(random) };
+      this->positions.insert(this->positions.end(), p.begin(), p.end());
+      this->values.push_back(std::hypot(p[0], p[1], p[2]));
     }
   }
 
@@ -194,6 +190,15 @@ struct KeptSplats
     const isopoint_array along = arrayOf(this->axes, ISOPOINT_FLOAT, 3);
     const isopoint_array shapes = arrayOf(this->polygons, ISOPOINT_FLOAT, 40);
     return isopoint_create_surface(&places, &directions, &along, &shapes, surface);
+  }
+
+  /// A surface with the mesh of the splats.
+  Surface mesh(double scale) const
+  {
+    isopoint_surface* created = nullptr;
+    EXPECT_EQ(this->create(&created), ISOPOINT_OK) << isopoint_get_error();
+    EXPECT_EQ(isopoint_make_splat_mesh(created, scale), ISOPOINT_OK) << isopoint_get_error();
+    return { created, isopoint_destroy_surface };
   }
 };
 
@@ -615,11 +620,7 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
   const Surface surface = Extractor(Cloud()).extract();
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 0.9), ISOPOINT_OK);
   KeptSplats kept(surface);
-
-  isopoint_surface* created = nullptr;
-  ASSERT_EQ(kept.create(&created), ISOPOINT_OK) << isopoint_get_error();
-  const Surface again{ created, isopoint_destroy_surface };
-  ASSERT_EQ(isopoint_make_splat_mesh(again.get(), 0.9), ISOPOINT_OK) << isopoint_get_error();
+  const Surface again = kept.mesh(0.9);
   EXPECT_EQ(numbersOf<double>(again, ISOPOINT_SPLAT_VERTICES),
     numbersOf<double>(surface, ISOPOINT_SPLAT_VERTICES));
   const auto triangles = numbersOf<std::int64_t>(again, ISOPOINT_SPLAT_TRIANGLES);
@@ -629,6 +630,7 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
   const isopoint_array normals = arrayOf(kept.normals, ISOPOINT_FLOAT, 3);
   EXPECT_EQ(isopoint_average_at_splat_vertices(again.get(), &normals, means.data()), ISOPOINT_OK);
 
+  isopoint_surface* created = nullptr;
   expectInvalid(kept.create(&created, 1), "normals");
   expectInvalid(kept.create(nullptr));
   kept.axes.resize(kept.axes.size() - 3);
@@ -645,11 +647,7 @@ TEST(Library, KeptSplatsThatAreNotFiniteAreNotDrawn)
   kept.normals[6] = static_cast<float>(nan);
   kept.axes[9] = static_cast<float>(infinity);
   kept.polygons[160] = static_cast<float>(nan);
-  isopoint_surface* created = nullptr;
-  ASSERT_EQ(kept.create(&created), ISOPOINT_OK);
-  const Surface again{ created, isopoint_destroy_surface };
-  ASSERT_EQ(isopoint_make_splat_mesh(again.get(), 1.0), ISOPOINT_OK);
-  const auto drawn = numbersOf<std::int64_t>(again, ISOPOINT_SPLAT_VERTEX_POINTS);
+  const auto drawn = numbersOf<std::int64_t>(kept.mesh(1.0), ISOPOINT_SPLAT_VERTEX_POINTS);
   ASSERT_FALSE(drawn.empty());
   EXPECT_EQ(*std::min_element(drawn.begin(), drawn.end()), 5);
 }
