@@ -193,6 +193,19 @@ inline vtkSmartPointer<vtkPolyData> everyNth(vtkPolyData* cloud, vtkIdType first
   return part;
 }
 
+/// The points of a cubic lattice of spacing 1 around the origin, with a field of the position.
+inline Samples latticeOf(int size, const std::function<double(const Vector&)>& field)
+{
+  Samples samples;
+  for (int i = 0; i < size * size * size; ++i)
+  {
+    const double half = 0.5 * (size - 1);
+    const Vector p{ i % size - half, i / size % size - half, i / size / size - half };
+    samples.push_back({ p[0], p[1], p[2], field(p) });
+  }
+  return samples;
+}
+
 /// newCloud() as a grid of vertices, whose arrays are those of its cells.
 inline vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
 {

@@ -95,19 +95,6 @@ Samples scaled(const Samples& samples, double scale, double offset = 0.0)
     });
 }
 
-/// The distances of a lattice's points from its center.
-Samples latticeOf(int size)
-{
-  Samples samples;
-  for (int i = 0; i < size * size * size; ++i)
-  {
-    const double half = 0.5 * (size - 1);
-    const double p[3] = { i % size - half, i / size % size - half, i / size / size % size - half };
-    samples.push_back({ p[0], p[1], p[2], std::hypot(p[0], p[1], p[2]) });
-  }
-  return samples;
-}
-
 template <class TArray>
 void expectRoundedToDouble(typename TArray::ValueType first, double range)
 {
@@ -236,7 +223,7 @@ TEST(Degenerate, CoincidentSamplesCountAsOneWithTheMeanOfTheirValues)
 
 TEST(Degenerate, LatticesAndSamplesFarFromTheOriginHaveSpheres)
 {
-  expectSphere(contour(latticeOf(21), 7.5), 700, 7.5, 0.05);
+  expectSphere(contour(latticeOf(21, length), 7.5), 700, 7.5, 0.05);
   expectSphere(contour(scaled(distances(20000), 0.015, 1e9), 0.7), 500, 0.7, 0.03, 1e9, 0.015);
 }
 
@@ -267,7 +254,8 @@ TEST(Degenerate, SurfacesAreFiniteNearTheLimitsOfDouble)
     expectSphere(contour(scaled(distances(500), scale), 0.7), 20, 0.5, 0.5, 0.0, scale);
   }
   // Coordinates whose squares underflow, and curvatures that overflow.
-  const Samples lattice = changed(latticeOf(9), [](Sample& s) { s[3] = std::round(2.0 * s[3]); });
+  const Samples lattice =
+    changed(latticeOf(9, length), [](Sample& s) { s[3] = std::round(2.0 * s[3]); });
   for (const double scale : { 1e-152, 1e-153, 1e-154, 1e-155 })
   {
     EXPECT_GT(contour(scaled(lattice, scale), 5.0).count(), 100) << scale;

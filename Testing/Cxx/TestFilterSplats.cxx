@@ -126,15 +126,12 @@ TEST(FilterSplats, EndAtCreasesWhereverTheyAre)
 // nothing bounds a cell, samples show that the surface is not there.
 TEST(FilterSplats, EndWhereSamplesShowThatTheSurfaceHasTurnedAway)
 {
-  constexpr int size = 21;
-  Samples samples;
-  for (int i = 0; i < size * size * size; ++i)
-  {
-    const Vector p{ i % size - 10.0, i / size % size - 10.0, i / size / size % size - 10.0 };
-    samples.push_back({ p[0], p[1], p[2],
-      200.0 * std::exp(-dot(p, p) / 100.0) + 10.0 * std::sin(3.0 * p[0]) +
-        18.0 * std::sin(1.5 * p[1]) + 5.0 * std::cos(2.0 * p[2]) });
-  }
+  const Samples samples = latticeOf(21,
+    [](const Vector& p)
+    {
+      return 200.0 * std::exp(-dot(p, p) / 100.0) + 10.0 * std::sin(3.0 * p[0]) +
+             18.0 * std::sin(1.5 * p[1]) + 5.0 * std::cos(2.0 * p[2]);
+    });
   const auto filter = newFilter(cloudOf(samples));
   for (const double isovalue : { 100.0, 140.0 })
   {

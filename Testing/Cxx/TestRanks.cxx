@@ -48,8 +48,7 @@ Request thinned(Request request)
 }
 
 void expectSameAsOneRank(const std::vector<Cloud>& clouds, const std::vector<std::size_t>& sizes,
-  const std::vector<Deal>& deals, const std::vector<Request>& requests,
-  ranks::Values values = ranks::Values::Loaded)
+  const std::vector<Deal>& deals, const std::vector<Request>& requests)
 {
   for (std::size_t i = 0; i < clouds.size(); ++i)
   {
@@ -58,7 +57,7 @@ void expectSameAsOneRank(const std::vector<Cloud>& clouds, const std::vector<std
     {
       for (const Deal deal : deals)
       {
-        ranks::expectSameAsOneRank(clouds[i], size, deal, requests, 1, values);
+        ranks::expectSameAsOneRank(clouds[i], size, deal, requests);
       }
     }
   }
@@ -158,13 +157,6 @@ TEST(Ranks, MayBeMoreThanSamples)
     expectSameAsOneRank({ clouds::uniform(count, 12) }, { 7 }, { Deal::RoundRobin },
       { requestOf(0.3), triangles(0.3, FitOrder::Cubic) });
   }
-}
-
-TEST(Ranks, KeepTheTreeForNewValuesAtTheSamePositions)
-{
-  expectSameAsOneRank(ranks::variousClouds(), { 2, 5 }, { Deal::Skewed },
-    { withSplats(requestOf(0.3, FitOrder::Cubic)), withSplats(requestOf(0.7, FitOrder::Cubic)) },
-    ranks::Values::Replaced);
 }
 
 TEST(Ranks, SendManySamplesInSlices)

@@ -45,17 +45,14 @@ vtkSmartPointer<vtkDataArray> newNumbers(ByteSource& bytes, const char* name, vt
 
 void addArrays(ByteSource& bytes, vtkDataSetAttributes* attributes, vtkIdType count)
 {
-  if (bytes.below(8) != 0)
+  for (const auto& [name, tuples, isAdded] :
+    { std::tuple("f", count, bytes.below(8) != 0), std::tuple("other", count, bytes.below(4) == 0),
+      std::tuple("short", count / 2, bytes.below(8) == 0) })
   {
-    attributes->AddArray(newNumbers(bytes, "f", count));
-  }
-  if (bytes.below(4) == 0)
-  {
-    attributes->AddArray(newNumbers(bytes, "other", count));
-  }
-  if (bytes.below(8) == 0)
-  {
-    attributes->AddArray(newNumbers(bytes, "short", count / 2));
+    if (isAdded)
+    {
+      attributes->AddArray(newNumbers(bytes, name, tuples));
+    }
   }
   if (bytes.below(8) == 0)
   {
