@@ -54,9 +54,15 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
   threads.run(
     [&](isopoint::Communicator& communicator)
     {
-      const auto wait = [&communicator]()
+      // Does work on the first rank while the others wait.
+      const auto onFirst = [&communicator](const auto& work)
       {
         std::uint64_t number = 0;
+        communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
+        if (communicator.rank() == 0)
+        {
+          work();
+        }
         communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
       };
       isopoint::ProcessGroup processes(communicator);
@@ -70,12 +76,7 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
       }
       isopoint::IsosurfaceExtractor extractor;
       bool isLoaded = false;
-      wait();
-      if (processes.rank() == 0)
-      {
-        failingallocator::failAt(fault.allocation, false, fault.bytes);
-      }
-      wait();
+      onFirst([&]() { failingallocator::failAt(fault.allocation, false, fault.bytes); });
       try
       {
         processes.together(
@@ -102,12 +103,7 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
       {
         ++aborts;
       }
-      wait();
-      if (processes.rank() == 0)
-      {
-        wasReached = failingallocator::stop() >= fault.allocation;
-      }
-      wait();
+      onFirst([&]() { wasReached = failingallocator::stop() >= fault.allocation; });
       processes.together(
         [&]()
         {

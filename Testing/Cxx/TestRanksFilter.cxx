@@ -52,19 +52,18 @@ Result updateFailing(long n, vtkPolyData* cloud)
       const auto filter = newFilter<TFilter>(parts[rank]);
       filter->SetController(controller);
       const auto errors = watchErrors(filter);
-      controller->Barrier();
-      if (rank == 0 && n > 0)
+      const auto onFirst = [&](const std::function<void()>& work)
       {
-        failingallocator::failAt(n, false);
-      }
-      controller->Barrier();
+        controller->Barrier();
+        if (rank == 0 && n > 0)
+        {
+          work();
+        }
+        controller->Barrier();
+      };
+      onFirst([&]() { failingallocator::failAt(n, false); });
       filter->Update();
-      controller->Barrier();
-      if (rank == 0 && n > 0)
-      {
-        result.wasReached = failingallocator::stop() >= n;
-      }
-      controller->Barrier();
+      onFirst([&]() { result.wasReached = failingallocator::stop() >= n; });
       result.failed[rank] = pointsOf(filter->GetOutput());
       {
         const std::lock_guard<std::mutex> lock(mutex);
