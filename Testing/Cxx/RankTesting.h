@@ -23,7 +23,7 @@ inline std::vector<clouds::Cloud> variousClouds()
     clouds::layerBeforeOne(900, 11) };
 }
 
-/// Points with options by chance.
+/// A request for points with random options.
 inline Request randomRequest(clouds::Dice& dice)
 {
   using isopoint::FitOrder;
@@ -151,7 +151,7 @@ void onRanks(std::size_t size, const Work& work)
     });
 }
 
-/// Whether the values are there from the beginning, or replace others after an extraction.
+/// Whether values are loaded with the positions, or replace others after an extraction.
 enum class Values
 {
   Loaded,
@@ -168,7 +168,7 @@ inline clouds::Cloud withOtherValues(clouds::Cloud cloud)
   return cloud;
 }
 
-/// Extracts, one after the other, on ranks that are threads.
+/// Extracts one request after the other on ranks that are threads.
 /// @returns by request what each rank has
 template <class TCoordinate = double, class TValue = double>
 std::vector<std::vector<Extracted>> extractOnRanks(const std::vector<clouds::Cloud>& pieces,

@@ -12,7 +12,7 @@ namespace
 
 using Blocks = std::vector<vtkSmartPointer<vtkDataSet>>;
 
-/// Adjacent blocks of several kinds: the points of shared faces are in two of them.
+/// Adjacent blocks of several kinds. Two of them have the points of a shared face.
 Blocks abuttingBlocks()
 {
   const std::array<int, 3> cells{ 4, 4, 4 };
@@ -126,12 +126,8 @@ TEST(Blocks, OnlyArraysOfAllBlocksAreInTheOutput)
     {
       data->AddArray(newArray("somewhere", count));
     }
-    vtkSmartPointer<vtkDataArray> mixed = newArray("of several types", count);
-    if (i < 2)
-    {
-      mixed = newArray<vtkIntArray>("of several types", count);
-    }
-    data->AddArray(mixed);
+    i < 2 ? data->AddArray(newArray<vtkIntArray>("of several types", count))
+          : data->AddArray(newArray("of several types", count));
   }
   const auto filter = filterOf(everyTree(blocks)[0]);
   // Arrays are interpolated along edges; projected points do not lie on these.

@@ -192,7 +192,7 @@ TEST(Coverage, SplatsDoNotExtendFarBeyondTheSamples)
   EXPECT_LT(farthest, 2.3 * 2.0 / std::cbrt(samples));
 }
 
-// Most cells that touch those of a wall of two layers of samples are of other walls.
+// Walls of two layers of samples. Most cells that touch those of a wall belong to other walls.
 TEST(Coverage, SplatsOfThinWallsDoNotReachAcrossVoids)
 {
   constexpr double distance = 10.0; // of walls, in spacings

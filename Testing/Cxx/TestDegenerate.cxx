@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clouds that are hard on other methods, and numbers at the limits of their types, infinite or NaN,
-// through the filter: the defined results.
+// Hard clouds, and numbers at the limits of their types, infinite or NaN: the filter yields what is
+// defined.
 #include "FilterTesting.h"
 
 #include "vtkLongLongArray.h"

@@ -135,8 +135,7 @@ TEST(Filter, ArraysAreSwitchedWithoutEffectOnPoints)
   }
 }
 
-// Rounding is an error of values, not detail: normals on stairs of integers are those of what was
-// rounded.
+// Integers are rounded values: their normals are those of the field before rounding, not of stairs.
 TEST(Filter, IntegersAreRoundedValues)
 {
   constexpr vtkIdType count = 20000;
@@ -277,7 +276,7 @@ TEST(Filter, ProjectionMovesPointsAndTheirAttributes)
   EXPECT_LT(deviations[2], 0.1 * deviations[0]);
 }
 
-// Two halves of a cloud with other values far apart: the surface crosses both, and all of the void.
+// Two halves of a cloud, far apart. The surface of "f" crosses one of them and the void.
 TEST(Filter, DropGapsDropsWhatIsInVoids)
 {
   const auto cloud = newCloud(20000);

@@ -72,7 +72,7 @@ TEST(Ghosts, OfPointsAndCellsAreKeptWhileNothingTheyComeFromChanges)
   for (const int association : { ofPoints, ofCells })
   {
     const auto grid = newCountingGrid(8);
-    if (association == ofCells) // with a ghost array of the points duplicate cells have no say
+    if (association == ofCells) // duplicate cells do not count if points have a ghost array
     {
       addGhosts(grid, ofPoints, [](vtkIdType i) { return i == 5 ? hiddenPoint : 0; });
     }
@@ -113,7 +113,7 @@ TEST(Ghosts, AnAbortEndsTheSearchForThem)
   EXPECT_GT(outputOf(filter)->GetNumberOfPoints(), 0);
 }
 
-// Of each point on the way along x through a box with these ghost bits of cells.
+// Which points of each row along x are samples if the cells of the row have these ghost bits.
 TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
 {
   struct Case

@@ -25,7 +25,7 @@ vtkIdType countFeatureEdges(vtkPolyData* surface)
   return edges->GetOutput()->GetNumberOfCells();
 }
 
-/// Enclosed by the side of the triangles that is not seen.
+/// The enclosed volume: negative, since triangles face decreasing values inside.
 double volumeOf(vtkPolyData* surface)
 {
   double sum = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A kept tree: whatever changes in the filter or its input, the next update yields the output of a
+// A kept tree: after any change of the filter or its input, the next update yields the output of a
 // new filter.
 #include "InputTesting.h"
 
@@ -14,7 +14,7 @@ using namespace inputtesting;
 namespace
 {
 
-/// Of the active scalars.
+/// A filter of the active scalars.
 vtkSmartPointer<Isopoints> newFilterOf(vtkDataObject* input, int association)
 {
   const auto filter = newFilter(input, 0.3);
@@ -264,8 +264,8 @@ TEST(KeptTree, DirectionOfAnImage)
       } });
 }
 
-// In VTK versions that use the center of a polyhedron's bounding box its faces do not affect its
-// center. Points that move unnoticed show that the cells were read again.
+// Some versions of VTK take the center of a polyhedron's bounding box, which its faces do not
+// affect. Points that move unnoticed show that the cells were read again.
 TEST(KeptTree, FacesOfPolyhedra)
 {
   const auto grid = newPolyhedra();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whatever ranks a cloud is dealt out to, they yield together what one rank does.
+// Ranks together yield what one rank yields, however a cloud is dealt out.
 #include "RankTesting.h"
-
-#include "Core/Triangles/SurfacePart.h"
 
 namespace
 {
@@ -27,7 +25,7 @@ Request partingCreases(Request request)
   return request;
 }
 
-/// The normals of points that are fitted but do not move.
+/// Fits for normals alone: points do not move.
 Request withUnmovedFits(double isovalue)
 {
   Request request = requestOf(isovalue);
@@ -291,29 +289,4 @@ TEST(Ranks, HaveGhostTrianglesInRings)
       EXPECT_TRUE(std::set<std::string>(described.begin(), described.end()) == inside);
     }
   }
-}
-
-/// The part of a rank is its triangles with their vertices, renumbered, then rings of others.
-TEST(Ranks, RenumberTheirPartsOfTriangles)
-{
-  // A strip: 0 1 2, 1 3 2, 2 3 4, 3 5 4.
-  using Triangles = std::vector<isopoint::SurfaceTriangle>;
-  const Triangles strip{ { 0, 1, 2 }, { 1, 3, 2 }, { 2, 3, 4 }, { 3, 5, 4 } };
-  const std::vector<std::size_t> ranks{ 0, 0, 0, 1, 1, 1 };
-  const auto partOf = [&](std::size_t rank, int rings)
-  { return isopoint::SurfacePartChoice(strip, ranks, rank).choose(rings); };
-  const isopoint::SurfacePart own = partOf(1, 0);
-  EXPECT_EQ(own.vertices, (std::vector<std::size_t>{ 3, 4, 5 }));
-  EXPECT_EQ(own.triangles, (Triangles{ { 0, 2, 1 } }));
-  EXPECT_EQ(own.ghostCount, 0u);
-  // Vertex 3 belongs to this rank, but the first triangle that has it does not.
-  EXPECT_EQ(own.areElsewhere, (std::vector<bool>{ true, true, false }));
-  const isopoint::SurfacePart ring = partOf(1, 1);
-  EXPECT_EQ(ring.vertices, (std::vector<std::size_t>{ 1, 2, 3, 4, 5 }));
-  EXPECT_EQ(ring.ghostCount, 2u);
-  ASSERT_EQ(ring.triangles.size(), 3u);
-  EXPECT_EQ(ring.triangles[0], (isopoint::SurfaceTriangle{ 2, 4, 3 }));
-  EXPECT_EQ(ring.triangles[1], (isopoint::SurfaceTriangle{ 0, 2, 1 }));
-  EXPECT_EQ(partOf(1, 9).triangles.size(), 4u);
-  EXPECT_EQ(partOf(0, 0).areElsewhere, std::vector<bool>(5, false));
 }

@@ -38,7 +38,7 @@ vtkSmartPointer<ProgressWatcher> watchProgress(vtkScatteredContourFilter* filter
   return watcher;
 }
 
-/// Filters with inputs of points, of cells and of blocks, and the one of triangles.
+/// Filters of points, cells and blocks, and the filter of triangles.
 std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filtersOfEveryInput()
 {
   const auto blocks = blocksOf({ newVertexCells(12000), newVertexCells(8000) });

@@ -8,8 +8,8 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
-/// Messages between ranks that are threads of one process: each is handed over while its receiver
-/// waits, so that none takes memory.
+/// Messages between ranks that are threads of one process. Each is copied while its receiver waits,
+/// so that none allocates memory.
 class ThreadMailbox
 {
 public:

@@ -206,7 +206,7 @@ bool isCellLeftOut(vtkDataSet* input, vtkIdType cell)
            { return (ghostAt(input->GetPointData(), corner) & hiddenPoint) != 0; });
 }
 
-/// Of the bounds of a box or a vertex.
+/// The center of the bounds of a box or a vertex.
 Vector centerOf(vtkDataSet* input, vtkIdType cell)
 {
   double bounds[6];
