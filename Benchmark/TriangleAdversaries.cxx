@@ -30,15 +30,15 @@ using clouds::withValuesOf;
 constexpr double largestShare = 1.5;
 
 constexpr const char* usage =
-  "usage: TriangleAdversaries [--samples N] [--threads N] [--only NAME] [--cgal-threads N]\n"
+  "usage: TriangleAdversaries [SAMPLES [THREADS [CGAL_THREADS [NAME]]]]\n"
   "Finds the crossing tetrahedra of clouds that are hard on the search for them, and prints a Markdown\n"
   "table of the times, as shares of that of CGAL's tetrahedralization of all samples and one pass over\n"
   "its cells. Exits with 1 if any share is above 1.5.\n"
-  "  --samples N   of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
+  "  SAMPLES       of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
   "                tenth or less\n"
-  "  --threads N   times are processor seconds of one thread (the default), else elapsed seconds\n"
-  "  --only NAME   only clouds whose name contains this\n"
-  "  --cgal-threads N  of CGAL (default: 1)\n";
+  "  THREADS       on one thread (the default) times are processor seconds, else elapsed seconds\n"
+  "  CGAL_THREADS  of CGAL (default: 1)\n"
+  "  NAME          only clouds whose name contains this\n";
 
 double distanceToMiddle(const Vector& p)
 {
@@ -253,9 +253,9 @@ std::size_t countFound(
 
 struct Options
 {
-  std::size_t samples = 200000;
-  std::size_t threads = 1;
-  std::size_t cgalThreads = 1;
+  double samples;
+  std::size_t threads;
+  std::size_t cgalThreads;
   std::string only;
 };
 
@@ -278,8 +278,7 @@ double seconds(const Options& options, const std::function<void()>& work)
 /// Prints the row of a cloud. @returns the share
 double measure(const Adversary& adversary, const Options& options)
 {
-  const Cloud cloud = adversary.make(
-    static_cast<std::size_t>(adversary.share * static_cast<double>(options.samples)));
+  const Cloud cloud = adversary.make(static_cast<std::size_t>(adversary.share * options.samples));
   isopoint::TetrahedraCounts counts;
   std::size_t found = 0;
   std::size_t expected = 0;
@@ -301,43 +300,16 @@ double measure(const Adversary& adversary, const Options& options)
   return ours / full;
 }
 
-bool parse(int argumentCount, char** arguments, Options& options)
-{
-  const std::map<std::string, std::size_t*> numbers{ { "--samples", &options.samples },
-    { "--threads", &options.threads }, { "--cgal-threads", &options.cgalThreads } };
-  for (int i = 1; i + 1 < argumentCount; i += 2)
-  {
-    const std::string name = arguments[i];
-    const std::string value = arguments[i + 1];
-    char* end = nullptr;
-    const double number = std::strtod(value.c_str(), &end);
-    if (name == "--only")
-    {
-      options.only = value;
-    }
-    else if (numbers.count(name) > 0 && *end == '\0' && number >= 1.0)
-    {
-      *numbers.at(name) = static_cast<std::size_t>(number);
-    }
-    else
-    {
-      return false;
-    }
-  }
-  return argumentCount % 2 == 1;
-}
-
 } // namespace
 
 int main(int argumentCount, char** arguments)
 {
-  if (argumentCount == 2 && std::string(arguments[1]) == "--help")
-  {
-    std::fputs(usage, stdout);
-    return 0;
-  }
-  Options options;
-  if (!parse(argumentCount, arguments, options))
+  const std::vector<std::string> words(arguments + 1, arguments + argumentCount);
+  const auto numberAt = [&words](std::size_t i, double usual)
+  { return i < words.size() ? std::atof(words[i].c_str()) : usual; };
+  const Options options{ numberAt(0, 200000.0), static_cast<std::size_t>(numberAt(1, 1.0)),
+    static_cast<std::size_t>(numberAt(2, 1.0)), words.size() > 3 ? words[3] : "" };
+  if (words.size() > 4 || options.samples < 1.0 || options.threads < 1 || options.cgalThreads < 1)
   {
     std::fputs(usage, stderr);
     return 2;

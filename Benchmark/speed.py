@@ -7,7 +7,7 @@ Prints a Markdown table: elapsed seconds, the same over those of isopoints witho
 of one copy of the samples in memory, and in nanoseconds a sample; the number of points of the
 surface and their largest distance from the sphere; and the peak of memory in bytes a sample, in
 addition to what was taken before. Each row is the faster of two runs, except updates of a filter
-that has a tree, and vtkDelaunay3D. CGAL is timed by TriangleAdversaries --parallel.
+that has a tree, and vtkDelaunay3D. CGAL is timed by TriangleAdversaries.
 """
 
 import common

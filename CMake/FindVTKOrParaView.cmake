@@ -7,7 +7,7 @@ else ()
     CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc ParallelCore
     RenderingCore RenderingOpenGL2 vtksys)
   set(wrapping_components Python WrappingPythonCore WrappingTools)
-  set(test_components FiltersCore IOGeometry IOXML)
+  set(test_components FiltersCore IOXML)
   find_package(VTK REQUIRED
     COMPONENTS ${vtk_components} ${wrapping_components} ${test_components}
     OPTIONAL_COMPONENTS FiltersPoints glad glew)

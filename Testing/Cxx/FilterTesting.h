@@ -9,6 +9,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
@@ -78,6 +79,19 @@ template <class BitsAt>
 vtkSmartPointer<vtkUnsignedCharArray> ghostsOf(vtkIdType count, const BitsAt& bitsAt)
 {
   return arrayOf<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), count, bitsAt);
+}
+
+/// An array of texts textAt(0), textAt(1), ...
+template <class TextAt>
+vtkSmartPointer<vtkStringArray> textsOf(const char* name, vtkIdType count, const TextAt& textAt)
+{
+  auto texts = vtkSmartPointer<vtkStringArray>::New();
+  texts->SetName(name);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    texts->InsertNextValue(textAt(i));
+  }
+  return texts;
 }
 
 inline Vector placeOf(vtkDataSet* data, vtkIdType point)
@@ -163,6 +177,35 @@ inline vtkSmartPointer<vtkPolyData> cloudOf(const Samples& samples)
   return cloud;
 }
 
+/// Each n-th sample of a cloud, from a first one on.
+inline vtkSmartPointer<vtkPolyData> everyNth(vtkPolyData* cloud, vtkIdType first, vtkIdType n)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud->GetPoints()->GetDataType());
+  auto part = vtkSmartPointer<vtkPolyData>::New();
+  part->SetPoints(points);
+  part->GetPointData()->CopyAllocate(cloud->GetPointData());
+  for (vtkIdType i = first; i < cloud->GetNumberOfPoints(); i += n)
+  {
+    const vtkIdType copy = points->InsertNextPoint(cloud->GetPoint(i));
+    part->GetPointData()->CopyData(cloud->GetPointData(), i, copy);
+  }
+  return part;
+}
+
+/// The points of a cubic lattice of spacing 1 around the origin, with a field of the position.
+inline Samples latticeOf(int size, const std::function<double(const Vector&)>& field)
+{
+  Samples samples;
+  for (int i = 0; i < size * size * size; ++i)
+  {
+    const double half = 0.5 * (size - 1);
+    const Vector p{ i % size - half, i / size % size - half, i / size / size - half };
+    samples.push_back({ p[0], p[1], p[2], field(p) });
+  }
+  return samples;
+}
+
 /// newCloud() as a grid of vertices, whose arrays are those of its cells.
 inline vtkSmartPointer<vtkUnstructuredGrid> newVertexCells(vtkIdType count)
 {
@@ -227,6 +270,13 @@ vtkSmartPointer<TFilter> newFilter(vtkDataObject* input, double isovalue = 0.7)
   return filter;
 }
 
+/// The filters of points and of triangles.
+inline std::vector<vtkSmartPointer<vtkScatteredContourFilter>> bothFilters(
+  vtkDataObject* input, double isovalue = 0.7)
+{
+  return { newFilter(input, isovalue), newFilter<Isosurface>(input, isovalue) };
+}
+
 /// The output after an update.
 inline vtkPolyData* outputOf(vtkScatteredContourFilter* filter)
 {
@@ -259,13 +309,30 @@ inline std::vector<double> pointsOf(vtkPolyData* output)
   return output->GetPoints() ? numbersOf(output->GetPoints()->GetData()) : std::vector<double>();
 }
 
+/// A surface, or those of all blocks.
+inline std::vector<vtkPolyData*> surfacesOf(vtkDataObject* output)
+{
+  auto* const blocks = vtkCompositeDataSet::SafeDownCast(output);
+  if (!blocks)
+  {
+    return { vtkPolyData::SafeDownCast(output) };
+  }
+  std::vector<vtkPolyData*> surfaces;
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    surfaces.push_back(vtkPolyData::SafeDownCast(iterator->GetCurrentDataObject()));
+  }
+  return surfaces;
+}
+
 /// All numbers of a surface or of blocks of surfaces: positions, arrays, and corners of cells.
 inline std::vector<double> everythingOf(vtkDataObject* output)
 {
   std::vector<double> all;
   const auto append = [&all](const std::vector<double>& more)
   { all.insert(all.end(), more.begin(), more.end()); };
-  if (auto* const surface = vtkPolyData::SafeDownCast(output))
+  for (vtkPolyData* const surface : surfacesOf(output))
   {
     append(pointsOf(surface));
     for (const int association : { ofPoints, ofCells })
@@ -278,11 +345,6 @@ inline std::vector<double> everythingOf(vtkDataObject* output)
     }
     append(numbersOf(surface->GetVerts()->GetConnectivityArray()));
     append(numbersOf(surface->GetPolys()->GetConnectivityArray()));
-  }
-  auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(output);
-  for (unsigned int i = 0; blocks && i < blocks->GetNumberOfBlocks(); ++i)
-  {
-    append(everythingOf(blocks->GetBlock(i)));
   }
   return all;
 }

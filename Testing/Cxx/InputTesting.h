@@ -80,7 +80,7 @@ inline void addField(vtkDataSet* input, int association)
       [&](vtkIdType id) { return fieldAt(placeOfSample(input, association, id)); }));
 }
 
-/// Makes values that have nothing to do with positions the scalars.
+/// Adds scalars that do not depend on positions.
 inline void addScatteredField(vtkDataObject* input, int association, vtkIdType count)
 {
   input->GetAttributes(association)

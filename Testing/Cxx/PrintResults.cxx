@@ -2,7 +2,7 @@
 // Prints a hash of all that the core yields for each of several clouds and requests. The output is
 // the same for all compilers, libraries and processors: Utilities/compile_elsewhere.sh. So fields
 // are polynomials and their maxima, without functions of libraries.
-#include "Clouds.h"
+#include "Descriptions.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -25,103 +25,26 @@ double sharp(const Vector& p)
   return std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) - 0.3;
 }
 
-Cloud randomCloud(double (*field)(const Vector&))
-{
-  clouds::Random random(7);
-  Cloud cloud;
-  for (int i = 0; i < 6000; ++i)
-  {
-    const Vector p = random.inCube(1.0);
-    cloud.add(p, field(p));
-  }
-  return cloud;
-}
-
-Cloud lattice(double (*field)(const Vector&))
-{
-  constexpr int side = 17;
-  Cloud cloud;
-  for (int i = 0; i < side * side * side; ++i)
-  {
-    const Vector p{ (i % side - 8) / 16.0, (i / side % side - 8) / 16.0,
-      (i / side / side - 8) / 16.0 };
-    cloud.add(p, field(p));
-  }
-  return cloud;
-}
-
-/// FNV-1a of the bytes of numbers.
-class Hash
-{
-public:
-  template <class T>
-  void add(const T& number)
-  {
-    static_assert(std::is_arithmetic_v<T>, "structures have bytes between their members");
-    const auto* const bytes = reinterpret_cast<const unsigned char*>(&number);
-    std::for_each(bytes, bytes + sizeof(number),
-      [this](unsigned char byte) { this->Value = (this->Value ^ byte) * 1099511628211u; });
-  }
-
-  template <class... Numbers>
-  void addAll(const Numbers&... lists)
-  {
-    const auto addList = [this](const auto& list)
-    { std::for_each(list.begin(), list.end(), [this](const auto& number) { this->add(number); }); };
-    (addList(lists), ...);
-  }
-
-  std::uint64_t value() const { return this->Value; }
-
-private:
-  std::uint64_t Value = 14695981039346656037u;
-};
-
+/// The 64-bit FNV-1a hash of all that is known of a surface.
 std::uint64_t hashOf(const isopoint::ExtractedIsosurface& found)
 {
-  Hash hash;
-  for (std::size_t i = 0; i < found.surface.size(); ++i)
+  std::uint64_t hash = 14695981039346656037u;
+  const auto add = [&hash](const void* bytes, std::size_t size)
   {
-    for (std::size_t k = found.surface.edgeBegin(i); k < found.surface.edgeBegin(i + 1); ++k)
-    {
-      hash.add(std::uint64_t{ found.surface.edges[k].first });
-      hash.add(std::uint64_t{ found.surface.edges[k].second });
-      hash.add(found.surface.edges[k].parameter);
-    }
-    hash.addAll(found.surface.positions[i], found.surface.decreasingEdges[i]);
-  }
-  for (const isopoint::LocalFit& fit : found.surface.fits)
+    const auto* const begin = static_cast<const unsigned char*>(bytes);
+    std::for_each(
+      begin, begin + size, [&hash](unsigned char byte) { hash = (hash ^ byte) * 1099511628211u; });
+  };
+  for (const std::string& point : ranks::described(found))
   {
-    hash.addAll(fit.position, fit.gradient, fit.hessian);
-    hash.add(fit.spacing);
-    for (const isopoint::CreasePlane& crease : fit.creases)
-    {
-      hash.addAll(crease.inward);
-      hash.add(crease.distance);
-    }
+    add(point.data(), point.size());
   }
-  for (const isopoint::Splat& splat : found.splats)
+  for (const auto& [a, b, c] : found.triangles)
   {
-    hash.addAll(splat.normal, splat.axis);
-    hash.add(splat.radius);
-    for (const isopoint::SplatCorner& corner : splat.corners)
-    {
-      hash.addAll(std::array{
-        corner.along, corner.across, corner.height, corner.slopeAlong, corner.slopeAcross });
-    }
+    const std::uint64_t corners[3] = { a, b, c };
+    add(corners, sizeof(corners));
   }
-  for (const Vector& normal : found.normals)
-  {
-    hash.addAll(normal);
-  }
-  for (const isopoint::SurfaceTriangle& triangle : found.triangles)
-  {
-    for (const std::size_t corner : triangle)
-    {
-      hash.add(std::uint64_t{ corner });
-    }
-  }
-  return hash.value();
+  return hash;
 }
 
 template <class TCoordinate, class TValue>
@@ -150,8 +73,15 @@ void print(const char* name, const Cloud& cloud)
 
 int main()
 {
-  print<float, float>("random", randomCloud(smooth));
-  print<double, double>("random sharp", randomCloud(sharp));
-  print<double, float>("lattice", lattice(smooth));
-  print<float, double>("lattice sharp", lattice(sharp));
+  const auto centered = [](const Cloud& cloud, double middle, double scale)
+  {
+    return clouds::moved(cloud,
+      [=](double* p) { std::for_each(p, p + 3, [=](double& c) { c = (c - middle) * scale; }); });
+  };
+  const Cloud random = centered(clouds::uniform(6000, 7), 0.5, 1.0);
+  const Cloud lattice = centered(clouds::lattice(17, 17, 17), 8.0, 1.0 / 16.0);
+  print<float, float>("random", clouds::withValuesOf(random, smooth));
+  print<double, double>("random sharp", clouds::withValuesOf(random, sharp));
+  print<double, float>("lattice", clouds::withValuesOf(lattice, smooth));
+  print<float, double>("lattice sharp", clouds::withValuesOf(lattice, sharp));
 }

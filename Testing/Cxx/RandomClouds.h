@@ -11,7 +11,7 @@
 namespace clouds
 {
 
-/// Whole numbers below a limit.
+/// Random whole numbers below a limit.
 class Dice
 {
 public:

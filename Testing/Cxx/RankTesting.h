@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Clouds.h"
+#include "Descriptions.h"
+#include "RandomClouds.h"
 #include "ThreadRanks.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 namespace ranks
 {
 
-using Extracted = isopoint::ExtractedIsosurface;
 using Request = isopoint::ExtractionRequest;
 
 /// Clouds of every kind, of up to a few thousand samples.
@@ -21,6 +21,35 @@ inline std::vector<clouds::Cloud> variousClouds()
     clouds::curves(900, 8), clouds::flattened(clouds::uniform(900, 9), 2),
     clouds::flattened(clouds::uniform(300, 10), 1), clouds::nestedCoincident(400),
     clouds::layerBeforeOne(900, 11) };
+}
+
+/// A request for points with random options.
+inline Request randomRequest(clouds::Dice& dice)
+{
+  using isopoint::FitOrder;
+  constexpr double angles[] = { 54.7, 54.7, 54.7, 0.0, 30.0, 120.0, 180.0 };
+  Request request;
+  request.isosurface.isovalue = 3.0 * dice.real() - 1.0;
+  request.isosurface.angle = angles[dice(7)];
+  request.isosurface.dropsGaps = dice(2) == 0;
+  const std::size_t order = dice(7);
+  if (order > 0)
+  {
+    request.isosurface.fit = isopoint::FitRequest{ std::nullopt, false };
+  }
+  if (order > 1)
+  {
+    request.isosurface.fit =
+      isopoint::FitRequest{ static_cast<FitOrder>(std::min<std::size_t>(order - 1, 4)),
+        dice(3) > 0 };
+    request.minimumSpacing = dice(3) == 0 ? dice.real() : 0.0;
+  }
+  if (dice(4) > 0)
+  {
+    request.splats =
+      isopoint::SplatOptions{ 3 + static_cast<int>(dice(12)), dice(5) > 0, dice(5) > 0 };
+  }
+  return request;
 }
 
 /// How a cloud is dealt out. Ids count through the ranks: the cloud of one rank is that of all
@@ -87,73 +116,6 @@ inline clouds::Cloud concatenated(const std::vector<clouds::Cloud>& pieces)
   return all;
 }
 
-/// All that is known of one isopoint, as text to compare: every number by its bits.
-inline std::string described(const Extracted& extracted, std::size_t i)
-{
-  std::string text;
-  const auto put = [&text](const auto&... values)
-  { (text.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...); };
-  const isopoint::Isosurface& surface = extracted.surface;
-  put(surface.positions[i], surface.decreasingEdges[i]);
-  for (std::size_t k = surface.edgeBegin(i); k < surface.edgeBegin(i + 1); ++k)
-  {
-    const isopoint::IsopointEdge& edge = surface.edges[k];
-    put(edge.first, edge.second, edge.parameter);
-    for (const std::uint64_t id : { edge.first, edge.second })
-    {
-      if (const isopoint::CoincidentSamples* const group = surface.coincidentAt(id))
-      {
-        text.append("coincident");
-        std::for_each(group->ids.begin(), group->ids.end(), put);
-      }
-    }
-  }
-  if (!surface.fits.empty())
-  {
-    const isopoint::LocalFit& fit = surface.fits[i];
-    put(fit.position, fit.gradient, fit.isGradientFitted, fit.hessian, fit.isSmooth, fit.spacing,
-      fit.order ? static_cast<int>(*fit.order) : 0);
-    for (const isopoint::CreasePlane& plane : fit.creases)
-    {
-      put(plane.inward, plane.distance, plane.turn);
-    }
-  }
-  if (!extracted.splats.empty())
-  {
-    const isopoint::Splat& splat = extracted.splats[i];
-    put(splat.normal, splat.radius, splat.axis, splat.corners);
-  }
-  if (!extracted.normals.empty())
-  {
-    put(extracted.normals[i]);
-  }
-  return text;
-}
-
-using Description = std::vector<std::string>;
-
-inline Description described(const Extracted& extracted)
-{
-  Description all;
-  for (std::size_t i = 0; i < extracted.surface.size(); ++i)
-  {
-    all.push_back(described(extracted, i));
-  }
-  return all;
-}
-
-/// Each triangle by all that is known of its vertices, in order.
-inline Description describedTriangles(const Extracted& extracted)
-{
-  const Description vertices = described(extracted);
-  Description all;
-  for (const auto& [a, b, c] : extracted.triangles)
-  {
-    all.push_back(vertices[a] + vertices[b] + vertices[c]);
-  }
-  return all;
-}
-
 /// The points that are counted, and the triangles, of several ranks: each kind ordered.
 inline std::pair<Description, Description> contentsOf(const std::vector<Extracted>& ranks)
 {
@@ -189,7 +151,7 @@ void onRanks(std::size_t size, const Work& work)
     });
 }
 
-/// Whether the values are there from the beginning, or replace others after an extraction.
+/// Whether values are loaded with the positions, or replace others after an extraction.
 enum class Values
 {
   Loaded,
@@ -206,7 +168,7 @@ inline clouds::Cloud withOtherValues(clouds::Cloud cloud)
   return cloud;
 }
 
-/// Extracts, one after the other, on ranks that are threads.
+/// Extracts one request after the other on ranks that are threads.
 /// @returns by request what each rank has
 template <class TCoordinate = double, class TValue = double>
 std::vector<std::vector<Extracted>> extractOnRanks(const std::vector<clouds::Cloud>& pieces,

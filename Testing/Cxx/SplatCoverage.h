@@ -109,6 +109,7 @@ public:
       this->Levels[cellSize][keyOf(splats[i].center, cellSize)].push_back(i);
     }
   }
+
   /// Complexity: linear in the number of splats around the place.
   /// @param normal of the surface there: the place is seen along it
   bool covers(const Vector& place, const Vector& normal) const
@@ -155,6 +156,7 @@ private:
     }
     return false;
   }
+
   const std::vector<Splat>& Splats;
   double LeastTolerance;
   /// Splats of similar size, by the cell of their center, in grids whose cells have this size: at

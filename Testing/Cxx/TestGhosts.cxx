@@ -72,7 +72,7 @@ TEST(Ghosts, OfPointsAndCellsAreKeptWhileNothingTheyComeFromChanges)
   for (const int association : { ofPoints, ofCells })
   {
     const auto grid = newCountingGrid(8);
-    if (association == ofCells) // with a ghost array of the points duplicate cells have no say
+    if (association == ofCells) // duplicate cells do not count if points have a ghost array
     {
       addGhosts(grid, ofPoints, [](vtkIdType i) { return i == 5 ? hiddenPoint : 0; });
     }
@@ -113,13 +113,13 @@ TEST(Ghosts, AnAbortEndsTheSearchForThem)
   EXPECT_GT(outputOf(filter)->GetNumberOfPoints(), 0);
 }
 
-// Of each point on the way along x through a box with these ghost bits of cells.
+// Which points of each row along x are samples if the cells of the row have these ghost bits.
 TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
 {
   struct Case
   {
     std::array<unsigned char, 8> bitsOfCells;
-    bool hasGhostsOfPoints; // the first point is a duplicate
+    bool hasGhostsOfPoints; // the first point is a duplicate, the sixth is hidden
     std::array<bool, 9> areSamples;
   };
   const std::vector<Case> cases{
@@ -131,7 +131,7 @@ TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
       { true, true, true, true, true, false, false, false, false } },
     // A ghost array of the points determines the duplicates.
     { { duplicate, duplicate, 0, 0, 0, duplicate, hidden, hidden }, true,
-      { false, true, true, true, true, true, true, false, false } },
+      { false, true, true, true, true, false, true, false, false } },
   };
   for (const Case& along : cases)
   {
@@ -145,7 +145,8 @@ TEST(Ghosts, PointsOfGhostCellsOnlyAreLeftOut)
       addGhosts(input, ofCells, [&](vtkIdType cell) { return at(along.bitsOfCells, cell); });
       if (along.hasGhostsOfPoints)
       {
-        addGhosts(input, ofPoints, [](vtkIdType i) { return i % 9 == 0 ? duplicatePoint : 0; });
+        addGhosts(input, ofPoints,
+          [](vtkIdType i) { return i % 9 == 0 ? duplicatePoint : (i % 9 == 5 ? hiddenPoint : 0); });
       }
       expectSamples(input, ofPoints, [&](vtkIdType i) { return at(along.areSamples, i); });
     }

@@ -8,33 +8,16 @@
 
 using namespace inputtesting;
 
-namespace
-{
-
-struct Older
-{
-  int cells() const { return 1; }
-};
-
-struct Newer : Older
-{
-  int newCells() const { return 2; }
-};
-
-template <class T>
-int cellsOf(const T& object)
-{
-  return vtkCallNewer(
-    &object, [](auto* any) -> decltype(any->newCells()) { return any->newCells(); },
-    [](auto* any) { return any->cells(); });
-}
-
-} // namespace
-
 TEST(Inputs, FunctionsOfNewerVersionsAreFound)
 {
-  EXPECT_EQ(cellsOf(Older()), 1);
-  EXPECT_EQ(cellsOf(Newer()), 2);
+  const auto sizeOf = [](const auto& object)
+  {
+    return vtkCallNewer(
+      &object, [](auto* any) -> decltype(any->size()) { return any->size(); },
+      [](auto*) { return std::size_t{ 7 }; });
+  };
+  EXPECT_EQ(sizeOf(std::string("ab")), 2u);
+  EXPECT_EQ(sizeOf(5), 7u);
 }
 
 TEST(Inputs, PointDataOfEveryDataSet)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A kept tree: whatever changes in the filter or its input, the next update yields the output of a
+// A kept tree: after any change of the filter or its input, the next update yields the output of a
 // new filter.
 #include "InputTesting.h"
 
@@ -14,7 +14,7 @@ using namespace inputtesting;
 namespace
 {
 
-/// Of the active scalars.
+/// A filter of the active scalars.
 vtkSmartPointer<Isopoints> newFilterOf(vtkDataObject* input, int association)
 {
   const auto filter = newFilter(input, 0.3);
@@ -91,21 +91,19 @@ void change(vtkDataArray* array, vtkIdType first, vtkIdType step, const Changed&
 /// A block of cubes that are polyhedra.
 vtkSmartPointer<vtkUnstructuredGrid> newPolyhedra()
 {
-  const auto image = newImage({ 4, 4, 4 }, 1.0);
+  const auto cubes = structuredOf(newImage({ 4, 4, 4 }, 1.0));
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->SetPoints(pointsOfDataSet(image));
-  for (vtkIdType cell = 0; cell < image->GetNumberOfCells(); ++cell)
+  grid->SetPoints(cubes->GetPoints());
+  for (vtkIdType cell = 0; cell < cubes->GetNumberOfCells(); ++cell)
   {
-    vtkCell* const cube = image->GetCell(cell);
     vtkNew<vtkIdList> faces;
-    faces->InsertNextId(cube->GetNumberOfFaces());
-    for (int face = 0; face < cube->GetNumberOfFaces(); ++face)
+    faces->InsertNextId(6);
+    for (int face = 0; face < 6; ++face)
     {
-      vtkIdList* const corners = cube->GetFace(face)->GetPointIds();
       faces->InsertNextId(4);
-      for (const int corner : { 0, 1, 3, 2 }) // of a pixel
+      for (const vtkIdType corner : *cubes->GetCell(cell)->GetFace(face)->GetPointIds())
       {
-        faces->InsertNextId(corners->GetId(corner));
+        faces->InsertNextId(corner);
       }
     }
     grid->InsertNextCell(VTK_POLYHEDRON, faces);
@@ -266,8 +264,8 @@ TEST(KeptTree, DirectionOfAnImage)
       } });
 }
 
-// In VTK versions that use the center of a polyhedron's bounding box its faces do not affect its
-// center. Points that move unnoticed show that the cells were read again.
+// Some versions of VTK take the center of a polyhedron's bounding box, which its faces do not
+// affect. Points that move unnoticed show that the cells were read again.
 TEST(KeptTree, FacesOfPolyhedra)
 {
   const auto grid = newPolyhedra();
@@ -318,10 +316,10 @@ TEST(KeptTree, CellsOfAnExplicitStructuredGrid)
   vtkDataArray* const connectivity = grid->GetCells()->GetConnectivityArray();
   const auto reverse = [&]()
   {
-    const std::vector<double> corners = numbersOf(connectivity);
-    for (std::size_t i = 0; i < corners.size(); ++i)
+    std::vector<double> corners = numbersOf(connectivity);
+    for (vtkIdType i = 0; !corners.empty(); ++i, corners.pop_back())
     {
-      connectivity->SetComponent(static_cast<vtkIdType>(i), 0, corners[corners.size() - 1 - i]);
+      connectivity->SetComponent(i, 0, corners.back());
     }
   };
   const std::vector<std::function<void()>> changes{ [&]()
@@ -405,10 +403,11 @@ TEST(KeptTree, IdsOfNodesOfHyperTrees)
   expectReadAgain(trees, ofCells,
     { [&]()
       {
-        for (vtkIdType tree = 0; tree < 64; ++tree)
-        {
-          trees->GetTree(tree)->SetGlobalIndexFromLocal(2, ids * tree + 5);
-          trees->GetTree(tree)->SetGlobalIndexFromLocal(5, ids * tree + 2);
-        }
+        forIds(0, 64,
+          [&](vtkIdType tree)
+          {
+            trees->GetTree(tree)->SetGlobalIndexFromLocal(2, ids * tree + 5);
+            trees->GetTree(tree)->SetGlobalIndexFromLocal(5, ids * tree + 2);
+          });
       } });
 }

@@ -2,6 +2,8 @@
 // Errors, warnings and notes: one short message of each cause, with figures and a remedy.
 #include "InputTesting.h"
 
+#include "vtkTable.h"
+
 #include <cerrno>
 
 using namespace inputtesting;
@@ -39,14 +41,7 @@ void expectOneWarning(vtkScatteredContourFilter* filter, const Words& words)
 
 struct Subject
 {
-  explicit Subject(vtkScatteredContourFilter* made)
-    : filter(made)
-  {
-    this->filter->SetInputData(this->cloud);
-    this->filter->SetValue(0, 0.7);
-  }
-
-  void setValues(const std::function<double(vtkIdType)>& valueAt)
+  void setValues(const std::function<double(vtkIdType)>& valueAt) const
   {
     this->cloud->GetPointData()->SetScalars(arrayOf("distance", 2000, valueAt));
   }
@@ -126,25 +121,17 @@ const std::vector<Case> cases{
     { "2000 of 2000", "not finite", "Choose another array" } },
 };
 
-vtkSmartPointer<vtkScatteredContourFilter> newFilterOfKind(bool hasTriangles)
-{
-  if (hasTriangles)
-  {
-    return vtkSmartPointer<Isosurface>::New();
-  }
-  return vtkSmartPointer<Isopoints>::New();
-}
-
 } // namespace
 
 TEST(Messages, EachCauseIsOneWarning)
 {
-  for (const bool hasTriangles : { false, true })
+  for (const std::size_t kind : { 0, 1 })
   {
     for (const Case& warned : cases)
     {
-      SCOPED_TRACE(testing::Message() << warned.name << ", triangles: " << hasTriangles);
-      Subject subject(newFilterOfKind(hasTriangles));
+      Subject subject;
+      subject.filter = bothFilters(subject.cloud)[kind];
+      SCOPED_TRACE(warned.name + std::string(subject.filter->GetClassName()));
       EXPECT_TRUE(messagesOf(subject.filter).empty());
       warned.change(subject);
       subject.cloud->Modified();
@@ -284,10 +271,7 @@ TEST(Messages, CauseAndFiguresComeFirst)
 TEST(Messages, EachInvalidUseIsOneError)
 {
   const auto cloud = newCloud(500);
-  vtkNew<vtkStringArray> names;
-  names->SetName("names");
-  names->SetNumberOfValues(500);
-  cloud->GetPointData()->AddArray(names);
+  cloud->GetPointData()->AddArray(textsOf("names", 500, [](vtkIdType) { return ""; }));
   cloud->GetPointData()->AddArray(newArray("short", 7));
   const auto choose = [](const char* name, int association = ofPoints) {
     return [=](Isopoints* filter) { filter->SetInputArrayToProcess(0, 0, 0, association, name); };
@@ -299,7 +283,7 @@ TEST(Messages, EachInvalidUseIsOneError)
   const auto unloaded = newImage({ 4, 4, 4 }, 0.25);
   unloaded->GetPointData()->AddArray(ghostsOf(125, [](vtkIdType) { return 0; }));
   vtkNew<vtkPolyData> nothing;
-  const auto emptyBlocks = blocksOf({ nothing.Get() });
+  const auto emptyBlocks = blocksOf({ nothing.Get(), vtkSmartPointer<vtkTable>::New() });
   constexpr int ofAny = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
   const std::string remedy = "SetInputArrayToProcess()";
   const std::string offer = "distance, x, position, names, short";

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pieces of the output of one process: together they are the whole, with no point and no triangle
 // twice.
-#include "FilterTesting.h"
+#include "InputTesting.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
@@ -14,7 +13,7 @@
 #include <cstring>
 #include <set>
 
-using namespace filtertesting;
+using namespace inputtesting;
 
 namespace
 {
@@ -44,16 +43,8 @@ protected:
     using Pipeline = vtkStreamingDemandDrivenPipeline;
     vtkInformation* const info = out->GetInformationObject(0);
     ++this->Executions;
-    auto* const data = vtkPolyData::GetData(out);
-    vtkNew<vtkPoints> points;
-    data->SetPoints(points);
-    data->GetPointData()->CopyAllocate(this->Cloud->GetPointData());
-    for (vtkIdType i = info->Get(Pipeline::UPDATE_PIECE_NUMBER());
-         i < this->Cloud->GetNumberOfPoints(); i += info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()))
-    {
-      const vtkIdType place = points->InsertNextPoint(this->Cloud->GetPoint(i));
-      data->GetPointData()->CopyData(this->Cloud->GetPointData(), i, place);
-    }
+    vtkPolyData::GetData(out)->ShallowCopy(everyNth(this->Cloud,
+      info->Get(Pipeline::UPDATE_PIECE_NUMBER()), info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES())));
     return 1;
   }
 };
@@ -82,10 +73,11 @@ void append(std::string& text, vtkDataSetAttributes* attributes, vtkIdType id)
   }
 }
 
-/// The cells with all their arrays and points, in their order.
+/// The cells with all their arrays and points, in their order. Expects that they use all points.
 std::vector<std::string> describeCells(vtkPolyData* surface)
 {
   std::vector<std::string> cells;
+  std::set<vtkIdType> used;
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
@@ -93,6 +85,7 @@ std::vector<std::string> describeCells(vtkPolyData* surface)
                     std::to_string(surface->GetPoints()->GetDataType()));
     append(cells.back(), surface->GetCellData(), cell);
     surface->GetCellPoints(cell, corners);
+    used.insert(corners->begin(), corners->end());
     for (const vtkIdType corner : *corners)
     {
       const Vector place = placeOf(surface, corner);
@@ -100,34 +93,8 @@ std::vector<std::string> describeCells(vtkPolyData* surface)
       append(cells.back(), surface->GetPointData(), corner);
     }
   }
+  EXPECT_EQ(static_cast<vtkIdType>(used.size()), surface->GetNumberOfPoints());
   return cells;
-}
-
-vtkIdType countUsedPoints(vtkPolyData* surface)
-{
-  std::set<vtkIdType> used;
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
-  {
-    surface->GetCellPoints(cell, corners);
-    used.insert(corners->begin(), corners->end());
-  }
-  return static_cast<vtkIdType>(used.size());
-}
-
-std::vector<vtkPolyData*> leavesOf(vtkDataObject* output)
-{
-  std::vector<vtkPolyData*> leaves;
-  if (auto* const surface = vtkPolyData::SafeDownCast(output))
-  {
-    leaves.push_back(surface);
-  }
-  auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(output);
-  for (unsigned int i = 0; blocks && i < blocks->GetNumberOfBlocks(); ++i)
-  {
-    leaves.push_back(vtkPolyData::SafeDownCast(blocks->GetBlock(i)));
-  }
-  return leaves;
 }
 
 /// Expects the whole output from all pieces together, in its order.
@@ -138,7 +105,7 @@ void expectPieces(const std::function<void(TFilter*)>& prepare)
   vtkNew<TFilter> undivided;
   prepare(undivided);
   undivided->Update();
-  const std::vector<vtkPolyData*> whole = leavesOf(undivided->GetOutputDataObject(0));
+  const std::vector<vtkPolyData*> whole = surfacesOf(undivided->GetOutputDataObject(0));
   ASSERT_GT(whole.front()->GetNumberOfCells(), 100);
   for (const int pieces : { 1, 2, 7 })
   {
@@ -152,22 +119,21 @@ void expectPieces(const std::function<void(TFilter*)>& prepare)
       const int ghostLevels = piece % 2; // pieces have no ghosts
       divided->UpdatePiece(piece, pieces, ghostLevels);
       EXPECT_EQ(divided->GetNumberOfExtractedPoints(), undivided->GetNumberOfExtractedPoints());
-      const std::vector<vtkPolyData*> leaves = leavesOf(divided->GetOutputDataObject(0));
-      ASSERT_EQ(leaves.size(), whole.size());
-      for (std::size_t i = 0; i < leaves.size(); ++i)
+      const std::vector<vtkPolyData*> surfaces = surfacesOf(divided->GetOutputDataObject(0));
+      ASSERT_EQ(surfaces.size(), whole.size());
+      for (std::size_t i = 0; i < surfaces.size(); ++i)
       {
-        const std::vector<std::string> some = describeCells(leaves[i]);
+        const std::vector<std::string> some = describeCells(surfaces[i]);
         EXPECT_NEAR(static_cast<double>(some.size()),
           static_cast<double>(whole[i]->GetNumberOfCells()) / pieces, 1.0);
         cells[i].insert(cells[i].end(), some.begin(), some.end());
-        points += leaves[i]->GetNumberOfPoints();
-        EXPECT_EQ(countUsedPoints(leaves[i]), leaves[i]->GetNumberOfPoints());
+        points += surfaces[i]->GetNumberOfPoints();
       }
     }
     vtkIdType wholePoints = 0;
     for (std::size_t i = 0; i < whole.size(); ++i)
     {
-      EXPECT_TRUE(cells[i] == describeCells(whole[i])) << "leaf " << i;
+      EXPECT_TRUE(cells[i] == describeCells(whole[i])) << "surface " << i;
       wholePoints += whole[i]->GetNumberOfPoints();
     }
     const bool areTriangles = whole.front()->GetNumberOfPolys() > 0;
@@ -181,13 +147,8 @@ void expectPiecesOfEveryInput()
 {
   vtkNew<PieceReader> reader;
   reader->Cloud = newCloud(6000);
-  vtkNew<vtkStringArray> names;
-  names->SetName("name");
-  for (vtkIdType i = 0; i < 6000; ++i)
-  {
-    names->InsertNextValue(std::to_string(i));
-  }
-  reader->Cloud->GetPointData()->AddArray(names);
+  reader->Cloud->GetPointData()->AddArray(
+    textsOf("name", 6000, [](vtkIdType i) { return std::to_string(i); }));
   expectPieces<TFilter>(
     [&](TFilter* filter)
     {
@@ -196,9 +157,7 @@ void expectPiecesOfEveryInput()
     });
   EXPECT_EQ(reader->Executions, 1); // all pieces are of the same, whole input
 
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(14, 14, 14);
-  image->SetOrigin(-6.5, -6.5, -6.5);
+  const auto image = newImage({ 13, 13, 13 }, 1.0, { -6.5, -6.5, -6.5 });
   setScalars(image, length);
   expectPieces<TFilter>(
     [&](TFilter* filter)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A failure on one rank ends the work of all. No rank waits forever, and the next call works.
 #include "FailingAllocator.h"
-#include "RandomRequests.h"
 #include "RankTesting.h"
 
 #include <new>
@@ -31,38 +30,53 @@ Contents expectedOf(const std::vector<clouds::Cloud>& pieces, const Request& req
   return ranks::contentsOf(ranks::extractOnRanks(pieces, { request }).front());
 }
 
-/// Loads, extracts with ghosts and replaces the values on several ranks while the n-th allocation
-/// of at least some bytes fails on the first one, then again.
-/// @returns whether there were that many
-bool failsAt(long n, std::size_t bytes, const std::vector<clouds::Cloud>& pieces,
+/// What ends the work: an allocation on the first rank that fails, or an abort on the second one.
+struct Fault
+{
+  long allocation = 0; // from 1, of those of at least some bytes
+  std::size_t bytes = failingallocator::largeSize;
+  int abort = -1; // how many questions for it are answered with no
+};
+
+/// Loads, extracts with ghosts and replaces the values on several ranks with a fault, then expects
+/// the right result of the next extraction.
+/// @returns whether there was such an allocation
+bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces,
   const Request& request, const Contents& expected)
 {
   const int size = static_cast<int>(pieces.size());
   std::atomic<int> failures{ 0 };
   std::atomic<int> others{ 0 };
+  std::atomic<int> aborts{ 0 };
   std::atomic<bool> wasReached{ false };
   std::vector<ranks::Extracted> found(pieces.size());
   ThreadRanks threads(size);
   threads.run(
     [&](isopoint::Communicator& communicator)
     {
-      const auto wait = [&communicator]()
+      // Does work on the first rank while the others wait.
+      const auto onFirst = [&communicator](const auto& work)
       {
         std::uint64_t number = 0;
+        communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
+        if (communicator.rank() == 0)
+        {
+          work();
+        }
         communicator.allReduce(&number, 1, isopoint::Reduction::Sum);
       };
       isopoint::ProcessGroup processes(communicator);
       const clouds::Cloud& piece = pieces[static_cast<std::size_t>(processes.rank())];
       const auto read = clouds::readerOf(piece);
-      const isopoint::Execution execution;
+      isopoint::Execution execution;
+      int questions = 0;
+      if (fault.abort >= 0 && processes.rank() == 1)
+      {
+        execution.aborted = [&]() { return questions++ >= fault.abort; };
+      }
       isopoint::IsosurfaceExtractor extractor;
       bool isLoaded = false;
-      wait();
-      if (processes.rank() == 0)
-      {
-        failingallocator::failAt(n, false, bytes);
-      }
-      wait();
+      onFirst([&]() { failingallocator::failAt(fault.allocation, false, fault.bytes); });
       try
       {
         processes.together(
@@ -85,24 +99,24 @@ bool failsAt(long n, std::size_t bytes, const std::vector<clouds::Cloud>& pieces
       {
         ++others;
       }
-      wait();
-      if (processes.rank() == 0)
+      catch (const isopoint::Aborted&)
       {
-        wasReached = failingallocator::stop() >= n;
+        ++aborts;
       }
-      wait();
+      onFirst([&]() { wasReached = failingallocator::stop() >= fault.allocation; });
       processes.together(
         [&]()
         {
           if (processes.isAny(!isLoaded))
           {
-            extractor.load<double, double>(execution, processes, piece.size(), read);
+            extractor.load<double, double>({}, processes, piece.size(), read);
           }
-          found[static_cast<std::size_t>(processes.rank())] = extractor.extract(execution, request);
+          found[static_cast<std::size_t>(processes.rank())] = extractor.extract({}, request);
         });
     });
   EXPECT_TRUE(failures + others == 0 || failures + others == size);
   EXPECT_LE(failures, 1);
+  EXPECT_TRUE(aborts == 0 || aborts == size) << aborts;
   EXPECT_TRUE(ranks::contentsOf(found) == expected);
   return wasReached;
 }
@@ -124,7 +138,7 @@ TEST(RanksFaults, LackOfMemoryOnOneRankEndsTheWorkOfAll)
       ASSERT_FALSE(expected.first.empty());
       ASSERT_EQ(expected.second.empty(), !request.triangles);
       long n = 1;
-      while (failsAt(n, bytes, pieces, request, expected) && !HasFailure())
+      while (expectRecovery({ n, bytes }, pieces, request, expected) && !HasFailure())
       {
         n += n < 200 ? 1 : step;
       }
@@ -145,7 +159,7 @@ TEST(RanksFaults, ByChanceEndTheWorkOfAll)
     clouds::Dice dice(seed);
     const std::vector<clouds::Cloud> pieces =
       ranks::dealOut(clouds::randomCloud(dice, seed), 2 + dice(4), ranks::allDeals[dice(6)]);
-    Request request = clouds::randomRequest(dice);
+    Request request = ranks::randomRequest(dice);
     request.triangles = dice(2) == 0;
     request.ghostRings = static_cast<int>(dice(3));
     const Contents expected = expectedOf(pieces, request);
@@ -153,7 +167,8 @@ TEST(RanksFaults, ByChanceEndTheWorkOfAll)
     {
       const auto most = static_cast<std::size_t>(std::pow(10.0, 1.0 + 3.5 * dice.real()));
       const std::size_t bytes = dice(2) == 0 ? 1 : failingallocator::largeSize;
-      failsAt(1 + static_cast<long>(dice(most)), bytes, pieces, request, expected);
+      const Fault failure{ 1 + static_cast<long>(dice(most)), bytes };
+      expectRecovery(failure, pieces, request, expected);
     }
   }
 }
@@ -162,40 +177,18 @@ TEST(RanksFaults, AnAbortOnOneRankEndsTheWorkOfAll)
 {
   const std::vector<clouds::Cloud> pieces =
     ranks::dealOut(clouds::uniform(3000, 2), 3, ranks::Deal::Even);
-  for (int i = 0; i < 80; ++i)
+  for (const Request& request : { points, triangles })
   {
-    std::atomic<int> aborts{ 0 };
-    ThreadRanks threads(3);
-    threads.run(
-      [&](isopoint::Communicator& communicator)
-      {
-        isopoint::ProcessGroup processes(communicator);
-        const clouds::Cloud& piece = pieces[static_cast<std::size_t>(processes.rank())];
-        isopoint::Execution execution;
-        int questions = 0;
-        execution.aborted = [&]() { return processes.rank() == 1 && questions++ >= i / 2; };
-        isopoint::IsosurfaceExtractor extractor;
-        try
-        {
-          processes.together(
-            [&]()
-            {
-              extractor.load<double, double>(
-                execution, processes, piece.size(), clouds::readerOf(piece));
-              extractor.extract(execution, i % 2 == 0 ? points : triangles);
-            });
-        }
-        catch (const isopoint::Aborted&)
-        {
-          ++aborts;
-        }
-      });
-    EXPECT_TRUE(aborts == 0 || aborts == 3) << aborts;
+    const Contents expected = expectedOf(pieces, request);
+    for (int questions = 0; questions < 40; ++questions)
+    {
+      expectRecovery({ 0, 0, questions }, pieces, request, expected);
+    }
   }
 }
 
-/// A rank that throws anywhere makes the next collective function of all others throw, whichever
-/// that is, and the processes works again afterwards.
+/// A rank that throws makes the next collective function of all others throw, whichever that is.
+/// The group of processes works afterwards.
 TEST(RanksFaults, EachCollectiveFunctionLearnsOfAFailure)
 {
   using Step = std::function<void(isopoint::ProcessGroup&)>;

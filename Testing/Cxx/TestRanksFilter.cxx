@@ -15,28 +15,12 @@ namespace
 
 constexpr int ranks = 3;
 
-/// One rank's samples of a cloud, dealt out one to each in turn.
-vtkSmartPointer<vtkPolyData> newPart(vtkPolyData* cloud, int rank)
+vtkSmartPointer<vtkPolyData> newCloudWithNames(vtkIdType count)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataType(cloud->GetPoints()->GetDataType());
-  const auto distance = newArray<vtkDoubleArray>("distance", 0);
-  const auto position = newArray("position", 0, 3);
-  vtkNew<vtkStringArray> names;
-  names->SetName("names");
-  for (vtkIdType i = rank; i < cloud->GetNumberOfPoints(); i += ranks)
-  {
-    points->InsertNextPoint(cloud->GetPoint(i));
-    distance->InsertNextValue(distancesOf(cloud)->GetValue(i));
-    position->InsertNextTuple(findArray(cloud, "position")->GetTuple(i));
-    names->InsertNextValue(std::to_string(i % 97));
-  }
-  auto part = vtkSmartPointer<vtkPolyData>::New();
-  part->SetPoints(points);
-  part->GetPointData()->SetScalars(distance);
-  part->GetPointData()->AddArray(position);
-  part->GetPointData()->AddArray(names);
-  return part;
+  const auto cloud = newCloud(count);
+  cloud->GetPointData()->AddArray(
+    textsOf("names", count, [](vtkIdType i) { return std::to_string(i % 97); }));
+  return cloud;
 }
 
 /// The points of all ranks' outputs, in the order of the ranks.
@@ -58,7 +42,7 @@ Result updateFailing(long n, vtkPolyData* cloud)
   std::vector<vtkSmartPointer<vtkPolyData>> parts;
   for (int rank = 0; rank < ranks; ++rank)
   {
-    parts.push_back(newPart(cloud, rank));
+    parts.push_back(everyNth(cloud, rank, ranks));
   }
   std::mutex mutex;
   onThreadControllers(ranks,
@@ -68,19 +52,18 @@ Result updateFailing(long n, vtkPolyData* cloud)
       const auto filter = newFilter<TFilter>(parts[rank]);
       filter->SetController(controller);
       const auto errors = watchErrors(filter);
-      controller->Barrier();
-      if (rank == 0 && n > 0)
+      const auto onFirst = [&](const std::function<void()>& work)
       {
-        failingallocator::failAt(n, false);
-      }
-      controller->Barrier();
+        controller->Barrier();
+        if (rank == 0 && n > 0)
+        {
+          work();
+        }
+        controller->Barrier();
+      };
+      onFirst([&]() { failingallocator::failAt(n, false); });
       filter->Update();
-      controller->Barrier();
-      if (rank == 0 && n > 0)
-      {
-        result.wasReached = failingallocator::stop() >= n;
-      }
-      controller->Barrier();
+      onFirst([&]() { result.wasReached = failingallocator::stop() >= n; });
       result.failed[rank] = pointsOf(filter->GetOutput());
       {
         const std::lock_guard<std::mutex> lock(mutex);
@@ -95,7 +78,7 @@ Result updateFailing(long n, vtkPolyData* cloud)
 template <class TFilter>
 void failEach()
 {
-  const auto cloud = newCloud(1500);
+  const auto cloud = newCloudWithNames(1500);
   const Result undisturbed = updateFailing<TFilter>(0, cloud);
   const Outputs expected = undisturbed.next;
   ASSERT_EQ(undisturbed.failed, expected);
@@ -134,54 +117,50 @@ TEST(RanksFilter, LackOfMemoryOnOneRankEndsTheTrianglesOfAll)
 
 TEST(RanksFilter, DifferentOptionsAreOneError)
 {
-  const auto points = [](const std::function<void(Isopoints*, int)>& prepare)
-  {
-    return [prepare](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
-    {
-      const auto filter = newFilter(nullptr);
-      prepare(filter, rank);
-      return filter;
-    };
-  };
   struct Case
   {
     const char* name;
-    std::function<vtkSmartPointer<vtkScatteredContourFilter>(int rank)> newFilterOn;
-    int errors;
+    std::function<vtkScatteredContourFilter*(Isopoints*, Isosurface*, int rank)> filterOf;
+    std::size_t errors = 1;
   };
   const std::vector<Case> cases{
     { "both zeros",
-      points([](auto* filter, int rank) { filter->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0); }),
-      0 },
-    { "angles", points([](auto* filter, int rank) { filter->SetAngle(30.0 + rank); }), 1 },
-    { "associations",
-      points(
-        [](auto* filter, int rank)
-        {
-          filter->SetInputArrayToProcess(0, 0, 0,
-            rank == 1 ? vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS : ofPoints, "distance");
-        }),
-      1 },
-    { "switches",
-      [](int rank)
+      [](auto* points, auto*, int rank)
       {
-        const auto filter = newFilter<Isosurface>(nullptr);
-        filter->SetRegularize(rank == 0);
-        return filter;
+        points->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0);
+        return points;
       },
-      1 },
+      0 },
+    { "angles",
+      [](auto* points, auto*, int rank)
+      {
+        points->SetAngle(30.0 + rank);
+        return points;
+      } },
+    { "associations",
+      [](auto* points, auto*, int rank)
+      {
+        points->SetInputArrayToProcess(0, 0, 0,
+          rank == 1 ? vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS : ofPoints, "distance");
+        return points;
+      } },
+    { "switches",
+      [](auto*, auto* triangles, int rank)
+      {
+        triangles->SetRegularize(rank == 0);
+        return triangles;
+      } },
     { "filters",
-      [](int rank) -> vtkSmartPointer<vtkScatteredContourFilter>
+      [](auto* points, auto* triangles, int rank) -> vtkScatteredContourFilter*
       {
         if (rank == 1)
         {
-          return newFilter<Isosurface>(nullptr);
+          return triangles;
         }
-        return newFilter(nullptr);
-      },
-      1 },
+        return points;
+      } },
   };
-  const auto cloud = newCloud(300);
+  const auto cloud = newCloudWithNames(300);
   for (const Case& different : cases)
   {
     std::atomic<std::size_t> errors{ 0 };
@@ -189,13 +168,15 @@ TEST(RanksFilter, DifferentOptionsAreOneError)
       [&](vtkMultiProcessController* controller)
       {
         const int rank = controller->GetLocalProcessId();
-        const auto filter = different.newFilterOn(rank);
+        const auto part = everyNth(cloud, rank, ranks);
+        const auto points = newFilter(part);
+        const auto triangles = newFilter<Isosurface>(part);
+        vtkScatteredContourFilter* const filter = different.filterOf(points, triangles, rank);
         filter->SetController(controller);
-        filter->SetInputData(newPart(cloud, rank));
         const auto watcher = watchErrors(filter);
         filter->Update();
         errors += watcher->count();
       });
-    EXPECT_EQ(errors, static_cast<std::size_t>(different.errors)) << different.name;
+    EXPECT_EQ(errors, different.errors) << different.name;
   }
 }

@@ -38,7 +38,7 @@ vtkSmartPointer<ProgressWatcher> watchProgress(vtkScatteredContourFilter* filter
   return watcher;
 }
 
-/// Filters with inputs of points, of cells and of blocks, and the one of triangles.
+/// Filters of points, cells and blocks, and the filter of triangles.
 std::vector<vtkSmartPointer<vtkScatteredContourFilter>> filtersOfEveryInput()
 {
   const auto blocks = blocksOf({ newVertexCells(12000), newVertexCells(8000) });
@@ -199,21 +199,4 @@ TEST(Robustness, FiltersRunSideBySideInThreads)
   {
     EXPECT_EQ(points, expected);
   }
-}
-
-TEST(Robustness, AFilterMayBeFreedWhileAnotherSharesItsInput)
-{
-  const auto cloud = newCloud(10000);
-  const auto kept = newFilter(cloud);
-  {
-    const auto freed = newFilter(cloud);
-    freed->Update();
-    kept->Update();
-  }
-  const std::vector<double> before = pointsOf(kept->GetOutput());
-  EXPECT_FALSE(before.empty());
-  kept->SetAngle(50.0);
-  kept->Update();
-  kept->SetAngle(54.7);
-  EXPECT_EQ(pointsOf(outputOf(kept)), before);
 }

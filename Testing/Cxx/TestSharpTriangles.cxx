@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles of bodies with sharp edges: edges and corners are where the body has them, hardly a
 // triangle looks the wrong way, and the surface is closed.
-#include "FilterTesting.h"
+#include "InputTesting.h"
 
 #include "vtkMath.h"
 #include "vtkStaticCellLocator.h"
 
 #include <map>
 
-using namespace filtertesting;
+using namespace inputtesting;
 
 namespace
 {
@@ -55,15 +55,7 @@ vtkSmartPointer<vtkPolyData> trianglesOfBody(
   if (isLattice)
   {
     cloud->GetPointData()->Initialize();
-    constexpr int size = 39;
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (int i = 0; i < size * size * size; ++i)
-    {
-      const auto coordinate = [](int index) { return 2.0 * (index % size) / (size - 1) - 1.0; };
-      points->InsertNextPoint(coordinate(i), coordinate(i / size), coordinate(i / size / size));
-    }
-    cloud->SetPoints(points);
+    cloud->SetPoints(pointsOfDataSet(newImage({ 38, 38, 38 }, 2.0 / 38.0)));
   }
   setScalars(cloud, body.field);
   const auto filter = newFilter<Isosurface>(cloud, 0.0);

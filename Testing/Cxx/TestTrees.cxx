@@ -176,8 +176,8 @@ vtkSmartPointer<vtkHyperTreeGrid> newTrees(Samples& leaves, bool withMaskAndGhos
 
 } // namespace
 
-// Nodes that are not leaves take ids, too, so that the order of points differs, and fits, which sum
-// samples in order of ids, are rounded differently.
+// Nodes that are not leaves have ids, too. So points have another order, and fits, which sum
+// samples in the order of ids, are rounded differently.
 TEST(Trees, LeavesOfHyperTrees)
 {
   const auto sorted = [](vtkPolyData* output)

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "ThreadRanks.h"
+
 #include "vtkCommunicator.h"
 #include "vtkDummyController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
-
-/// Messages between ranks that are threads of one process: each is handed over while its receiver
-/// waits, so that none takes memory.
+/// Messages between ranks that are threads of one process. Each is copied while its receiver waits,
+/// so that none allocates memory.
 class ThreadMailbox
 {
 public:
@@ -65,12 +57,12 @@ public:
   static ThreadCommunicator* New();
   vtkTypeMacro(ThreadCommunicator, vtkCommunicator);
 
-  void connect(ThreadMailbox& mailbox, int rank, int size)
+  void connect(ThreadMailbox& mailbox, isopoint::Communicator& ranks)
   {
     this->Mailbox = &mailbox;
-    this->LocalProcessId = rank;
-    this->MaximumNumberOfProcesses = size;
-    this->NumberOfProcesses = size;
+    this->Ranks = &ranks;
+    this->LocalProcessId = ranks.rank();
+    this->MaximumNumberOfProcesses = this->NumberOfProcesses = ranks.size();
   }
 
   int SendVoidArray(
@@ -89,47 +81,19 @@ public:
     return 1;
   }
 
-  /// Of unsigned 64-bit numbers, a few at a time; takes no memory.
+  /// Of unsigned 64-bit numbers.
   int AllReduceVoidArray(
     const void* sent, void* received, vtkIdType length, int /*type*/, int operation) override
   {
-    constexpr vtkIdType few = 256;
-    const auto* const own = static_cast<const std::uint64_t*>(sent);
-    auto* const all = static_cast<std::uint64_t*>(received);
-    for (vtkIdType begin = 0; begin < length; begin += few)
-    {
-      const vtkIdType count = std::min(few, length - begin);
-      std::copy_n(own + begin, count, all + begin);
-      this->reduceAtFirst(all + begin, count, operation == SUM_OP);
-    }
+    const auto count = static_cast<std::size_t>(length);
+    auto* const numbers = static_cast<std::uint64_t*>(received);
+    std::copy_n(static_cast<const std::uint64_t*>(sent), count, numbers);
+    this->Ranks->allReduce(numbers, count,
+      operation == SUM_OP ? isopoint::Reduction::Sum : isopoint::Reduction::Maximum);
     return 1;
   }
 
 private:
-  void reduceAtFirst(std::uint64_t* numbers, vtkIdType count, bool isSum)
-  {
-    const auto bytes = static_cast<std::size_t>(count) * sizeof(std::uint64_t);
-    if (this->LocalProcessId > 0)
-    {
-      this->Mailbox->send(this->LocalProcessId, 0, numbers, bytes);
-      this->Mailbox->receive(0, this->LocalProcessId, numbers, bytes);
-      return;
-    }
-    for (int rank = 1; rank < this->NumberOfProcesses; ++rank)
-    {
-      std::uint64_t others[256];
-      this->Mailbox->receive(rank, 0, others, bytes);
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        numbers[i] = isSum ? numbers[i] + others[i] : std::max(numbers[i], others[i]);
-      }
-    }
-    for (int rank = 1; rank < this->NumberOfProcesses; ++rank)
-    {
-      this->Mailbox->send(0, rank, numbers, bytes);
-    }
-  }
-
   static std::size_t bytesOf(vtkIdType length, int type)
   {
     const int size = vtkAbstractArray::GetDataTypeSize(type);
@@ -137,6 +101,7 @@ private:
   }
 
   ThreadMailbox* Mailbox = nullptr;
+  isopoint::Communicator* Ranks = nullptr;
 };
 
 vtkStandardNewMacro(ThreadCommunicator);
@@ -146,21 +111,13 @@ inline void onThreadControllers(
   int size, const std::function<void(vtkMultiProcessController*)>& work)
 {
   ThreadMailbox mailbox;
-  std::vector<std::thread> threads;
-  for (int rank = 0; rank < size; ++rank)
-  {
-    threads.emplace_back(
-      [&mailbox, &work, rank, size]()
-      {
-        vtkNew<ThreadCommunicator> communicator;
-        communicator->connect(mailbox, rank, size);
-        vtkNew<vtkDummyController> controller;
-        controller->SetCommunicator(communicator);
-        work(controller);
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
+  ThreadRanks(size).run(
+    [&](isopoint::Communicator& ranks)
+    {
+      vtkNew<ThreadCommunicator> communicator;
+      communicator->connect(mailbox, ranks);
+      vtkNew<vtkDummyController> controller;
+      controller->SetCommunicator(communicator);
+      work(controller);
+    });
 }

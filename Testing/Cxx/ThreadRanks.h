@@ -105,7 +105,7 @@ private:
     const int Rank;
   };
 
-  /// Does something under a lock, then waits for all ranks to have done theirs. Takes no memory.
+  /// Does work under a lock, then waits until all ranks have done theirs. Allocates no memory.
   template <class Work>
   void await(const Work& work)
   {

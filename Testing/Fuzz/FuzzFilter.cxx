@@ -4,30 +4,11 @@
 #include "ByteSource.h"
 
 #include "../Cxx/BruteForce.h"
-#include "../Cxx/Clouds.h"
+#include "../Cxx/InputTesting.h"
 
-#include "vtkCellData.h"
-#include "vtkCommand.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
-#include "vtkScatteredIsopointFilter.h"
-#include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+using namespace inputtesting;
 
 namespace
 {
@@ -45,9 +26,12 @@ double representable(double number, int type)
   return std::isfinite(number) ? std::fmod(std::floor(std::abs(number)), 120.0) : 7.0;
 }
 
-vtkSmartPointer<vtkDataArray> newArray(
-  ByteSource& bytes, const char* name, vtkIdType tuples, int type)
+/// An array of one of several types.
+vtkSmartPointer<vtkDataArray> newNumbers(ByteSource& bytes, const char* name, vtkIdType tuples)
 {
+  const int types[8] = { VTK_DOUBLE, VTK_FLOAT, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_INT,
+    VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG };
+  const int type = types[bytes.below(8)];
   const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   array->SetName(name);
   array->SetNumberOfTuples(tuples);
@@ -59,44 +43,25 @@ vtkSmartPointer<vtkDataArray> newArray(
   return array;
 }
 
-int scalarType(ByteSource& bytes)
-{
-  const int types[8] = { VTK_DOUBLE, VTK_FLOAT, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_INT,
-    VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG };
-  return types[bytes.below(8)];
-}
-
 void addArrays(ByteSource& bytes, vtkDataSetAttributes* attributes, vtkIdType count)
 {
-  if (bytes.below(8) != 0)
+  for (const auto& [name, tuples, isAdded] :
+    { std::tuple("f", count, bytes.below(8) != 0), std::tuple("other", count, bytes.below(4) == 0),
+      std::tuple("short", count / 2, bytes.below(8) == 0) })
   {
-    attributes->AddArray(newArray(bytes, "f", count, scalarType(bytes)));
-  }
-  if (bytes.below(4) == 0)
-  {
-    attributes->AddArray(newArray(bytes, "other", count, scalarType(bytes)));
-  }
-  if (bytes.below(8) == 0)
-  {
-    attributes->AddArray(newArray(bytes, "short", count / 2, VTK_DOUBLE));
+    if (isAdded)
+    {
+      attributes->AddArray(newNumbers(bytes, name, tuples));
+    }
   }
   if (bytes.below(8) == 0)
   {
-    vtkNew<vtkStringArray> names;
-    names->SetName("names");
-    names->SetNumberOfValues(count);
-    attributes->AddArray(names);
+    attributes->AddArray(textsOf("names", count, [](vtkIdType) { return ""; }));
   }
   if (bytes.below(3) == 0)
   {
-    vtkNew<vtkUnsignedCharArray> ghosts;
-    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghosts->SetNumberOfValues(count);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      ghosts->SetValue(i, bytes.below(3) == 0 ? bytes.byte() : 0);
-    }
-    attributes->AddArray(ghosts);
+    attributes->AddArray(
+      ghostsOf(count, [&](vtkIdType) { return bytes.below(3) == 0 ? bytes.byte() : 0; }));
   }
 }
 
@@ -119,14 +84,8 @@ vtkSmartPointer<vtkPoints> newPoints(ByteSource& bytes, vtkIdType count)
 
 vtkSmartPointer<vtkDoubleArray> newCoordinates(ByteSource& bytes, int count)
 {
-  auto coordinates = vtkSmartPointer<vtkDoubleArray>::New();
   double coordinate = bytes.below(8);
-  for (int i = 0; i < count; ++i)
-  {
-    coordinates->InsertNextValue(coordinate);
-    coordinate += 0.25 * bytes.below(16);
-  }
-  return coordinates;
+  return arrayOf("", count, [&](vtkIdType) { return coordinate += 0.25 * bytes.below(16); });
 }
 
 vtkSmartPointer<vtkDataSet> newDataSet(ByteSource& bytes)
@@ -188,31 +147,21 @@ vtkSmartPointer<vtkDataObject> newInput(
     dataSets.push_back(newDataSet(bytes));
     return dataSets.back();
   }
-  const int blocks = bytes.below(4);
   vtkNew<vtkMultiBlockDataSet> multi;
   vtkNew<vtkPartitionedDataSetCollection> collection;
-  for (int block = 0; block < blocks; ++block)
+  const auto blocks = static_cast<unsigned int>(bytes.below(4));
+  multi->SetNumberOfBlocks(blocks);
+  for (unsigned int block = 0; block < blocks; ++block)
   {
-    if (bytes.below(6) == 0)
+    if (bytes.below(6) != 0)
     {
-      multi->SetNumberOfBlocks(static_cast<unsigned int>(block) + 1);
-      continue;
+      dataSets.push_back(newDataSet(bytes));
+      multi->SetBlock(block, dataSets.back());
+      collection->SetPartition(block, 0, dataSets.back());
     }
-    dataSets.push_back(newDataSet(bytes));
-    multi->SetBlock(static_cast<unsigned int>(block), dataSets.back());
-    collection->SetPartition(static_cast<unsigned int>(block), 0, dataSets.back());
   }
-  return kind == 2 ? vtkSmartPointer<vtkDataObject>(multi)
-                   : vtkSmartPointer<vtkDataObject>(collection);
+  return kind == 2 ? vtkSmartPointer<vtkDataObject>(multi) : collection.Get();
 }
-
-class ErrorCounter : public vtkCommand
-{
-public:
-  static ErrorCounter* New() { return new ErrorCounter; }
-  void Execute(vtkObject*, unsigned long, void*) override { ++this->Count; }
-  int Count = 0;
-};
 
 int ghostAt(vtkDataSetAttributes* attributes, vtkIdType i)
 {
@@ -220,21 +169,16 @@ int ghostAt(vtkDataSetAttributes* attributes, vtkIdType i)
   return ghosts ? static_cast<int>(ghosts->GetComponent(i, 0)) : 0;
 }
 
-constexpr int invisibleCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
-
 /// As the filter's documentation defines it, for one point.
 bool isPointLeftOut(vtkDataSet* input, vtkIdType point)
 {
-  if ((ghostAt(input->GetPointData(), point) &
-        (vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT)) != 0)
+  if ((ghostAt(input->GetPointData(), point) & (duplicatePoint | hiddenPoint)) != 0)
   {
     return true;
   }
   // A ghost array of the points marks the duplicates among them; without one the cells' does.
-  const bool hasGhosts =
-    input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()) != nullptr;
-  const int excluding =
-    hasGhosts ? invisibleCell : invisibleCell | vtkDataSetAttributes::DUPLICATECELL;
+  const bool hasGhosts = input->GetPointGhostArray() != nullptr;
+  const int excluding = hidden | refined | (hasGhosts ? 0 : duplicate);
   bool isInExcludedCell = false;
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
@@ -254,22 +198,27 @@ bool isPointLeftOut(vtkDataSet* input, vtkIdType point)
 
 bool isCellLeftOut(vtkDataSet* input, vtkIdType cell)
 {
-  if ((ghostAt(input->GetCellData(), cell) &
-        (invisibleCell | vtkDataSetAttributes::DUPLICATECELL)) != 0)
-  {
-    return true;
-  }
   vtkNew<vtkIdList> corners;
   input->GetCellPoints(cell, corners);
-  for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+  return (ghostAt(input->GetCellData(), cell) & (hidden | refined | duplicate)) != 0 ||
+         std::any_of(corners->begin(), corners->end(),
+           [&](vtkIdType corner)
+           { return (ghostAt(input->GetPointData(), corner) & hiddenPoint) != 0; });
+}
+
+/// The center of the bounds of a box or a vertex.
+Vector centerOf(vtkDataSet* input, vtkIdType cell)
+{
+  double bounds[6];
+  input->GetCellBounds(cell, bounds);
+  Vector center;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if ((ghostAt(input->GetPointData(), corners->GetId(i)) & vtkDataSetAttributes::HIDDENPOINT) !=
-        0)
-    {
-      return true;
-    }
+    const double least = bounds[2 * axis];
+    const double most = bounds[2 * axis + 1];
+    center[axis] = least == most ? least : 0.5 * (least + most);
   }
-  return false;
+  return center;
 }
 
 /// The samples of data sets, and the number of points or cells that are none.
@@ -279,21 +228,9 @@ struct Expectation
   vtkIdType skipped = 0;
   bool hasArray = false;
 
-  void add(const double p[3], double value, bool isLeftOut)
+  void add(vtkDataSet* input, int association)
   {
-    if (isLeftOut || !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]) ||
-        !std::isfinite(value))
-    {
-      ++this->skipped;
-      return;
-    }
-    this->samples.add(p[0], p[1], p[2], value);
-  }
-
-  void add(vtkDataSet* input, bool ofCells)
-  {
-    vtkDataArray* const f =
-      ofCells ? input->GetCellData()->GetArray("f") : input->GetPointData()->GetArray("f");
+    vtkDataArray* const f = input->GetAttributes(association)->GetArray("f");
     if (!f)
     {
       this->skipped += std::max(input->GetNumberOfPoints(), input->GetNumberOfCells());
@@ -303,24 +240,16 @@ struct Expectation
     this->hasArray = this->hasArray || count > 0;
     for (vtkIdType i = 0; i < count; ++i)
     {
-      double p[3];
-      if (ofCells)
+      Vector p = association == ofPoints ? placeOf(input, i) : centerOf(input, i);
+      const double value = f->GetComponent(i, 0);
+      if ((association == ofPoints ? isPointLeftOut(input, i) : isCellLeftOut(input, i)) ||
+          !std::all_of(p.begin(), p.end(), [](double c) { return std::isfinite(c); }) ||
+          !std::isfinite(value))
       {
-        double bounds[6];
-        input->GetCellBounds(i, bounds);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          p[axis] = bounds[2 * axis] == bounds[2 * axis + 1]
-                      ? bounds[2 * axis]
-                      : 0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]);
-        }
+        ++this->skipped;
+        continue;
       }
-      else
-      {
-        input->GetPoint(i, p);
-      }
-      this->add(
-        p, f->GetComponent(i, 0), ofCells ? isCellLeftOut(input, i) : isPointLeftOut(input, i));
+      this->samples.add(p, value);
     }
   }
 };
@@ -350,59 +279,54 @@ void checkPoints(
   }
 }
 
-/// Thinned points are a subset of all, in the same order.
-void checkThinned(vtkPolyData* all, vtkPolyData* thinned)
+/// The positions of each surface.
+std::vector<std::vector<Vector>> placesOf(vtkDataObject* output)
 {
-  vtkIdType next = 0;
-  for (vtkIdType i = 0; i < thinned->GetNumberOfPoints(); ++i)
+  std::vector<std::vector<Vector>> places;
+  for (vtkPolyData* const surface : surfacesOf(output))
   {
-    double wanted[3];
-    thinned->GetPoint(i, wanted);
-    while (next < all->GetNumberOfPoints() &&
-           !std::equal(wanted, wanted + 3, all->GetPoints()->GetPoint(next)))
+    places.emplace_back();
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
     {
-      ++next;
+      places.back().push_back(placeOf(surface, i));
     }
-    require(next++ < all->GetNumberOfPoints(), "a thinned point");
   }
+  return places;
 }
 
-/// Updates the filter again, with thinning, and compares with its former output.
+/// Updates the filter again, with thinning: thinned points are a subset of all, in the same order.
 void checkThinning(double minimumSpacing, vtkScatteredIsopointFilter* filter)
 {
-  vtkDataObject* const output = filter->GetOutputDataObject(0);
-  const auto former = vtkSmartPointer<vtkDataObject>::Take(output->NewInstance());
-  former->DeepCopy(output);
+  const auto all = placesOf(filter->GetOutputDataObject(0));
   filter->SetMinimumSpacing(minimumSpacing);
   filter->Update();
   filter->SetMinimumSpacing(0.0);
-  if (auto* const all = vtkPolyData::SafeDownCast(former))
+  const auto thinned = placesOf(filter->GetOutputDataObject(0));
+  require(thinned.size() == all.size(), "the number of thinned surfaces");
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    checkThinned(all, filter->GetOutput());
-    return;
-  }
-  auto* const all = vtkCompositeDataSet::SafeDownCast(former);
-  auto* const thinned = vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(0));
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(all->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    checkThinned(vtkPolyData::SafeDownCast(all->GetDataSet(iterator)),
-      vtkPolyData::SafeDownCast(thinned->GetDataSet(iterator)));
+    auto next = all[i].begin();
+    for (const Vector& place : thinned[i])
+    {
+      next = std::find(next, all[i].end(), place);
+      require(next != all[i].end(), "a thinned point");
+      ++next;
+    }
   }
 }
 
 /// Compares the filter's output with the isopoints that brute force finds in the input's data sets.
 void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObject* input,
-  bool ofCells, int errorCount, vtkScatteredIsopointFilter* filter)
+  int association, std::size_t errorCount, vtkScatteredIsopointFilter* filter)
 {
   const double isovalue = filter->GetValue(0);
   Expectation expected;
   for (vtkDataSet* const dataSet : dataSets)
   {
-    expected.add(dataSet, ofCells);
+    expected.add(dataSet, association);
   }
   const bool isUsable = expected.hasArray && !std::isnan(isovalue);
-  require(errorCount == (isUsable ? 0 : 1), "the number of errors");
+  require(errorCount == (isUsable ? 0u : 1u), "the number of errors");
   if (auto* const output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)))
   {
     checkPoints(filter, output, isUsable ? expected.samples : Cloud(), isovalue);
@@ -421,7 +345,7 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObje
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
     Expectation alone;
-    alone.add(vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()), ofCells);
+    alone.add(vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()), association);
     auto* const output = vtkPolyData::SafeDownCast(blocks->GetDataSet(iterator));
     require((output != nullptr) == alone.hasArray, "the structure of the blocks");
     if (output)
@@ -431,19 +355,16 @@ void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObje
   }
 }
 
-void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter* errors)
+void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, MessageWatcher* errors)
 {
   std::vector<vtkSmartPointer<vtkDataSet>> dataSets;
   const vtkSmartPointer<vtkDataObject> input = newInput(bytes, dataSets);
-  const bool ofCells = bytes.flag();
+  const int association = bytes.flag() ? ofCells : ofPoints;
   const double angle = bytes.flag() ? 54.7 : static_cast<double>(bytes.below(181));
-  double isovalue = bytes.number(bytes.below(4));
   filter->SetInputData(input);
-  filter->SetInputArrayToProcess(0, 0, 0,
-    ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    "f");
+  filter->SetInputArrayToProcess(0, 0, 0, association, "f");
   filter->SetAngle(angle);
-  filter->SetValue(0, isovalue);
+  filter->SetValue(0, bytes.number(bytes.below(4)));
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->SetComputeNormals(bytes.below(4) != 0);
   filter->SetComputeSplats(bytes.below(4) != 0);
@@ -456,11 +377,11 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, ErrorCounter*
   filter->SetNormalMethod(bytes.below(2));
   filter->SetComputeGradients(bytes.below(2) != 0);
   filter->SetComputeProjectionOrders(bytes.below(2) != 0);
-  errors->Count = 0;
+  errors->All.clear();
   filter->Update();
-  check(dataSets, input, ofCells, errors->Count, filter);
+  check(dataSets, input, association, errors->count(), filter);
   const int percent = bytes.below(101);
-  if (errors->Count == 0)
+  if (errors->count() == 0)
   {
     checkThinning(0.01 * percent, filter);
   }
@@ -473,8 +394,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ByteSource bytes(data, size);
   vtkNew<vtkScatteredIsopointFilter> filter;
   filter->DropGapsOff(); // brute force finds what lies in gaps too
-  const auto errors = vtkSmartPointer<ErrorCounter>::Take(ErrorCounter::New());
-  filter->AddObserver(vtkCommand::ErrorEvent, errors);
+  const auto errors = watchErrors(filter);
   for (int round = 0; round < 3; ++round)
   {
     update(bytes, filter, errors);
