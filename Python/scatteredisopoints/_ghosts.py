@@ -74,13 +74,11 @@ def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
         sizes = np.concatenate([np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays])
         points = np.concatenate([as_numpy(array.GetConnectivityArray()) for array in arrays])
         return np.repeat(np.arange(len(sizes)), sizes), points
-    if not hasattr(data, "GetDimensions"):  # points without cells
+    if not hasattr(data, "GetExtent"):  # points without cells
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    dimensions = np.array(data.GetDimensions())
-    steps = np.minimum(dimensions - 1, 1)  # to the far corners of a cell; 0 along flat axes
-    cells = np.maximum(dimensions - 1, 1)
-    corner = np.arange(np.prod(cells)).reshape(cells[::-1])
-    z, y, x = np.unravel_index(corner.ravel(), corner.shape)
-    found = [((z + dz) * dimensions[1] + y + dy) * dimensions[0] + x + dx
-             for dz in range(steps[2] + 1) for dy in range(steps[1] + 1) for dx in range(steps[0] + 1)]
-    return np.tile(corner.ravel(), len(found)), np.concatenate(found)
+    low, high = np.reshape(data.GetExtent(), (3, 2)).T[:, ::-1]  # of z, y, x
+    ids = np.arange(data.GetNumberOfPoints()).reshape(high - low + 1)
+    z, y, x = np.maximum(high - low, 1)  # numbers of cells
+    corners = [ids[dz:dz + z, dy:dy + y, dx:dx + x].ravel()
+               for dz, dy, dx in np.ndindex(*np.minimum(ids.shape, 2))]
+    return np.tile(np.arange(z * y * x), len(corners)), np.concatenate(corners)
