@@ -202,7 +202,8 @@ def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
 def _joined(blocks: list[DataSamples]) -> DataSamples:
     """The samples of all blocks, with the arrays that all have."""
     positions = [as_numpy(block.positions) for block in blocks]
-    first, *others = [{key: as_numpy(array) for key, array in block.arrays.items()} for block in blocks]
+    first, *others = [{key: as_numpy(array) for key, array in (block.arrays or {}).items()}
+                      for block in blocks]
     arrays = {key: np.concatenate([array, *(other[key] for other in others)])
               for key, array in first.items()
               if all(key in other and other[key].dtype == array.dtype

@@ -43,7 +43,7 @@ def excluded_cells(data: Any) -> Optional[np.ndarray]:
     has_hidden = points is not None and (points & HIDDEN_POINT).any()
     if has_hidden or _cell_arrays(data):
         cell, point = cell_points(data)
-        if has_hidden:
+        if points is not None and has_hidden:
             excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
         excluded |= np.bincount(cell, minlength=len(excluded)) == 0
     return excluded if excluded.any() else None

@@ -215,7 +215,7 @@ class Samples:
                 " array.", is_warning=False))
         found = self._interpolated(surface, of_samples)
         if options.get("compute_scalars", True):
-            name = self._maker.scalars
+            name = self._maker.scalars or "values"
             if name in found:
                 messages.append(_library.Message(
                     f'The isovalues replace the array "{name}" of the data set: rename that.',
