@@ -29,15 +29,11 @@ _NAMES = ["Isosurface", "Samples", "contour", "load_plugin"]
 def __getattr__(name: str) -> Any:
     if name == "__all__":
         return _NAMES + _classes()
-    if name == "ray_trace" and _compiled("vtkScatteredIsopointRayTracing"):
-        return importlib.import_module(".ray_tracing", __name__).ray_trace
     if name.startswith("vtk") or name == "ray_trace":
-        for module in map(_compiled, _COMPILED):
+        modules = ["ray_tracing"] if name == "ray_trace" else [*_COMPILED, "_vtk"]
+        for module in map(_module, modules):
             if hasattr(module, name):
                 return getattr(module, name)
-        in_python = _in_python()
-        if hasattr(in_python, name):
-            return getattr(in_python, name)
         raise AttributeError(f"There is no {name} here: install VTK (pip install vtk), or build this"
                              " project with VTK, as its docs/installing.md says.")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -49,23 +45,16 @@ def __dir__() -> list[str]:
 
 def _classes() -> list[str]:
     """All compiled classes, and ray_trace() if there is a ray tracer."""
-    names = [name for module in map(_compiled, _COMPILED) for name in dir(module)
+    names = [name for module in map(_module, _COMPILED) for name in dir(module)
              if name.startswith("vtk")]
     if not names:
-        names = [name for name in dir(_in_python()) if name.startswith(("vtkScattered", "vtkIsopoint"))]
+        names = [name for name in dir(_module("_vtk")) if name.startswith(("vtkScattered", "vtkIsopoint"))]
     return names + ["ray_trace"] * any("RayTracer" in name for name in names)
 
 
-def _in_python() -> Any:
-    """The filters implemented in Python, or None without VTK."""
-    try:
-        return importlib.import_module("._vtk", __name__)
-    except ImportError:
-        return None
-
-
-def _compiled(module: str) -> Any:
-    """A module of compiled classes, or None if there is none for this interpreter and its VTK."""
+def _module(module: str) -> Any:
+    """A module of this package, or None if what it needs is not there for this interpreter: VTK, or
+    compiled classes for it."""
     try:
         return importlib.import_module(f".{module}", __name__)
     except ImportError:

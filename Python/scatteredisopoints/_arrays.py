@@ -1,11 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NumPy arrays for the C library."""
+"""Arrays of NumPy and VTK, for the C library."""
 
 from __future__ import annotations
 
+import importlib
 from typing import Any, Iterable, Mapping, Optional, Union
 
 import numpy as np
+
+# As in vtkType.h and vtkDataObject::FieldAssociations.
+BIT, UNSIGNED_CHAR, FLOAT = 1, 3, 10
+POINT, CELL = 0, 1
+
+
+def package_of(vtk_object: Any) -> str:
+    """The name of the package with the class of an object of VTK: vtkmodules, cvista."""
+    for base in type(vtk_object).__mro__:
+        package, _, module = base.__module__.rpartition(".")
+        if module == "vtkCommonCore":  # has vtkObject; cvista has data objects that name vtkmodules
+            return package
+    raise TypeError(f"{type(vtk_object).__name__} is none of VTK's data objects")
+
+
+def module_of(vtk_object: Any, name: str) -> Any:
+    """A module of the package of an object."""
+    return importlib.import_module(f"{package_of(vtk_object)}.{name}")
+
+
+def as_numpy(array: Any) -> np.ndarray:
+    """The numbers of an array of VTK or NumPy, which shares its memory if contiguous.
+
+    VTK's arrays get the shape (n,) or (n, components). They may be reallocated: do not keep the result
+    after a call.
+    """
+    if isinstance(array, np.ndarray):
+        return array
+    is_bits = array.GetDataType() == BIT
+    if is_bits or not array.HasStandardMemoryLayout():  # vtk_to_numpy() reads neither in all versions
+        copy = module_of(array, "vtkCommonCore").vtkDataArray.CreateDataArray(
+            UNSIGNED_CHAR if is_bits else array.GetDataType())
+        copy.DeepCopy(array)
+        array = copy
+    return module_of(array, "util.numpy_support").vtk_to_numpy(array)
 
 
 def readable(name: str, array: Any) -> np.ndarray:
@@ -52,7 +88,7 @@ def column(name: str, array: Any, count: int, one_component: bool = False) -> np
     if one_component and result.ndim == 2 and result.shape[1] == 1:
         result = result[:, 0]
     has_components = result.ndim == 2 and result.shape[1] > 0 and not one_component
-    if len(result.shape) == 0 or len(result) != count or not (result.ndim == 1 or has_components):
+    if not (result.ndim == 1 or has_components) or len(result) != count:
         wanted = f"({count},)" if one_component else f"({count},) or ({count}, components)"
         raise ValueError(f"{name} have the shape {result.shape}, not {wanted}")
     return result

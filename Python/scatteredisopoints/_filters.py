@@ -11,17 +11,14 @@ import threading
 import warnings
 from typing import Any, Mapping, Optional
 
-import numpy as np
-from vtkmodules.numpy_interface import dataset_adapter
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 
-from ._arrays import column, further_arrays, positions_of, readable, values_of
-from ._datasets import is_of_pyvista
+from ._arrays import CELL, POINT, as_numpy, further_arrays, positions_of, values_of
+from ._datasets import given_values, is_of_pyvista, leaves, named_arrays, point_positions
 from ._isosurface import Isosurface
-from ._options import constant, make_options, snake_case, switch
-from ._polydata import PolyDataMaker
+from ._options import constant, make_options, property_name, switch
+from ._polydata import PolyDataMaker, as_vtk
 from ._progress import Progress, shown_progress
 from .vtkScatteredIsopointFilters import (
     vtkScatteredContourFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter)
@@ -40,7 +37,7 @@ def filtered(
     triangles = switch("triangles", triangles)
     isopoints = vtkScatteredIsosurfaceFilter() if triangles else vtkScatteredIsopointFilter()
     if not isinstance(source, vtkDataObject):
-        isopoints.SetInputData(_samples(source, values, arrays))
+        isopoints.SetInputData(_cloud(source, values, arrays))
     elif arrays:
         raise TypeError("arrays go with an array of positions: add them to the data set instead")
     else:
@@ -51,7 +48,11 @@ def filtered(
     make_options(triangles, {name: value for name, value in options.items()
                              if name not in ("controller", "use_all_cores")})
     for name, value in options.items():
-        _set_option(isopoints, name, value)
+        number = constant(name, value)
+        getattr(isopoints, "Set" + property_name(name))(number)
+        # Setters clamp.
+        if name != "controller" and getattr(isopoints, "Get" + property_name(name))() != number:
+            raise ValueError(f"{name} is {value!r}, which is out of range.")
     with shown_progress(progress, "Contouring") as report:
         _update(isopoints, report)
     output = vtkPolyData()
@@ -62,99 +63,44 @@ def filtered(
 
 
 def _isosurface(data: vtkPolyData, are_triangles: bool) -> Isosurface:
-    points, triangles = np.zeros((0, 3), np.float32), None
-    if data.GetPoints() is not None:
-        points = vtk_to_numpy(data.GetPoints().GetData()).reshape(-1, 3)
+    triangles = None
     if are_triangles:
-        triangles = np.zeros((0, 3), np.int64)
-        if data.GetNumberOfPolys() > 0:
-            triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        triangles = as_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    of_points, of_cells = ({name: as_numpy(array) for name, array, _ in named_arrays(attributes)}
+                           for attributes in (data.GetPointData(), data.GetCellData()))
     scalars = data.GetPointData().GetScalars()
     maker = PolyDataMaker("vtkmodules", is_of_pyvista(data), scalars and scalars.GetName())
-    return Isosurface(points, triangles, _arrays(data.GetPointData()), _arrays(data.GetCellData()),
-                      maker, data)
+    return Isosurface(as_numpy(point_positions(data)), triangles, of_points, of_cells, maker, data)
 
 
-def _arrays(attributes: Any) -> dict[str, np.ndarray]:
-    found = (attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays()))
-    return {array.GetName(): vtk_to_numpy(array) for array in found if array and array.GetName()}
-
-
-def _samples(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> vtkPolyData:
+def _cloud(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> vtkPolyData:
     place = positions_of(positions)
     points = vtkPoints()
-    points.SetData(_as_vtk("positions", place))
+    points.SetData(as_vtk("vtkmodules", "Points", place))
     data = vtkPolyData()
     data.SetPoints(points)
-    data.GetPointData().SetScalars(_as_vtk("values", values_of(values, len(place))))
+    data.GetPointData().SetScalars(as_vtk("vtkmodules", "values", values_of(values, len(place))))
     for name, array in further_arrays(arrays, len(place)).items():
-        data.GetPointData().AddArray(_as_vtk(name, array))
+        data.GetPointData().AddArray(as_vtk("vtkmodules", name, array))
     return data
 
 
 def _set_input(isopoints: vtkScatteredContourFilter, data: vtkDataObject, values: Any) -> None:
-    points, cells = vtkDataObject.FIELD_ASSOCIATION_POINTS, vtkDataObject.FIELD_ASSOCIATION_CELLS
-    if values is None:
-        isopoints.SetInputData(data)
-    elif isinstance(values, str):
-        isopoints.SetInputData(data)
-        attributes = dataset_adapter.WrapDataObject(data)
-        of_points = getattr(attributes, "PointData", None)
-        of_cells = getattr(attributes, "CellData", None)
-        is_of_cells = (of_cells is not None and values in of_cells.keys()
-                       and not (of_points is not None and values in of_points.keys()))
-        isopoints.SetInputArrayToProcess(0, 0, 0, cells if is_of_cells else points, values)
-    else:
-        if not hasattr(data, "GetCellData"):
-            raise TypeError(
-                f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
-        counts = [data.GetNumberOfElements(association) for association in (points, cells)]
-        length = len(readable("values", values))
-        if length not in counts:
-            raise ValueError(
-                f"{length} values for a data set of {counts[0]} points and {counts[1]} cells")
-        is_of_cells = length != counts[0]
+    if isinstance(values, str):
+        def has(association: int) -> bool:
+            found = (leaf.GetAttributes(association) for leaf in leaves(data))
+            return any(attributes is not None and attributes.HasArray(values) for attributes in found)
+
+        association = CELL if has(CELL) and not has(POINT) else POINT
+        isopoints.SetInputArrayToProcess(0, 0, 0, association, values)
+    elif values is not None:
+        association, numbers = given_values(data, values)
         copy = data.NewInstance()
         copy.ShallowCopy(data)
-        attributes = copy.GetCellData() if is_of_cells else copy.GetPointData()
-        attributes.AddArray(_as_vtk("values", column("values", values, length, one_component=True)))
-        isopoints.SetInputData(copy)
-        isopoints.SetInputArrayToProcess(0, 0, 0, cells if is_of_cells else points, "values")
-
-
-def _as_vtk(name: str, array: np.ndarray):
-    """A VTK array that shares the memory, and keeps it alive. Copies layouts that VTK does not have."""
-    array = np.ascontiguousarray(array)
-    if not array.flags.writeable:
-        array = array.copy()  # numpy_to_vtk() refuses its layout
-    result = numpy_to_vtk(array)
-    result.SetName(name)
-    return result
-
-
-def _options_of(isopoints: vtkScatteredContourFilter) -> dict[str, str]:
-    """The filter's setters, by the names of their properties in snake case."""
-    base = next(c for c in type(isopoints).__mro__ if not c.__name__.startswith("vtkScattered"))
-    inherited = set(dir(base))
-    # contour() itself determines these.
-    others = {"SetValue", "SetNumberOfContours", "SetContourBlocks", "SetUseGlobalController"}
-    return {
-        snake_case(method[3:]): method
-        for method in dir(isopoints)
-        if method.startswith("Set") and "To" not in method[3:] and method not in inherited | others
-    }
-
-
-def _set_option(isopoints: vtkScatteredContourFilter, name: str, value: Any) -> None:
-    methods = _options_of(isopoints)
-    if name not in methods:
-        raise TypeError(f"unknown option {name}; there are {', '.join(sorted(methods))}")
-    number = constant(name, value)
-    getattr(isopoints, methods[name])(number)
-    # Setters clamp.
-    if number is not None and name != "controller":
-        if getattr(isopoints, "G" + methods[name][1:])() != number:
-            raise ValueError(f"{name} is {value!r}, which is out of range.")
+        copy.GetAttributes(association).AddArray(as_vtk("vtkmodules", "values", numbers))
+        data = copy
+        isopoints.SetInputArrayToProcess(0, 0, 0, association, "values")
+    isopoints.SetInputData(data)
 
 
 def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:
@@ -175,18 +121,13 @@ def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:
     isopoints.AddObserver("ProgressEvent", advance)
     errors: list[str] = []
     cautions: list[str] = []
-
-    def watch(event: str, messages: list[str]):
-        def note(_caller, _event, text):
-            messages.append(re.sub(r"^(ERROR|Warning):[^\n]*\n[^\n]*?\): ", "", text).strip())
+    for event, texts in (("ErrorEvent", errors), ("WarningEvent", cautions), ("MessageEvent", cautions)):
+        def note(_caller, _event, text, texts=texts):
+            texts.append(re.sub(r"^(ERROR|Warning):[^\n]*\n[^\n]*?\): ", "", text).strip())
 
         note.CallDataType = VTK_STRING
         for source in (isopoints, isopoints.GetExecutive()):
             source.AddObserver(event, note)
-
-    watch("ErrorEvent", errors)
-    watch("WarningEvent", cautions)
-    watch("MessageEvent", cautions)
     # VTK prints exceptions in observers, so Python's handler must not raise one there.
     is_replaced = signal.getsignal(signal.SIGINT) is signal.default_int_handler and (
         threading.current_thread() is threading.main_thread())

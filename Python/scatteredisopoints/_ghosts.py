@@ -3,59 +3,57 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import Any, Optional
 
 import numpy as np
+
+from ._arrays import CELL, POINT, as_numpy
 
 # Bits of vtkGhostType, for points and for cells.
 DUPLICATE_POINT, HIDDEN_POINT = 1, 2
 DUPLICATE_CELL, REFINED_CELL, HIDDEN_CELL = 1, 8, 32
 
-AsNumpy = Callable[[Any], np.ndarray]
 
-
-def excluded_points(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
+def excluded_points(data: Any) -> Optional[np.ndarray]:
     """Whether each point is a ghost, hidden, or only in cells that are hidden or ghosts; None if no point
     is."""
-    points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
-    cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
-    excluded = None
+    points, cells = _ghosts(data, POINT), _ghosts(data, CELL)
+    excluded = np.zeros(data.GetNumberOfPoints(), bool)
     if points is not None:
-        excluded = (points & (DUPLICATE_POINT | HIDDEN_POINT)) != 0
+        excluded |= (points & (DUPLICATE_POINT | HIDDEN_POINT)) != 0
     # If the points have a ghost array, it marks duplicates itself.
     bits = HIDDEN_CELL | REFINED_CELL | (DUPLICATE_CELL if points is None else 0)
     if cells is not None and (cells & bits).any():
-        is_excluded = (cells & bits) != 0
-        cell, point = cell_points(data, as_numpy)
-        in_excluded = np.zeros(data.GetNumberOfPoints(), bool)
-        in_sample = np.zeros(data.GetNumberOfPoints(), bool)
-        in_excluded[point[is_excluded[cell]]] = True
-        in_sample[point[~is_excluded[cell]]] = True
-        excluded = in_excluded & ~in_sample | (False if excluded is None else excluded)
-    return excluded
+        cell, point = cell_points(data)
+        is_excluded = (cells[cell] & bits) != 0
+        in_excluded, in_sample = np.zeros((2, len(excluded)), bool)
+        in_excluded[point[is_excluded]] = True
+        in_sample[point[~is_excluded]] = True
+        excluded |= in_excluded & ~in_sample
+    return excluded if excluded.any() else None
 
 
-def excluded_cells(data: Any, as_numpy: AsNumpy) -> Optional[np.ndarray]:
+def excluded_cells(data: Any) -> Optional[np.ndarray]:
     """Whether each cell is a ghost, hidden, covered by a finer one, with a hidden point, or without points;
     None if no cell is."""
-    points = _ghosts(data.GetPointData(), data.GetNumberOfPoints(), as_numpy)
-    cells = _ghosts(data.GetCellData(), data.GetNumberOfCells(), as_numpy)
+    points, cells = _ghosts(data, POINT), _ghosts(data, CELL)
     excluded = np.zeros(data.GetNumberOfCells(), bool)
     if cells is not None:
         excluded |= (cells & (DUPLICATE_CELL | REFINED_CELL | HIDDEN_CELL)) != 0
     has_hidden = points is not None and (points & HIDDEN_POINT).any()
     if has_hidden or _cell_arrays(data):
-        cell, point = cell_points(data, as_numpy)
-        if points is not None:
+        cell, point = cell_points(data)
+        if points is not None and has_hidden:
             excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
         excluded |= np.bincount(cell, minlength=len(excluded)) == 0
     return excluded if excluded.any() else None
 
 
-def _ghosts(attributes: Any, count: int, as_numpy: AsNumpy) -> Optional[np.ndarray]:
-    array = attributes.GetArray("vtkGhostType")
-    is_usable = (array is not None and array.IsA("vtkUnsignedCharArray") and array.GetNumberOfComponents() == 1
-                 and array.GetNumberOfTuples() >= count)
+def _ghosts(data: Any, association: int) -> Optional[np.ndarray]:
+    array = data.GetAttributes(association).GetArray("vtkGhostType")
+    count = data.GetNumberOfElements(association)
+    is_usable = (array is not None and array.IsA("vtkUnsignedCharArray")
+                 and array.GetNumberOfComponents() == 1 and array.GetNumberOfTuples() >= count)
     return as_numpy(array)[:count] if is_usable else None
 
 
@@ -67,20 +65,18 @@ def _cell_arrays(data: Any) -> list[Any]:
     return [data.GetCells()] if is_unstructured else []
 
 
-def cell_points(data: Any, as_numpy: AsNumpy) -> tuple[np.ndarray, np.ndarray]:
+def cell_points(data: Any) -> tuple[np.ndarray, np.ndarray]:
     """All pairs of a cell and one of its points, as two arrays of ids."""
     arrays = _cell_arrays(data)
     if arrays:
         sizes = np.concatenate([np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays])
         points = np.concatenate([as_numpy(array.GetConnectivityArray()) for array in arrays])
         return np.repeat(np.arange(len(sizes)), sizes), points
-    if not hasattr(data, "GetDimensions"):  # points without cells
+    if not hasattr(data, "GetExtent"):  # points without cells
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    dimensions = np.array(data.GetDimensions())
-    steps = np.minimum(dimensions - 1, 1)  # to the far corners of a cell; 0 along flat axes
-    cells = np.maximum(dimensions - 1, 1)
-    corner = np.arange(np.prod(cells)).reshape(cells[::-1])
-    z, y, x = np.unravel_index(corner.ravel(), corner.shape)
-    found = [((z + dz) * dimensions[1] + y + dy) * dimensions[0] + x + dx
-             for dz in range(steps[2] + 1) for dy in range(steps[1] + 1) for dx in range(steps[0] + 1)]
-    return np.tile(corner.ravel(), len(found)), np.concatenate(found)
+    low, high = np.reshape(data.GetExtent(), (3, 2)).T[:, ::-1]  # of z, y, x
+    ids = np.arange(data.GetNumberOfPoints()).reshape(high - low + 1)
+    z, y, x = np.maximum(high - low, 1)  # numbers of cells
+    corners = [ids[dz:dz + z, dy:dy + y, dx:dx + x].ravel()
+               for dz, dy, dx in np.ndindex(*np.minimum(ids.shape, 2))]
+    return np.tile(np.arange(z * y * x), len(corners)), np.concatenate(corners)

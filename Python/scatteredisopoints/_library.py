@@ -35,7 +35,7 @@ class Array(ctypes.Structure):
 
     @classmethod
     def of(cls, numbers: np.ndarray) -> Array:
-        """Describes an array of the shape (n,) or (n, components) from readable(), which must outlive this."""
+        """Describes an array of the shape (n,) or (n, components) of readable(), which must outlive this."""
         columns = numbers.ndim == 2
         if numbers.ndim not in (1, 2):
             raise ValueError(f"an array has the shape {numbers.shape}, not (n,) or (n, components)")
@@ -191,11 +191,6 @@ def _end_calls() -> None:
     with _Calls.changed:
         _Calls.last_thread = threading.get_ident()
         _Calls.changed.wait_for(lambda: _Calls.count == 0, timeout=10.0)
-
-
-def create() -> Handle:
-    """An extractor without samples."""
-    return Handle(create_extractor(), destroy_extractor)
 
 
 def run(function: Any, *arguments: Any) -> None:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import operator
-import re
 from typing import Any, Mapping
 
 import numpy as np
@@ -24,9 +23,9 @@ _OF_TRIANGLES = ("regularize",)
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra")
 
 
-def snake_case(name: str) -> str:
-    """Converts the name of a property to that of its option: DropGaps to drop_gaps."""
-    return re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
+def property_name(option: str) -> str:
+    """Converts the name of an option to that of its property: drop_gaps to DropGaps."""
+    return "".join(word.capitalize() for word in option.split("_"))
 
 
 def option_names(triangles: bool) -> list[str]:

@@ -41,14 +41,7 @@ class PolyDataMaker:
         model = importlib.import_module(package + ".vtkCommonDataModel")
         core = importlib.import_module(package + ".vtkCommonCore")
         support = importlib.import_module(package + ".util.numpy_support")
-
         id_type = core.vtkIdTypeArray().GetDataType()
-
-        def as_vtk(array: np.ndarray, name: Optional[str] = None):
-            result = support.numpy_to_vtk(np.ascontiguousarray(array))
-            if name is not None:
-                result.SetName(name)
-            return result
 
         def ids(numbers: np.ndarray):
             # A copy: vtkCellArray keeps the memory of ids alive, but not the array that owns NumPy's.
@@ -62,7 +55,7 @@ class PolyDataMaker:
 
         data = model.vtkPolyData()
         points = core.vtkPoints()
-        points.SetData(as_vtk(surface.points))
+        points.SetData(as_vtk(package, "Points", surface.points))
         data.SetPoints(points)
         if surface.triangles is not None:
             data.SetPolys(cells(surface.triangles))
@@ -70,7 +63,7 @@ class PolyDataMaker:
             data.SetVerts(cells(np.arange(len(surface.points), dtype=np.int64)[:, None]))
         attributes = data.GetPointData()
         for name, array in surface.arrays.items():
-            index = attributes.AddArray(as_vtk(array, name))
+            index = attributes.AddArray(as_vtk(package, name, array))
             if name in self.uses:
                 attributes.SetActiveAttribute(index, self.uses[name])
         if self.scalars in surface.arrays:
@@ -78,7 +71,7 @@ class PolyDataMaker:
         if "Normals" in surface.arrays:
             attributes.SetActiveNormals("Normals")
         for name, array in surface.splat_shapes.items():
-            shapes = as_vtk(array, name)
+            shapes = as_vtk(package, name, array)
             shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)
             data.GetCellData().AddArray(shapes)
         if "SplatAxis" in surface.splat_shapes:
@@ -88,6 +81,15 @@ class PolyDataMaker:
         if self.wraps:
             return importlib.import_module("pyvista").PolyData(data)
         return data
+
+
+def as_vtk(package: str, name: str, array: np.ndarray) -> Any:
+    """A VTK array that shares the memory and keeps it alive. Copies layouts that VTK does not have, and
+    read-only arrays, which numpy_to_vtk() refuses."""
+    support = importlib.import_module(package + ".util.numpy_support")
+    result = support.numpy_to_vtk(np.require(array, requirements=["C", "W"]))
+    result.SetName(name)
+    return result
 
 
 def _installed_package() -> str:

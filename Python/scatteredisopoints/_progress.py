@@ -38,3 +38,8 @@ def shown_progress(progress: Progress, title: str) -> Iterator[Optional[Callable
     else:
         raise ImportError("A progress bar needs tqdm or rich: pip install tqdm, or pass a function"
                           " that is called with the share that is done.")
+
+
+def part(report: Optional[Callable], begin: float, end: float) -> Optional[Callable[[float], Any]]:
+    """Reports the share done of a part of the work, from begin to end; None without a report."""
+    return None if report is None else lambda fraction: report(begin + fraction * (end - begin))

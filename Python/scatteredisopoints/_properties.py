@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Union
 from xml.etree import ElementTree
-
-from ._options import snake_case
 
 
 @dataclass(frozen=True)
@@ -20,11 +19,6 @@ class Property:
     least: Union[int, float]
     greatest: Union[int, float]
     is_switch: bool
-
-    @property
-    def option(self) -> str:
-        """Its name as an option of contour(), in snake case."""
-        return snake_case(self.name)
 
     def clamped(self, value: Union[int, float]) -> Union[int, float]:
         """The nearest value in the range; NaN is unchanged."""
@@ -49,7 +43,8 @@ def properties_of(name: str) -> list[Property]:
         is_set = element.get("command", "").startswith("Set")
         if kind is None or not is_set or element.get("number_of_elements") != "1":
             continue
-        least, greatest, is_switch = kind(-2**31), kind(2**31 - 1), False
+        least, greatest = (-2**31, 2**31 - 1) if kind is int else (-math.inf, math.inf)
+        is_switch = False
         for domain in element:
             if domain.tag == "BooleanDomain":
                 least, greatest, is_switch = 0, 1, True
@@ -58,7 +53,7 @@ def properties_of(name: str) -> list[Property]:
                 least, greatest = min(values), max(values)
             elif domain.tag.endswith("RangeDomain"):
                 least = kind(domain.get("min", least))
-                greatest = kind(domain.get("max", float("inf") if kind is float else greatest))
+                greatest = kind(domain.get("max", greatest))
         name = element.attrib["command"][3:]
         found.append(Property(name, kind(element.attrib["default_values"]), least, greatest, is_switch))
     return found

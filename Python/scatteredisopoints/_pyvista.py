@@ -6,7 +6,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
@@ -153,24 +153,17 @@ _lock = threading.Lock()
 MOST_KEPT = 2
 
 
-def _forget(id_: int) -> Callable[[Any], None]:
-    """A callback for when a data set is freed."""
-    def forget(_reference: Any) -> None:
-        _kept.pop(id_, None)
-    return forget
-
-
 def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) -> Samples:
     """The samples of a data set; reuses those of the last call if unchanged."""
-    key = scalars, preference, _datasets.state_of(data)
+    id_, key = id(data), (scalars, preference, _datasets.state_of(data))
     with _lock:
-        kept = _kept.pop(id(data), None)
+        kept = _kept.pop(id_, None)
     if kept is not None and kept[0]() is data and kept[1] == key:
         samples = kept[2]
     else:
         samples = _loaded(_datasets.samples_of(data, scalars, preference == "cell"), progress)
     with _lock:
-        _kept[id(data)] = weakref.ref(data, _forget(id(data))), key, samples
+        _kept[id_] = weakref.ref(data, lambda _: _kept.pop(id_, None)), key, samples
         while len(_kept) > MOST_KEPT:
             _kept.popitem(last=False)
     return samples

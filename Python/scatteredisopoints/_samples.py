@@ -14,10 +14,9 @@ from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _datasets, _library
-from ._arrays import further_arrays, isovalues_of, positions_of, readable, values_of
+from ._arrays import as_numpy, further_arrays, isovalues_of, readable, values_of
 from ._isosurface import Isosurface
 from ._options import make_options
-from ._polydata import PolyDataMaker
 from ._progress import Progress, shown_progress
 
 
@@ -63,14 +62,8 @@ class Samples:
         progress: Progress = None,
     ):
         self._initialize(threads)
-        data = _datasets.data_object(positions)
         with shown_progress(progress, "Loading samples") as report:
-            if data is not None:
-                self._take(_datasets.samples_of(data, values), progress=report)
-            else:
-                self._positions = positions_of(positions)
-                self._count = len(self._positions)
-                self._load(values_of(values, self._count), progress=report)
+            self._take(_datasets.samples_of(positions, values), progress=report)
 
     @classmethod
     def _of(cls, samples: _datasets.DataSamples, **callbacks: Any) -> Samples:
@@ -83,28 +76,20 @@ class Samples:
     def _initialize(self, threads: Optional[int]) -> None:
         self._lock = threading.RLock()
         self._is_in_call = False
-        self._extractor = _library.create()
+        self._extractor = _library.Handle(_library.create_extractor(), _library.destroy_extractor)
         if threads is not None:
             if isinstance(threads, bool) or operator.index(threads) < 1:
                 raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
             _library.run(_library.set_threads, self._extractor, min(operator.index(threads), 2**31 - 1))
-        self._excluded: Optional[np.ndarray] = None
-        self._arrays: Optional[Mapping[str, Any]] = None  # of a data set: NumPy's, or VTK's
         self._range = (np.nan, np.nan)
         self._is_loaded = False
-        self._without_array = 0
-        self._maker: dict[str, Any] = {"scalars": "values"}
 
     def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
-        """Loads the samples of a data object; keeps the tree if the positions are the same."""
-        self._positions = samples.positions
-        self._count = len(_datasets.numbers_of(samples.positions))
-        self._excluded = samples.excluded
-        self._arrays = samples.arrays
+        """Loads samples; keeps the tree if the positions are the same."""
+        self._positions, self._excluded = samples.positions, samples.excluded
+        self._count = len(as_numpy(samples.positions))
+        self._arrays, self._maker = samples.arrays, samples.maker
         self._without_array = samples.without_array
-        self._maker = {"package": samples.package, "wraps": samples.is_of_pyvista,
-                       "scalars": samples.name, "uses": samples.uses,
-                       "field_data": samples.field_data}
         self._load(readable("values", samples.values), **callbacks)
 
     def __len__(self) -> int:
@@ -173,7 +158,7 @@ class Samples:
 
     def _current(self, name: str, array: Any) -> np.ndarray:
         """The current array of the samples: those of data sets may have been reallocated."""
-        numbers = _datasets.numbers_of(array)
+        numbers = as_numpy(array)
         if len(numbers) != self._count:
             raise ValueError(f"{name} of the data set have changed from {self._count} to {len(numbers)}"
                              " tuples: make new Samples.")
@@ -207,9 +192,7 @@ class Samples:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
         levels = isovalues_of(isovalues)
-        of_samples = self._arrays
-        if of_samples is None:
-            of_samples = further_arrays(arrays, len(self))
+        of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
         pointer = c_void_p()
         with self._exclusive():
             if not self._is_loaded:
@@ -232,12 +215,12 @@ class Samples:
                 " array.", is_warning=False))
         found = self._interpolated(surface, of_samples)
         if options.get("compute_scalars", True):
-            if self._maker["scalars"] in found:
+            name = self._maker.scalars or "values"
+            if name in found:
                 messages.append(_library.Message(
-                    f'The isovalues replace the array "{self._maker["scalars"]}" of the data set: rename'
-                    " that.", is_warning=True))
-            isovalues = _library.view(surface, _library.ISOVALUES)
-            found[self._maker["scalars"]] = isovalues.astype(value_type, copy=False)
+                    f'The isovalues replace the array "{name}" of the data set: rename that.',
+                    is_warning=True))
+            found[name] = _library.view(surface, _library.ISOVALUES).astype(value_type, copy=False)
         computed = _computed(surface, chosen)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
@@ -252,7 +235,7 @@ class Samples:
         edges = _library.view(surface, _library.EDGES)
         found: dict[str, np.ndarray] = {}
         for name, array in of_samples.items():
-            if self._maker.get("uses", {}).get(name) == _datasets.PEDIGREE_IDS:
+            if self._maker.uses.get(name) == _datasets.PEDIGREE_IDS:
                 is_first_nearer = _library.view(surface, _library.EDGE_PARAMETERS) < 0.5
                 found[name] = self._current(name, array)[np.where(is_first_nearer, *edges.T)]
                 continue
@@ -270,7 +253,7 @@ class Samples:
             shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
                       "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes,
-                          PolyDataMaker(**self._maker))
+                          self._maker)
 
 
 def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:

@@ -7,7 +7,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from . import _datasets
+from ._arrays import as_numpy, package_of
+from ._datasets import is_of_pyvista, named_arrays, point_positions
 from ._ghosts import cell_points
 from ._isosurface import Isosurface
 from ._polydata import PolyDataMaker
@@ -23,7 +24,7 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
     if not data.IsA("vtkDataSet"):
         raise TypeError(f"A {data.GetClassName()} has no points of its own: pass its blocks, or combine"
                         " them first.")
-    points = _datasets.point_positions(data)
+    points = as_numpy(point_positions(data))
     attributes = data.GetPointData()
     active = attributes.GetNormals()
     normals = _numbers(attributes.GetArray("Normals") if active is None else active, len(points), 3)
@@ -39,14 +40,10 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
     polygons = np.tile(OCTAGON.astype(np.float32), (len(points), 1))
     axes = axes.astype(np.float32)
     _take_shapes(data, axes, polygons)
-    arrays = {}
-    for i in range(attributes.GetNumberOfArrays()):
-        array = attributes.GetArray(i)
-        if array is not None and array.GetName() not in (None, "vtkGhostType", "Normals"):
-            arrays[array.GetName()] = _datasets.as_numpy(array)
+    arrays = {name: as_numpy(array) for name, array, _ in named_arrays(attributes) if name != "Normals"}
     scalars = attributes.GetScalars()
-    maker = PolyDataMaker(package=_datasets.package_of(data), wraps=_datasets.is_of_pyvista(data),
-                          scalars=None if scalars is None else scalars.GetName())
+    maker = PolyDataMaker(package_of(data), is_of_pyvista(data),
+                          None if scalars is None else scalars.GetName())
     isopoints = Isosurface(points, None, {**arrays, "Normals": normals.astype(np.float32)},
                            {"SplatAxis": axes, "SplatPolygon": polygons}, maker)
     return isopoints.splats(scale)
@@ -54,7 +51,7 @@ def polygons_of(data: Any, radius_array: str, radius: float, scale: float) -> Is
 
 def _take_shapes(data: Any, axes: np.ndarray, polygons: np.ndarray) -> None:
     """Replaces octagons by the shapes of vertex cells, which files may store at the points."""
-    cells, point = cell_points(data, _datasets.as_numpy)
+    cells, point = cell_points(data)
     count = np.bincount(cells, minlength=data.GetNumberOfCells())
     is_vertex = count[cells] == 1
     for attributes, size, of_elements, of_points in (
@@ -71,7 +68,7 @@ def _numbers(array: Any, count: int, components: int) -> Optional[np.ndarray]:
     """The numbers of an array if it has this shape, otherwise None."""
     is_usable = (array is not None and array.GetNumberOfTuples() == count
                  and array.GetNumberOfComponents() == components)
-    return _datasets.as_numpy(array) if is_usable else None
+    return as_numpy(array) if is_usable else None
 
 
 def _perpendicular(normals: np.ndarray) -> np.ndarray:

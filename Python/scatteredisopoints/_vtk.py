@@ -19,14 +19,16 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandD
 from vtkmodules.vtkCommonMisc import vtkContourValues
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-from . import _datasets, _library
-from ._options import CONSTANTS
+from . import _datasets, _library, _progress
+from ._options import CONSTANTS, option_names, property_name
 from ._properties import Property, properties_of
 from ._samples import Extracted, Samples
 from ._splats import polygons_of
 
-VERSION = _library.version().decode()
 UNKNOWN_ERROR = 40000 + 99  # vtkErrorCode::UnknownError
+
+# GetNumberOf...()
+_COUNTS = ("Samples", "ExtractedPoints", "SkippedSamples", "UnprojectedPoints", "DroppedInGaps")
 
 
 def _with_properties(name: str, *others: str):
@@ -73,13 +75,8 @@ def is_first_of_several() -> bool:
 def _fill(output: Any, data: Any, make: Callable[[Any, int], Optional[vtkPolyData]]) -> None:
     """Gives a composite the structure of another one, with a result for each of its blocks."""
     output.CopyStructure(data)
-    iterator = data.NewIterator()
-    iterator.InitTraversal()
-    number = 0
-    while not iterator.IsDoneWithTraversal():
-        output.SetDataSet(iterator, make(iterator.GetCurrentDataObject(), number))
-        number += 1
-        iterator.GoToNextItem()
+    for number, place in enumerate(_datasets.places(data)):
+        output.SetDataSet(place, make(place.GetCurrentDataObject(), number))
 
 
 class _Algorithm(VTKPythonAlgorithmBase):
@@ -87,16 +84,14 @@ class _Algorithm(VTKPythonAlgorithmBase):
 
     PROPERTIES: dict[str, Property] = {}
 
-    def __init__(self, input_types: tuple[str, ...]):
+    def __init__(self):
         super().__init__(nInputPorts=1, nOutputPorts=1, outputType="vtkDataObject")
-        self._input_types = input_types
         self._values = {name: property_.default for name, property_ in self.PROPERTIES.items()}
         self._error_code = 0
 
     def FillInputPortInformation(self, _port, info):
-        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), self._input_types[0])
-        for name in self._input_types[1:]:
-            info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), name)
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
+        info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
         return 1
 
     def SetInputData(self, data: Any) -> None:
@@ -112,13 +107,32 @@ class _Algorithm(VTKPythonAlgorithmBase):
         """EINVAL for invalid input or options, ENOMEM for a lack of memory, 0 after a success."""
         return self._error_code
 
-    def _set_output(self, info: Any, class_: type) -> Any:
-        """Makes the output an object of a class, unless it is one."""
-        output = vtkDataObject.GetData(info, 0)
-        if type(output) is not class_:
-            output = class_()
-            info.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), output)
-        return output
+    def _output_class(self, data: Any) -> type:
+        """The class of the output for an input, which may be None."""
+        raise NotImplementedError
+
+    def _make(self, data: Any, output: Any) -> None:
+        """Fills the output. Exceptions are reported as errors, except InterruptedError by AbortExecute."""
+        raise NotImplementedError
+
+    def RequestDataObject(self, _request, inputs, outputs):
+        class_ = self._output_class(vtkDataObject.GetData(inputs[0], 0))
+        if type(vtkDataObject.GetData(outputs, 0)) is not class_:
+            outputs.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), class_())
+        return 1
+
+    def RequestData(self, _request, inputs, outputs):
+        output = vtkDataObject.GetData(outputs, 0)
+        self._error_code = 0
+        try:
+            self._make(vtkDataObject.GetData(inputs[0], 0), output)
+        except Exception as error:
+            output.Initialize()
+            if not isinstance(error, InterruptedError):
+                self._error_code = (errno.EINVAL if isinstance(error, (ValueError, TypeError)) else
+                                    errno.ENOMEM if isinstance(error, MemoryError) else UNKNOWN_ERROR)
+                self._report("ErrorEvent", str(error))
+        return 1
 
     def _report(self, event: str, text: str) -> None:
         """Reports to observers, otherwise to the output window, as VTK's macros do."""
@@ -131,13 +145,6 @@ class _Algorithm(VTKPythonAlgorithmBase):
         elif event == "WarningEvent":
             vtkOutputWindow.GetInstance().DisplayWarningText(described)
 
-    def _fail(self, error: Exception, output: vtkDataObject) -> None:
-        output.Initialize()
-        is_usage = isinstance(error, (ValueError, TypeError))
-        is_memory = isinstance(error, MemoryError)
-        self._error_code = errno.EINVAL if is_usage else errno.ENOMEM if is_memory else UNKNOWN_ERROR
-        self._report("ErrorEvent", str(error))
-
 
 class _Contour(_Algorithm):
     """vtkScatteredContourFilter in Python."""
@@ -146,13 +153,13 @@ class _Contour(_Algorithm):
     _has_polygons = False  # whether the output has the points' polygons
 
     def __init__(self):
-        super().__init__(("vtkDataSet", "vtkCompositeDataSet"))
+        super().__init__()
         self._contours = vtkContourValues()
         self._contours.SetValue(0, 0.0)
         self._kept: dict[int, tuple[Any, Samples]] = {}  # by block number
         self._reported: set[str] = set()
         self._reported_of: Any = None
-        self._counts = dict.fromkeys(("samples", "points", "skipped", "unprojected", "dropped"), 0)
+        self._counts = dict.fromkeys(_COUNTS, 0)
 
     def SetValue(self, i: int, value: float) -> None:
         self._change_contours(self._contours.SetValue, i, value)
@@ -179,28 +186,10 @@ class _Contour(_Algorithm):
         if self._contours.GetMTime() != before:
             self.Modified()
 
-    def GetNumberOfSamples(self) -> int:
-        return self._counts["samples"]
-
-    def GetNumberOfExtractedPoints(self) -> int:
-        return self._counts["points"]
-
-    def GetNumberOfSkippedSamples(self) -> int:
-        return self._counts["skipped"]
-
-    def GetNumberOfUnprojectedPoints(self) -> int:
-        return self._counts["unprojected"]
-
-    def GetNumberOfDroppedInGaps(self) -> int:
-        return self._counts["dropped"]
-
-    def RequestDataObject(self, _request, inputs, outputs):
-        data = vtkDataObject.GetData(inputs[0], 0)
-        class_ = vtkPolyData
-        if self._values["ContourBlocks"] and data is not None and data.IsA("vtkCompositeDataSet"):
-            class_ = vtkMultiBlockDataSet if data.IsA("vtkUniformGridAMR") else type(data)
-        self._set_output(outputs, class_)
-        return 1
+    def _output_class(self, data: Any) -> type:
+        if not (self._values["ContourBlocks"] and isinstance(data, vtkCompositeDataSet)):
+            return vtkPolyData
+        return vtkMultiBlockDataSet if data.IsA("vtkUniformGridAMR") else type(data)
 
     def RequestUpdateExtent(self, _request, inputs, _outputs):
         info = inputs[0].GetInformationObject(0)
@@ -210,32 +199,25 @@ class _Contour(_Algorithm):
         info.Set(vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
         return 1
 
-    def RequestData(self, _request, inputs, outputs):
-        data = vtkDataObject.GetData(inputs[0], 0)
-        output = vtkDataObject.GetData(outputs, 0)
-        self._error_code, messages = 0, []
+    def _make(self, data: Any, output: Any) -> None:
+        messages: list[_library.Message] = []
         if is_first_of_several():
             messages.append(_library.Message(
                 "Each process contours its own samples: surfaces have seams. The compiled plugin"
                 " contours those of all processes as one cloud.", is_warning=True))
-        self._counts = dict.fromkeys(self._counts, 0)
+        self._counts = dict.fromkeys(_COUNTS, 0)
+        is_kept = False
         try:
             if isinstance(output, vtkCompositeDataSet):
                 self._contour_blocks(data, output, messages)
             else:
                 self._kept = {0: self._kept[0]} if 0 in self._kept else {}
                 output.ShallowCopy(self._contour_one(data, 0, (0.0, 1.0), messages))
-        except InterruptedError:  # by AbortExecute
-            output.Initialize()
-            self._kept.clear()
-        except Exception as error:
-            self._kept.clear()
-            self._fail(error, output)
-        else:
-            self._report_messages(messages)
-        if not self._values["KeepTree"]:
-            self._kept.clear()
-        return 1
+            is_kept = self._values["KeepTree"]
+        finally:
+            if not is_kept:
+                self._kept.clear()
+        self._report_messages(messages)
 
     def _contour_blocks(self, data: Any, output: Any, messages: list[_library.Message]) -> None:
         count = sum(1 for _ in _datasets.leaves(data))
@@ -257,18 +239,15 @@ class _Contour(_Algorithm):
                      messages: list[_library.Message]) -> vtkPolyData:
         begin, end = part
         half = 0.5 * (begin + end)
-        samples = self._samples(data, number, lambda f: self.UpdateProgress(begin + f * (half - begin)))
-        options = {property_.option: self._values[name] for name, property_ in self.PROPERTIES.items()
-                   if name != "ContourBlocks"}
+        samples = self._samples(data, number, _progress.part(self.UpdateProgress, begin, half))
+        options = {option: self._values[property_name(option)] for option in option_names(self._triangles)}
         extracted: Extracted = samples._extract(
             self.GetValues(), self._triangles, None, options,
-            progress=lambda f: self.UpdateProgress(half + f * (end - half)),
-            is_canceled=self.GetAbortExecute)
-        self._counts["points"] += len(extracted.isosurface)
-        self._counts["unprojected"] += extracted.unprojected
-        self._counts["dropped"] += extracted.dropped
-        self._counts["samples"] += len(samples) + samples._without_array
-        self._counts["skipped"] += samples.skipped + samples._without_array
+            progress=_progress.part(self.UpdateProgress, half, end), is_canceled=self.GetAbortExecute)
+        for name, count in zip(_COUNTS, (
+                len(samples) + samples._without_array, len(extracted.isosurface),
+                samples.skipped + samples._without_array, extracted.unprojected, extracted.dropped)):
+            self._counts[name] += count
         messages += extracted.messages
         surface = extracted.isosurface
         if self._has_polygons and surface.splat_shapes and surface.normals is not None:
@@ -281,17 +260,16 @@ class _Contour(_Algorithm):
         name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
         cells = info.Get(vtkDataObject.FIELD_ASSOCIATION()) == vtkDataObject.FIELD_ASSOCIATION_CELLS
         key = name, cells, _datasets.state_of(data)
-        kept = self._kept.get(number)
-        if kept is None or kept[0] != key:
+        kept_key, samples = self._kept.get(number, (None, None))
+        if samples is None or kept_key != key:
             found = _datasets.samples_of(data, name or None, cells)
             callbacks = dict(progress=progress, is_canceled=self.GetAbortExecute)
-            if kept is None:
+            if samples is None:
                 samples = Samples._of(found, **callbacks)
             else:
-                samples = kept[1]
                 samples._take(found, **callbacks)
             self._kept[number] = key, samples
-        return self._kept[number][1]
+        return samples
 
     def _report_messages(self, messages: list[_library.Message]) -> None:
         """Reports each cause once while it persists for the same input."""
@@ -315,9 +293,10 @@ class vtkScatteredIsosurfaceFilter(_Contour):
     _triangles = True
 
 
-for _constants in (CONSTANTS["projection"], CONSTANTS["normal_method"]):
-    for _name, _number in _constants.items():
-        setattr(_Contour, _name, _number)
+for _name, _number in {**CONSTANTS["projection"], **CONSTANTS["normal_method"]}.items():
+    setattr(_Contour, _name, _number)
+for _name in _COUNTS:
+    setattr(_Contour, f"GetNumberOf{_name}", lambda self, name=_name: self._counts[name])
 
 
 @_with_properties("IsopointSplatPolygons")
@@ -325,7 +304,7 @@ class vtkIsopointSplatPolygons(_Algorithm):
     """The triangles that show points, as data: see the compiled class of this name. Points need normals."""
 
     def __init__(self):
-        super().__init__(("vtkDataSet", "vtkCompositeDataSet"))
+        super().__init__()
         self._radius_array = "Radius"
 
     def SetRadiusArrayName(self, name: Optional[str]) -> None:
@@ -336,24 +315,14 @@ class vtkIsopointSplatPolygons(_Algorithm):
     def GetRadiusArrayName(self) -> Optional[str]:
         return self._radius_array
 
-    def RequestDataObject(self, _request, inputs, outputs):
-        data = vtkDataObject.GetData(inputs[0], 0)
-        is_composite = data is not None and data.IsA("vtkCompositeDataSet")
-        self._set_output(outputs, vtkMultiBlockDataSet if is_composite else vtkPolyData)
-        return 1
+    def _output_class(self, data: Any) -> type:
+        return vtkMultiBlockDataSet if isinstance(data, vtkCompositeDataSet) else vtkPolyData
 
-    def RequestData(self, _request, inputs, outputs):
-        data = vtkDataObject.GetData(inputs[0], 0)
-        output = vtkDataObject.GetData(outputs, 0)
-        self._error_code = 0
-        try:
-            if isinstance(output, vtkPolyData):
-                output.ShallowCopy(self._polygons(data))
-                return 1
+    def _make(self, data: Any, output: Any) -> None:
+        if isinstance(output, vtkPolyData):
+            output.ShallowCopy(self._polygons(data))
+        else:
             _fill(output, data, lambda block, _: self._polygons(block))
-        except Exception as error:
-            self._fail(error, output)
-        return 1
 
     def _polygons(self, data: Any) -> vtkPolyData:
         if data.GetNumberOfPoints() == 0:

@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import importlib
-import sys
-from typing import Any, Callable, Iterable, Mapping, Optional, Union
+from typing import Any, Iterable, Mapping, Optional, Union
 
-from . import _datasets
-from ._arrays import isovalues_of
+from ._arrays import isovalues_of, package_of
+from ._datasets import data_object
 from ._isosurface import Isosurface
-from ._progress import Progress, shown_progress
+from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 
 
@@ -84,10 +83,9 @@ def contour(
     >>> float(np.abs(np.linalg.norm(surface.points - 0.5, axis=1) - 0.3).max()) < 1e-3
     True
     """
-    data = _datasets.data_object(positions)
+    data = data_object(positions)
     controller = options.get("controller")
-    is_of_vtk = isinstance(data, _class_of_vtkmodules("vtkDataObject"))
-    if controller is not None or (is_of_vtk and threads is None):
+    if controller is not None or (threads is None and data is not None and package_of(data) == "vtkmodules"):
         filters = compiled_filters()
         if filters is not None:
             return filters.filtered(positions if data is None else data, values,
@@ -97,14 +95,9 @@ def contour(
                             " with VTK, as its docs/installing.md says.")
     options.pop("controller", None)
     with shown_progress(progress, "Contouring") as report:
-        samples = Samples(positions, values, threads=threads, progress=_part(report, 0.0))
+        samples = Samples(positions, values, threads=threads, progress=part(report, 0.0, 0.5))
         return samples._contour(
-            isovalues, triangles, arrays, _part(report, 0.5), options, stacklevel=3)
-
-
-def _part(report: Optional[Callable[[float], Any]], begin: float) -> Progress:
-    """Progress of one half of the work."""
-    return None if report is None else lambda fraction: report(begin + 0.5 * fraction)
+            isovalues, triangles, arrays, part(report, 0.5, 1.0), options, stacklevel=3)
 
 
 def compiled_filters() -> Optional[Any]:
@@ -113,9 +106,3 @@ def compiled_filters() -> Optional[Any]:
         return importlib.import_module("._filters", __package__)
     except ImportError:
         return None
-
-
-def _class_of_vtkmodules(name: str) -> Union[type, tuple]:
-    """A class of vtkmodules.vtkCommonDataModel, or () if that has not been imported."""
-    module = sys.modules.get("vtkmodules.vtkCommonDataModel")
-    return getattr(module, name, ())

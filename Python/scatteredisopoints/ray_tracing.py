@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from ._options import property_name
 from .vtkScatteredIsopointRayTracing import vtkIsopointRayTracer
 
 
@@ -59,7 +60,7 @@ def ray_trace(
     tracer = vtkIsopointRayTracer()
     tracer.SetSamplesPerPixel(samples)
     for name, value in options.items():
-        method = "Set" + "".join(word.capitalize() for word in name.split("_"))
+        method = "Set" + property_name(name)
         if not hasattr(tracer, method):
             raise TypeError(f"unknown option {name}")
         getattr(tracer, method)(value)

@@ -114,6 +114,11 @@ class Accessor(unittest.TestCase):
         data.point_data["vtkGhostType"] = np.where(hidden, 2, 0).astype(np.uint8)
         surface = data.scattered.contour([0.3], "distance")
         self.assertLess(surface.bounds[1], 0.52)
+        for data in (grid(), grid().cast_to_structured_grid()):
+            hidden = data.cell_centers().points[:, 0] > data.center[0]
+            data.cell_data["vtkGhostType"] = np.where(hidden, 32, 0).astype(np.uint8)
+            surface = data.scattered.contour([1.0], "distance")
+            self.assertAlmostEqual(surface.bounds[1], data.center[0], delta=0.1)
 
     def test_changes_are_noticed(self):
         data = cloud()

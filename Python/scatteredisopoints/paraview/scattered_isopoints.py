@@ -16,12 +16,12 @@ _SITE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__
 if _SITE not in sys.path:
     sys.path.append(_SITE)
 
-from scatteredisopoints import _vtk  # noqa: E402
+from scatteredisopoints import __version__, _vtk  # noqa: E402
 from scatteredisopoints._properties import proxy_of  # noqa: E402
 from scatteredisopoints.plugin import loaded_plugins  # noqa: E402
 
 paraview_plugin_name = "ScatteredIsopointsPython"
-paraview_plugin_version = _vtk.VERSION
+paraview_plugin_version = __version__
 
 
 def _adapted(name):
@@ -30,11 +30,6 @@ def _adapted(name):
     proxy.tag = "SourceProxy"
     proxy.set("class", f"{__name__}.{name}")
     proxy.set("si_class", "vtkSIPythonSourceProxy")
-    for element in list(proxy):
-        # ParaView does not read counts back from Python.
-        is_count = element.get("information_only") == "1" or element.get("label") == "Last Update"
-        if is_count or element.get("name") == "UseGlobalController":
-            proxy.remove(element)
     for element in proxy.iter():
         element.tag = {"IsopointArrayDomain": "ArrayListDomain",
                        "IsopointRangeDomain": "ArrayRangeDomain"}.get(element.tag, element.tag)
@@ -45,13 +40,14 @@ def _adapted(name):
         element.attrib.pop("icon", None)
     for parent in list(proxy.iter()):
         for child in list(parent):
-            is_ours = child.tag == "RepresentationType" or child.get("value") == "vtkHyperTreeGrid"
-            if is_ours:
+            # ParaView does not read counts back from Python.
+            is_count = child.get("information_only") == "1" or child.get("label") == "Last Update"
+            is_compiled = (child.get("name") == "UseGlobalController" or child.tag == "RepresentationType"
+                           or child.get("value") == "vtkHyperTreeGrid")
+            if is_count or is_compiled:
                 parent.remove(child)
-    group = ElementTree.Element("ProxyGroup", name="filters")
-    group.append(proxy)
     root = ElementTree.Element("ServerManagerConfiguration")
-    root.append(group)
+    ElementTree.SubElement(root, "ProxyGroup", name="filters").append(proxy)
     return ElementTree.tostring(root, encoding="unicode")
 
 
