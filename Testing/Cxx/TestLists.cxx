@@ -13,7 +13,7 @@ namespace
 
 using Numbers = std::vector<std::size_t>;
 
-Numbers asVector(const isopoint::NodeList<std::size_t>& list)
+Numbers asVector(const isopoint::IndexSpan<std::size_t>& list)
 {
   return { list.begin(), list.end() };
 }
@@ -122,7 +122,7 @@ TEST(Selection, IsThatOfSorting)
       {
         for (std::vector<double> reordered : { numbers, sorted, descending })
         {
-          EXPECT_EQ(sorted[place], isopoint::numberOfRank(reordered.data(), count, place));
+          EXPECT_EQ(sorted[place], isopoint::selectNth(reordered.data(), count, place));
           std::sort(reordered.begin(), reordered.end());
           EXPECT_EQ(sorted, reordered);
         }
@@ -136,7 +136,7 @@ TEST(Selection, EndsWithNumbersThatAreNone)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> infinite(50, infinity);
-  EXPECT_EQ(infinity, isopoint::numberOfRank(infinite.data(), infinite.size(), 25));
+  EXPECT_EQ(infinity, isopoint::selectNth(infinite.data(), infinite.size(), 25));
   std::vector<double> numbers(50, none);
-  EXPECT_TRUE(std::isnan(isopoint::numberOfRank(numbers.data(), numbers.size(), 25)));
+  EXPECT_TRUE(std::isnan(isopoint::selectNth(numbers.data(), numbers.size(), 25)));
 }

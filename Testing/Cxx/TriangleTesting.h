@@ -131,10 +131,10 @@ public:
   }
 
   /// Expects those of the full tetrahedralization. @returns what was found
-  Found expectSame(double isovalue, bool keepsBand = true)
+  Found expectSame(double isovalue, bool keepsTetrahedra = true)
   {
     isopoint::IsosurfaceRequest request{ isovalue };
-    request.keepsBand = keepsBand;
+    request.keepsTetrahedra = keepsTetrahedra;
     Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
     return this->compared(extraction.tetrahedra(this->Run), extraction.counts(), isovalue);
   }
