@@ -66,7 +66,7 @@ struct Tile
 double shareOf(
   const isopoint::Vector& from, const isopoint::Vector& to, const isopoint::Vector& direction)
 {
-  return isopoint::dot(isopoint::difference(to, from), direction) /
+  return isopoint::dot(isopoint::operator-(to, from), direction) /
          isopoint::dot(direction, direction);
 }
 

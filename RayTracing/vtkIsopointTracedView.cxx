@@ -15,6 +15,8 @@
 #include <cmath>
 #include <initializer_list>
 
+using isopoint::operator-;
+
 namespace
 {
 
@@ -95,8 +97,7 @@ void vtkIsopointTracedView::SetCamera(
   const auto windowAt = [&](double z)
   {
     const isopoint::Vector corner = place(-1.0, -1.0, z);
-    return raytracing::Window{ corner, isopoint::difference(place(1.0, -1.0, z), corner),
-      isopoint::difference(place(-1.0, 1.0, z), corner) };
+    return raytracing::Window{ corner, place(1.0, -1.0, z) - corner, place(-1.0, 1.0, z) - corner };
   };
   this->Camera = { windowAt(-1.0), windowAt(1.0) };
 }
@@ -186,7 +187,7 @@ double vtkIsopointTracedView::GetDepth(double x, double y, double distance) cons
     return 1.0;
   }
   const isopoint::Vector origin = this->Camera.nearWindow.at(x, y);
-  const isopoint::Vector offset = isopoint::difference(this->Camera.farWindow.at(x, y), origin);
+  const isopoint::Vector offset = this->Camera.farWindow.at(x, y) - origin;
   const double scale = distance / vtkMath::Norm(offset.data());
   const double place[4] = { origin[0] + scale * offset[0], origin[1] + scale * offset[1],
     origin[2] + scale * offset[2], 1.0 };

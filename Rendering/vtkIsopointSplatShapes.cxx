@@ -20,6 +20,10 @@
 namespace
 {
 
+using isopoint::operator+;
+using isopoint::operator+=;
+using isopoint::operator-;
+using isopoint::operator*;
 using isopoint::SplatFan;
 using isopoint::Vector;
 
@@ -34,7 +38,7 @@ SplatFan movedTo(const Vector& position, SplatFan fan)
 {
   for (std::size_t i = 0; i < fan.vertexCount; ++i)
   {
-    fan.positions[i] = isopoint::sum(fan.positions[i], 1.0, position);
+    fan.positions[i] += position;
   }
   return fan;
 }
@@ -46,7 +50,7 @@ SplatFan octagonOf(const Vector& position, const Vector& normal, double radius)
   vtkMath::Perpendiculars(normal.data(), along.data(), across.data(), 0.0);
   if (isopoint::dot(isopoint::cross(normal, along), across) < 0.0)
   {
-    across = isopoint::scaled(-1.0, across);
+    across = -across;
   }
   constexpr std::size_t corners = 8;
   SplatFan fan;
@@ -56,8 +60,7 @@ SplatFan octagonOf(const Vector& position, const Vector& normal, double radius)
   for (std::size_t i = 0; i < corners; ++i)
   {
     const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / corners;
-    fan.positions[1 + i] = isopoint::sum(
-      isopoint::scaled(radius * std::cos(angle), along), radius * std::sin(angle), across);
+    fan.positions[1 + i] = radius * std::cos(angle) * along + radius * std::sin(angle) * across;
   }
   isopoint::makeTriangles(fan, /*isClosed=*/true);
   return movedTo(position, fan);
@@ -72,7 +75,7 @@ SplatFan octahedronOf(const Vector& position, double radius)
     { 0.0, -1.0, 0.0 }, { 0.0, 0.0, -1.0 } } };
   for (std::size_t i = 0; i < fan.vertexCount; ++i)
   {
-    fan.positions[i] = isopoint::scaled(radius, fan.normals[i]);
+    fan.positions[i] = radius * fan.normals[i];
   }
   for (std::size_t i = 0; i < 4; ++i) // around the upper and the lower tip
   {

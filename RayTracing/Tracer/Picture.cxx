@@ -25,7 +25,7 @@ bool isFinite(const Radiance& radiance)
 Ray Camera::through(double x, double y, float& skipped) const
 {
   const isopoint::Vector origin = this->nearWindow.at(x, y);
-  isopoint::Vector offset = isopoint::difference(this->farWindow.at(x, y), origin);
+  isopoint::Vector offset = isopoint::operator-(this->farWindow.at(x, y) - origin;
   const double length = isopoint::lengthOf(offset);
   // Starts at the unit sphere, which contains the scene.
   double along = -1.0;
@@ -37,7 +37,8 @@ Ray Camera::through(double x, double y, float& skipped) const
   const double skip = std::max(along, 0.0);
   skipped = static_cast<float>(skip);
   const auto at = [&](std::size_t axis)
-  { return static_cast<float>(origin[axis] + skip * offset[axis]); };
+  {
+    return static_cast<float>(origin[axis] + skip * offset[axis]); };
   Ray ray;
   ray.origin = { at(0), at(1), at(2) };
   ray.direction = { static_cast<float>(offset[0]), static_cast<float>(offset[1]),

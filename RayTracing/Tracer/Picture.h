@@ -21,7 +21,9 @@ struct Window
   /// The position at window coordinates, 0 to 1 from left to right and from bottom to top.
   isopoint::Vector at(double x, double y) const
   {
-    return isopoint::sum(isopoint::sum(this->corner, x, this->right), y, this->up);
+    using isopoint::operator+;
+    using isopoint::operator*;
+    return this->corner + x * this->right + y * this->up;
   }
 };
 

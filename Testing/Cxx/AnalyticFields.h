@@ -20,11 +20,11 @@ inline Surface sphere()
 {
   Surface surface{ "sphere", 0.7 };
   surface.value = [](const Vector& p) { return length(p); };
-  surface.gradient = [](const Vector& p) { return scaled(p, 1.0 / length(p)); };
+  surface.gradient = [](const Vector& p) { return 1.0 / length(p) * p; };
   surface.footOf = [](const Vector& p)
   {
     const Vector outwards = directionOf(p);
-    return footAt(p, scaled(outwards, 0.7), scaled(outwards, -1.0));
+    return footAt(p, 0.7 * outwards, -outwards);
   };
   return surface;
 }
@@ -34,17 +34,16 @@ inline Surface torus()
 {
   constexpr double circle = 0.6;
   const auto nearestOnCircle = [](const Vector& p) {
-    return scaled(directionOf({ p[0], p[1], 0.0 }), circle);
+    return circle * directionOf({ p[0], p[1], 0.0 });
   };
   Surface surface{ "torus", 0.25 };
-  surface.value = [=](const Vector& p) { return length(difference(p, nearestOnCircle(p))); };
-  surface.gradient = [=](const Vector& p)
-  { return directionOf(difference(p, nearestOnCircle(p))); };
+  surface.value = [=](const Vector& p) { return length(p - nearestOnCircle(p)); };
+  surface.gradient = [=](const Vector& p) { return directionOf(p - nearestOnCircle(p)); };
   surface.footOf = [=](const Vector& p)
   {
     const Vector center = nearestOnCircle(p);
-    const Vector outwards = directionOf(difference(p, center));
-    return footAt(p, sum(center, scaled(outwards, 0.25)), scaled(outwards, -1.0));
+    const Vector outwards = directionOf(p - center);
+    return footAt(p, center + 0.25 * outwards, -outwards);
   };
   return surface;
 }
@@ -97,8 +96,8 @@ inline Surface marschnerLobb()
   {
     const double r = std::hypot(p[0], p[1]);
     const double radial = r > 0.0 ? amplitude * rippleSlope(r) / r : 0.0;
-    return scaled({ radial * p[0], radial * p[1], -0.5 * pi * std::cos(0.5 * pi * p[2]) },
-      0.5 / (1.0 + amplitude));
+    return 0.5 / (1.0 + amplitude) *
+           { radial * p[0], radial * p[1], -0.5 * pi * std::cos(0.5 * pi * p[2]) };
   };
   const auto height = [=](double r) { return 2.0 / pi * std::asin(amplitude * ripple(r)); };
   surface.footOf = [=](const Vector& p)
@@ -106,9 +105,9 @@ inline Surface marschnerLobb()
     const double own = std::hypot(p[0], p[1]);
     const Vector axis = directionOf({ p[0], p[1], 0.0 });
     const double r = nearestOnGraph(height, own, p[2], 0.002);
-    Vector foot = scaled(axis, r);
+    Vector foot = r * axis;
     foot[2] = height(r);
-    return footAt(p, foot, scaled(directionOf(surface.gradient(foot)), -1.0));
+    return footAt(p, foot, -directionOf(surface.gradient(foot)));
   };
   return surface;
 }
@@ -131,16 +130,15 @@ inline Surface gaussianMixture()
   surface.value = [=](const Vector& p)
   {
     return std::accumulate(bells.begin(), bells.end(), 0.0,
-      [&](double total, const Bell& bell)
-      { return total + valueOf(bell, difference(p, bell.center)); });
+      [&](double total, const Bell& bell) { return total + valueOf(bell, p - bell.center); });
   };
   surface.gradient = [=](const Vector& p)
   {
     return std::accumulate(bells.begin(), bells.end(), Vector{},
       [&](const Vector& total, const Bell& bell)
       {
-        const Vector d = difference(p, bell.center);
-        return isopoint::sum(total, -valueOf(bell, d) / (bell.width * bell.width), d);
+        const Vector d = p - bell.center;
+        return total - valueOf(bell, d) / (bell.width * bell.width) * d;
       });
   };
   findFeetByNewton(surface, 1.0);
@@ -174,7 +172,7 @@ inline Surface cube()
   surface.gradient = [=](const Vector& p)
   {
     const std::size_t i = greatest(along(p));
-    return scaled(axes[i], dot(axes[i], p) < 0.0 ? -1.0 : 1.0);
+    return (dot(axes[i], p) < 0.0 ? -1.0 : 1.0) * axes[i];
   };
   surface.footOf = [=](const Vector& p)
   {
@@ -184,13 +182,13 @@ inline Surface cube()
     {
       const double own =
         i == greatest(q) ? std::copysign(half, q[i]) : std::clamp(q[i], -half, half);
-      foot.point = sum(foot.point, scaled(axes[i], own));
+      foot.point += own * axes[i];
       if (std::abs(own) == half)
       {
-        foot.normals.push_back(scaled(axes[i], own < 0.0 ? 1.0 : -1.0));
+        foot.normals.push_back((own < 0.0 ? 1.0 : -1.0) * axes[i]);
       }
     }
-    foot.distance = length(difference(p, foot.point));
+    foot.distance = length(p - foot.point);
     return foot;
   };
   return surface;
@@ -206,12 +204,12 @@ inline Surface twoSheets(double separation)
   Surface surface{ "two sheets", half, separation };
   surface.value = [](const Vector& p) { return std::abs(length(p) - middle); };
   surface.gradient = [](const Vector& p)
-  { return scaled(directionOf(p), length(p) < middle ? -1.0 : 1.0); };
+  { return (length(p) < middle ? -1.0 : 1.0) * directionOf(p); };
   surface.footOf = [=](const Vector& p)
   {
     const double side = length(p) < middle ? -1.0 : 1.0;
     const Vector outwards = directionOf(p);
-    return footAt(p, scaled(outwards, middle + side * half), scaled(outwards, -side));
+    return footAt(p, (middle + side * half) * outwards, -side * outwards);
   };
   return surface;
 }

@@ -19,20 +19,9 @@ namespace analytic
 {
 
 using isopoint::cross;
-using isopoint::difference;
 using isopoint::directionOf;
 using isopoint::dot;
 using isopoint::Vector;
-
-inline Vector sum(const Vector& a, const Vector& b)
-{
-  return isopoint::sum(a, 1.0, b);
-}
-
-inline Vector scaled(const Vector& a, double factor)
-{
-  return isopoint::scaled(factor, a);
-}
 
 inline double length(const Vector& a)
 {
@@ -49,7 +38,7 @@ struct Foot
 
 inline Foot footAt(const Vector& position, const Vector& foot, const Vector& normal)
 {
-  return { foot, length(difference(position, foot)), { normal } };
+  return { foot, length(position - foot), { normal } };
 }
 
 /// A field over the cube [-1, 1]^3 and its isosurface.
@@ -91,9 +80,9 @@ inline std::vector<Vector> randomSurfacePoints(
     const Vector direction = directionOf(inBall());
     // The foot of the line: uniform in the disk across it.
     Vector side = inBall();
-    side = directionOf(difference(side, scaled(direction, dot(side, direction))));
-    const Vector foot = scaled(side, radius * std::sqrt(random()));
-    const auto at = [&](double t) { return sum(foot, scaled(direction, t)); };
+    side = directionOf(side - dot(side, direction) * direction);
+    const Vector foot = radius * std::sqrt(random()) * side;
+    const auto at = [&](double t) { return foot + t * direction; };
     const auto isBelow = [&](double t) { return surface.value(at(t)) < surface.isovalue; };
     const double half = std::sqrt(std::max(0.0, radius * radius - dot(foot, foot)));
     bool before = isBelow(-half);
@@ -155,9 +144,9 @@ inline Vector nearSurface(const Surface& surface, Vector p)
   {
     const Vector gradient = surface.gradient(p);
     const double difference = surface.isovalue - surface.value(p);
-    const Vector move = scaled(gradient, difference / std::max(dot(gradient, gradient), 1e-12));
+    const Vector move = difference / std::max(dot(gradient, gradient), 1e-12) * gradient;
     const double size = length(move);
-    p = sum(p, size > longest ? scaled(move, longest / size) : move);
+    p = p + (size > longest ? longest / size * move : move);
     if (size < 1e-14)
     {
       break;
@@ -173,8 +162,8 @@ inline Foot descendToFoot(const Surface& surface, const Vector& position, const 
   const auto alongSurface = [&](const Vector& foot)
   {
     const Vector normal = directionOf(surface.gradient(foot));
-    const Vector towards = difference(position, foot);
-    return difference(towards, scaled(normal, dot(towards, normal)));
+    const Vector towards = position - foot;
+    return towards - dot(towards, normal) * normal;
   };
   constexpr double longest = 0.1;
   Vector foot = nearSurface(surface, start);
@@ -186,18 +175,17 @@ inline Foot descendToFoot(const Surface& surface, const Vector& position, const 
     const Vector before = foot;
     const Vector alongBefore = along;
     const double size = stride * length(along);
-    foot = nearSurface(
-      surface, sum(foot, scaled(along, size > longest ? stride * longest / size : stride)));
+    foot = nearSurface(surface, foot + (size > longest ? stride * longest / size : stride) * along);
     along = alongSurface(foot);
-    if (length(difference(position, foot)) < length(difference(position, best)))
+    if (length(position - foot) < length(position - best))
     {
       best = foot;
     }
-    const Vector moved = difference(foot, before);
-    const double bend = dot(moved, difference(alongBefore, along));
+    const Vector moved = foot - before;
+    const double bend = dot(moved, alongBefore - along);
     stride = bend > 0.0 ? std::clamp(dot(moved, moved) / bend, 1e-3, 16.0) : 1.0;
   }
-  return footAt(position, best, scaled(directionOf(surface.gradient(best)), -1.0));
+  return footAt(position, best, -directionOf(surface.gradient(best)));
 }
 
 /// Sets footOf of a smooth surface to the nearest foot that descents find: one from the position
@@ -221,7 +209,7 @@ inline void findFeetByNewton(Surface& surface, double halfSide)
     std::vector<std::pair<double, std::size_t>> byDistance;
     for (std::size_t i = 0; i < starts->size(); ++i)
     {
-      byDistance.emplace_back(length(difference(p, (*starts)[i])), i);
+      byDistance.emplace_back(length(p - (*starts)[i]), i);
     }
     std::partial_sort(byDistance.begin(), byDistance.begin() + descents, byDistance.end());
     for (std::size_t i = 0; i < descents; ++i)

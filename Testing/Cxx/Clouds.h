@@ -167,7 +167,7 @@ inline double waves(const Vector& p)
 /// The distance to the middle of the unit cube.
 inline double fromMiddle(const Vector& p)
 {
-  return isopoint::lengthOf(isopoint::difference(p, { 0.5, 0.5, 0.5 }));
+  return isopoint::lengthOf(p - { 0.5, 0.5, 0.5 });
 }
 
 inline Cloud uniform(std::size_t count, std::uint64_t seed)
@@ -203,7 +203,7 @@ inline Cloud lattice(int nx, int ny, int nz)
   for (int i = 0; i < nx * ny * nz; ++i)
   {
     const Vector p{ 1.0 * (i % nx), 1.0 * (i / nx % ny), 1.0 * (i / nx / ny) };
-    cloud.add(p, std::round(5.0 * waves(isopoint::scaled(0.1, p))));
+    cloud.add(p, std::round(5.0 * waves(0.1 * p)));
   }
   return cloud;
 }

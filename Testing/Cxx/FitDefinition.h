@@ -143,7 +143,7 @@ struct Frame
     : length(unitOf(lengthOf(edge.increasing)))
     , value(unitOf(edge.increase))
     , valueError(edge.valueError / this->value)
-    , increasing(scaled(1.0 / this->length, edge.increasing))
+    , increasing(1.0 / this->length * edge.increasing)
   {
     this->addNearest(first, edge.position, isovalue, true);
     this->addNearest(more, edge.position, isovalue, this->samples.size() < 16);
@@ -165,7 +165,7 @@ private:
     Samples all;
     for (const FitSample& sample : ring)
     {
-      all.push_back({ scaled(1.0 / this->length, difference(sample.position, origin)),
+      all.push_back({ 1.0 / this->length * (sample.position - origin),
         (sample.value - isovalue) / this->value });
     }
     const std::size_t count = std::min(all.size(), 256 - this->samples.size());
@@ -205,7 +205,7 @@ inline std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& 
     const Vector gradient = polynomial.gradientAt(place);
     const double slope = lengthOf(gradient);
     const double factor = -polynomial.at(place) / (slope * slope);
-    place = sum(place, factor, gradient);
+    place += factor * gradient;
     if (!(lengthOf(place) <= 0.5 * lengthOf(r)))
     {
       return std::nullopt;
@@ -320,7 +320,7 @@ struct Result
 
   void setDerivatives(const Frame& frame, const Polynomial& polynomial, const Vector& place)
   {
-    this->gradient = scaled(frame.value / frame.length, polynomial.gradientAt(place));
+    this->gradient = frame.value / frame.length * polynomial.gradientAt(place);
     this->isGradientFitted = true;
     this->hessian = polynomial.hessianAt(place);
     for (double& derivative : this->hessian)
@@ -336,8 +336,8 @@ struct Result
     for (const int degree : { 1, 2 })
     {
       const auto mild = mildPolynomial(frame, degree);
-      if (mild && lengthOf(difference(directionOf(mild->gradientAt({})),
-                    directionOf(this->gradient))) < 2.0 * a) // the chord
+      if (mild && lengthOf(directionOf(mild->gradientAt({})) - directionOf(this->gradient)) <
+                    2.0 * a) // the chord
       {
         this->setDerivatives(frame, *mild, {});
         this->isSmooth = degree > 1;
@@ -351,7 +351,7 @@ struct Result
   {
     const double m = lengthOf(zero);
     const double share = m > 0.0 ? m * m / (m * m + 0.1 * s * s) : 1.0;
-    this->position = sum(this->position, frame.length * share, zero);
+    this->position += frame.length * share * zero;
   }
 };
 
@@ -361,7 +361,7 @@ inline Result stay(const Frame& frame, const FitEdge& edge)
   Result result;
   result.position = edge.position;
   const double length = lengthOf(edge.increasing);
-  result.gradient = scaled(edge.increase / length / length, edge.increasing);
+  result.gradient = edge.increase / length / length * edge.increasing;
   if (const auto affine = mildPolynomial(frame, 1))
   {
     result.setDerivatives(frame, *affine, {});

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Vector.h"
+
 #include <array>
 #include <cstdint>
 #include <random>
+
+// Vector is an alias of std::array, so lookup by its namespace does not find its operators.
+using isopoint::operator+;
+using isopoint::operator-;
+using isopoint::operator*;
+using isopoint::operator+=;
 
 namespace clouds
 {

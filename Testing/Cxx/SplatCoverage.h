@@ -12,7 +12,6 @@ namespace splatcoverage
 
 using namespace filtertesting;
 using analytic::cross;
-using analytic::difference;
 
 /// A fan of triangles in space: between its center and each two consecutive corners.
 struct Splat
@@ -27,7 +26,7 @@ struct Splat
     double farthest = 0.0;
     for (const Vector& corner : this->corners)
     {
-      farthest = std::max(farthest, length(difference(corner, this->center)));
+      farthest = std::max(farthest, length(corner - this->center));
     }
     return farthest;
   }
@@ -43,10 +42,8 @@ inline std::vector<Vector> cornersOf(const Vector& center, const Vector& normal,
   for (int k = 0; k < polygons->GetNumberOfComponents(); k += 5)
   {
     const auto number = [&](int j) { return polygons->GetComponent(i, k + j); };
-    const Vector inPlane =
-      analytic::sum(analytic::scaled(axis, number(0)), analytic::scaled(across, number(1)));
-    const Vector corner =
-      analytic::sum(center, analytic::sum(inPlane, analytic::scaled(normal, radius * number(2))));
+    const Vector inPlane = number(0) * axis + number(1) * across;
+    const Vector corner = center + (inPlane + radius * number(2) * normal);
     if (corners.empty() || corner != corners.back())
     {
       corners.push_back(corner);
@@ -135,7 +132,7 @@ public:
 private:
   bool isCoveredBy(const Splat& splat, const Vector& place, const Vector& normal) const
   {
-    const Vector center = difference(splat.center, place);
+    const Vector center = splat.center - place;
     const double radius = splat.radius();
     if (std::abs(dot(center, splat.normal)) > std::max(this->LeastTolerance, 0.5 * radius))
     {
@@ -144,8 +141,8 @@ private:
     const double tolerance = 1e-6 * radius * radius; // corners are rounded
     for (std::size_t i = 0; i < splat.corners.size(); ++i)
     {
-      const Vector a = difference(splat.corners[i], place);
-      const Vector b = difference(splat.corners[(i + 1) % splat.corners.size()], place);
+      const Vector a = splat.corners[i] - place;
+      const Vector b = splat.corners[(i + 1) % splat.corners.size()] - place;
       const std::array<double, 3> sides{ dot(cross(center, a), normal), dot(cross(a, b), normal),
         dot(cross(b, center), normal) };
       const auto [least, most] = std::minmax_element(sides.begin(), sides.end());

@@ -7,10 +7,8 @@
 namespace
 {
 
-using analytic::difference;
 using analytic::dot;
 using analytic::length;
-using analytic::sum;
 using analytic::Vector;
 
 const std::vector<analytic::Surface> surfaces{ analytic::sphere(), analytic::torus(),
@@ -35,10 +33,9 @@ TEST(AnalyticFields, GradientsEqualDifferencesOfValues)
       {
         Vector offset{};
         offset[axis] = step;
-        found[axis] =
-          (surface.value(sum(p, offset)) - surface.value(difference(p, offset))) / (2.0 * step);
+        found[axis] = (surface.value(p + offset) - surface.value(p - offset)) / (2.0 * step);
       }
-      ASSERT_LT(length(difference(found, gradient)), 1e-6 * (1.0 + length(gradient)));
+      ASSERT_LT(length(found - gradient), 1e-6 * (1.0 + length(gradient)));
     }
   }
 }
@@ -66,7 +63,7 @@ TEST(AnalyticFields, FeetLieOnTheSurfaceAndNormalsPointToDecreasingValues)
     {
       const Vector p = random.inCube(2.0);
       const analytic::Foot foot = surface.footOf(p);
-      const Vector way = difference(p, foot.point);
+      const Vector way = p - foot.point;
       ASSERT_NEAR(surface.value(foot.point), surface.isovalue, 1e-9);
       ASSERT_NEAR(foot.distance, length(way), 1e-12);
       ASSERT_FALSE(foot.normals.empty());
@@ -74,10 +71,9 @@ TEST(AnalyticFields, FeetLieOnTheSurfaceAndNormalsPointToDecreasingValues)
       for (const Vector& normal : foot.normals)
       {
         ASSERT_NEAR(length(normal), 1.0, 1e-12);
-        inwards = sum(inwards, normal);
+        inwards += normal;
       }
-      const auto moved = [&](double step)
-      { return surface.value(sum(foot.point, analytic::scaled(inwards, step))); };
+      const auto moved = [&](double step) { return surface.value(foot.point + step * inwards); };
       ASSERT_LT(moved(1e-5), surface.isovalue);
       ASSERT_GT(moved(-1e-5), surface.isovalue);
       if (foot.normals.size() == 1)
@@ -103,11 +99,11 @@ TEST(AnalyticFields, FeetAreTheNearestPointsOfTheSurface)
     {
       // Half of the positions anywhere, half near the surface.
       Vector p = i % 2 ? random.inCube(2.0) : dense[97 * static_cast<std::size_t>(i)];
-      p = sum(p, random.inCube(0.08));
+      p += random.inCube(0.08);
       double nearest = 10.0;
       for (const Vector& q : dense)
       {
-        nearest = std::min(nearest, length(difference(p, q)));
+        nearest = std::min(nearest, length(p - q));
       }
       const double found = surface.footOf(p).distance;
       ASSERT_LE(found, nearest + 1e-9);

@@ -88,7 +88,7 @@ TEST(Coverage, SplatsAreReadFromTheArraysAndCoverTheirPolygons)
     (std::vector<Vector>{ { 1.0, 4.0, 3.5 }, { 0.0, 2.0, 3.0 }, { 2.0, 1.0, 3.0 } }));
   const Coverage coverage(fan, 0.1);
   const auto covers = [&](double x, double y, double z = 0.0) {
-    return coverage.covers(analytic::sum(fan[0].center, { x, y, z }), { 0.0, 0.0, 1.0 });
+    return coverage.covers(fan[0].center + { x, y, z }, { 0.0, 0.0, 1.0 });
   };
   EXPECT_TRUE(covers(0.0, 0.9));
   EXPECT_FALSE(covers(0.9, 0.9));
@@ -159,7 +159,7 @@ TEST(Coverage, SplatsDoNotExtendFarOverABorderBesideOtherSheets)
   Samples samples;
   while (samples.size() < 11494)
   {
-    const Vector p = analytic::scaled(random.inCube(2.0), ball);
+    const Vector p = ball * random.inCube(2.0);
     if (length(p) < ball)
     {
       samples.push_back({ p[0], p[1], p[2], std::sin(0.25 * analytic::pi * p[2]) });

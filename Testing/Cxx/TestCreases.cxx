@@ -16,9 +16,9 @@ Vector gradientOf(const Field& field, const Vector& p)
 {
   constexpr double step = 1e-5;
   const double value = field(p);
-  return scaled(1.0 / step,
-    { field({ p[0] + step, p[1], p[2] }) - value, field({ p[0], p[1] + step, p[2] }) - value,
-      field({ p[0], p[1], p[2] + step }) - value });
+  return 1.0 / step *
+         { field({ p[0] + step, p[1], p[2] }) - value, field({ p[0], p[1] + step, p[2] }) - value,
+           field({ p[0], p[1], p[2] + step }) - value };
 }
 
 /// A body bounded by several sides: the intersection of the half-spaces where these are negative,
@@ -76,7 +76,7 @@ void expectFewErrors(const Body& body, double misplaced, double turned)
 
 Field ball(const Vector& center, double radius)
 {
-  return [=](const Vector& p) { return lengthOf(difference(p, center)) - radius; };
+  return [=](const Vector& p) { return lengthOf(p - center) - radius; };
 }
 
 /// Axes that are rotated against the samples' cube.
@@ -149,9 +149,8 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
         for (std::size_t i = 0; i < planes; ++i)
         {
           EXPECT_TRUE(std::any_of(crease->pieces.begin(), crease->pieces.end(),
-            [&](const Polynomial& piece) {
-              return lengthOf(difference(piece.gradientAt({}), scaled(sense, faces[i]))) < 1e-8;
-            }));
+            [&](const Polynomial& piece)
+            { return lengthOf(piece.gradientAt({}) - sense * faces[i]) < 1e-8; }));
         }
       }
       EXPECT_GE(found, planes == 2 ? 10 : 8);
@@ -256,7 +255,7 @@ TEST(CreaseFit, ZerosBelongToTheWholeSurface)
     const Polynomial& beyond = &own == &fit.pieces[0] ? fit.pieces[1] : fit.pieces[0];
     const Vector normal = directionOf(beyond.gradientAt({}));
     EXPECT_EQ(found->creases[0].turn, fit.sense);
-    EXPECT_LT(lengthOf(difference(found->creases[0].inward, scaled(-fit.sense, normal))), 1e-12);
+    EXPECT_LT(lengthOf(found->creases[0].inward - -fit.sense * normal), 1e-12);
     const double distance =
       -fit.sense * beyond.valueAt(found->zero) / lengthOf(beyond.gradientAt({}));
     EXPECT_NEAR(found->creases[0].distance, std::max(0.0, distance), 1e-5);

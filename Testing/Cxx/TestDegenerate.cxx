@@ -238,8 +238,8 @@ TEST(Degenerate, ScaledSamplesHaveTheScaledSurface)
     ASSERT_EQ(surface.count(), unscaled.count());
     for (vtkIdType i = 0; i < surface.count(); ++i)
     {
-      ASSERT_EQ(surface.point(i), analytic::scaled(unscaled.point(i), scale));
-      ASSERT_LT(length(analytic::difference(surface.normal(i), unscaled.normal(i))), 1e-5);
+      ASSERT_EQ(surface.point(i), scale * unscaled.point(i));
+      ASSERT_LT(length(surface.normal(i) - unscaled.normal(i)), 1e-5);
       ASSERT_FLOAT_EQ(
         static_cast<float>(surface.radius(i) / scale), static_cast<float>(unscaled.radius(i)));
     }
@@ -300,7 +300,7 @@ TEST(Degenerate, NormalsAreRightWhereGradientsOverflowOrUnderflow)
     EXPECT_GT(surface.count(), 200);
     for (vtkIdType i = 0; i < surface.count(); ++i)
     {
-      const Vector direction = analytic::scaled(surface.point(i), 1.0 / size);
+      const Vector direction = 1.0 / size * surface.point(i);
       ASSERT_LT(dot(surface.normal(i), direction) / length(direction), -0.5);
     }
   }

@@ -54,11 +54,10 @@ clouds::Cloud sampled(
 analytic::Surface zoomed(const analytic::Surface& surface, double factor)
 {
   analytic::Surface result = surface;
-  result.value = [=](const analytic::Vector& p)
-  { return surface.value(analytic::scaled(p, factor)); };
+  result.value = [=](const analytic::Vector& p) { return surface.value(factor * p); };
   result.footOf = [=](const analytic::Vector& p)
   {
-    analytic::Foot foot = surface.footOf(analytic::scaled(p, factor));
+    analytic::Foot foot = surface.footOf(factor * p);
     foot.distance /= factor;
     return foot;
   };

@@ -35,10 +35,10 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     const std::size_t b = rings.cellOf(surface.edges[i].second);
     const bruteforce::Cell& low = rings.cells()[rings.cells()[a].value < isovalue ? a : b];
     const bruteforce::Cell& high = rings.cells()[rings.cells()[a].value < isovalue ? b : a];
-    const Vector r = difference(high.position, low.position);
+    const Vector r = high.position - low.position;
     const double increase = high.value - low.value;
-    const FitEdge edge{ isopoint::sum(low.position, (isovalue - low.value) / increase, r), r,
-      increase, rings.spacing(a, b), valueError };
+    const FitEdge edge{ low.position + (isovalue - low.value) / increase * r, r, increase,
+      rings.spacing(a, b), valueError };
     const ringdefinition::Cells first = rings.firstRing(a, b);
     const ringdefinition::Cells second = rings.secondRing(a, b, isovalue);
     const ringdefinition::Cells more(
@@ -51,8 +51,8 @@ Steps expectTheDefinition(const clouds::Cloud& cloud, double isovalue, FitOrder 
     EXPECT_EQ(expected.isSmooth, found.isSmooth);
     EXPECT_EQ(expected.isGradientFitted, found.isGradientFitted);
     EXPECT_EQ(edge.spacing, found.spacing);
-    EXPECT_LE(lengthOf(difference(expected.position, found.position)), tolerance * lengthOf(r));
-    EXPECT_LE(lengthOf(difference(expected.gradient, found.gradient)), tolerance * slope);
+    EXPECT_LE(lengthOf(expected.position - found.position), tolerance * lengthOf(r));
+    EXPECT_LE(lengthOf(expected.gradient - found.gradient), tolerance * slope);
     for (std::size_t j = 0; j < expected.hessian.size(); ++j)
     {
       EXPECT_NEAR(expected.hessian[j], found.hessian[j], 10.0 * tolerance * slope / lengthOf(r));

@@ -26,7 +26,7 @@ std::vector<FitSample> inUnits(std::vector<FitSample> samples, double scale, dou
 {
   for (FitSample& sample : samples)
   {
-    sample.position = scaled(scale, sample.position);
+    sample.position = scale * sample.position;
     sample.value *= steepness;
   }
   return samples;
@@ -77,8 +77,8 @@ TEST(LocalFit, KeepsItsBitsInOtherUnits)
             fitAll(inUnits(samples, scale, steepness), edgeInUnits(scale, steepness), order);
           EXPECT_EQ(found.order, expected.order);
           EXPECT_EQ(found.isSmooth, expected.isSmooth);
-          EXPECT_EQ(found.position, scaled(scale, expected.position));
-          EXPECT_EQ(found.gradient, scaled(steepness / scale, expected.gradient));
+          EXPECT_EQ(found.position, scale * expected.position);
+          EXPECT_EQ(found.gradient, steepness / scale * expected.gradient);
           Hessian hessian = expected.hessian;
           std::for_each(hessian.begin(), hessian.end(),
             [&](double& derivative) { derivative *= steepness / scale / scale; });
@@ -213,7 +213,7 @@ TEST(LocalFit, DoesNotChangeTheEdges)
   {
     ASSERT_EQ(fitted.edges[i].parameter, plain.edges[i].parameter);
     held += moved.fits[i].order != std::nullopt ? 1 : 0;
-    const double distance = lengthOf(difference(moved.fits[i].position, fitted.fits[i].position));
+    const double distance = lengthOf(moved.fits[i].position - fitted.fits[i].position);
     ASSERT_TRUE(moved.fits[i].order != std::nullopt || distance == 0.0);
     ASSERT_GE(moved.edges[i].parameter, 0.0);
     ASSERT_LE(moved.edges[i].parameter, 1.0);

@@ -49,8 +49,8 @@ std::vector<double> smallestAngles(const ExtractedIsosurface& extracted)
   const std::vector<Vector>& p = extracted.surface.positions;
   const auto angleAt = [](const Vector& a, const Vector& b, const Vector& c)
   {
-    const Vector u = difference(b, a);
-    const Vector v = difference(c, a);
+    const Vector u = b - a;
+    const Vector v = c - a;
     return std::atan2(lengthOf(cross(u, v)), dot(u, v)) * 57.29577951;
   };
   for (const auto& [a, b, c] : extracted.triangles)
@@ -246,7 +246,7 @@ TEST(Regularization, AttributesAreMeansOverCrossings)
     { places[i][static_cast<std::size_t>(component)] = value; });
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    EXPECT_LT(lengthOf(difference(places[i], found.surface.positions[i])), 1e-12);
+    EXPECT_LT(lengthOf(places[i] - found.surface.positions[i]), 1e-12);
   }
 }
 
@@ -295,9 +295,8 @@ TEST(Regularization, NeighborsBecomeOneVertexAtTheirMean)
   EXPECT_EQ(merged.triangles.size(), 6u);
   EXPECT_EQ(merged.memberBegins, (std::vector<std::size_t>{ 0, 1, 2, 5, 8, 11 }));
   EXPECT_EQ(merged.members[2], 3u); // the nearest
-  const Vector mean =
-    scaled(1.0 / 3.0, sum(sum(positions[2], 1.0, positions[3]), 1.0, positions[4]));
-  EXPECT_LT(lengthOf(difference(merged.positions[2], mean)), 1e-12);
+  const Vector mean = 1.0 / 3.0 * (positions[2] + positions[3] + positions[4]);
+  EXPECT_LT(lengthOf(merged.positions[2] - mean), 1e-12);
   // The mean of equal coordinates is not off by rounding.
   std::for_each(positions.begin(), positions.end(), [](Vector& p) { p[2] = 0.7; });
   for (const Vector& position : merge().positions)

@@ -31,10 +31,10 @@ struct BruteForce
     double below = 0.0;
     double leastLength = query.reach;
     double leastDistance = query.enough;
-    const Vector place = sum(query.place, query.enough, query.direction);
+    const Vector place = query.place + query.enough * query.direction;
     for (std::size_t i = cloud.size(); i-- > 0;)
     {
-      const Vector offset = difference(cloud.at(i), query.place);
+      const Vector offset = cloud.at(i) - query.place;
       const double length = lengthOf(offset);
       const double ahead = dot(offset, query.direction);
       if (length <= query.reach && ahead >= 0.7071 * length)
@@ -48,7 +48,7 @@ struct BruteForce
           this->nearest = i;
         }
       }
-      const double distance = lengthOf(difference(cloud.at(i), place));
+      const double distance = lengthOf(cloud.at(i) - place);
       if (distance <= leastDistance)
       {
         leastDistance = distance;
@@ -97,7 +97,7 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
       for (const ExtentQuery& query : queries)
       {
         const BruteForce expected(cloud, query);
-        const Vector ahead = sum(query.place, query.enough, query.direction);
+        const Vector ahead = query.place + query.enough * query.direction;
         EXPECT_DOUBLE_EQ(extents.at(query), expected.extent);
         EXPECT_EQ(idOf(extents.nearest(query)), expected.nearest);
         EXPECT_EQ(idOf(extents.nearestTo(ahead, query.enough)), expected.closest);

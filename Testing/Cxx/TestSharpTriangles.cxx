@@ -73,18 +73,17 @@ void expectFewStrayOrTurned(vtkPolyData* surface, const Body& body)
     const Vector a = placeOf(surface, corners[0]);
     const Vector b = placeOf(surface, corners[1]);
     const Vector c = placeOf(surface, corners[2]);
-    const Vector center = analytic::scaled(analytic::sum(a, analytic::sum(b, c)), 1.0 / 3.0);
+    const Vector center = 1.0 / 3.0 * (a + (b + c));
     strays += std::abs(body.field(center)) > 0.2 * spacing ? 1 : 0;
     Vector gradient;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       Vector step{};
       step[axis] = 1e-6;
-      gradient[axis] =
-        body.field(analytic::sum(center, step)) - body.field(analytic::difference(center, step));
+      gradient[axis] = body.field(center + step) - body.field(center - step);
     }
     // Normals point to decreasing values. Slivers along edges have none.
-    const Vector normal = analytic::cross(analytic::difference(b, a), analytic::difference(c, a));
+    const Vector normal = analytic::cross(b - a, c - a);
     const bool isSliver = length(normal) < 0.02 * spacing * spacing;
     turned += !isSliver && dot(normal, gradient) > 0.1 * length(normal) * length(gradient) ? 1 : 0;
   }

@@ -64,7 +64,7 @@ Splats tiles(std::size_t rows, double side = 1.0, const Vector& origin = { 0.0, 
   {
     const Vector offset{ side * static_cast<double>(i % rows), side * static_cast<double>(i / rows),
       0.0 };
-    splats.add(sum(origin, 1.0, offset), up, { side * std::sqrt(0.5), 0.0, 0.0 }, squareCorners());
+    splats.add(origin + offset, up, { side * std::sqrt(0.5), 0.0, 0.0 }, squareCorners());
   }
   return splats;
 }
@@ -81,7 +81,7 @@ Splats randomSplats(std::size_t count, std::uint64_t seed)
   {
     const Vector normal = unitNormal(random.inCube(2.0));
     const double radius = std::pow(10.0, -3.0 * random());
-    const Vector axis = scaled(radius, TangentFrame(normal).first);
+    const Vector axis = radius * TangentFrame(normal).first;
     const std::size_t corners = 3 + static_cast<std::size_t>(6.0 * random());
     const double bend = random() < 0.5 ? 0.02 : 1.0;
     std::vector<SplatCorner> fan;
@@ -99,7 +99,7 @@ Splats randomSplats(std::size_t count, std::uint64_t seed)
     if (random() < 0.4) // corners that meet those of another splat, or lie a little too far away
     {
       const double farthest = 3e-6 * radius;
-      const Vector moved = sum(splats.positions.back(), farthest, random.inCube(2.0));
+      const Vector moved = splats.positions.back() + farthest * random.inCube(2.0);
       splats.add(moved, normal, axis, fan);
     }
   }
@@ -155,8 +155,7 @@ Vector areaOf(const SplatMesh& mesh, std::size_t triangle)
 {
   const auto [a, b, c] = mesh.triangles[triangle];
   const Vector& first = mesh.vertices[a].position;
-  return scaled(0.5, cross(difference(mesh.vertices[b].position, first),
-                       difference(mesh.vertices[c].position, first)));
+  return 0.5 * cross(mesh.vertices[b].position - first, mesh.vertices[c].position - first);
 }
 
 } // namespace
@@ -179,8 +178,7 @@ TEST(SplatMesh, SquaresHaveTheirCornersAndArea)
     EXPECT_NEAR(area, 9.0 * scale * scale, 1e-5);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     {
-      const Vector offset =
-        difference(mesh.vertices[i].position, splats.positions[mesh.pointOfVertex[i]]);
+      const Vector offset = mesh.vertices[i].position - splats.positions[mesh.pointOfVertex[i]];
       EXPECT_NEAR(std::abs(offset[0]), 0.5 * scale, 1e-6);
       EXPECT_NEAR(std::abs(offset[1]), 0.5 * scale, 1e-6);
       EXPECT_EQ(mesh.vertices[i].normal[2], 1.0f);

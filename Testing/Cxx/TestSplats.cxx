@@ -46,7 +46,7 @@ struct Points
   LocalFit& add(const Vector& position, std::optional<FitOrder> order, const Vector& gradient,
     double spacing = 1.0)
   {
-    this->addUnfitted(position, scaled(-1.0, gradient));
+    this->addUnfitted(position, -gradient);
     LocalFit& fit = this->fits.emplace_back();
     fit.order = order;
     fit.isGradientFitted = true;
@@ -61,7 +61,7 @@ struct Points
   void addOnWedge(bool top, double along, double off, FitOrder order, const Vector& tilt = {})
   {
     const Vector place = top ? Vector{ off, along, 0.0 } : Vector{ 0.0, along, off };
-    LocalFit& fit = this->add(place, order, sum(top ? down : Vector{ -1.0, 0.0, 0.0 }, 1.0, tilt));
+    LocalFit& fit = this->add(place, order, (top ? down : Vector{ -1.0, 0.0, 0.0 }) + tilt);
     if (order == FitOrder::Crease)
     {
       fit.creases = { { top ? Vector{ -1.0, 0.0, 0.0 } : down, -off, -1.0 } };
@@ -73,8 +73,8 @@ struct Points
   {
     for (std::size_t i = 0; i < this->positions.size(); ++i)
     {
-      this->fits[i].gradient = scaled(-1.0, this->fits[i].gradient);
-      this->decreasingEdges[i] = scaled(-1.0, this->decreasingEdges[i]);
+      this->fits[i].gradient = -this->fits[i].gradient;
+      this->decreasingEdges[i] = -this->decreasingEdges[i];
       for (CreasePlane& crease : this->fits[i].creases)
       {
         crease.turn = -crease.turn;
@@ -104,7 +104,7 @@ struct NearestAround
     std::vector<std::pair<double, const std::vector<std::size_t>*>> near;
     for (const auto& [position, points] : this->pointsAt)
     {
-      near.emplace_back(lengthOf(difference(position, this->positions[point])), &points);
+      near.emplace_back(lengthOf(position - this->positions[point]), &points);
     }
     const std::size_t count = std::min<std::size_t>(near.size(), rings > 1 ? 193 : 49);
     std::nth_element(
@@ -159,8 +159,8 @@ std::vector<SplatCorner> cornersOf(const Splat& splat)
 Vector offsetOf(const Splat& splat, const SplatCorner& corner)
 {
   const Vector across = cross(splat.normal, splat.axis);
-  const Vector inPlane = sum(scaled(corner.along, splat.axis), corner.across, across);
-  return sum(inPlane, corner.height * splat.radius, splat.normal);
+  const Vector inPlane = corner.along * splat.axis + corner.across * across;
+  return inPlane + corner.height * splat.radius * splat.normal;
 }
 
 /// The area of a splat's triangles.
@@ -183,7 +183,7 @@ bool isCovered(const Vector& place, const std::vector<PlacedSplat>& splats, std:
   for (std::size_t i = 0; i < splats.size(); i += step)
   {
     const PlacedSplat& splat = splats[i];
-    const Vector offset = scaled(1.0 / splat.radius / splat.radius, difference(place, splat.point));
+    const Vector offset = 1.0 / splat.radius / splat.radius * (place - splat.point);
     const double x = dot(offset, splat.axis);
     const double y = dot(offset, cross(splat.normal, splat.axis));
     const std::vector<SplatCorner> corners = cornersOf(splat);
@@ -220,10 +220,10 @@ Points sphere(std::size_t count, double scale = 1.0, double offset = 0.0)
     const double length = std::sqrt(dot(v, v));
     if (length > 0.1 && length < 1.0)
     {
-      const Vector n = scaled(scale / length, v);
+      const Vector n = scale / length * v;
       const double oblique = 1.2 * scale * (random() - 0.5);
-      points.addUnfitted(sum({ offset, offset, offset }, 1.0, n),
-        scaled(0.1, { n[0] + oblique, n[1], n[2] - oblique }));
+      points.addUnfitted(
+        { offset, offset, offset } + n, 0.1 * { n[0] + oblique, n[1], n[2] - oblique });
     }
   }
   return points;
@@ -235,7 +235,7 @@ Points fittedSphere(std::size_t count, double spacing)
   Points points;
   for (const Vector& p : sphere(count).positions)
   {
-    points.add(p, FitOrder::Quadratic, scaled(-1.0, p), spacing).hessian = hessian;
+    points.add(p, FitOrder::Quadratic, -p, spacing).hessian = hessian;
   }
   return points;
 }
@@ -280,7 +280,7 @@ TEST(Splats, NormalsPointToDecreasingValues)
     for (const PlacedSplat& splat : splatsOf(sphere(5000, scale, scale)))
     {
       ASSERT_NEAR(dot(splat.normal, splat.normal), 1.0, 1e-12);
-      const Vector outwards = difference(splat.point, { scale, scale, scale });
+      const Vector outwards = splat.point - { scale, scale, scale };
       ASSERT_GT(dot(splat.normal, outwards), 0.98 * scale);
     }
   }
@@ -298,13 +298,13 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
     {
       continue; // another one represents it
     }
-    const Vector along = scaled(1.0 / splat.radius, splat.axis);
+    const Vector along = 1.0 / splat.radius * splat.axis;
     for (const SplatCorner& corner : cornersOf(splat))
     {
-      const Vector place = sum(splat.point, 1.0, offsetOf(splat, corner));
+      const Vector place = splat.point + offsetOf(splat, corner);
       ASSERT_NEAR(lengthOf(place), 1.0, 0.002);
-      const Vector normal = sum(sum(splat.normal, corner.slopeAlong, along), corner.slopeAcross,
-        cross(splat.normal, along));
+      const Vector normal =
+        splat.normal + corner.slopeAlong * along + corner.slopeAcross * cross(splat.normal, along);
       ASSERT_GT(dot(directionOf(normal), place), 0.9995);
       heights = std::max(heights, std::abs(static_cast<double>(corner.height)));
       corners.push_back(place);
@@ -314,7 +314,7 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
   const double sphereArea = 4.0 * std::acos(-1.0);
   EXPECT_NEAR(clouds::sumOf(splats, areaOf), sphereArea, 0.02 * sphereArea);
   const auto splatsAt = [&](const Vector& a)
-  { return countOf(corners, [&](const Vector& b) { return lengthOf(difference(a, b)) < 1e-6; }); };
+  { return countOf(corners, [&](const Vector& b) { return lengthOf(a - b) < 1e-6; }); };
   EXPECT_GT(countOf(corners, [&](const Vector& corner) { return splatsAt(corner) >= 3; }),
     corners.size() * 97 / 100);
 }
@@ -545,13 +545,13 @@ TEST(Splats, AreHiddenBesideVisibleOnesAlone)
   for (int i = 0; i < 600; ++i)
   {
     points.addUnfitted(
-      { 0.02 * (i % 100 + 0.4 * random()), static_cast<double>(i / 100), 0.0 }, scaled(2.0, up));
+      { 0.02 * (i % 100 + 0.4 * random()), static_cast<double>(i / 100), 0.0 }, 2.0 * up);
   }
   const std::vector<PlacedSplat> splats = splatsOf(points);
   for (const PlacedSplat& splat : splats)
   {
     const auto isVisibleNear = [&](const PlacedSplat& other)
-    { return other.radius > 0.0 && lengthOf(difference(splat.point, other.point)) < closeness; };
+    { return other.radius > 0.0 && lengthOf(splat.point - other.point) < closeness; };
     EXPECT_GT(countOf(splats, isVisibleNear), 0u);
   }
   const std::size_t hidden =
@@ -758,7 +758,7 @@ TEST(SplatCreases, OfTheNegatedFieldHaveTheSameShape)
   const std::vector<PlacedSplat> turned = splatsOf(points);
   for (std::size_t i = 0; i < splats.size(); ++i)
   {
-    ASSERT_EQ(turned[i].normal, scaled(-1.0, splats[i].normal));
+    ASSERT_EQ(turned[i].normal, -splats[i].normal);
     ASSERT_NEAR(turned[i].radius, splats[i].radius, 1e-9) << i;
     ASSERT_NEAR(areaOf(turned[i]), areaOf(splats[i]), 1e-6) << i;
   }

@@ -238,7 +238,7 @@ TEST(Tetrahedra, OfAllSamplesWhereThatIsQuicker)
   {
     const clouds::Vector p = random.inCube(1.0);
     const double scale = (1.0 + 1e-6 * random()) / isopoint::lengthOf(p);
-    shell.add(isopoint::scaled(scale, p), p[0] * scale);
+    shell.add(scale * p, p[0] * scale);
   }
   EXPECT_TRUE(expectSameTetrahedra(shell, 0.1).counts.isWhole);
 }

@@ -57,7 +57,7 @@ bool areClose(const LocalFit& a, const LocalFit& b, double minimumSpacing)
   const double reach = minimumSpacing * std::min(a.spacing, b.spacing);
   const double slopeA = lengthOf(a.gradient);
   const double slopeB = lengthOf(b.gradient);
-  const Vector way = difference(a.position, b.position);
+  const Vector way = a.position - b.position;
   const Vector normalA = directionOf(a.gradient);
   const Vector normalB = directionOf(b.gradient);
   return a.isSmooth && b.isSmooth && slopeA > 0.0 && slopeB > 0.0 && std::isfinite(slopeA) &&
@@ -136,7 +136,7 @@ void expectThinnedBySheets(
     const auto isNear = [&](const LocalFit& other)
     {
       return sheetOf(other) == sheetOf(fit) &&
-             lengthOf(difference(other.position, fit.position)) < minimumSpacing * fit.spacing;
+             lengthOf(other.position - fit.position) < minimumSpacing * fit.spacing;
     };
     ASSERT_TRUE(!isChecked(fit) || std::any_of(kept.fits.begin(), kept.fits.end(), isNear));
   }

@@ -162,7 +162,7 @@ TEST(Triangles, OfASphereAreClosedWithNormalsAgainstTheGradient)
     ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      const Vector inward = difference({ 0.5, 0.5, 0.5 }, extracted.surface.positions[i]);
+      const Vector inward = { 0.5, 0.5, 0.5 } - extracted.surface.positions[i];
       EXPECT_GT(dot(directionOf(inward), extracted.normals[i]), leastCosine);
     }
   };
@@ -188,7 +188,7 @@ TEST(Triangles, OfATorusAreClosedFollowTheFitsAndAreNotTurnedOver)
     return clouds::countOf(extracted.triangles,
       [&](const SurfaceTriangle& triangle)
       {
-        const auto [x, y, z] = difference(positions[triangle[0]], { 0.5, 0.5, 0.5 });
+        const auto [x, y, z] = positions[triangle[0]] - { 0.5, 0.5, 0.5 };
         const double ring = 1.0 - 0.28 / std::hypot(x, y);
         return dot({ ring * x, ring * y, z }, normalOf(positions, triangle)) >= 0.0;
       });
@@ -210,7 +210,7 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
   {
     fits[i].order = FitOrder::Cubic;
     fits[i].gradient = { 0.0, 0.1, -2.0 };
-    fits[i].position = sum(unmoved[i], 0.1, { 0.1, 0.2, 1.0 });
+    fits[i].position = unmoved[i] + 0.1 * { 0.1, 0.2, 1.0 };
   }
   const std::vector<LocalFit> before = fits;
   keepTrianglesUpright({}, unmoved, triangles, fits);
@@ -276,8 +276,8 @@ TEST(Triangles, HaveTheirOwnNormalsWhereAFitFailed)
   for (std::size_t i = 0; i < normals.size(); ++i)
   {
     const bool isTurned = std::count(turned.begin(), turned.end(), i) > 0;
-    EXPECT_EQ(normals[i],
-      isTurned ? Vector({ 0.0, 0.0, 1.0 }) : scaled(-1.0, directionOf(sheet.fits[i].gradient)))
+    EXPECT_EQ(
+      normals[i], isTurned ? Vector({ 0.0, 0.0, 1.0 }) : -directionOf(sheet.fits[i].gradient))
       << i;
   }
 }

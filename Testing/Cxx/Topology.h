@@ -116,7 +116,7 @@ inline Topology topologyOf(const Triangles& triangles)
 inline Vector normalOf(const std::vector<Vector>& p, const isopoint::SurfaceTriangle& triangle)
 {
   const auto& [a, b, c] = triangle;
-  return isopoint::cross(isopoint::difference(p[b], p[a]), isopoint::difference(p[c], p[a]));
+  return isopoint::cross(p[b] - p[a], p[c] - p[a]);
 }
 
 /// Of radius 0.35, in the middle of the unit cube.
