@@ -25,7 +25,7 @@ bool isFinite(const Radiance& radiance)
 Ray Camera::through(double x, double y, float& skipped) const
 {
   const isopoint::Vector origin = this->nearWindow.at(x, y);
-  isopoint::Vector offset = isopoint::operator-(this->farWindow.at(x, y) - origin;
+  isopoint::Vector offset = isopoint::operator-(this->farWindow.at(x, y), origin);
   const double length = isopoint::lengthOf(offset);
   // Starts at the unit sphere, which contains the scene.
   double along = -1.0;
