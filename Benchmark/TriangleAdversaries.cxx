@@ -42,7 +42,7 @@ constexpr const char* usage =
 
 double distanceToMiddle(const Vector& p)
 {
-  return isopoint::lengthOf(p - { 0.5, 0.5, 0.5 });
+  return isopoint::lengthOf(p - isopoint::Vector{ 0.5, 0.5, 0.5 });
 }
 
 double along(const Vector& p)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Core/Base/AlwaysInline.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,7 +25,7 @@ public:
   }
 
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  ISOPOINT_ALWAYS_INLINE bool add(TId leaf)
+  bool add(TId leaf)
   {
     if (2 * this->Count >= this->Entries.size())
     {

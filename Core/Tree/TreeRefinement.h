@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Region.h"
 #include "Core/Tree/Path.h"
 #include "Core/Tree/TreeletSplitting.h"
 
@@ -26,45 +27,40 @@ void splitFurther(
     std::size_t node;
     std::size_t firstPair;
     int levels;
-    Path path;
+    Region region;
   };
   constexpr std::size_t small = 512;
   keepUnique(nodes);
-  constexpr std::size_t batch = 4096; // limits memory: paths are large
-  for (std::size_t begin = 0; begin < nodes.size(); begin += batch)
+  std::vector<Task> tasks;
+  std::size_t pairs = 0;
+  for (const std::size_t index : nodes)
   {
-    std::vector<Task> tasks;
-    std::size_t pairs = 0;
-    for (std::size_t i = begin; i < std::min(begin + batch, nodes.size()); ++i)
+    const Node<TSample>& node = tree.nodes[index];
+    if (node.isSplit() || node.isLeaf)
     {
-      const Node<TSample>& node = tree.nodes[nodes[i]];
-      if (node.isSplit() || node.isLeaf)
-      {
-        continue;
-      }
-      const Path path = pathToLeaf(tree, nodes[i]);
-      const int levels = std::min(maximumDepth - path.depth,
-        node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
-      if (levels == 0)
-      {
-        throwTooDeep();
-      }
-      tasks.push_back({ nodes[i], pairs, levels, path });
-      pairs += maximumTreeletPairs(node.count(), levels);
+      continue;
     }
-    const std::size_t firstPair = appendPairs(tree, pairs);
-    forRanges(execution, tasks.size(), 4,
-      [&](std::size_t first, std::size_t last)
-      {
-        TreeletSplitter<TSample> splitter(tree, 0);
-        for (std::size_t i = first; i < last; ++i)
-        {
-          splitter.moveTo(firstPair + tasks[i].firstPair);
-          splitter.split(tree.nodes[tasks[i].node], tasks[i].path.region, tasks[i].levels);
-        }
-      });
-    throwIfAborted(execution);
+    const Path path = pathToLeaf(tree, index);
+    const int levels = std::min(
+      maximumDepth - path.depth, node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
+    if (levels == 0)
+    {
+      throwTooDeep();
+    }
+    tasks.push_back({ index, pairs, levels, path.region });
+    pairs += maximumTreeletPairs(node.count(), levels);
   }
+  const std::size_t firstPair = appendPairs(tree, pairs);
+  forBatches(execution, tasks.size(), 2048, 4,
+    [&](std::size_t begin, std::size_t end)
+    {
+      TreeletSplitter<TSample> splitter(tree, 0);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        splitter.moveTo(firstPair + tasks[i].firstPair);
+        splitter.split(tree.nodes[tasks[i].node], tasks[i].region, tasks[i].levels);
+      }
+    });
 }
 
 /// Splits unsplit nodes until none is found.

@@ -97,7 +97,7 @@ inline Surface marschnerLobb()
     const double r = std::hypot(p[0], p[1]);
     const double radial = r > 0.0 ? amplitude * rippleSlope(r) / r : 0.0;
     return 0.5 / (1.0 + amplitude) *
-           { radial * p[0], radial * p[1], -0.5 * pi * std::cos(0.5 * pi * p[2]) };
+           Vector{ radial * p[0], radial * p[1], -0.5 * pi * std::cos(0.5 * pi * p[2]) };
   };
   const auto height = [=](double r) { return 2.0 / pi * std::asin(amplitude * ripple(r)); };
   surface.footOf = [=](const Vector& p)

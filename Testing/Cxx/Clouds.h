@@ -167,7 +167,7 @@ inline double waves(const Vector& p)
 /// The distance to the middle of the unit cube.
 inline double fromMiddle(const Vector& p)
 {
-  return isopoint::lengthOf(p - { 0.5, 0.5, 0.5 });
+  return isopoint::lengthOf(p - Vector{ 0.5, 0.5, 0.5 });
 }
 
 inline Cloud uniform(std::size_t count, std::uint64_t seed)

@@ -88,7 +88,7 @@ TEST(Coverage, SplatsAreReadFromTheArraysAndCoverTheirPolygons)
     (std::vector<Vector>{ { 1.0, 4.0, 3.5 }, { 0.0, 2.0, 3.0 }, { 2.0, 1.0, 3.0 } }));
   const Coverage coverage(fan, 0.1);
   const auto covers = [&](double x, double y, double z = 0.0) {
-    return coverage.covers(fan[0].center + { x, y, z }, { 0.0, 0.0, 1.0 });
+    return coverage.covers(fan[0].center + Vector{ x, y, z }, { 0.0, 0.0, 1.0 });
   };
   EXPECT_TRUE(covers(0.0, 0.9));
   EXPECT_FALSE(covers(0.9, 0.9));

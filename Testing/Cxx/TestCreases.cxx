@@ -17,8 +17,8 @@ Vector gradientOf(const Field& field, const Vector& p)
   constexpr double step = 1e-5;
   const double value = field(p);
   return 1.0 / step *
-         { field({ p[0] + step, p[1], p[2] }) - value, field({ p[0], p[1] + step, p[2] }) - value,
-           field({ p[0], p[1], p[2] + step }) - value };
+         Vector{ field({ p[0] + step, p[1], p[2] }) - value,
+           field({ p[0], p[1] + step, p[2] }) - value, field({ p[0], p[1], p[2] + step }) - value };
 }
 
 /// A body bounded by several sides: the intersection of the half-spaces where these are negative,

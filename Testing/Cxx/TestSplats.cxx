@@ -223,7 +223,7 @@ Points sphere(std::size_t count, double scale = 1.0, double offset = 0.0)
       const Vector n = scale / length * v;
       const double oblique = 1.2 * scale * (random() - 0.5);
       points.addUnfitted(
-        { offset, offset, offset } + n, 0.1 * { n[0] + oblique, n[1], n[2] - oblique });
+        Vector{ offset, offset, offset } + n, 0.1 * Vector{ n[0] + oblique, n[1], n[2] - oblique });
     }
   }
   return points;
@@ -280,7 +280,7 @@ TEST(Splats, NormalsPointToDecreasingValues)
     for (const PlacedSplat& splat : splatsOf(sphere(5000, scale, scale)))
     {
       ASSERT_NEAR(dot(splat.normal, splat.normal), 1.0, 1e-12);
-      const Vector outwards = splat.point - { scale, scale, scale };
+      const Vector outwards = splat.point - Vector{ scale, scale, scale };
       ASSERT_GT(dot(splat.normal, outwards), 0.98 * scale);
     }
   }

@@ -162,7 +162,7 @@ TEST(Triangles, OfASphereAreClosedWithNormalsAgainstTheGradient)
     ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      const Vector inward = { 0.5, 0.5, 0.5 } - extracted.surface.positions[i];
+      const Vector inward = Vector{ 0.5, 0.5, 0.5 } - extracted.surface.positions[i];
       EXPECT_GT(dot(directionOf(inward), extracted.normals[i]), leastCosine);
     }
   };
@@ -188,7 +188,7 @@ TEST(Triangles, OfATorusAreClosedFollowTheFitsAndAreNotTurnedOver)
     return clouds::countOf(extracted.triangles,
       [&](const SurfaceTriangle& triangle)
       {
-        const auto [x, y, z] = positions[triangle[0]] - { 0.5, 0.5, 0.5 };
+        const auto [x, y, z] = positions[triangle[0]] - Vector{ 0.5, 0.5, 0.5 };
         const double ring = 1.0 - 0.28 / std::hypot(x, y);
         return dot({ ring * x, ring * y, z }, normalOf(positions, triangle)) >= 0.0;
       });
@@ -210,7 +210,7 @@ TEST(Triangles, StayWhereAMoveWouldTurnThemOver)
   {
     fits[i].order = FitOrder::Cubic;
     fits[i].gradient = { 0.0, 0.1, -2.0 };
-    fits[i].position = unmoved[i] + 0.1 * { 0.1, 0.2, 1.0 };
+    fits[i].position = unmoved[i] + 0.1 * Vector{ 0.1, 0.2, 1.0 };
   }
   const std::vector<LocalFit> before = fits;
   keepTrianglesUpright({}, unmoved, triangles, fits);
