@@ -25,7 +25,7 @@ public:
   }
 
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  bool add(TId leaf)
+  [[gnu::always_inline]] bool add(TId leaf)
   {
     if (2 * this->Count >= this->Entries.size())
     {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Otherwise, assignments are not inlined in large functions.
+#if defined(__GNUC__) && !defined(EIGEN_STRONG_INLINE)
+#define EIGEN_STRONG_INLINE __attribute__((always_inline)) inline
+#endif
 #include <Eigen/Core>
 
 #include <cstddef>
