@@ -3,7 +3,10 @@
 
 #include "Core/Base/Vector.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace isopoint
 {
@@ -23,6 +26,24 @@ struct Region
     return side[2] > side[longest] ? 2 : longest;
   }
 };
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+constexpr Region everywhere{ { -unbounded, -unbounded, -unbounded },
+  { unbounded, unbounded, unbounded } };
+constexpr Region emptyRegion{ everywhere.upper, everywhere.lower };
+
+/// The smallest box around two boxes.
+inline Region united(const Region& a, const Region& b)
+{
+  Region box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+  }
+  return box;
+}
 
 /// The splitting plane halfway between the last coordinate of the lower half and the first of the
 /// upper half: last <= result <= first.

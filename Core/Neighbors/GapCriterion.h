@@ -65,8 +65,8 @@ public:
     const Vector center = positionOf(end);
     SearchBehind<TSample> search{ *this, tree, bounds, center,
       offsetBetween(center, positionOf(other)), {} };
-    return searchRegion(tree, SampleTree<TSample>::rootNode,
-      this->boxAround(center, search.edge.length), search);
+    return searchRegion(
+      tree, SampleTree<TSample>::rootNode, this->boxAround(center, search.edge.length), search);
   }
 
   /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.

@@ -28,8 +28,7 @@ struct ExtentQuery
 constexpr double leastCosineAhead = 0.7071;
 
 /// Bounding boxes of unsplit nodes' samples, which can be far smaller than regions; by node.
-template <class TSample>
-using UnsplitBounds = ConcurrentMemo<SampleBox<TSample>>;
+using UnsplitBounds = ConcurrentMemo<Region>;
 
 /// Finds the extent of samples in a query's direction, farthest samples first. Skips subtrees whose
 /// regions show that they do not extend it.
@@ -38,7 +37,7 @@ class SampleExtentSearch
 {
 public:
   SampleExtentSearch(
-    const SampleTree<TSample>& tree, UnsplitBounds<TSample>& bounds, const ExtentQuery& query)
+    const SampleTree<TSample>& tree, UnsplitBounds& bounds, const ExtentQuery& query)
     : Tree(tree)
     , Bounds(bounds)
     , Query(query)
@@ -65,7 +64,7 @@ public:
 
   bool mayHold(const Node<TSample>& /*node*/, const Region& box) const
   {
-    return this->mayContribute(box);
+    return this->mayHold(box);
   }
 
   bool isUpperFirst(const Node<TSample>& node) const
@@ -82,12 +81,12 @@ public:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     const std::size_t end = node.positionsEnd();
     const bool areMany = end - node.begin > many;
-    const SampleBox<TSample> box =
+    const Region box =
       areMany ? this->Bounds.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })
-              : SampleBox<TSample>{};
+              : everywhere;
     for (std::size_t i = node.begin; i < end; ++i)
     {
-      if (areMany && (i - node.begin) % many == 0 && !this->mayContribute(box))
+      if (areMany && (i - node.begin) % many == 0 && !this->mayHold(box))
       {
         break;
       }
@@ -99,8 +98,7 @@ public:
 private:
   /// Whether a sample in a box may extend farther than those found on its side of the plane.
   /// Rounding is monotonic, so no value computed for a sample exceeds that for its box.
-  template <class TBox>
-  bool mayContribute(const TBox& box) const
+  bool mayHold(const Region& box) const
   {
     double ahead = 0.0; // upper bounds, as are the next two
     double height = 0.0;
@@ -163,7 +161,7 @@ private:
   }
 
   const SampleTree<TSample>& Tree;
-  UnsplitBounds<TSample>& Bounds;
+  UnsplitBounds& Bounds;
   const ExtentQuery& Query;
   double Above = 0.0; // extent of the samples on this side of the plane
   double Below = 0.0;
@@ -256,7 +254,7 @@ public:
 
 private:
   const SampleTree<TSample>& Tree;
-  mutable UnsplitBounds<TSample> Bounds; // thread-safe
+  mutable UnsplitBounds Bounds; // thread-safe
 };
 
 } // namespace isopoint

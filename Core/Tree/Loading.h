@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Hash.h"
+#include "Core/Base/Region.h"
 #include "Core/Tree/Path.h"
 #include "Core/Tree/SampleTree.h"
 
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace isopoint
@@ -28,25 +30,18 @@ bool isFinite(const TSample& sample)
 template <class TSample>
 struct SliceSummary
 {
-  std::size_t kept = 0; // bounds and range are valid if positive
-  typename TSample::Coordinate lower[3] = {};
-  typename TSample::Coordinate upper[3] = {};
-  typename TSample::Value minimum = {};
-  typename TSample::Value maximum = {};
+  using Value = typename TSample::Value;
+
+  std::size_t kept = 0;
+  Region region = emptyRegion; // of the kept samples
+  Value minimum = std::numeric_limits<Value>::infinity();
+  Value maximum = -std::numeric_limits<Value>::infinity();
 
   void add(const TSample& sample)
   {
-    if (this->kept++ == 0)
-    {
-      std::copy_n(sample.position, 3, this->lower);
-      std::copy_n(sample.position, 3, this->upper);
-      this->minimum = this->maximum = sample.value;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->lower[axis] = std::min(this->lower[axis], sample.position[axis]);
-      this->upper[axis] = std::max(this->upper[axis], sample.position[axis]);
-    }
+    ++this->kept;
+    const Vector position = positionOf(sample);
+    this->region = united(this->region, { position, position });
     this->minimum = std::min(this->minimum, sample.value);
     this->maximum = std::max(this->maximum, sample.value);
   }
@@ -74,26 +69,18 @@ SliceSummary<TSample> loadSlice(
 template <class TSample>
 void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>>& slices)
 {
-  Node<TSample>& root = tree.nodes[SampleTree<TSample>::rootNode];
-  root = makeNode<TSample>(0, tree.samples.size());
-  bool first = true;
+  SliceSummary<TSample> all;
   for (const SliceSummary<TSample>& slice : slices)
   {
-    if (slice.kept == 0)
-    {
-      continue;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double lower = slice.lower[axis];
-      const double upper = slice.upper[axis];
-      tree.region.lower[axis] = first ? lower : std::min(tree.region.lower[axis], lower);
-      tree.region.upper[axis] = first ? upper : std::max(tree.region.upper[axis], upper);
-    }
-    root.minimum = first ? slice.minimum : std::min(root.minimum, slice.minimum);
-    root.maximum = first ? slice.maximum : std::max(root.maximum, slice.maximum);
-    first = false;
+    all.region = united(all.region, slice.region);
+    all.minimum = std::min(all.minimum, slice.minimum);
+    all.maximum = std::max(all.maximum, slice.maximum);
   }
+  tree.region = all.region;
+  Node<TSample>& root = tree.nodes[SampleTree<TSample>::rootNode];
+  root = makeNode<TSample>(0, tree.samples.size());
+  root.minimum = all.minimum;
+  root.maximum = all.maximum;
 }
 
 /// Creates a tree of only a root from an input of `count` items, each read once.

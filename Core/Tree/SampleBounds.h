@@ -4,57 +4,31 @@
 #include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Offset.h"
 #include "Core/Base/RawArray.h"
+#include "Core/Base/Region.h"
 #include "Core/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <mutex>
 
 namespace isopoint
 {
 
-/// The bounding box of samples.
+/// The bounding box of a node's samples. O(samples), O(1) for a leaf.
 template <class TSample>
-struct SampleBox
+Region boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
 {
-  typename TSample::Coordinate lower[3];
-  typename TSample::Coordinate upper[3];
-};
-
-template <class TSample>
-SampleBox<TSample> united(const SampleBox<TSample>& a, const SampleBox<TSample>& b)
-{
-  SampleBox<TSample> box;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
-  }
-  return box;
-}
-
-/// O(samples of the node), O(1) for a leaf.
-template <class TSample>
-SampleBox<TSample> boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
-{
-  const auto boxOf = [](const TSample& sample)
-  {
-    SampleBox<TSample> box;
-    std::copy_n(sample.position, 3, box.lower);
-    std::copy_n(sample.position, 3, box.upper);
-    return box;
-  };
-  SampleBox<TSample> box = boxOf(tree.samples[node.begin]);
+  Region box = emptyRegion;
   for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
   {
-    box = united(box, boxOf(tree.samples[i]));
+    const Vector position = positionOf(tree.samples[i]);
+    box = united(box, { position, position });
   }
   return box;
 }
 
 /// The bounding boxes of the samples of split nodes, which can be far smaller than their regions.
-/// Memory: six coordinates per split node once compute() has run. The tree must not change
+/// Memory: a box per split node once compute() has run. The tree must not change
 /// meanwhile, except that a partial tree may be split further.
 template <class TSample>
 class SampleBounds
@@ -78,7 +52,7 @@ public:
       {
         this->Boxes.resize(this->Tree.usedPairs);
         this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode],
-          [this](std::size_t pair, const Box& box) { this->Boxes[pair] = box; });
+          [this](std::size_t pair, const Region& box) { this->Boxes[pair] = box; });
       });
   }
 
@@ -93,26 +67,24 @@ public:
       return offsetsToBox(from, position, position);
     }
     const auto pair = static_cast<std::size_t>(node.childPair);
-    const Box box = this->Tree.isPartial
-                      ? this->BoxesOnDemand.at(
-                          pair, [&]() { return this->boxOf(node, [](std::size_t, const Box&) {}); })
-                      : this->Boxes[pair];
+    const Region box = this->Tree.isPartial
+                         ? this->BoxesOnDemand.at(pair,
+                             [&]() { return this->boxOf(node, [](std::size_t, const Region&) {}); })
+                         : this->Boxes[pair];
     return offsetsToBox(from, box.lower, box.upper);
   }
 
 private:
-  using Box = SampleBox<TSample>;
-
   /// @param note(pair, box) called for each split node with its pair of children
   template <class Note>
-  Box boxOf(const Node<TSample>& node, const Note& note) const
+  Region boxOf(const Node<TSample>& node, const Note& note) const
   {
     if (!node.isSplit())
     {
       this->require(node);
       return boxOfSamples(this->Tree, node);
     }
-    const Box box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
+    const Region box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
       this->boxOf(this->Tree.nodes[node.upperNode()], note));
     note(static_cast<std::size_t>(node.childPair), box);
     return box;
@@ -120,18 +92,13 @@ private:
 
   void require(const Node<TSample>& node) const
   {
-    const auto everywhere = []()
-    {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      return Region{ { -infinity, -infinity, -infinity }, { infinity, infinity, infinity } };
-    };
-    requireSamples(
-      this->Tree, static_cast<std::size_t>(&node - this->Tree.nodes.data()), everywhere);
+    const auto index = static_cast<std::size_t>(&node - this->Tree.nodes.data());
+    requireSamples(this->Tree, index, []() { return everywhere; });
   }
 
   const SampleTree<TSample>& Tree;
-  RawArray<Box> Boxes;                       // by pair of children
-  mutable ConcurrentMemo<Box> BoxesOnDemand; // likewise, of a partial tree
+  RawArray<Region> Boxes;                       // by pair of children
+  mutable ConcurrentMemo<Region> BoxesOnDemand; // likewise, of a partial tree
   std::once_flag Computed;
 };
 
