@@ -37,8 +37,7 @@ Ray Camera::through(double x, double y, float& skipped) const
   const double skip = std::max(along, 0.0);
   skipped = static_cast<float>(skip);
   const auto at = [&](std::size_t axis)
-  {
-    return static_cast<float>(origin[axis] + skip * offset[axis]); };
+  { return static_cast<float>(origin[axis] + skip * offset[axis]); };
   Ray ray;
   ray.origin = { at(0), at(1), at(2) };
   ray.direction = { static_cast<float>(offset[0]), static_cast<float>(offset[1]),
