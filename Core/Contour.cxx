@@ -12,7 +12,7 @@ std::vector<ExtractedIsosurface> extractIsovalues(const Execution& execution,
 {
   const std::size_t count = report.isovalues.size();
   ExtractionRequest request = requestOf(options);
-  request.ghostRings = ghostRings;
+  request.triangleGhostRings = ghostRings;
   const bool hasGhosts = extractor.isOnRanks() && ghostRings > 0 && !request.triangles;
   std::vector<ExtractedIsosurface> surfaces;
   std::vector<ExtractedIsosurface> ghosts(hasGhosts ? count : 0);

@@ -28,9 +28,10 @@
 namespace isopoint
 {
 
-/// Rings of isopoints around a rank's own that are its ghosts: if splats of the second ring are
-/// visible, so are the splats that they overlap (docs/ranks.md).
-inline constexpr int ghostRings = 5;
+/// The number of rings of ghost isopoints around a rank's own (docs/ranks.md): if splats of the
+/// second ring are visible, so are the splats that they overlap. With shapes, splatRings replace
+/// it.
+inline constexpr int pointGhostRings = 5;
 
 /// Some isopoints, with their splats. @throws std::bad_alloc, Aborted
 /// @param splats of all isopoints, among which `indices` chooses; or empty
@@ -63,7 +64,7 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
   ExtractedIsosurface result = withSplats(execution, tree,
     chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
   result.normals = chosenOf(execution, all.normals, part.vertices);
-  result.areElsewhere = std::move(part.areElsewhere);
+  result.areGhosts = std::move(part.areGhosts);
   result.triangles = std::move(part.triangles);
   result.ghostTriangles = part.ghostCount;
   result.droppedInGaps = rank == 0 ? all.droppedInGaps : 0;
@@ -75,7 +76,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
   TRanks& ranks, const ExtractionRequest& request)
 {
   TriangleExtraction<TSample, TRanks> extraction(
-    execution, cloud.tree, ranks, cloud.neighborhoods, cloud.band, request.isosurface);
+    execution, cloud.tree, ranks, cloud.neighborhoods, cloud.keptTetrahedra, request.isosurface);
   TriangleSurface found = extraction.extract();
   throwIfAborted(execution);
   ExtractedIsosurface result;
@@ -100,7 +101,7 @@ ExtractedIsosurface extractTriangles(const Execution& execution, SampleCloud<TSa
   {
     SharedRanks<TSample> ranks(*processes, cloud.tree, cloud.begins);
     return partOnRank(execution, ranks, cloud.tree, findTriangles(execution, cloud, ranks, request),
-      request.ghostRings);
+      request.triangleGhostRings);
   }
   SingleRank<TSample> rank(cloud.tree);
   ExtractedIsosurface result = findTriangles(execution, cloud, rank, request);
@@ -130,7 +131,7 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
   const bool hasShapes = request.splats && request.splats->shapes;
   const bool looksAround = (request.splats || ghosts) && !cloud.tree.isEmpty();
   surroundings.gather(
-    looksAround ? std::max(ghosts ? ghostRings : 3, hasShapes ? splatRings : 3) : 0,
+    looksAround ? std::max(ghosts ? pointGhostRings : 3, hasShapes ? splatRings : 3) : 0,
     ghosts != nullptr);
   std::vector<Splat> splats;
   if (request.splats && looksAround)
@@ -149,13 +150,14 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
   }
   if (ghosts)
   {
-    const std::vector<std::size_t> elsewhere = surroundings.elsewhere();
+    const std::vector<std::size_t> elsewhere = surroundings.ghosts();
     *ghosts = withSplats(part, cloud.tree, chosenIsopoints(part, surroundings.surface(), elsewhere),
       splats, elsewhere);
-    ghosts->areElsewhere.resize(elsewhere.size(), true);
+    ghosts->areGhosts.resize(elsewhere.size(), true);
   }
-  const std::vector<std::size_t> home = surroundings.home();
-  ExtractedIsosurface result = withSplats(part, cloud.tree, surroundings.takeHome(), splats, home);
+  const std::vector<std::size_t> owned = surroundings.owned();
+  ExtractedIsosurface result =
+    withSplats(part, cloud.tree, surroundings.takeOwned(), splats, owned);
   result.droppedInGaps = dropped;
   return result;
 }

@@ -24,9 +24,9 @@ struct ExtractionRequest
   /// tetrahedralization of the samples (docs/triangles.md). Then angle and minimum spacing have no
   /// effect, and normals replace splats.
   bool triangles = false;
-  /// On ranks: how many rings of other ranks' triangles to add; each has the triangles with a
-  /// vertex in the part within. The same on all ranks.
-  int ghostRings = 0;
+  /// On ranks: how many rings of other ranks' triangles to add. Each ring consists of the triangles
+  /// that share a vertex with the part inside it. The same on all ranks.
+  int triangleGhostRings = 0;
 };
 
 /// Results for one isovalue.
@@ -40,13 +40,13 @@ struct ExtractedIsosurface
   /// Crossing edges, or tetrahedra, dropped in gaps. On ranks, each counts once.
   std::size_t droppedInGaps = 0;
   /// Per isopoint, whether it belongs to another rank; empty if none does.
-  std::vector<bool> areElsewhere;
+  std::vector<bool> areGhosts;
 
   /// The number of isopoints that belong to this rank.
   std::size_t countHere() const
   {
     return this->surface.size() - static_cast<std::size_t>(std::count(
-                                    this->areElsewhere.begin(), this->areElsewhere.end(), true));
+                                    this->areGhosts.begin(), this->areGhosts.end(), true));
   }
 };
 

@@ -29,8 +29,9 @@ struct SampleCloud
 {
   SampleTree<TSample> tree;
   NeighborhoodCache<typename TSample::Id> neighborhoods;
-  std::vector<std::uint64_t> begins;              // see SharedTree; only on ranks
-  std::unique_ptr<KeptTetrahedra> band = nullptr; // of the last triangles, if worth the memory
+  std::vector<std::uint64_t> begins; // see SharedTree; only on ranks
+  std::unique_ptr<KeptTetrahedra> keptTetrahedra =
+    nullptr; // of the last triangles, if worth the memory
 };
 
 /// IsosurfaceExtractor::extract() for one layout, each of which is compiled in its own file.
@@ -115,7 +116,8 @@ public:
 
   /// Replaces the values if positions, types and items in use equal those of the last load(), and
   /// keeps the tree; otherwise nothing changes. All ranks must still hold what they loaded.
-  /// Positions are compared by a digest; different ones pass with a probability of 2^-64.
+  /// Positions are compared by a hash: different ones pass with a probability of 2^-64, unless
+  /// someone chose them to.
   /// @returns whether values were replaced
   /// @throws Aborted, after which the old values are kept or all samples dropped; std::bad_alloc,
   /// after which there are no samples
@@ -159,7 +161,7 @@ private:
     const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
     SampleTree<TSample> loaded = loadSamples<TSample>(
       partOf(execution, 0.0, 0.5), static_cast<std::size_t>(*own), read, first);
-    this->Positions = digestOfSamples(execution, loaded.samples, first);
+    this->Positions = hashOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared = SharedTreeBuilder<TSample>(processes, std::move(loaded), all)
                                    .build(partOf(execution, 0.5, 1.0));
     this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
@@ -208,9 +210,9 @@ private:
       this->Processes ? this->ItemCounts[static_cast<std::size_t>(this->Processes->rank())]
                       : this->ItemCount;
     const std::uint64_t positions =
-      this->Processes ? this->Positions : digestOfSamples(execution, tree.samples, 0);
+      this->Processes ? this->Positions : hashOfSamples(execution, tree.samples, 0);
     const bool isSame =
-      count == loaded && digestOfItems<TSample>(execution, count, read) == positions;
+      count == loaded && hashOfItems<TSample>(execution, count, read) == positions;
     return this->Processes ? !this->Processes->isAny(!isSame) : isSame;
   }
 
@@ -221,7 +223,7 @@ private:
   // Only on ranks:
   ProcessGroup* Processes = nullptr;
   std::vector<std::uint64_t> ItemCounts; // by rank
-  std::uint64_t Positions = 0;           // digest of this rank's items
+  std::uint64_t Positions = 0;           // hash of this rank's items
 };
 
 } // namespace isopoint

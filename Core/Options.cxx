@@ -107,7 +107,7 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.angle = options.angle;
   request.isosurface.dropsGaps = options.dropGaps;
   request.isosurface.fit = fitRequestOf(options);
-  request.isosurface.partsCreases = options.computeNormals;
+  request.isosurface.duplicatesCreaseVertices = options.computeNormals;
   request.isosurface.regularizes = options.regularize;
   request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;

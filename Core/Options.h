@@ -114,7 +114,7 @@ void forEachOption(const Options& options, const Visitor& visit)
   }
 }
 
-/// Translates an option's name above to that in a host of the core.
+/// Translates an option's name above to its name in the program that uses the core.
 using OptionNaming = std::string (*)(const char* name);
 
 inline std::string sameName(const char* name)

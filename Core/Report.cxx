@@ -195,10 +195,10 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
 /// If more than a tenth of the corners stay apart, pictures have holes.
 Message describeCornersApart(const Report& report)
 {
-  constexpr std::uint64_t leastShare = 10;
-  constexpr std::uint64_t leastCorners = 1000; // the share of fewer is not significant
-  if (report.innerCorners < leastCorners ||
-      leastShare * report.cornersApart <= report.innerCorners || areMostUnprojected(report))
+  constexpr std::uint64_t minShare = 10;
+  constexpr std::uint64_t minCorners = 1000; // the share of fewer is not significant
+  if (report.innerCorners < minCorners || minShare * report.cornersApart <= report.innerCorners ||
+      areMostUnprojected(report))
   {
     return {};
   }
@@ -265,7 +265,7 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   this->points[isovalue] += surface.countHere();
   this->droppedInGaps += surface.droppedInGaps;
   const auto isHere = [&](std::size_t i)
-  { return surface.areElsewhere.empty() || !surface.areElsewhere[i]; };
+  { return surface.areGhosts.empty() || !surface.areGhosts[i]; };
   for (std::size_t i = 0; i < surface.splats.size(); ++i)
   {
     this->innerCorners += isHere(i) ? surface.splats[i].counts.inner : 0;

@@ -23,7 +23,7 @@
 
 vtkScatteredContourFilter::vtkScatteredContourFilter()
   : Options(std::make_unique<vtkIsopointOptions>())
-  , LastUpdate(std::make_unique<vtkIsopointUpdate>(this))
+  , Updater(std::make_unique<vtkIsopointUpdate>(this))
 {
   this->Options->ContourValues = this->ContourValues;
   this->SetInputArrayToProcess(
@@ -54,7 +54,7 @@ void vtkScatteredContourFilter::SetController(vtkMultiProcessController* control
 {
   if (this->GetController() != controller)
   {
-    this->LastUpdate->SetController(controller);
+    this->Updater->SetController(controller);
     this->Modified();
   }
 }
@@ -66,7 +66,7 @@ void vtkScatteredContourFilter::SetUseGlobalController(bool use)
 
 vtkMultiProcessController* vtkScatteredContourFilter::GetController() const
 {
-  return this->LastUpdate->GetController();
+  return this->Updater->GetController();
 }
 
 vtkMTimeType vtkScatteredContourFilter::GetMTime()
@@ -76,27 +76,27 @@ vtkMTimeType vtkScatteredContourFilter::GetMTime()
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfSamples() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetReport().samples);
+  return static_cast<vtkIdType>(this->Updater->GetReport().samples);
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfExtractedPoints() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetReport().pointCount());
+  return static_cast<vtkIdType>(this->Updater->GetReport().pointCount());
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfSkippedSamples() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetReport().skippedCount());
+  return static_cast<vtkIdType>(this->Updater->GetReport().skippedCount());
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfUnprojectedPoints() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetReport().unprojectedPoints);
+  return static_cast<vtkIdType>(this->Updater->GetReport().unprojectedPoints);
 }
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfDroppedInGaps() const
 {
-  return static_cast<vtkIdType>(this->LastUpdate->GetReport().droppedInGaps);
+  return static_cast<vtkIdType>(this->Updater->GetReport().droppedInGaps);
 }
 
 int vtkScatteredContourFilter::FillInputPortInformation(int, vtkInformation* info)
@@ -140,7 +140,7 @@ int vtkScatteredContourFilter::RequestUpdateExtent(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   vtkInformation* const info = inputVector[0]->GetInformationObject(0);
-  if (!this->LastUpdate->IsOnRanks())
+  if (!this->Updater->IsOnRanks())
   {
     // Neighbors of a piece's samples may be in any other piece.
     info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
@@ -155,7 +155,7 @@ int vtkScatteredContourFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   // Returning 0 would add an error of the executive to that of this filter.
-  this->ErrorCode = this->LastUpdate->Run(
+  this->ErrorCode = this->Updater->Run(
     *this->Options, inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
   return 1;
 }

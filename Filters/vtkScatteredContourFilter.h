@@ -159,13 +159,13 @@ public:
   /**
    * Whether the surface ends where the spacing of the samples jumps, as at voids or at the free
    * surface of a fluid. An isopoint is dropped if its edge is longer than twice the spacing of the
-   * samples behind both ends, and is connected, through other edges like it, with an edge longer
-   * than four times that. Edges with a common end are connected. The spacing behind the end x of an
-   * edge {x, y} is the distance from x to the second nearest sample position (the third nearest for
-   * the factor of four) within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the direction from
-   * y to x; it is infinite if there are fewer. Edges between a dense and a sparse region, to an
-   * isolated sample, and between lines or slices of samples remain, and closed surfaces amid
-   * samples stay closed. For triangles see vtkScatteredIsosurfaceFilter. Default: on.
+   * samples behind both ends, and if a chain of such edges, each with a common end with the next,
+   * leads to one longer than four times the spacing behind both its ends. The spacing behind the
+   * end x of an edge {x, y} is the distance from x to the second nearest sample position (the third
+   * nearest for the factor of four) within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
+   * direction from y to x; it is infinite if there are fewer. Edges between a dense and a sparse
+   * region, to an isolated sample, and between lines or slices of samples remain, and closed
+   * surfaces amid samples stay closed. For triangles see vtkScatteredIsosurfaceFilter. Default: on.
    */
   virtual void SetDropGaps(vtkTypeBool drop);
   virtual vtkTypeBool GetDropGaps();
@@ -273,7 +273,8 @@ public:
   vtkIdType GetNumberOfExtractedPoints() const;
 
   /**
-   * The number of input points (or cells, or leaves) that the last update skipped: see guarantee 3.
+   * The number of input points (or cells, or leaves) that the last update skipped. See guarantee 3
+   * of vtkScatteredIsopointFilter.
    */
   vtkIdType GetNumberOfSkippedSamples() const;
 
@@ -284,8 +285,8 @@ public:
   vtkIdType GetNumberOfUnprojectedPoints() const;
 
   /**
-   * The number of edges across isosurfaces (for triangles, of tetrahedra) that the last update
-   * dropped because they lie in gaps. See SetDropGaps().
+   * The number of crossing edges (for triangles, crossing tetrahedra) that the last update dropped
+   * because they lie in gaps. See SetDropGaps().
    */
   vtkIdType GetNumberOfDroppedInGaps() const;
 
@@ -314,7 +315,7 @@ private:
   vtkScatteredContourFilter(const vtkScatteredContourFilter&) = delete;
   void operator=(const vtkScatteredContourFilter&) = delete;
 
-  std::unique_ptr<vtkIsopointUpdate> LastUpdate;
+  std::unique_ptr<vtkIsopointUpdate> Updater;
 };
 
 #endif

@@ -53,7 +53,7 @@
  * 6. Each update gives at most one warning for each of these: isovalues outside the range of the
  *    array; isovalues in the range without a surface; all samples skipped; no fit at more than half
  *    of the points although fits were requested; splats apart at more than a tenth of their
- *    corners; each array that a computed one replaces; and pieces of several processes (see
+ *    inner corners; each array that a computed one replaces; and pieces of several processes (see
  *    vtkScatteredContourFilter). If only some samples are skipped, there is a MessageEvent instead.
  *    There is neither if all skipped samples are ghosts or hidden, nor while the cause of the last
  *    update's message lasts. In a process group, the first rank reports for all.

@@ -31,7 +31,7 @@
  * (NORMALS_FROM_FIELD), or means of the normals of the triangles around (NORMALS_FROM_PLANES, and
  * where the samples yield no gradient).
  *
- * CREASE_FIT adds points on the edges and at the corners of bodies, behind all others; they have
+ * CREASE_FIT adds points on the edges and at the corners of bodies, after all others; they have
  * the interpolated arrays of a point nearby. Points there may be merged. With ComputeNormals,
  * points on edges are repeated for each side, which shades the sides sharply: the surface then has
  * borders with coincident points. See docs/triangles.md.

@@ -103,7 +103,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
   bool areFloatPositions, const isopoint::Report& counts, std::size_t samples)
   : report(counts)
-  , Run(execution)
+  , Exec(execution)
   , SampleCount(samples)
   , Parts(std::move(surfaces))
   , Points(makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions),
@@ -156,7 +156,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
 isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   const isopoint_array* points, const isopoint_array* normals, const isopoint_array* axes,
   const isopoint_array* polygons)
-  : Run(execution)
+  : Exec(execution)
   , Points(coordinatesOf(points))
   , Normals(numbersOf<float>(normals, "the normals", this->pointCount(), 3))
   , SplatAxes(numbersOf<float>(axes, "the splat axes", this->pointCount(), 3))
@@ -212,7 +212,7 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
       for (const isopoint::ExtractedIsosurface& part : this->Parts)
       {
         isopoint::interpolateComponents(
-          this->Run, part.surface, reader.components(),
+          this->Exec, part.surface, reader.components(),
           [&](std::uint64_t sample, int component) {
             return static_cast<double>(reader.at<T>(static_cast<std::size_t>(sample), component));
           },
@@ -258,11 +258,11 @@ void isopoint_surface::makeSplatMesh(double scale)
     return isopoint::fanOf(position, isopoint::unitNormal(vectorAt(this->Normals)),
       vectorAt(this->SplatAxes), numbers, scale, error);
   };
-  const isopoint::Execution making = isopoint::partOf(this->Run, 0.0, 0.9);
+  const isopoint::Execution making = isopoint::partOf(this->Exec, 0.0, 0.9);
   this->Splats =
-    SplatArrays(this->Run, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
+    SplatArrays(this->Exec, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
   this->HasSplatMesh = true;
-  this->Run.progress(1.0);
+  this->Exec.progress(1.0);
 }
 
 isopoint_surface::SplatArrays::SplatArrays(
@@ -317,7 +317,7 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
   {
     using T = decltype(type);
     isopoint::meansAtVertices(
-      this->Run, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
+      this->Exec, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
       [&](std::size_t point, std::size_t i)
       { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); },
       static_cast<T*>(result));

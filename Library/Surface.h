@@ -60,7 +60,7 @@ private:
     std::vector<std::int64_t> triangles;
   };
 
-  isopoint::Execution Run;
+  isopoint::Execution Exec;
   std::size_t SampleCount = 0;                      // including skipped ones
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
   Coordinates Points;

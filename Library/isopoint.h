@@ -233,7 +233,7 @@ ISOPOINT_API const char* isopoint_get_message(
 /* The number of points that no fit moved; all points without a projection. */
 ISOPOINT_API int64_t isopoint_get_unprojected_count(const isopoint_surface* surface);
 
-/* The number of edges (for triangles, of tetrahedra) dropped because they lie in gaps. */
+/* The number of crossing edges (for triangles, crossing tetrahedra) dropped in gaps. */
 ISOPOINT_API int64_t isopoint_get_dropped_count(const isopoint_surface* surface);
 
 /* The arrays of a surface. Points are ordered by isovalue, then by edge; those that

@@ -222,7 +222,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   illuminants.ambient.color = { ambient, ambient, ambient };
   illuminants.ambient.distance = static_cast<float>(self->AmbientDistance);
   illuminants.hasShadows = self->Shadows != 0;
-  illuminants.mostBounces = self->MaximumNumberOfBounces;
+  illuminants.maxBounces = self->MaximumNumberOfBounces;
 
   vtkRenderWindow* const window = renderer->GetRenderWindow();
   isopoint::Execution execution;

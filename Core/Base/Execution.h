@@ -80,8 +80,8 @@ inline void throwIfAborted(const Execution& execution)
   }
 }
 
-/// Runs the task over [0, count); see `ParallelFor`. Exceptions must not cross the scheduler: the
-/// first one stops ranges that have not begun, and is rethrown here.
+/// Runs the task over [0, count); see `ParallelFor`. Exceptions must not cross the scheduler. After
+/// one, ranges that have not begun do nothing; the first one caught is rethrown here.
 inline void forRanges(
   const Execution& execution, std::size_t count, std::size_t grain, const RangeTask& task)
 {
@@ -106,7 +106,7 @@ inline void forRanges(
       catch (...)
       {
         const std::lock_guard<std::mutex> lock(failureMutex);
-        failure = std::current_exception();
+        failure = failure ? failure : std::current_exception();
         failed = true;
       }
     });

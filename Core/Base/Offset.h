@@ -34,7 +34,7 @@ struct OffsetBounds
 {
   Vector lower;
   Vector upper;
-  double leastSquaredLength;
+  double minSquaredLength;
   double greatestSquaredLength;
 };
 
@@ -52,7 +52,7 @@ OffsetBounds offsetsToBox(const Vector& from, const TBound& lower, const TBound&
     least[axis] = std::max({ bounds.lower[axis], -bounds.upper[axis], 0.0 });
     greatest[axis] = std::max(-bounds.lower[axis], bounds.upper[axis]);
   }
-  bounds.leastSquaredLength = dot(least, least);
+  bounds.minSquaredLength = dot(least, least);
   bounds.greatestSquaredLength = dot(greatest, greatest);
   return bounds;
 }
@@ -71,7 +71,7 @@ double extremeProduct(const Offset& offset, const OffsetBounds& bounds, const Ch
   return products[0] + products[1] + products[2];
 }
 
-inline double leastProduct(const Offset& offset, const OffsetBounds& bounds)
+inline double minProduct(const Offset& offset, const OffsetBounds& bounds)
 {
   return extremeProduct(offset, bounds, [](double a, double b) { return std::min(a, b); });
 }

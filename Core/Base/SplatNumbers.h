@@ -21,13 +21,13 @@ struct SplatCorner
 };
 
 /// Splats with more corners lose their shortest sides.
-constexpr std::size_t mostCorners = 8;
+constexpr std::size_t maxCorners = 8;
 
-using SplatCorners = std::array<SplatCorner, mostCorners>;
+using SplatCorners = std::array<SplatCorner, maxCorners>;
 
 /// Output layout: the members of each corner in order, corner after corner.
 constexpr std::size_t numbersOfCorner = 5;
-constexpr std::size_t numbersOfSplat = numbersOfCorner * mostCorners;
+constexpr std::size_t numbersOfSplat = numbersOfCorner * maxCorners;
 using SplatNumbers = std::array<double, numbersOfSplat>;
 
 inline SplatNumbers numbersOf(const SplatCorners& corners)

@@ -201,14 +201,14 @@ private:
     const TSample& otherSample = this->Tree.sampleOf(otherLeaf);
     this->addEdge({ sample.id, static_cast<Id>(leaf.nodeIndex()), value },
       { otherSample.id, static_cast<Id>(otherLeaf), otherValue });
-    if (this->ListsGaps && this->isStrong(leaf, sample, otherSample))
+    if (this->ListsGaps && this->isGapSeed(leaf, sample, otherSample))
     {
       this->GapEdges.push_back(this->Edges.back());
     }
   }
 
   /// Whether the strong gap criterion rejects the edge; mayDrop() quickly rules out most.
-  bool isStrong(const Path& leaf, const TSample& own, const TSample& other) const
+  bool isGapSeed(const Path& leaf, const TSample& own, const TSample& other) const
   {
     const GapCriterion strong = GapCriterion::strong();
     return strong.mayDrop(

@@ -3,8 +3,8 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Extraction/IndexSet.h"
 #include "Core/Extraction/Isosurface.h"
-#include "Core/Extraction/LeafSet.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
@@ -164,7 +164,7 @@ public:
 
     void addLeaf(Id leaf)
     {
-      if (this->Isopoints.size() >= mostIsopoints || !this->Visited.add(leaf))
+      if (this->Isopoints.size() >= maxIsopoints || !this->Visited.add(leaf))
       {
         return;
       }
@@ -181,9 +181,9 @@ public:
     Id Leaf = 0;
     std::vector<std::size_t> Isopoints;
     std::vector<std::size_t> RingEnds; // in Isopoints
-    LeafSet<Id> Ends;                  // whose neighbors are listed
-    LeafSet<Id> Visited;
-    LeafSet<std::size_t> Listed;
+    IndexSet<Id> Ends;                 // whose neighbors are listed
+    IndexSet<Id> Visited;
+    IndexSet<std::size_t> Listed;
   };
 
 private:
@@ -191,7 +191,7 @@ private:
   static constexpr std::size_t most = 256;
 
   /// Once this many isopoints are listed, no leaf is added.
-  static constexpr std::size_t mostIsopoints = 2048;
+  static constexpr std::size_t maxIsopoints = 2048;
 
   /// The isopoints whose edges end in a leaf; none if there are more than `most`.
   IndexSpan<std::size_t> isopointsAt(Id leaf) const

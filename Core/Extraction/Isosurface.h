@@ -70,7 +70,7 @@ struct IsosurfaceRequest
   /// extraction, unless it is large (see KeptTetrahedra).
   bool keepsTetrahedra = true;
   /// Triangles with creases only: whether vertices are repeated on each side, for separate normals.
-  bool partsCreases = false;
+  bool duplicatesCreaseVertices = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
   bool regularizes = false;
 };

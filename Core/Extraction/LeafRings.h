@@ -4,7 +4,7 @@
 #include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractionContext.h"
-#include "Core/Extraction/LeafSet.h"
+#include "Core/Extraction/IndexSet.h"
 #include "Core/Neighbors/ImplicitNeighborhood.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Tree/CoincidentSamples.h"
@@ -116,10 +116,10 @@ public:
   /// Clears the cache once it is large: memory must not grow with the surface.
   void makeRoom()
   {
-    constexpr std::size_t mostLists = 4096;
-    constexpr std::size_t mostListed = std::size_t{ 1 } << 20;
-    if (this->Known.size() > mostLists || this->Found.size() > mostLists ||
-        this->CountListed > mostListed)
+    constexpr std::size_t maxLists = 4096;
+    constexpr std::size_t maxListed = std::size_t{ 1 } << 20;
+    if (this->Known.size() > maxLists || this->Found.size() > maxLists ||
+        this->CountListed > maxListed)
     {
       this->Known.clear();
       this->Found.clear();
@@ -151,7 +151,7 @@ public:
     constexpr double smallSize = 0.2;
     std::vector<Id>& some = rings.representatives;
     some.clear();
-    this->Implicit.moveTo(pathToLeaf(this->Tree, rings.leaf));
+    this->Implicit.moveTo(pathToNode(this->Tree, rings.leaf));
     this->Implicit.forEachSpread(
       smallSize, [&some](std::size_t neighbor) { some.push_back(static_cast<Id>(neighbor)); });
     rings.first = { some.data(), some.size() };
@@ -213,7 +213,7 @@ private:
   /// The neighbors of a leaf; none if there are too many. Valid until the next call of makeRoom().
   IndexSpan<Id> neighborsOf(Id leaf)
   {
-    constexpr std::size_t mostNeighbors = 256;
+    constexpr std::size_t maxNeighbors = 256;
     const auto found = this->Found.find(leaf);
     if (found != this->Found.end())
     {
@@ -221,7 +221,7 @@ private:
     }
     std::vector<Id> memory;
     const IndexSpan<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
-      static_cast<std::size_t>(leaf), mostNeighbors, memory);
+      static_cast<std::size_t>(leaf), maxNeighbors, memory);
     if (!memory.empty())
     {
       memory.resize(neighbors.count);
@@ -244,7 +244,7 @@ private:
   std::unordered_map<Id, Rings> Known;           // by leaf
   std::unordered_map<Id, std::vector<Id>> Found; // neighbors from searches, by leaf
   std::size_t CountListed = 0;                   // leaves in all second rings
-  LeafSet<Id> Listed;
+  IndexSet<Id> Listed;
   SampleSpacing Spacing;
 };
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Core/Extraction/ExtractionContext.h"
+#include "Core/Extraction/IndexSet.h"
 #include "Core/Extraction/LeafRings.h"
-#include "Core/Extraction/LeafSet.h"
 #include "Core/Fit/LocalFit.h"
 
 #include <array>
@@ -14,8 +14,8 @@
 namespace isopoint
 {
 
-/// Gathers the samples around edges, one edge at a time: one ring of touching cells around the
-/// ends, or two rings where the tree is refined for the isovalue. Memory is kept. For one thread.
+/// Gathers the samples around edges, one edge at a time: those of the cells that touch either end.
+/// widen() adds the neighbors of those across the isovalue. Memory is kept. For one thread.
 template <class TSample>
 class SampleGatherer
 {
@@ -133,7 +133,7 @@ private:
   LeafRings<TSample> AllRings;
   std::array<EndRings*, 2> Ends{}; // of the current edge, in tree order
   bool AreMany = false;            // whether both have too many neighbors
-  LeafSet<Id> Known;               // leaves whose samples are taken
+  IndexSet<Id> Known;              // leaves whose samples are taken
   std::vector<FitSample> Samples;
   bool IsWide = false;
 };

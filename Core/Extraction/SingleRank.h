@@ -91,7 +91,7 @@ private:
       execution, this->Tree, leaves.size(),
       [&](std::size_t i, std::vector<std::size_t>& unsplit)
       {
-        visitTouching(this->Tree, pathToLeaf(this->Tree, leaves[i]), maximumDepth,
+        visitTouching(this->Tree, pathToNode(this->Tree, leaves[i]), maximumDepth,
           [&](std::size_t node)
           {
             if (!this->Tree.nodes[node].isLeaf)

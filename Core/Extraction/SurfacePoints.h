@@ -21,8 +21,8 @@ struct SurfacePoints
   const std::vector<Vector>& decreasingEdges; // see Isosurface
   const std::vector<LocalFit>& fits;          // or empty
 
-  /// Canonical numbers of points, or empty for their indices. The lowest number represents points
-  /// at one position, and comes first among points at the same distance.
+  /// Canonical numbers of points, or empty for their indices. They break ties: between points at
+  /// the same distance, and between points with the same position and edge.
   std::vector<std::size_t> numbers = {};
 
   double isovalue = 0.0;

@@ -20,7 +20,7 @@ namespace
 {
 
 /// The greatest height of a close point above the tangent plane, in units of the thinning distance.
-constexpr double mostHeight = 0.25;
+constexpr double maxHeight = 0.25;
 
 /// Coordinates plus a distance up to this limit stay finite.
 constexpr double largestSpacing = 1e290;
@@ -46,9 +46,9 @@ bool areClose(const LocalFit& one, const LocalFit& other, double minimumSpacing)
   }
   const Vector normal = directionOf(one.gradient);
   const Vector otherNormal = directionOf(other.gradient);
-  return dot(normal, otherNormal) >= mostCreaseCosine &&
-         std::abs(dot(normal, offset)) <= mostHeight * reach &&
-         std::abs(dot(otherNormal, offset)) <= mostHeight * reach;
+  return dot(normal, otherNormal) >= maxCreaseCosine &&
+         std::abs(dot(normal, offset)) <= maxHeight * reach &&
+         std::abs(dot(otherNormal, offset)) <= maxHeight * reach;
 }
 
 /// The kept isopoints in hash grids, one per power of two of the thinning distance.

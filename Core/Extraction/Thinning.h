@@ -16,7 +16,7 @@ namespace isopoint
 /// With r = minimumSpacing * (smaller of the two spacings), two points are close if both have a
 /// fit, their distance is less than r, neither is more than r / 4 off the other's tangent plane,
 /// both gradients are finite and nonzero, and the cosine between them is at least
-/// `mostCreaseCosine`. So points on two sheets or on both sides of a crease are never close:
+/// `maxCreaseCosine`. So points on two sheets or on both sides of a crease are never close:
 /// consecutive sheets of one isovalue have opposite gradients, and the next but one is off the
 /// tangent plane. Points with spacings over 1e290 are not close to any.
 /// @param surface without coincident samples; nothing is dropped without fits

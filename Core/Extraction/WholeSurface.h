@@ -67,8 +67,8 @@ private:
 /// - surface(): all isopoints, each once, without coincident samples;
 /// - numbers(): numbers that break ties between points; empty if their indices do;
 /// - inner(): per isopoint, whether neighbors are needed around it; null for all;
-/// - home(), elsewhere(): indices of this rank's isopoints, and of all others;
-/// - takeHome(): moves out the surface of home().
+/// - owned(), ghosts(): indices of this rank's isopoints, and of all others;
+/// - takeOwned(): moves out the surface of owned().
 template <class TSample>
 class WholeSurface : public AllPoints
 {
@@ -77,7 +77,7 @@ public:
     const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
     Isosurface whole, bool /*hasFits*/)
     : AllPoints(whole.size())
-    , Run(execution)
+    , Exec(execution)
     , Tree(tree)
     , Whole(std::move(whole))
   {
@@ -91,25 +91,25 @@ public:
       return;
     }
     this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
-    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
+    this->Ordered = chosenIsopoints(this->Exec, this->Whole, this->Order);
   }
 
   const Isosurface& surface() const { return this->Ordered; }
   const std::vector<std::size_t>& numbers() const { return this->Order; }
   const std::vector<bool>* inner() const { return nullptr; }
 
-  std::vector<std::size_t> home() const
+  std::vector<std::size_t> owned() const
   {
     std::vector<std::size_t> places(this->Order.size());
-    forEachIndex(this->Run, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
+    forEachIndex(this->Exec, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
     return places;
   }
-  std::vector<std::size_t> elsewhere() const { return {}; }
+  std::vector<std::size_t> ghosts() const { return {}; }
 
-  Isosurface takeHome() { return std::move(this->Whole); }
+  Isosurface takeOwned() { return std::move(this->Whole); }
 
 private:
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   Isosurface Whole;
   std::vector<std::size_t> Order;

@@ -64,9 +64,9 @@ private:
   /// Fits pieces of at most a degree and reassigns samples, until no sample changes its piece.
   bool settle(int degree)
   {
-    constexpr int mostRounds = 7;
+    constexpr int maxRounds = 7;
     bool changed = true;
-    for (int round = 0; round < mostRounds && changed; ++round)
+    for (int round = 0; round < maxRounds && changed; ++round)
     {
       if (!this->refit(degree))
       {
@@ -266,7 +266,7 @@ std::size_t CreaseFit::pieceAt(const Vector& place) const
   return best;
 }
 
-double CreaseFit::leastSlope() const
+double CreaseFit::minSlope() const
 {
   double least = std::numeric_limits<double>::infinity();
   for (const Polynomial& piece : this->pieces)
@@ -283,7 +283,7 @@ bool CreaseFit::isSharp() const
     const Vector normal = directionOf(this->pieces[piece].gradientAt({}));
     for (std::size_t other = 0; other < piece; ++other)
     {
-      if (dot(normal, directionOf(this->pieces[other].gradientAt({}))) > mostCreaseCosine)
+      if (dot(normal, directionOf(this->pieces[other].gradientAt({}))) > maxCreaseCosine)
       {
         return false;
       }
@@ -294,7 +294,7 @@ bool CreaseFit::isSharp() const
 
 std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeights& weights)
 {
-  constexpr std::size_t mostPieces = 4; // three at the corner of a box, and one more
+  constexpr std::size_t maxPieces = 4; // three at the corner of a box, and one more
   std::optional<CreaseFit> best;
   const auto take = [&best](const CreaseFit& fit)
   {
@@ -309,7 +309,7 @@ std::optional<CreaseFit> fitCrease(const FrameSamples& samples, const FrameWeigh
   {
     PlaneClustering parts(samples, weights, sense);
     bool isDetermined = parts.start();
-    for (std::size_t pieces = 2; isDetermined && pieces <= mostPieces; ++pieces)
+    for (std::size_t pieces = 2; isDetermined && pieces <= maxPieces; ++pieces)
     {
       isDetermined = parts.split(pieces == 2 ? share : 0.5);
       if (isDetermined)

@@ -26,7 +26,7 @@ struct CreaseFit
   std::size_t pieceAt(const Vector& place) const;
 
   /// The least slope of a piece at the origin.
-  double leastSlope() const;
+  double minSlope() const;
 
   /// Whether any two pieces meet at 25 degrees or more.
   bool isSharp() const;

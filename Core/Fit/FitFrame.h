@@ -22,8 +22,9 @@ public:
   /// Moves to an edge; there are no samples yet.
   void enter(const FitEdge& edge, double isovalue);
 
-  /// Adds samples in order. In the first call, the nearest samples come first, and of very many
-  /// only the nearest are added. O(last - first)
+  /// Adds samples. The nearest come first while there are fewer than FrameSamples::nearest. If
+  /// there would be more than FrameSamples::most, only the nearest of these are added. O(last -
+  /// first)
   void add(const FitSample* first, const FitSample* last);
 
   const FrameSamples& samples() const { return this->Samples; }

@@ -20,7 +20,7 @@ enum class FitOrder : std::uint8_t
 };
 
 /// The greatest cosine between the normals on both sides of a crease: 25 degrees.
-constexpr double mostCreaseCosine = 0.906;
+constexpr double maxCreaseCosine = 0.906;
 
 /// What to compute around each isopoint; the samples' spacing in any case.
 struct FitRequest

@@ -70,8 +70,8 @@ std::optional<LocalFit> LocalFitter::fitNear(
     this->moveTo(*found, fit);
     return fit;
   }
-  constexpr double mostDirectionError = 1.0;
-  if (!(found->directionError > mostDirectionError))
+  constexpr double maxDirectionError = 1.0;
+  if (!(found->directionError > maxDirectionError))
   {
     return std::nullopt;
   }
@@ -221,16 +221,16 @@ bool LocalFitter::fitLinear(LocalFit& fit)
 /// and far better than a polynomial
 bool LocalFitter::fitCreases(LocalFit& fit)
 {
-  constexpr double mostResidual = 0.03; // larger ones come from noise
+  constexpr double maxResidual = 0.03; // larger ones come from noise
   // Pieces adapt to the samples: even in noise their residuals are somewhat lower.
-  constexpr double mostResidualShare = 0.5;
+  constexpr double maxResidualShare = 0.5;
   const FrameSamples& samples = this->Frame.samples();
   weighMildly(this->Frame, this->Weights);
   const std::optional<CreaseFit> crease = fitCrease(samples, this->Weights);
   if (!crease || !crease->isSharp() ||
       !(crease->residual <=
-        mostResidual * crease->leastSlope() * this->Frame.samples().meanDistance()) ||
-      !(crease->residual < mostResidualShare * polynomialResidual(samples, this->Weights)))
+        maxResidual * crease->minSlope() * this->Frame.samples().meanDistance()) ||
+      !(crease->residual < maxResidualShare * polynomialResidual(samples, this->Weights)))
   {
     return false;
   }
@@ -270,15 +270,15 @@ void LocalFitter::moveTo(const PolynomialFit& found, LocalFit& fit) const
 /// that does not differ significantly, or the affine one if nothing was found.
 void LocalFitter::preferMildGradient(const std::optional<PolynomialFit>& found, LocalFit& fit)
 {
-  constexpr double mostErrors = 2.0; // standard errors between directions that may be equal
+  constexpr double maxErrors = 2.0; // standard errors between directions that may be equal
   const Vector direction = directionOf(fit.gradient);
   weighMildly(this->Frame, this->Weights);
   for (int degree = 1; degree <= (found ? 2 : 1); ++degree)
   {
     const std::optional<Polynomial> mild = this->mildPolynomial(degree);
     const Vector gradient = mild ? mild->gradientAt({}) : Vector{};
-    if (mild && (!found ||
-                  lengthOf(directionOf(gradient) - direction) < mostErrors * found->directionError))
+    if (mild &&
+        (!found || lengthOf(directionOf(gradient) - direction) < maxErrors * found->directionError))
     {
       fit.gradient = this->Frame.gradientOf(gradient);
       fit.isGradientFitted = true;

@@ -15,7 +15,7 @@ namespace isopoint
 
 /// The least pivot, over its diagonal element, of a coefficient that the samples determine: about
 /// half of the digits of a double remain.
-constexpr double leastPivot = 1e-7;
+constexpr double minPivot = 1e-7;
 
 /// The monomial of a coefficient: that of a former one times a coordinate. In the order of
 /// Polynomial; the first, 1, is an exception.
@@ -314,7 +314,7 @@ private:
       }
     }
     const double pivot = rest[Index];
-    if (!(pivot > leastPivot * diagonal) || !std::isfinite(pivot))
+    if (!(pivot > minPivot * diagonal) || !std::isfinite(pivot))
     {
       return false;
     }

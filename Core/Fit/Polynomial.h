@@ -80,9 +80,9 @@ constexpr double zeroAccuracy = 1e-6;
 template <class Step>
 std::optional<Vector> followToZero(const Vector& start, double farthest, const Step& stepAt)
 {
-  constexpr int mostSteps = 8;
+  constexpr int maxSteps = 8;
   Vector place = start;
-  for (int i = 0; i < mostSteps; ++i)
+  for (int i = 0; i < maxSteps; ++i)
   {
     const Vector step = stepAt(place);
     place += step;

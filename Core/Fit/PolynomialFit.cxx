@@ -66,7 +66,7 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
   bool isDetermined = true;
   for (std::size_t i = 0; i < nearest; ++i)
   {
-    isDetermined = isDetermined && rest[i] > leastPivot;
+    isDetermined = isDetermined && rest[i] > minPivot;
   }
   const double meanSquare = isDetermined ? sumOfSquares(residual) / sumOfSquares(weight)
                                          : std::numeric_limits<double>::quiet_NaN();
@@ -78,9 +78,9 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
 /// The zero of a polynomial, if it holds there.
 std::optional<Vector> zeroOf(const Polynomial& polynomial, const Vector& increasing)
 {
-  constexpr double mostMove = 0.5; // of the edge's length
+  constexpr double maxMove = 0.5; // of the edge's length
   const std::optional<Vector> zero = increasesAlong(increasing, polynomial.gradientAt({}))
-                                       ? zeroNear(polynomial, mostMove * lengthOf(increasing))
+                                       ? zeroNear(polynomial, maxMove * lengthOf(increasing))
                                        : std::nullopt;
   return zero && increasesAlong(increasing, polynomial.gradientAt(*zero)) ? zero : std::nullopt;
 }
@@ -112,9 +112,9 @@ std::optional<PolynomialFit> fitOfDegree(
 
 bool increasesAlong(const Vector& increasing, const Vector& gradient)
 {
-  constexpr double leastCosine = -0.2;
+  constexpr double minCosine = -0.2;
   return dot(gradient, increasing) >
-         leastCosine * std::sqrt(dot(gradient, gradient) * dot(increasing, increasing));
+         minCosine * std::sqrt(dot(gradient, gradient) * dot(increasing, increasing));
 }
 
 bool areEnough(std::size_t sampleCount, int degree)

@@ -72,18 +72,16 @@ public:
   /// Whether z is closer than all y within the bounds and drops them; false if uncertain.
   bool dropsAll(const Offset& z, const OffsetBounds& y) const
   {
-    const double squaredLength =
-      this->Cosine > 0.0 ? y.greatestSquaredLength : y.leastSquaredLength;
-    return z.squaredLength < y.leastSquaredLength &&
-           leastProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
+    const double squaredLength = this->Cosine > 0.0 ? y.greatestSquaredLength : y.minSquaredLength;
+    return z.squaredLength < y.minSquaredLength &&
+           minProduct(z, y) > this->Cosine * (std::sqrt(squaredLength) * z.length);
   }
 
   /// Whether any z within the bounds is closer than y and drops it; true if uncertain.
   bool mayDrop(const OffsetBounds& z, const Offset& y) const
   {
-    const double squaredLength =
-      this->Cosine > 0.0 ? z.leastSquaredLength : z.greatestSquaredLength;
-    return z.leastSquaredLength < y.squaredLength &&
+    const double squaredLength = this->Cosine > 0.0 ? z.minSquaredLength : z.greatestSquaredLength;
+    return z.minSquaredLength < y.squaredLength &&
            greatestProduct(y, z) > this->Cosine * (y.length * std::sqrt(squaredLength));
   }
 

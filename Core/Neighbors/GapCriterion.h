@@ -17,8 +17,8 @@ namespace isopoint
 /// distance from x to the 2nd nearest sample position within 54.7356 degrees of the direction from
 /// y to x (cosine 1 / sqrt 3), infinite if there are fewer. An end is dense if the edge is longer
 /// than `factor` times the spacing behind it. An edge is rejected if both ends are dense.
-/// - All samples count, in N(x) or not: cells at the border of a void extend across it, and so do
-///   not touch those of the nearest samples.
+/// - All samples count, neighbors of x or not: cells at the border of a void stretch across it and
+///   need not touch the cells of the samples nearest to x.
 /// - Only samples behind x count: on lines and in slices, samples are much closer to each other
 ///   than to those of the next line or slice.
 /// - Both ends must agree, so that edges from a dense region to a sparse one stay.
@@ -85,13 +85,13 @@ public:
   }
 
 private:
-  static constexpr std::size_t mostWanted = 3;
+  static constexpr std::size_t maxWanted = 3;
 
   /// Positions found behind an end, each once.
   template <class TSample>
   struct Found
   {
-    std::array<const TSample*, mostWanted> samples;
+    std::array<const TSample*, maxWanted> samples;
     std::size_t count = 0;
 
     void add(const TSample& sample)
@@ -138,9 +138,9 @@ private:
     /// Whether a sample whose offset is within bounds may be behind the end. Rounding is monotonic.
     bool mayHold(const OffsetBounds& offsets) const
     {
-      const double least = std::sqrt(offsets.leastSquaredLength);
+      const double least = std::sqrt(offsets.minSquaredLength);
       return this->criterion.Factor * least < this->edge.length &&
-             -leastProduct(this->edge, offsets) >
+             -minProduct(this->edge, offsets) >
                this->criterion.Cosine * (least * this->edge.length);
     }
 

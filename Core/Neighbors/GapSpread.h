@@ -46,7 +46,7 @@ class GapSpread
 public:
   GapSpread(
     const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks, TParts& parts)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Bounds(tree)
     , Ranks(ranks)
@@ -57,17 +57,17 @@ public:
   /// The candidates with an edge that a criterion rejects, on any rank.
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so do the other functions
   template <class TCriterion>
-  std::vector<std::size_t> over(
+  std::vector<std::size_t> rejectedAmong(
     const TCriterion& criterion, const std::vector<std::size_t>& candidates)
   {
     constexpr std::size_t grain = 256;
     std::vector<char> marks(candidates.size(), 0);
     this->Ranks.forEach(
-      this->Run, { candidates.size(), 8 * grain, grain }, []() { return 0; },
+      this->Exec, { candidates.size(), 8 * grain, grain }, []() { return 0; },
       [&](int, std::size_t i)
       {
         const std::size_t part = candidates[i];
-        marks[i] = this->Parts.isCounted(part) && this->isOver(criterion, part) ? 1 : 0;
+        marks[i] = this->Parts.isCounted(part) && this->isRejected(criterion, part) ? 1 : 0;
       });
     std::vector<std::size_t> found;
     for (const std::size_t i : markedOf(marks))
@@ -92,7 +92,7 @@ public:
     }
     while (this->Ranks.isAny(!front.empty()))
     {
-      front = this->next(this->over(weak, front));
+      front = this->next(this->rejectedAmong(weak, front));
     }
   }
 
@@ -107,7 +107,7 @@ public:
 
 private:
   template <class TCriterion>
-  bool isOver(const TCriterion& criterion, std::size_t part)
+  bool isRejected(const TCriterion& criterion, std::size_t part)
   {
     return this->Parts.anyEdge(part,
       [&](std::size_t leaf, std::size_t other)
@@ -120,7 +120,7 @@ private:
   /// Marks parts as in a gap. @returns their neighbors that were not reached before
   std::vector<std::size_t> next(const std::vector<std::size_t>& parts)
   {
-    throwIfAborted(this->Run);
+    throwIfAborted(this->Exec);
     std::vector<std::size_t> found;
     for (const std::size_t part : parts)
     {
@@ -144,7 +144,7 @@ private:
     return found;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   SampleBounds<TSample> Bounds;
   TRanks& Ranks;

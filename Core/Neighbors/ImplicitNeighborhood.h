@@ -68,7 +68,7 @@ public:
         const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
         if (!this->areDropped(criterion, offsets, 0))
         {
-          this->push({ offsets.leastSquaredLength, nodeIndex, this->Droppers.size() });
+          this->push({ offsets.minSquaredLength, nodeIndex, this->Droppers.size() });
         }
       }
     };
@@ -181,7 +181,7 @@ private:
   {
     const OffsetBounds offsets = this->Bounds.offsets(this->Center, node);
     const Vector diagonal = offsets.upper - offsets.lower;
-    return dot(diagonal, diagonal) < size * size * offsets.leastSquaredLength;
+    return dot(diagonal, diagonal) < size * size * offsets.minSquaredLength;
   }
 
   /// A leaf that touches the region, below a node that does.
@@ -208,7 +208,7 @@ private:
         [&](std::size_t child)
         {
           const double squaredLength =
-            this->Bounds.offsets(this->Center, this->Tree.nodes[child]).leastSquaredLength;
+            this->Bounds.offsets(this->Center, this->Tree.nodes[child]).minSquaredLength;
           if (squaredLength < least)
           {
             least = squaredLength;

@@ -153,7 +153,7 @@ IndexSpan<typename TSample::Id> fewNeighborsOf(const SampleTree<TSample>& tree,
     return list.count <= most ? list : List{};
   }
   memory.clear();
-  const bool areMany = visitNeighbors(tree, pathToLeaf(tree, leaf),
+  const bool areMany = visitNeighbors(tree, pathToNode(tree, leaf),
     [&](std::size_t neighbor)
     {
       memory.push_back(static_cast<typename TSample::Id>(neighbor));

@@ -25,7 +25,7 @@ struct ExtentQuery
 };
 
 /// Samples within 45 degrees of the direction count, as far as rounding permits.
-constexpr double leastCosineAhead = 0.7071;
+constexpr double minCosineAhead = 0.7071;
 
 /// Bounding boxes of unsplit nodes' samples, which can be far smaller than regions; by node.
 using UnsplitBounds = ConcurrentMemo<Region>;
@@ -127,7 +127,7 @@ private:
     // Lengths may be rounded down or up.
     constexpr double slack = 0.999;
     const double least = slack * lengthOf(gap);
-    return least <= this->Query.reach && ahead >= leastCosineAhead * least;
+    return least <= this->Query.reach && ahead >= minCosineAhead * least;
   }
 
   void include(const Vector& position)
@@ -140,7 +140,7 @@ private:
       return; // avoids the length, which takes far longer to compute
     }
     const double length = lengthOf(offset);
-    if (ahead < leastCosineAhead * length || length > this->Query.reach)
+    if (ahead < minCosineAhead * length || length > this->Query.reach)
     {
       return;
     }
@@ -193,7 +193,7 @@ public:
   bool holdsAt(const Vector& offset, double length) const
   {
     const double ahead = dot(offset, this->Query.direction);
-    return ahead >= this->Query.enough && ahead >= leastCosineAhead * length;
+    return ahead >= this->Query.enough && ahead >= minCosineAhead * length;
   }
 
 private:

@@ -77,7 +77,7 @@ private:
       }
       const std::size_t owner = rankAt(this->Begins, node.begin);
       ByteBuffer& question = questions[owner];
-      append(question, pathToLeaf(this->Tree, nodeIndex).index);
+      append(question, pathToNode(this->Tree, nodeIndex).index);
       append(question, depth);
       append(question, static_cast<std::uint64_t>(touching.size()));
       append(question, touching.data(), touching.size());

@@ -46,7 +46,7 @@ public:
   /// Splits a node down to leaves wherever it touches any box.
   void refine(std::size_t nodeIndex, const std::vector<Region>& boxes)
   {
-    Path path = pathToLeaf(this->Tree, nodeIndex);
+    Path path = pathToNode(this->Tree, nodeIndex);
     this->refine(path, boxes);
   }
 
@@ -169,7 +169,7 @@ public:
   void read(std::size_t nodeIndex, ByteReader& in)
   {
     const Node<TSample> former = this->Tree.nodes[nodeIndex];
-    Path path = pathToLeaf(this->Tree, nodeIndex);
+    Path path = pathToNode(this->Tree, nodeIndex);
     try
     {
       this->read(path, in);

@@ -41,7 +41,7 @@ public:
   /// @param hasFits whether surfaces have fits; an empty one does not show this
   SurfaceHalo(const Execution& execution, SharedRanks<TSample>& ranks,
     const SampleTree<TSample>& tree, const Neighborhoods& known, Isosurface own, bool hasFits)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Cache(known)
@@ -85,10 +85,10 @@ public:
   /// This rank's isopoints and the first three rings; only two rings if there are three.
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
-  std::vector<std::size_t> home() const { return markedOf(this->IsHome); }
-  std::vector<std::size_t> elsewhere() const { return markedOf(this->IsElsewhere); }
+  std::vector<std::size_t> owned() const { return markedOf(this->IsOwned); }
+  std::vector<std::size_t> ghosts() const { return markedOf(this->IsGhost); }
 
-  Isosurface takeHome() const { return chosenIsopoints(this->Run, this->All, this->home()); }
+  Isosurface takeOwned() const { return chosenIsopoints(this->Exec, this->All, this->owned()); }
 
   // See AllPoints.
 
@@ -163,7 +163,7 @@ private:
   struct SentCell
   {
     VoronoiCell cell;
-    std::array<IsopointEdge, mostCorners> beyond; // the points beyond its sides, if any
+    std::array<IsopointEdge, maxCorners> beyond; // the points beyond its sides, if any
   };
 
   /// The place of a leaf, and an isopoint whose edge ends there.
@@ -200,7 +200,7 @@ private:
     std::vector<std::size_t> all = leaves;
     std::mutex mutex;
     this->Ranks.forEach(
-      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
+      this->Exec, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
       [&](std::vector<Id>& memory, std::size_t i)
       {
         const IndexSpan<Id> touching =
@@ -309,7 +309,7 @@ private:
     order.erase(std::unique(order.begin(), order.end(),
                   [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
       order.end());
-    this->All = chosenIsopoints(this->Run, both, order);
+    this->All = chosenIsopoints(this->Exec, both, order);
     std::sort(this->Surrounded.begin(), this->Surrounded.end());
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
@@ -328,16 +328,16 @@ private:
   /// Finds this rank's isopoints among all: which belong to it, and in which order cells are cut.
   void chooseOwn(bool isShared)
   {
-    this->IsHome.assign(this->All.size(), false);
-    this->IsElsewhere.assign(this->All.size(), true);
+    this->IsOwned.assign(this->All.size(), false);
+    this->IsGhost.assign(this->All.size(), true);
     std::vector<bool> isOwn(this->All.size(), false);
     for (const std::size_t i : this->OwnIndices)
     {
       isOwn[i] = true;
-      this->IsHome[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
-      this->IsElsewhere[i] = !this->IsHome[i];
+      this->IsOwned[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      this->IsGhost[i] = !this->IsOwned[i];
       // Both ranks of an edge between two send such a ghost.
-      if (this->IsHome[i] || isShared)
+      if (this->IsOwned[i] || isShared)
       {
         this->Shaped.push_back(i);
       }
@@ -365,7 +365,7 @@ private:
       this->All.edges.begin());
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   SharedRanks<TSample>& Ranks;
   const Neighborhoods& Cache;
@@ -381,8 +381,8 @@ private:
   std::vector<std::size_t> OwnInTreeOrder;
   std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
-  std::vector<bool> IsHome; // whether each belongs to this rank
-  std::vector<bool> IsElsewhere;
+  std::vector<bool> IsOwned; // whether each belongs to this rank
+  std::vector<bool> IsGhost;
 };
 
 } // namespace isopoint

@@ -158,7 +158,7 @@ private:
     for (const std::size_t node : this->Absent)
     {
       const std::size_t owner = rankAt(this->Begins, this->Tree.nodes[node].begin);
-      questions[owner].push_back(pathToLeaf(this->Tree, node).index);
+      questions[owner].push_back(pathToNode(this->Tree, node).index);
       nodes[owner].push_back(node);
     }
     const std::vector<std::vector<BinaryIndex>> asked = this->Processes.exchange(questions);

@@ -58,7 +58,7 @@ public:
       curvature = curvatureOf(cell.frame(), fit.hessian, fit.gradient, unit);
       cutWhereSurfaceTurns(curvature, cell);
     }
-    cell.reduceTo(mostCorners);
+    cell.reduceTo(maxCorners);
     VoronoiCell result{ {}, 0, unit, curvature };
     for (const TangentPolygon::Corner& corner : cell)
     {
@@ -158,9 +158,9 @@ private:
     {
       return;
     }
-    constexpr int mostRounds = 3; // cuts create new corners
+    constexpr int maxRounds = 3; // cuts create new corners
     bool isAnyCut = true;
-    for (int round = 0; round < mostRounds && isAnyCut; ++round)
+    for (int round = 0; round < maxRounds && isAnyCut; ++round)
     {
       std::vector<std::array<double, 2>> directions;
       bool isConfirmedBefore = this->isConfirmed(point, (cell.end() - 1)->side);
@@ -187,10 +187,10 @@ private:
   /// Whether the surface is smooth across a side, so that samples need not be checked there.
   bool isConfirmed(std::size_t point, std::size_t side) const
   {
-    constexpr double leastCosine = 0.9;
+    constexpr double minCosine = 0.9;
     return side != TangentPolygon::limit && side != TangentPolygon::plane &&
            this->isSmooth(point) && this->isSmooth(side) &&
-           dot(this->Normals[point], this->Normals[side]) > leastCosine;
+           dot(this->Normals[point], this->Normals[side]) > minCosine;
   }
 
   /// Whether a point nearby has a crease. This point's fit does not describe the values beyond.

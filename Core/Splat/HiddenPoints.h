@@ -56,13 +56,13 @@ private:
   bool areOne(std::size_t point, std::size_t other) const
   {
     constexpr double closeness = 0.05; // in units of length
-    constexpr double leastCosine = 0.7;
+    constexpr double minCosine = 0.7;
     const double reach =
       closeness * std::min(unitAt(this->Points, point), unitAt(this->Points, other));
     const Vector offset = this->Points.positions[other] - this->Points.positions[point];
     return this->Points.positions[point] == this->Points.positions[other] ||
            (lengthOf(offset) < reach &&
-             dot(this->Normals[point], this->Normals[other]) > leastCosine);
+             dot(this->Normals[point], this->Normals[other]) > minCosine);
   }
 
   /// A random order of close points, so that chains of them are decided in few rounds. It depends

@@ -35,7 +35,7 @@ double squaredLength(const VoronoiCell& cell, std::size_t side)
 /// The intersection of the sides before and after a side, if it is close.
 std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_t side)
 {
-  constexpr double mostReach = 1.1; // of the distance of the side's farther end
+  constexpr double maxReach = 1.1; // of the distance of the side's farther end
   const VoronoiCell::Corner& before = cell.before(side);
   const VoronoiCell::Corner& begin = cell.corners[side];
   const VoronoiCell::Corner& end = cell.after(side);
@@ -48,7 +48,7 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
   const double t = ((end.x - begin.x) * by - (end.y - begin.y) * bx) / turn;
   const VoronoiCell::Corner meeting{ begin.x + t * ax, begin.y + t * ay, end.beyond };
   const double farthest = std::max(squaredDistance(begin), squaredDistance(end));
-  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= mostReach * mostReach * farthest)
+  if (turn > 0.0 && t >= 0.0 && squaredDistance(meeting) <= maxReach * maxReach * farthest)
   {
     return meeting;
   }
@@ -60,7 +60,7 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
 bool mayHaveDropped(const VoronoiCell& cell, std::size_t before, std::size_t after)
 {
   const std::size_t side = sideTowards(cell, before);
-  return cell.count == mostCorners && side < cell.count && cell.after(side).beyond == after;
+  return cell.count == maxCorners && side < cell.count && cell.after(side).beyond == after;
 }
 
 void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& cell)

@@ -52,9 +52,9 @@ template <class TExtents, class TIsAcrossGap>
 void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& normal, double spacing,
   const TIsAcrossGap& isAcrossGap, TangentPolygon& cell)
 {
-  constexpr double mostReach = 9.0; // samples farther away do not count; in spacings
+  constexpr double maxReach = 9.0; // samples farther away do not count; in spacings
   const double complete = cell.isOpen() ? borderReach : sampleReach;
-  if (!extents || !(spacing > 0.0) || !std::isfinite(mostReach * spacing) ||
+  if (!extents || !(spacing > 0.0) || !std::isfinite(maxReach * spacing) ||
       cell.squaredReach() <= complete * complete)
   {
     return;
@@ -67,7 +67,7 @@ void cutAtBorder(const TExtents* extents, const Vector& place, const Vector& nor
       continue;
     }
     const ExtentQuery query{ place, normal, direction, (reach - borderReach) * spacing,
-      mostReach * spacing };
+      maxReach * spacing };
     const double extent =
       reach > largeReach ? extentUpToGaps(*extents, query, isAcrossGap) : extents->at(query);
     if (extent < query.enough)

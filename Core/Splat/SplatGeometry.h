@@ -29,7 +29,7 @@ class SplatMaker
 public:
   SplatMaker(const Execution& execution, const SurfacePoints& points, const TNeighbors& neighbors,
     const TExtents* extents, const SplatOptions& options, TChosen& chosen)
-    : Run(execution)
+    : Exec(execution)
     , Points(points)
     , Neighbors(neighbors)
     , Extents(extents)
@@ -46,8 +46,8 @@ public:
     {
       this->findHidden();
       this->cutCells();
-      shapeSplats(partOf(this->Run, cellsEnd, 1.0), this->Points, std::move(this->Cells),
-        this->Planes, this->Chosen.shaped(), this->Splats);
+      shapeSplats(partOf(this->Exec, cellsEnd, 1.0), this->Points, std::move(this->Cells),
+        this->CellNormals, this->Chosen.shaped(), this->Splats);
     }
     return std::move(this->Splats);
   }
@@ -73,23 +73,23 @@ private:
 
   void findNormals()
   {
-    this->Planes.resize(this->Splats.size());
+    this->CellNormals.resize(this->Splats.size());
     std::vector<std::size_t> unfitted =
-      setFieldNormals(this->Run, this->Points, this->Options.fieldNormals,
-        [this](std::size_t point, const Vector& normal) { this->Planes[point] = normal; });
+      setFieldNormals(this->Exec, this->Points, this->Options.fieldNormals,
+        [this](std::size_t point, const Vector& normal) { this->CellNormals[point] = normal; });
     this->Chosen.keepOwn(unfitted);
-    throwIfAborted(this->Run);
+    throwIfAborted(this->Exec);
     this->forPoints(
-      partOf(this->Run, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
+      partOf(this->Exec, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
       [this]() {
         return PlaneNormals<TNeighbors>(this->Neighbors, this->Points, this->Options.neighborCount);
       },
       [this](PlaneNormals<TNeighbors>& normals, std::size_t point)
-      { this->Planes[point] = normals.at(point); });
-    this->Chosen.share(this->Planes);
+      { this->CellNormals[point] = normals.at(point); });
+    this->Chosen.share(this->CellNormals);
     for (std::size_t point = 0; point < this->Splats.size(); ++point)
     {
-      this->Splats[point].normal = this->Planes[point];
+      this->Splats[point].normal = this->CellNormals[point];
     }
   }
 
@@ -103,8 +103,9 @@ private:
     {
       const std::vector<SplatState> states = this->States;
       this->forPoints(
-        partOf(this->Run, normalsEnd, normalsEnd), undecided,
-        [this]() { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->Planes); },
+        partOf(this->Exec, normalsEnd, normalsEnd), undecided,
+        [this]()
+        { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->CellNormals); },
         [&](HiddenPoints<TNeighbors>& hidden, std::size_t point)
         { this->States[point] = hidden.next(point, states); });
       this->Chosen.share(this->States);
@@ -118,8 +119,8 @@ private:
   void cutCells()
   {
     this->Cells.resize(this->Splats.size());
-    this->cut(partOf(this->Run, normalsEnd, cutEnd), this->Chosen.own());
-    this->Missed = missedPoints(this->Run, this->Points, this->Planes, this->Cells);
+    this->cut(partOf(this->Exec, normalsEnd, cutEnd), this->Chosen.own());
+    this->Missed = missedPoints(this->Exec, this->Points, this->CellNormals, this->Cells);
     std::vector<std::size_t> missing;
     for (const MissedPoint& missed : this->Missed)
     {
@@ -127,9 +128,9 @@ private:
     }
     keepUnique(missing);
     this->Chosen.keepOwn(missing);
-    this->cut(partOf(this->Run, cutEnd, cutEnd), missing);
+    this->cut(partOf(this->Exec, cutEnd, cutEnd), missing);
     const std::vector<std::size_t> turned = this->turnPlanes();
-    this->cut(partOf(this->Run, cutEnd, cellsEnd), turned);
+    this->cut(partOf(this->Exec, cutEnd, cellsEnd), turned);
   }
 
   /// Cuts the cells of some points, and shares all cells.
@@ -140,7 +141,7 @@ private:
       [this]()
       {
         return CellCutter<TNeighbors, TExtents>(
-          this->Neighbors, this->Points, this->Extents, this->Planes, this->States);
+          this->Neighbors, this->Points, this->Extents, this->CellNormals, this->States);
       },
       [this](CellCutter<TNeighbors, TExtents>& cutter, std::size_t point)
       { this->Cells[point] = cutter.cut(point, this->missedBy(point)); });
@@ -165,18 +166,18 @@ private:
   {
     const std::vector<std::size_t>& own = this->Chosen.own();
     std::vector<char> areTurned(this->Splats.size(), 0);
-    forEachIndex(this->Run, own.size(),
+    forEachIndex(this->Exec, own.size(),
       [&](std::size_t i)
       {
         const std::size_t point = own[i];
         if (const std::optional<Vector> plane =
-              turnedNormal(this->Points, point, this->Planes[point], this->Cells[point]))
+              turnedNormal(this->Points, point, this->CellNormals[point], this->Cells[point]))
         {
-          this->Planes[point] = *plane;
+          this->CellNormals[point] = *plane;
           areTurned[point] = 1;
         }
       });
-    this->Chosen.share(this->Planes);
+    this->Chosen.share(this->CellNormals);
     this->Chosen.share(areTurned);
     std::vector<std::size_t> changed;
     std::copy_if(own.begin(), own.end(), std::back_inserter(changed),
@@ -191,7 +192,7 @@ private:
     return changed;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SurfacePoints& Points;
   const TNeighbors& Neighbors;
   const TExtents* Extents;
@@ -199,7 +200,7 @@ private:
   TChosen& Chosen;
   std::vector<Splat> Splats;
   // One entry per point; share() and shareCells() fetch those of other ranks.
-  std::vector<Vector> Planes; // normals of the planes in which cells are cut
+  std::vector<Vector> CellNormals; // normals of the planes in which cells are cut
   std::vector<SplatState> States;
   RawArray<VoronoiCell> Cells;
   std::vector<MissedPoint> Missed;

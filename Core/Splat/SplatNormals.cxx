@@ -32,9 +32,9 @@ std::optional<Vector> planeNormal(const std::vector<Eigen::Vector3d>& points)
   const Eigen::Vector3d& spreads = solver.eigenvalues(); // ascending
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   const double length = lengthOf({ normal[0], normal[1], normal[2] });
-  constexpr double leastQuality = 1e-6;
+  constexpr double minQuality = 1e-6;
   const bool isDetermined =
-    spreads[1] != 0.0 && 1.0 - spreads[0] / spreads[1] > leastQuality && std::isnormal(length);
+    spreads[1] != 0.0 && 1.0 - spreads[0] / spreads[1] > minQuality && std::isnormal(length);
   return isDetermined ? std::optional(directionOf({ normal[0], normal[1], normal[2] }))
                       : std::nullopt;
 }

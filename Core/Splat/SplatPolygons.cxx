@@ -27,7 +27,7 @@ struct LoweredCell
     bool overlaps;
   };
 
-  std::array<Corner, mostCorners> corners; // counterclockwise
+  std::array<Corner, maxCorners> corners; // counterclockwise
   std::size_t count;
   double unit;
   PlaneForm curvature; // see VoronoiCell
@@ -74,7 +74,7 @@ struct CornerOf
 /// Corners of adjacent cells that meet, in the order of the points' numbers.
 struct Meeting
 {
-  std::array<CornerOf, mostMeeting> corners{};
+  std::array<CornerOf, maxMeeting> corners{};
   std::size_t count = 0;
   bool isTooLarge = false;    // then the corners stay apart
   bool isOverlapping = false; // then too; see VoronoiCell::Corner::overlaps
@@ -159,13 +159,12 @@ private:
     constexpr double most = 0.43;
     constexpr double turnShare = 8.0;
     constexpr double sideShare = 0.3;
-    double leastCosine = 1.0;
+    double minCosine = 1.0;
     double longest = 0.0; // side that overlaps
     for (const bool isOnward : { true, false })
     {
       const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
-      leastCosine =
-        std::min(leastCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
+      minCosine = std::min(minCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
       if (side.overlaps)
       {
         longest = std::max(
@@ -173,18 +172,18 @@ private:
       }
     }
     return std::min(most,
-      least + turnShare * (1.0 - leastCosine) + sideShare * longest / this->at(corner).distance);
+      least + turnShare * (1.0 - minCosine) + sideShare * longest / this->at(corner).distance);
   }
 
   /// Moves a corner outward by overlapAt() along the paraboloid of its point. Height grows with the
   /// square of the distance, slope with the distance.
   void moveOutward(const CornerOf& corner, LoweredCell::Corner& moved) const
   {
-    constexpr double mostSlope = 0.2;
+    constexpr double maxSlope = 0.2;
     const double overlap = this->overlapAt(corner);
     const Vector& plane = this->Planes[corner.point];
     const Vector outward = moved.position - this->Points.positions[corner.point];
-    const double most = mostSlope * moved.distance;
+    const double most = maxSlope * moved.distance;
     const double height = std::clamp((1.0 + overlap) * dot(outward, plane), -most, most);
     moved.position = moved.position + overlap * outward + overlap * height * plane;
     const double upwards = dot(moved.normal, plane);
@@ -198,18 +197,18 @@ private:
   /// the three points whose cells should meet there.
   double riseToMeanHeight(const CornerOf& corner) const
   {
-    constexpr double leastCosine = 0.5;
-    constexpr double mostRise = 0.5; // of the distance
+    constexpr double minCosine = 0.5;
+    constexpr double maxRise = 0.5; // of the distance
     const LoweredCell::Corner& from = this->at(corner);
     double sumOfHeights = 0.0;
     for (const bool isOnward : { true, false })
     {
       const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
       const double cosine = dot(this->Planes[side.beyond], this->Planes[corner.point]);
-      if (cosine > leastCosine && !side.overlaps)
+      if (cosine > minCosine && !side.overlaps)
       {
         const double height = -this->heightOver(side.beyond, from.position) / cosine;
-        const double most = mostRise * from.distance;
+        const double most = maxRise * from.distance;
         sumOfHeights += std::clamp(height, -most, most);
       }
     }
@@ -219,7 +218,7 @@ private:
   /// The height of a place above the paraboloid of a point.
   double heightOver(std::size_t point, const Vector& place) const
   {
-    constexpr double mostSlope = 0.5;
+    constexpr double maxSlope = 0.5;
     const LoweredCell& cell = this->Cells[point];
     const TangentFrame frame(this->Planes[point]);
     const Vector offset = place - this->Points.positions[point];
@@ -227,7 +226,7 @@ private:
     const double y = dot(offset, frame.second) / cell.unit;
     const double rise =
       0.5 * (cell.curvature.xx * x * x + cell.curvature.yy * y * y) + cell.curvature.xy * x * y;
-    const double most = mostSlope * std::sqrt(x * x + y * y);
+    const double most = maxSlope * std::sqrt(x * x + y * y);
     return dot(offset, this->Planes[point]) - cell.unit * std::clamp(rise, -most, most);
   }
 
@@ -276,11 +275,11 @@ private:
   /// distance is at most 1.2 times their mean distance from their points.
   bool areClose(const CornerOf& a, const CornerOf& b) const
   {
-    constexpr double mostShare = 1.2;
+    constexpr double maxShare = 1.2;
     const LoweredCell::Corner& atA = this->at(a);
     const LoweredCell::Corner& atB = this->at(b);
     return dot(this->Planes[a.point], this->Planes[b.point]) > 0.0 &&
-           lengthOf(atA.position - atB.position) <= mostShare * 0.5 * (atA.distance + atB.distance);
+           lengthOf(atA.position - atB.position) <= maxShare * 0.5 * (atA.distance + atB.distance);
   }
 
   /// Adds the corners that follow the first one, from cell to cell around their meeting place.
@@ -320,8 +319,8 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   const LoweredCell& cell, Splat& splat)
 {
   const TangentFrame frame(splat.normal);
-  std::array<Vector, mostCorners> offsets{};
-  std::array<Vector, mostCorners> normals{};
+  std::array<Vector, maxCorners> offsets{};
+  std::array<Vector, maxCorners> normals{};
   splat.radius = 0.0;
   splat.counts = {};
   for (std::size_t i = 0; i < cell.count; ++i)
@@ -339,12 +338,12 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   {
     return;
   }
-  constexpr double mostSlope = 10.0;
-  for (std::size_t i = 0; i < mostCorners; ++i)
+  constexpr double maxSlope = 10.0;
+  for (std::size_t i = 0; i < maxCorners; ++i)
   {
     const Vector& offset = offsets[std::min(i, cell.count - 1)];
     const Vector& normal = normals[std::min(i, cell.count - 1)];
-    const double upwards = std::max(dot(normal, splat.normal), 1.0 / mostSlope);
+    const double upwards = std::max(dot(normal, splat.normal), 1.0 / maxSlope);
     const auto inRadii = [&](const Vector& direction)
     { return static_cast<float>(dot(offset, direction) / splat.radius); };
     const auto slope = [&](const Vector& direction)

@@ -13,12 +13,12 @@ namespace isopoint
 {
 
 /// The maximum number of corners that are joined.
-constexpr std::size_t mostMeeting = 6;
+constexpr std::size_t maxMeeting = 6;
 
-/// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Up to mostMeeting
+/// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Up to maxMeeting
 /// cells meet in a corner. The next cell is within three rings of the last one, and the cells that
 /// share a side with it within one more.
-constexpr int splatRings = 4 * static_cast<int>(mostMeeting);
+constexpr int splatRings = 4 * static_cast<int>(maxMeeting);
 
 /// Makes splats from cells: projects the corners onto the surface and joins those that meet; see
 /// docs/algorithm.md, section 12.6. O(points)

@@ -37,13 +37,12 @@ std::optional<Vector> umbrellaNormal(
 std::optional<Vector> turnedNormal(
   const SurfacePoints& points, std::size_t point, const Vector& normal, const VoronoiCell& cell)
 {
-  constexpr double leastCosine = 0.2; // below that, of another sheet
-  const double mostCosine = isSmoothAt(points, point) ? 0.95 : 0.99;
+  constexpr double minCosine = 0.2; // below that, of another sheet
+  const double maxCosine = isSmoothAt(points, point) ? 0.95 : 0.99;
   const std::optional<Vector> umbrella = umbrellaNormal(points.positions, point, cell);
   const double cosine = umbrella ? dot(*umbrella, normal) : 1.0;
-  return cosine < leastCosine || cosine > mostCosine
-           ? std::nullopt
-           : std::optional(directionOf(normal + *umbrella));
+  return cosine < minCosine || cosine > maxCosine ? std::nullopt
+                                                  : std::optional(directionOf(normal + *umbrella));
 }
 
 } // namespace isopoint

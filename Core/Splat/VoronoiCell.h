@@ -36,8 +36,8 @@ struct VoronoiCell
   const Corner* begin() const { return this->corners.data(); }
   const Corner* end() const { return this->corners.data() + this->count; }
 
-  std::array<Corner, mostCorners> corners; // counterclockwise
-  std::size_t count;                       // 0 for a hidden point
+  std::array<Corner, maxCorners> corners; // counterclockwise
+  std::size_t count;                      // 0 for a hidden point
   double unit;
   PlaneForm curvature; // of the surface, in this unit; 0 if unknown
 };

@@ -47,7 +47,7 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
   fan.positions[0] = { 0.0, 0.0, 0.0 }; // offsets at first
   fan.normals[0] = normal;
   fan.vertexCount = 1;
-  for (std::size_t i = 0; i < mostCorners; ++i)
+  for (std::size_t i = 0; i < maxCorners; ++i)
   {
     const double* const corner = numbers.data() + numbersOfCorner * i; // see SplatCorner
     const std::size_t next = fan.vertexCount;

@@ -14,14 +14,14 @@ namespace isopoint
 /// The triangles of one splat polygon.
 struct SplatFan
 {
-  static constexpr std::size_t mostVertices = 1 + mostCorners;
+  static constexpr std::size_t maxVertices = 1 + maxCorners;
 
   std::size_t vertexCount = 0; // 0: not drawn
   std::size_t triangleCount = 0;
   float tolerance = 0.0f; // how far shared corners of splats may be apart; 0: none are shared
-  std::array<Vector, mostVertices> positions;
-  std::array<Vector, mostVertices> normals;                      // of length 1
-  std::array<std::array<std::size_t, 3>, mostCorners> triangles; // indices of vertices
+  std::array<Vector, maxVertices> positions;
+  std::array<Vector, maxVertices> normals;                      // of length 1
+  std::array<std::array<std::size_t, 3>, maxCorners> triangles; // indices of vertices
 };
 
 /// Makes triangles between the first vertex and each two consecutive other vertices.

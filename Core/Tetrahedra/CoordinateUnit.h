@@ -47,9 +47,9 @@ private:
 
   bool divides(double coordinate) const
   {
-    constexpr double mostUnits = 0x1p62;          // in 64 bits
+    constexpr double maxUnits = 0x1p62;           // in 64 bits
     const double units = coordinate / this->Unit; // may underflow to 0
-    return coordinate == 0.0 || (std::abs(units) >= 1.0 && std::abs(units) < mostUnits &&
+    return coordinate == 0.0 || (std::abs(units) >= 1.0 && std::abs(units) < maxUnits &&
                                   static_cast<double>(static_cast<std::int64_t>(units)) == units);
   }
 

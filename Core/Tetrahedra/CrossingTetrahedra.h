@@ -49,7 +49,7 @@ public:
   /// by null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Values(values)
@@ -92,7 +92,7 @@ public:
     this->Counts.size = this->triangulation().size();
     this->Counts.isWhole = this->Current->isWhole;
     std::vector<CrossingTetrahedron<Id>> found = this->crossing();
-    this->Run.progress(1.0);
+    this->Exec.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
     {
       this->Kept = std::move(this->Current);
@@ -114,9 +114,9 @@ private:
       volume *= tree.region.upper[axis] - tree.region.lower[axis];
     }
     // The unit affects only speed: predicates are exact with any.
-    constexpr double leastShare = 1.0 / 128.0; // of the mean spacing
+    constexpr double minShare = 1.0 / 128.0; // of the mean spacing
     const CoordinateUnit none(
-      leastShare * std::cbrt(volume / static_cast<double>(tree.samples.size())));
+      minShare * std::cbrt(volume / static_cast<double>(tree.samples.size())));
     CoordinateUnit unit = none;
     std::mutex mutex;
     constexpr std::size_t grain = 65536;
@@ -138,8 +138,8 @@ private:
   std::vector<CrossingTetrahedron<Id>> crossing()
   {
     std::vector<CrossingTetrahedron<Id>> result(
-      this->triangulation().listCrossingTetrahedra(this->Run));
-    forEachIndex(this->Run, result.size(),
+      this->triangulation().listCrossingTetrahedra(this->Exec));
+    forEachIndex(this->Exec, result.size(),
       [&](std::size_t i)
       {
         const auto [corners, belowCount, isAtHull] = this->triangulation().crossingTetrahedronAt(i);
@@ -167,7 +167,7 @@ private:
     const auto makeSearch = [this]() { return LeafSearch{ pathToRoot(this->Tree), {} }; };
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
-      this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
+      this->Exec, { nodes.size(), 8 * grain, grain }, makeSearch,
       [&](LeafSearch& search, std::size_t i)
       {
         search.found.clear();
@@ -183,7 +183,7 @@ private:
         const std::lock_guard<std::mutex> lock(mutex);
         leaves.insert(leaves.end(), search.found.begin(), search.found.end());
       },
-      partOf(this->Run, 0.0, searchEnd).progress);
+      partOf(this->Exec, 0.0, searchEnd).progress);
     return leaves;
   }
 
@@ -218,7 +218,7 @@ private:
     if (isNew || !this->isOfUse(leaves))
     {
       this->Current.reset();
-      this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
+      this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Exec, this->Tree));
       return;
     }
     this->triangulation().setSides([this](std::uint64_t leaf)
@@ -227,18 +227,18 @@ private:
 
   bool isOfUse(const std::vector<std::size_t>& leaves)
   {
-    constexpr std::size_t mostTimes = 3;
+    constexpr std::size_t maxTimes = 3;
     this->Current->marks.grow(this->Tree.nodes.size());
     const auto known = static_cast<std::size_t>(std::count_if(leaves.begin(), leaves.end(),
       [this](std::size_t leaf) { return this->Current->marks.has(leaf, bandmarks::inBand); }));
-    return 2 * known >= leaves.size() && this->triangulation().size() <= mostTimes * leaves.size();
+    return 2 * known >= leaves.size() && this->triangulation().size() <= maxTimes * leaves.size();
   }
 
   /// @param leaves gathered
   void insert(const std::vector<std::size_t>& leaves)
   {
     this->Current->marks.grow(this->Tree.nodes.size());
-    this->triangulation().insert(this->Run, this->newSites(leaves),
+    this->triangulation().insert(this->Exec, this->newSites(leaves),
       [step = this->nextStep()](double share)
       {
         throwIfAborted(step);
@@ -272,13 +272,13 @@ private:
 
   void split(const std::vector<std::size_t>& nodes)
   {
-    splitFurther(this->Run, this->Tree, nodes);
+    splitFurther(this->Exec, this->Tree, nodes);
     this->Current->marks.grow(this->Tree.nodes.size());
   }
 
   void insertAll()
   {
-    splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
+    splitCompletely(this->Exec, this->Tree, { SampleTree<TSample>::rootNode });
     std::vector<std::size_t> leaves;
     Path path = pathToRoot(this->Tree);
     forEachBelow(this->Tree, path, maximumDepth,
@@ -349,8 +349,8 @@ private:
   /// @returns whether any cells remain uncertified
   bool certify()
   {
-    throwIfAborted(this->Run);
-    const std::size_t openCount = this->triangulation().listOpenCells(this->Run);
+    throwIfAborted(this->Exec);
+    const std::size_t openCount = this->triangulation().listOpenCells(this->Exec);
     this->Visits += this->triangulation().cellCount();
     SearchResult result = this->searchSpheres(openCount);
     if (!this->Ranks.isAny(this->isSpent()))
@@ -367,7 +367,7 @@ private:
     std::mutex mutex;
     constexpr std::size_t grain = 512;
     forBatches(
-      this->Run, openCount, 8 * grain, grain,
+      this->Exec, openCount, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         SphereSearch<TSample> search(this->Tree, this->triangulation(), this->Current->marks);
@@ -400,7 +400,7 @@ private:
   bool checkSides()
   {
     SideCheck<TSample> check(
-      this->Run, this->Tree, this->triangulation(), this->Current->marks, this->Values);
+      this->Exec, this->Tree, this->triangulation(), this->Current->marks, this->Values);
     std::vector<std::size_t> leaves;
     std::vector<std::size_t> unsplit;
     for (const std::size_t node : check.find(this->Isovalue))
@@ -419,7 +419,7 @@ private:
   {
     const double begin = this->StepEnd;
     this->StepEnd = 0.5 * (begin + 1.0);
-    return partOf(this->Run, begin, this->StepEnd);
+    return partOf(this->Exec, begin, this->StepEnd);
   }
 
   /// Whether it is faster to insert all samples, because so many are near the surface.
@@ -445,7 +445,7 @@ private:
     return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   LeafValues<TSample>& Values;

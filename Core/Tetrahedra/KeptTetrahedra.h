@@ -24,9 +24,9 @@ struct KeptTetrahedra
   /// in the band takes 700 bytes, as much as about 30 in the tree.
   bool isSmall(std::size_t sampleCount) const
   {
-    constexpr std::size_t leastRatio = 8;
+    constexpr std::size_t minRatio = 8;
     constexpr std::size_t alwaysSmall = 500000;
-    return this->triangulation.size() <= std::max(alwaysSmall, sampleCount / leastRatio);
+    return this->triangulation.size() <= std::max(alwaysSmall, sampleCount / minRatio);
   }
 
   PartialTriangulation triangulation;

@@ -97,8 +97,8 @@ inline Point pointAt(const Vector& position)
 /// the thread, which a failed allocation would leave in an invalid state.
 inline void reserveCells(Triangulation& triangulation)
 {
-  constexpr std::ptrdiff_t mostAtOnce = 256; // CGAL fills larger holes in another way
-  if (freeCells >= mostAtOnce)
+  constexpr std::ptrdiff_t maxAtOnce = 256; // CGAL fills larger holes in another way
+  if (freeCells >= maxAtOnce)
   {
     return;
   }
@@ -117,7 +117,7 @@ class Insertion
 public:
   Insertion(const Execution& execution, Triangulation& cells, const std::vector<BandSite>& sites,
     const std::function<void(double share)>& step)
-    : Run(execution)
+    : Exec(execution)
     , Cells(cells)
     , Sites(sites)
     , Step(step)
@@ -218,7 +218,7 @@ private:
   void insertLevel(std::size_t begin, std::size_t end)
   {
 #ifdef CGAL_LINKED_WITH_TBB
-    if (this->Run.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
+    if (this->Exec.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
         this->makeLocks())
     {
       this->insertTogether(begin, end);
@@ -270,7 +270,7 @@ private:
 
   std::vector<Stream> streamsOf(std::size_t begin, std::size_t end) const
   {
-    const std::size_t length = (end - begin + this->Run.threads - 1) / this->Run.threads;
+    const std::size_t length = (end - begin + this->Exec.threads - 1) / this->Exec.threads;
     std::vector<Stream> streams;
     for (std::size_t next = begin; next < end; next += length)
     {
@@ -291,7 +291,7 @@ private:
     {
       count += endOfBatch(stream) - stream.next;
     }
-    forRanges(this->Run, streams.size(), 1,
+    forRanges(this->Exec, streams.size(), 1,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t i = first; i < last; ++i)
@@ -357,7 +357,7 @@ private:
     return hasLocks;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   Triangulation& Cells;
   const std::vector<BandSite>& Sites;
   const std::function<void(double share)>& Step;

@@ -26,7 +26,7 @@ class SideCheck
 public:
   SideCheck(const Execution& execution, const SampleTree<TSample>& tree,
     const PartialTriangulation& band, const NodeMarks& marks, LeafValues<TSample>& values)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Band(band)
     , Marks(marks)
@@ -44,7 +44,7 @@ public:
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
     constexpr std::size_t grain = 2048;
     std::vector<std::size_t> wrong =
-      collected<std::size_t>(this->Run, { this->Places.size(), 8 * grain, grain },
+      collected<std::size_t>(this->Exec, { this->Places.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
         {
           std::vector<Vector> positions;
@@ -144,7 +144,7 @@ private:
     }
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   const PartialTriangulation& Band;
   const NodeMarks& Marks;

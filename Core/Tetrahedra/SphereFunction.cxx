@@ -103,9 +103,9 @@ double scaleOf(const std::array<Vector, Count>& corners)
       largest = std::max(largest, std::abs(0.5 * corner[axis] - 0.5 * corners[0][axis]));
     }
   }
-  constexpr int mostDigits = 1000;
+  constexpr int maxDigits = 1000;
   return largest > 0.0
-           ? std::ldexp(1.0, std::max(-mostDigits, std::min(mostDigits, -std::ilogb(largest))))
+           ? std::ldexp(1.0, std::max(-maxDigits, std::min(maxDigits, -std::ilogb(largest))))
            : 1.0;
 }
 

@@ -54,10 +54,10 @@ public:
   std::array<double, Count> Z;
 };
 
-/// The orientation of four points. Doubles are exact up to `mostUnits`: integers up to 6 (2^16)^3.
+/// The orientation of four points. Doubles are exact up to `maxUnits`: integers up to 6 (2^16)^3.
 struct OrientationDeterminant
 {
-  static constexpr double mostUnits = 0x1p16;
+  static constexpr double maxUnits = 0x1p16;
 
   double operator()(const Differences<3>& d) const
   {
@@ -69,7 +69,7 @@ struct OrientationDeterminant
 /// On which side of a sphere through four points a fifth lies: integers up to 72 (2^9)^5.
 struct SphereDeterminant
 {
-  static constexpr double mostUnits = 0x1p9;
+  static constexpr double maxUnits = 0x1p9;
 
   double operator()(const Differences<4>& d) const
   {
@@ -88,7 +88,7 @@ public:
 
   /// @param unit of the points' coordinates, or 0
   explicit UnitPredicate(double unit)
-    : Most(Determinant::mostUnits * unit)
+    : Most(Determinant::maxUnits * unit)
   {
   }
 

@@ -155,9 +155,9 @@ void recomputeRanges(SampleTree<TSample>& tree, Node<TSample>& node, int levels)
   uniteRanges(node, lower, upper);
 }
 
-/// An item's contribution to a digest.
+/// An item's contribution to a hash.
 template <class TCoordinate>
-std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
+std::uint64_t hashOfItem(std::uint64_t id, const TCoordinate* position)
 {
   std::uint64_t hash = id;
   for (int axis = 0; axis < 3; ++axis)
@@ -170,12 +170,12 @@ std::uint64_t digestOfItem(std::uint64_t id, const TCoordinate* position)
   return hash;
 }
 
-/// A digest of the ids and positions of the items in use, among 0 .. count - 1. Different inputs
-/// have equal digests with a probability of 2^-64.
-/// @param digestAt(i) the item's contribution, 0 if it is left out
+/// A hash of the ids and positions of the items in use, among 0 .. count - 1. Different inputs
+/// have equal hashes with a probability of 2^-64.
+/// @param hashAt(i) the item's contribution, 0 if it is left out
 /// @throws Aborted
 template <class DigestAt>
-std::uint64_t digestOf(const Execution& execution, std::size_t count, const DigestAt& digestAt)
+std::uint64_t hashOfAll(const Execution& execution, std::size_t count, const DigestAt& hashAt)
 {
   constexpr std::size_t grain = 1 << 14;
   std::atomic<std::uint64_t> sum{ 0 };
@@ -185,38 +185,38 @@ std::uint64_t digestOf(const Execution& execution, std::size_t count, const Dige
       std::uint64_t part = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        part += digestAt(i);
+        part += hashAt(i);
       }
       sum += part;
     });
   return sum;
 }
 
-/// The digest of loaded samples.
+/// The hash of loaded samples.
 /// @param firstId as for loadSamples()
 template <class TSample>
-std::uint64_t digestOfSamples(
+std::uint64_t hashOfSamples(
   const Execution& execution, const RawArray<TSample>& samples, std::uint64_t firstId)
 {
-  return digestOf(execution, samples.size(),
-    [&](std::size_t i) { return digestOfItem(samples[i].id - firstId, samples[i].position); });
+  return hashOfAll(execution, samples.size(),
+    [&](std::size_t i) { return hashOfItem(samples[i].id - firstId, samples[i].position); });
 }
 
-/// The digest of items as loadSamples() reads them.
+/// The hash of items as loadSamples() reads them.
 template <class TSample, class Reader>
-std::uint64_t digestOfItems(const Execution& execution, std::size_t count, const Reader& read)
+std::uint64_t hashOfItems(const Execution& execution, std::size_t count, const Reader& read)
 {
-  return digestOf(execution, count,
+  return hashOfAll(execution, count,
     [&](std::size_t id) -> std::uint64_t
     {
       TSample sample;
       const bool takesPart = read(id, sample.position, sample.value) && isFinite(sample);
-      return takesPart ? digestOfItem(id, sample.position) : 0;
+      return takesPart ? hashOfItem(id, sample.position) : 0;
     });
 }
 
 /// Sets new values of a tree's samples and the nodes' value ranges. The tree's shape stays.
-/// @param read as for loadSamples(); the digest of its items must equal that of the samples
+/// @param read as for loadSamples(); the hash of its items must equal that of the samples
 /// @throws Aborted, after which some values are new
 template <class TSample, class Reader>
 void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const Reader& read)

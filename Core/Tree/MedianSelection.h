@@ -153,7 +153,7 @@ MiddleCoordinates<TCoordinate> selectMiddle(
 {
   constexpr std::size_t countingLimit = 8;
   constexpr int interpolations = 4;
-  constexpr int mostPasses = 40;
+  constexpr int maxPasses = 40;
   if (count <= countingLimit)
   {
     return selectByCounting(coordinates.data(), count, rank);
@@ -165,7 +165,7 @@ MiddleCoordinates<TCoordinate> selectMiddle(
   std::size_t below = 0;    // coordinates less than `lower`
   std::size_t upTo = count; // coordinates not greater than `upper`
   std::size_t next = 0;
-  for (int pass = 0; pass < mostPasses; ++pass)
+  for (int pass = 0; pass < maxPasses; ++pass)
   {
     if (lower == upper)
     {

@@ -87,7 +87,7 @@ Path pathTo(const SampleTree<TSample>& tree, const BinaryIndex& index)
 
 /// The path to a leaf, found by the position of its samples in tree order. O(depth)
 template <class TSample>
-Path pathToLeaf(const SampleTree<TSample>& tree, std::size_t leafNode)
+Path pathToNode(const SampleTree<TSample>& tree, std::size_t leafNode)
 {
   Path path = pathToRoot(tree);
   while (path.nodeIndex() != leafNode)

@@ -57,6 +57,7 @@ public:
   }
 
   /// Bounds on the offsets from a position to the samples of a leaf or split node.
+  /// @param node an element of the tree's nodes, not a copy
   /// @throws MissingNode if another rank holds some of them
   OffsetBounds offsets(const Vector& from, const Node<TSample>& node) const
   {

@@ -92,7 +92,7 @@ struct MissingNode : std::exception
   {
   }
 
-  const char* what() const noexcept override { return "samples of another rank are missing"; }
+  const char* what() const noexcept override { return "a node of the tree is missing"; }
 
   std::size_t nodeIndex;
   Region box; // where samples are needed

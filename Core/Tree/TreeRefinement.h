@@ -40,7 +40,7 @@ void splitFurther(
     {
       continue;
     }
-    const Path path = pathToLeaf(tree, index);
+    const Path path = pathToNode(tree, index);
     const int levels = std::min(
       maximumDepth - path.depth, node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
     if (levels == 0)
@@ -99,7 +99,7 @@ void splitCompletely(
   splitWhileUnsplit(execution, tree, tops.size(),
     [&](std::size_t i, std::vector<std::size_t>& unsplit)
     {
-      Path path = pathToLeaf(tree, tops[i]);
+      Path path = pathToNode(tree, tops[i]);
       forEachBelow(tree, path, maximumDepth,
         [&](const Path& below)
         {

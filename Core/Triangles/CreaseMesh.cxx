@@ -75,7 +75,7 @@ namespace
 {
 
 /// Facets at a vertex get a copy of it per piece if the normals differ by more than 20 degrees.
-constexpr double mostPartedCosine = 0.94;
+constexpr double maxPartedCosine = 0.94;
 
 /// Merges two vertices of an inverted facet if no facet around stays inverted, except for much
 /// smaller ones. Vertices on creases stay there. @returns whether it did
@@ -136,10 +136,10 @@ std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& who
   std::vector<Facet> facets, std::size_t firstOnCrease)
 {
   FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
-  constexpr int mostRounds = 5;
+  constexpr int maxRounds = 5;
   bool isAnyMerged = true;
   mesh.untangle();
-  for (int round = 0; round < mostRounds && isAnyMerged; ++round)
+  for (int round = 0; round < maxRounds && isAnyMerged; ++round)
   {
     isAnyMerged = false;
     for (const std::size_t facet : mesh.invertedFacets())
@@ -164,7 +164,7 @@ bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
     const std::vector<std::size_t>& facets = mesh.facetsAround(vertex);
     return std::any_of(facets.begin(), facets.end(),
       [&](std::size_t facet)
-      { return dot(mesh.facet(facet).normal, mesh.facet(otherFacet).normal) >= mostCreaseCosine; });
+      { return dot(mesh.facet(facet).normal, mesh.facet(otherFacet).normal) >= maxCreaseCosine; });
   };
   const std::vector<std::size_t>& facets = mesh.facetsAround(other);
   return std::all_of(facets.begin(), facets.end(), isOnPieceOf);
@@ -184,11 +184,11 @@ std::vector<Facet> withoutShortEdges(
     FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
     const auto staysOnPiece = [&](const Facet& moved)
     {
-      constexpr double leastCosine = 0.95;
+      constexpr double minCosine = 0.95;
       const auto& [a, b, c] = moved.corners;
       const std::vector<Vector>& positions = whole.surface.positions;
       const double area = lengthOf(cross(positions[b] - positions[a], positions[c] - positions[a]));
-      return mesh.signedArea(moved) >= leastCosine * area;
+      return mesh.signedArea(moved) >= minCosine * area;
     };
     for (const auto& [a, b] : shortEdges(whole.surface.positions, triangles))
     {
@@ -211,7 +211,7 @@ class CreaseMesher
 public:
   CreaseMesher(
     const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
-    : Run(execution)
+    : Exec(execution)
     , Whole(surface)
     , Triangles(triangles)
   {
@@ -225,13 +225,13 @@ public:
       return;
     }
     const std::size_t firstOnCrease = this->Whole.surface.size();
-    facets = splitAtCreases(this->Run, this->Whole, std::move(facets));
-    facets = untangleFacets(this->Run, this->Whole, std::move(facets), firstOnCrease);
+    facets = splitAtCreases(this->Exec, this->Whole, std::move(facets));
+    facets = untangleFacets(this->Exec, this->Whole, std::move(facets), firstOnCrease);
     if (request.regularizes)
     {
-      facets = withoutShortEdges(this->Run, this->Whole, std::move(facets));
+      facets = withoutShortEdges(this->Exec, this->Whole, std::move(facets));
     }
-    if (request.partsCreases)
+    if (request.duplicatesCreaseVertices)
     {
       this->partCreases(facets);
     }
@@ -269,7 +269,7 @@ private:
     {
       for (std::size_t& corner : facet.corners)
       {
-        if (dot(this->Whole.normals[corner], facet.normal) < mostPartedCosine)
+        if (dot(this->Whole.normals[corner], facet.normal) < maxPartedCosine)
         {
           corner = this->copyOf(corner, facet.normal, copies[corner]);
         }
@@ -281,7 +281,7 @@ private:
   {
     for (const std::size_t copy : copies)
     {
-      if (dot(this->Whole.normals[copy], normal) >= mostPartedCosine)
+      if (dot(this->Whole.normals[copy], normal) >= maxPartedCosine)
       {
         return copy;
       }
@@ -297,14 +297,14 @@ private:
   {
     Isosurface& surface = this->Whole.surface;
     const std::vector<std::size_t> kept = verticesOf(this->Triangles, surface.size());
-    this->Triangles = renumbered(this->Run, this->Triangles, kept, surface.size());
+    this->Triangles = renumbered(this->Exec, this->Triangles, kept, surface.size());
     if (kept.size() < surface.size())
     {
-      surface = chosenIsopoints(this->Run, surface, kept);
+      surface = chosenIsopoints(this->Exec, surface, kept);
     }
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   CreaseSurface Whole;
   std::vector<SurfaceTriangle>& Triangles;
 };

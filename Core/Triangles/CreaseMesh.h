@@ -28,7 +28,7 @@ struct CreaseSurface
   /// Whether the normals of two vertices allow them to be on the same piece.
   bool isAlike(std::size_t a, std::size_t b) const
   {
-    return dot(this->normals[a], this->normals[b]) >= mostCreaseCosine;
+    return dot(this->normals[a], this->normals[b]) >= maxCreaseCosine;
   }
 
   Vector normalOf(std::initializer_list<std::size_t> vertices) const;

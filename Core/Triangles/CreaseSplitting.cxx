@@ -19,16 +19,16 @@ namespace
 {
 
 /// The maximum distance of a crease vertex from the middle of its edge, in lengths of the edge.
-constexpr double mostOffset = 1.0;
+constexpr double maxOffset = 1.0;
 
 /// The maximum distance of a corner vertex from the middle of its triangle, in longest edges.
-constexpr double mostCornerOffset = 2.0;
+constexpr double maxCornerOffset = 2.0;
 
 class CreaseSplitter
 {
 public:
   CreaseSplitter(const Execution& execution, CreaseSurface& whole)
-    : Run(execution)
+    : Exec(execution)
     , Whole(whole)
   {
   }
@@ -178,7 +178,7 @@ private:
     const Vector place = meetingOf(this->piecesAt({ a, b, c }), center);
     const double longest = std::max({ lengthOf(positions[a] - positions[b]),
       lengthOf(positions[b] - positions[c]), lengthOf(positions[c] - positions[a]) });
-    return isFinite(place) && lengthOf(place - center) <= mostCornerOffset * longest
+    return isFinite(place) && lengthOf(place - center) <= maxCornerOffset * longest
              ? std::optional(place)
              : std::nullopt;
   }
@@ -189,7 +189,7 @@ private:
     constexpr std::size_t batch = 1024;
     if (count % batch == 0)
     {
-      throwIfAborted(this->Run);
+      throwIfAborted(this->Exec);
     }
   }
 
@@ -292,7 +292,7 @@ private:
       return SurfacePiece(this->Whole.fitOf(this->Pieces[vertex]));
     }
     const CreasePlane* closest = nullptr;
-    double cosine = mostCreaseCosine;
+    double cosine = maxCreaseCosine;
     for (const CreasePlane& plane : fit.creases)
     {
       const double own = std::abs(dot(plane.inward, this->Whole.normals[vertex]));
@@ -335,8 +335,8 @@ private:
     const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
     const Vector place = meetingOf(pieces, meeting + shift * along);
     const double length = lengthOf(q - p);
-    return isFinite(place) && lengthOf(place - center) <= mostOffset * length ? std::optional(place)
-                                                                              : std::nullopt;
+    return isFinite(place) && lengthOf(place - center) <= maxOffset * length ? std::optional(place)
+                                                                             : std::nullopt;
   }
 
   std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
@@ -345,7 +345,7 @@ private:
     return found != this->OnCreases.end() ? std::optional(found->second) : std::nullopt;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   CreaseSurface& Whole;
   std::vector<std::size_t> Pieces;       // the vertex whose fit describes a vertex's piece
   std::map<Edge, std::size_t> OnCreases; // vertices, by the edges that they are on

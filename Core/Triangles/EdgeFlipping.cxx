@@ -38,7 +38,7 @@ class EdgeFlipper
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
     const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
-    : Run(execution)
+    : Exec(execution)
     , Positions(positions)
     , AreKept(areKept)
     , Triangles(triangles)
@@ -52,12 +52,12 @@ public:
 
   void flip()
   {
-    constexpr int mostRounds = 10;
+    constexpr int maxRounds = 10;
     std::vector<char> isSuspect(this->Twins.size(), 1);
     bool isAnyFlipped = true;
-    for (int round = 0; round < mostRounds && isAnyFlipped; ++round)
+    for (int round = 0; round < maxRounds && isAnyFlipped; ++round)
     {
-      throwIfAborted(this->Run);
+      throwIfAborted(this->Exec);
       isAnyFlipped = false;
       for (Side side = 0; side < this->Twins.size(); ++side)
       {
@@ -94,7 +94,7 @@ private:
   {
     const ItemLists byLowerEnd(this->Positions.size(), this->Twins.size(),
       [this](Side side) { return std::array{ std::min(this->startOf(side), this->endOf(side)) }; });
-    forEachIndex(this->Run, this->Positions.size(),
+    forEachIndex(this->Exec, this->Positions.size(),
       [&](std::size_t vertex)
       {
         const IndexSpan<Side> list = byLowerEnd.at(vertex);
@@ -130,7 +130,7 @@ private:
         ++this->Degrees[vertex];
       }
     }
-    forEachIndex(this->Run, this->Normals.size(),
+    forEachIndex(this->Exec, this->Normals.size(),
       [this](std::size_t vertex)
       {
         const double length = lengthOf(this->Normals[vertex]);
@@ -161,10 +161,10 @@ private:
     };
     const auto [cosC, sinC] = angleAt(c);
     const auto [cosD, sinD] = angleAt(d);
-    constexpr double leastSine = 0.01; // a smaller excess is not worth a flip
+    constexpr double minSine = 0.01; // a smaller excess is not worth a flip
     const double scale =
       std::sqrt(cosC * cosC + sinC * sinC) * std::sqrt(cosD * cosD + sinD * sinD);
-    return sinC * cosD + cosC * sinD < -leastSine * scale;
+    return sinC * cosD + cosC * sinD < -minSine * scale;
   }
 
   /// The cosine between the normals of a triangle and of its vertices.
@@ -177,7 +177,7 @@ private:
     return lengths > 0.0 ? dot(normal, around) / lengths : -1.0;
   }
 
-  double leastUprightness(const SurfaceTriangle& first, const SurfaceTriangle& second) const
+  double minUprightness(const SurfaceTriangle& first, const SurfaceTriangle& second) const
   {
     return std::min(this->uprightness(first), this->uprightness(second));
   }
@@ -185,19 +185,19 @@ private:
   /// Whether the surface bends by more than 60 degrees at the edge, and no triangle is folded over.
   bool isCrease(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
-    constexpr double leastCosine = 0.5;
+    constexpr double minCosine = 0.5;
     const Vector first = this->normalOf(a, b, c);
     const Vector second = this->normalOf(b, a, d);
-    return dot(first, second) < leastCosine * lengthOf(first) * lengthOf(second) &&
-           this->leastUprightness({ a, b, c }, { b, a, d }) >= upright;
+    return dot(first, second) < minCosine * lengthOf(first) * lengthOf(second) &&
+           this->minUprightness({ a, b, c }, { b, a, d }) >= upright;
   }
 
   /// Whether a flip leaves two triangles that are upright, or at least as upright as before.
   bool staysUpright(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
-    const double after = this->leastUprightness({ c, a, d }, { d, b, c });
+    const double after = this->minUprightness({ c, a, d }, { d, b, c });
     return after >= upright ||
-           (after > 0.0 && after >= this->leastUprightness({ a, b, c }, { b, a, d }));
+           (after > 0.0 && after >= this->minUprightness({ a, b, c }, { b, a, d }));
   }
 
   /// Whether the opposite corners are, or may be, connected, which forbids a flip.
@@ -284,7 +284,7 @@ private:
     }
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const std::vector<Vector>& Positions;
   const std::vector<char>& AreKept; // each vertex
   std::vector<SurfaceTriangle>& Triangles;

@@ -50,7 +50,7 @@ public:
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<KeptTetrahedra>& band,
     const IsosurfaceRequest& request)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Neighborhoods(neighborhoods)
@@ -70,19 +70,19 @@ public:
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
     const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
-    MarchedTriangles<TSample> marched = this->march(partOf(this->Run, 0.0, mergingBegin));
+    MarchedTriangles<TSample> marched = this->march(partOf(this->Exec, 0.0, mergingBegin));
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     FitsAtEdges known;
     EdgeTriangles<TSample> mesh = this->Request.regularizes
-                                    ? this->merge(partOf(this->Run, mergingBegin, fitsBegin),
+                                    ? this->merge(partOf(this->Exec, mergingBegin, fitsBegin),
                                         context, std::move(marched), known)
                                     : EdgeTriangles<TSample>(std::move(marched));
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->fitTo(partOf(this->Run, fitsBegin, fitsEnd), context, mesh, known);
+      fits = this->fitTo(partOf(this->Exec, fitsBegin, fitsEnd), context, mesh, known);
     }
-    return this->place(partOf(this->Run, fitsEnd, 1.0), context, mesh, std::move(fits));
+    return this->place(partOf(this->Exec, fitsEnd, 1.0), context, mesh, std::move(fits));
   }
 
   std::vector<CrossingTetrahedron<Id>> tetrahedra(const Execution& execution)
@@ -158,7 +158,7 @@ private:
   std::vector<LocalFit> fitTo(const Execution& execution, ExtractionContext<TSample>& context,
     const EdgeTriangles<TSample>& mesh, const FitsAtEdges& known)
   {
-    std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Run);
+    std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Exec);
     if (known.empty())
     {
       return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
@@ -179,7 +179,7 @@ private:
     }
     const std::vector<LocalFit> others =
       this->Ranks.fitShared(execution, context, *this->Request.fit,
-        chosenOf(this->Run, edges, unknown), chosenOf(this->Run, mesh.positions, unknown));
+        chosenOf(this->Exec, edges, unknown), chosenOf(this->Exec, mesh.positions, unknown));
     for (std::size_t i = 0; i < unknown.size(); ++i)
     {
       fits[unknown[i]] = others[i];
@@ -210,33 +210,33 @@ private:
     {
       this->flipEdgesOf(mesh, fits);
     }
-    const std::vector<std::size_t> order = orderOfEdges(this->Run, mesh);
-    mesh = inOrder(this->Run, mesh, order);
-    fits = chosenOf(this->Run, fits, order);
+    const std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh);
+    mesh = inOrder(this->Exec, mesh, order);
+    fits = chosenOf(this->Exec, fits, order);
     TriangleSurface surface;
     surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
       { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->hasCreases())
     {
-      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request);
+      meshCreases(this->Exec, surface.vertices, surface.triangles, this->Request);
     }
     surface.droppedTetrahedra = this->Dropped;
-    surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
+    surface.vertices.coincident = coincidentEnds(this->Exec, this->Tree, surface.vertices.leaves);
     return surface;
   }
 
   void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
   {
     std::vector<Vector> positions = mesh.positions;
-    forEachIndex(this->Run, fits.size(),
+    forEachIndex(this->Exec, fits.size(),
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
     const std::vector<char> areKept = this->hasCreases() ? areAtCreases(fits, mesh.triangles)
                                                          : std::vector<char>(positions.size(), 0);
-    flipEdges(this->Run, positions, areKept, mesh.triangles);
+    flipEdges(this->Exec, positions, areKept, mesh.triangles);
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const NeighborhoodCache<Id>& Neighborhoods;

@@ -96,9 +96,9 @@ std::vector<std::size_t> FacetMesh::invertedFacets() const
 
 void FacetMesh::untangle()
 {
-  constexpr int mostRounds = 20;
+  constexpr int maxRounds = 20;
   std::vector<std::size_t> inverted = this->invertedFacets();
-  for (int round = 0; round < mostRounds && !inverted.empty(); ++round)
+  for (int round = 0; round < maxRounds && !inverted.empty(); ++round)
   {
     std::vector<std::size_t> changed;
     bool isAnyFlipped = false;
@@ -133,7 +133,7 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
     const std::size_t c = own.corners[(i + 2) % 3];
     const std::optional<std::size_t> other = this->facetAt(b, a);
     if (!other || !this->facetAt(a, b) || !this->IsInner[a] || !this->IsInner[b] ||
-        !this->IsInner[c] || dot(own.normal, this->Facets[*other].normal) < mostCreaseCosine)
+        !this->IsInner[c] || dot(own.normal, this->Facets[*other].normal) < maxCreaseCosine)
     {
       continue;
     }

@@ -134,7 +134,7 @@ public:
   /// @param tetrahedra all crossing tetrahedra, in the same order on all ranks
   GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
     const std::vector<Tetrahedron>& tetrahedra)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
@@ -168,7 +168,7 @@ private:
         candidates.push_back(i);
       }
     }
-    std::vector<std::size_t> seeds = this->Spread.over(GapCriterion::strong(), candidates);
+    std::vector<std::size_t> seeds = this->Spread.rejectedAmong(GapCriterion::strong(), candidates);
     for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
     {
       if (this->Tetrahedra[i].isAtHull)
@@ -197,17 +197,17 @@ private:
     std::vector<char> marks(corners.size(), 0);
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
-      this->Run, { corners.size(), 8 * grain, grain }, []() { return 0; },
+      this->Exec, { corners.size(), 8 * grain, grain }, []() { return 0; },
       [&](int, std::size_t i)
       {
         const std::size_t leaf = corners[i];
         marks[i] = this->Tree.hasOwn(this->Tree.nodes[leaf]) &&
-                       GapCriterion::strong().mayDrop(this->Tree, pathToLeaf(this->Tree, leaf),
+                       GapCriterion::strong().mayDrop(this->Tree, pathToNode(this->Tree, leaf),
                          this->Tree.sampleOf(leaf), longest[leaf])
                      ? 1
                      : 0;
       },
-      this->Run.progress);
+      this->Exec.progress);
     std::vector<std::size_t> dense = markedOf(marks);
     this->Ranks.unite(dense);
     std::vector<char> marksOfNodes(longest.size(), 0);
@@ -230,7 +230,7 @@ private:
       }
     };
     constexpr std::size_t grain = 4096;
-    forBatches(this->Run, this->Tetrahedra.size(), 8 * grain, grain,
+    forBatches(this->Exec, this->Tetrahedra.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t tetrahedron = begin; tetrahedron < end; ++tetrahedron)
@@ -303,7 +303,7 @@ private:
     return piece;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const std::vector<Tetrahedron>& Tetrahedra;

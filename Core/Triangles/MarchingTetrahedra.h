@@ -40,7 +40,7 @@ public:
   MarchingTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
     LeafValues<TSample>& values, double isovalue, EdgeOrder order,
     const std::vector<CrossingTetrahedron<Id>>& tetrahedra)
-    : Run(execution)
+    : Exec(execution)
     , Tree(tree)
     , Values(values)
     , Isovalue(isovalue)
@@ -54,12 +54,12 @@ public:
   MarchedTriangles<TSample> march()
   {
     this->numberLeaves();
-    this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Leaves.size(),
+    this->Pairs = sortedUnique(this->Exec, this->allPairs(), this->Leaves.size(),
       [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
-    this->Run.progress(0.4);
+    this->Exec.progress(0.4);
     this->indexPairs();
     this->placeVertices();
-    this->Run.progress(0.6);
+    this->Exec.progress(0.6);
     this->mergeAtSamples();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
     return this->withUsedVertices(triangles);
@@ -145,7 +145,7 @@ private:
         }
         keepUnique(found);
       },
-      isopoint::partOf(this->Run, 0.0, 0.2));
+      isopoint::partOf(this->Exec, 0.0, 0.2));
   }
 
   template <class T, class Collect>
@@ -163,7 +163,7 @@ private:
     this->NearerEnds.resize(this->Pairs.size());
     this->Ends.resize(this->Pairs.size());
     constexpr std::size_t grain = 4096;
-    forBatches(this->Run, this->Pairs.size(), 8 * grain, grain,
+    forBatches(this->Exec, this->Pairs.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -269,7 +269,7 @@ private:
           this->addTriangles(polygonOf(this->Tetrahedra[i]), found);
         }
       },
-      isopoint::partOf(this->Run, 0.6, 0.8));
+      isopoint::partOf(this->Exec, 0.6, 0.8));
   }
 
   void addTriangles(const Polygon& polygon, std::vector<SurfaceTriangle>& triangles) const
@@ -319,15 +319,15 @@ private:
   {
     const std::vector<std::size_t> used = verticesOf(triangles, this->Edges.size());
     MarchedTriangles<TSample> result;
-    result.edges = chosenOf(this->Run, this->Edges, used);
-    result.positions = chosenOf(this->Run, this->Positions, used);
-    result.nearerEnds = chosenOf(this->Run, this->NearerEnds, used);
+    result.edges = chosenOf(this->Exec, this->Edges, used);
+    result.positions = chosenOf(this->Exec, this->Positions, used);
+    result.nearerEnds = chosenOf(this->Exec, this->NearerEnds, used);
     result.endCount = this->Leaves.size();
-    result.triangles = renumbered(this->Run, triangles, used, this->Edges.size());
+    result.triangles = renumbered(this->Exec, triangles, used, this->Edges.size());
     return result;
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const SampleTree<TSample>& Tree;
   LeafValues<TSample>& Values;
   const double Isovalue;

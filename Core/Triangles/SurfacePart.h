@@ -13,7 +13,7 @@ namespace isopoint
 struct SurfacePart
 {
   std::vector<std::size_t> vertices;      // their numbers in the whole surface, ascending
-  std::vector<bool> areElsewhere;         // whether each is counted on another rank
+  std::vector<bool> areGhosts;            // whether each is counted on another rank
   std::vector<SurfaceTriangle> triangles; // indices into `vertices`; ghosts last
   std::size_t ghostCount = 0;
 };
@@ -113,7 +113,7 @@ private:
       {
         placeOf[vertex] = part.vertices.size();
         part.vertices.push_back(vertex);
-        part.areElsewhere.push_back(!isCounted[vertex]);
+        part.areGhosts.push_back(!isCounted[vertex]);
       }
     }
     return placeOf;

@@ -40,7 +40,7 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
 void takeBackFarMoves(const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
-  constexpr double mostReach = 2.0; // in longest edges
+  constexpr double maxReach = 2.0; // in longest edges
   std::vector<double> longest(fits.size(), 0.0);
   for (const SurfaceTriangle& triangle : triangles)
   {
@@ -58,7 +58,7 @@ void takeBackFarMoves(const std::vector<Vector>& unmoved,
   {
     LocalFit& fit = fits[vertex];
     if (fit.order && fit.order != FitOrder::Crease &&
-        lengthOf(fit.position - unmoved[vertex]) > mostReach * longest[vertex])
+        lengthOf(fit.position - unmoved[vertex]) > maxReach * longest[vertex])
     {
       fit.order.reset();
       fit.position = unmoved[vertex];

@@ -60,7 +60,7 @@ struct VertexContraction::Surroundings
 VertexContraction::VertexContraction(const Execution& execution, const WeightedVertices& vertices,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& groups,
   std::size_t groupCount)
-  : Run(execution)
+  : Exec(execution)
   , Vertices(vertices)
   , Triangles(triangles)
   , Parts(execution, triangles, groups, groupCount)
@@ -94,7 +94,7 @@ void VertexContraction::contract()
   {
     this->IsMerged[part] = this->Parts.isSimple(part) ? 1 : 0;
   }
-  forEachIndex(this->Run, this->Parts.size(),
+  forEachIndex(this->Exec, this->Parts.size(),
     [this](std::size_t part)
     {
       if (this->IsMerged[part])
@@ -106,7 +106,7 @@ void VertexContraction::contract()
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 1024;
-    std::vector<std::size_t> failed = collected<std::size_t>(this->Run,
+    std::vector<std::size_t> failed = collected<std::size_t>(this->Exec,
       { suspects.size(), 16 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {

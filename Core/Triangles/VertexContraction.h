@@ -60,7 +60,7 @@ private:
   template <class Visit>
   void forPartsAround(std::size_t part, const Visit& visit) const;
 
-  const Execution& Run;
+  const Execution& Exec;
   const WeightedVertices& Vertices;
   const std::vector<SurfaceTriangle>& Triangles;
   VertexParts Parts;

@@ -21,7 +21,7 @@ class VertexMerger
 public:
   VertexMerger(const Execution& execution, const std::vector<Vector>& crossings,
     std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
-    : Run(execution)
+    : Exec(execution)
     , Crossings(crossings)
     , Vertices{ crossings, std::vector<double>(crossings.size(), 1.0) }
     , AreKept(std::move(areKept))
@@ -41,16 +41,16 @@ public:
   MergedTriangles merge(std::vector<std::size_t> nearerEnds, std::size_t endCount)
   {
     this->contract(std::move(nearerEnds), endCount);
-    this->Run.progress(0.7);
+    this->Exec.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Run, this->Vertices.positions, this->AreKept, this->Result.triangles);
+      flipEdges(this->Exec, this->Vertices.positions, this->AreKept, this->Result.triangles);
       this->contract(this->pairsOfShortEdges(), this->count());
     }
     this->Result.positions = std::move(this->Vertices.positions);
-    forEachIndex(this->Run, this->Result.size(),
+    forEachIndex(this->Exec, this->Result.size(),
       [this](std::size_t vertex) { this->putNearestFirst(vertex); });
-    this->Run.progress(1.0);
+    this->Exec.progress(1.0);
     return std::move(this->Result);
   }
 
@@ -68,7 +68,7 @@ private:
       }
     }
     VertexContraction contraction(
-      this->Run, this->Vertices, this->Result.triangles, groups, groupCount);
+      this->Exec, this->Vertices, this->Result.triangles, groups, groupCount);
     contraction.contract();
     std::vector<std::size_t> roots;
     for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
@@ -100,7 +100,7 @@ private:
         triangles.push_back(moved);
       }
     }
-    return renumbered(this->Run, triangles, roots, this->count());
+    return renumbered(this->Exec, triangles, roots, this->count());
   }
 
   void keepVertices(const VertexContraction& contraction, const std::vector<std::size_t>& roots)
@@ -156,7 +156,7 @@ private:
     std::rotate(begin, nearest, nearest + 1);
   }
 
-  const Execution& Run;
+  const Execution& Exec;
   const std::vector<Vector>& Crossings;
   WeightedVertices Vertices;
   std::vector<char> AreKept; // each of these

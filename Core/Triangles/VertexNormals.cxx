@@ -55,11 +55,11 @@ std::vector<std::size_t> failedNormals(const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<Vector>& normals,
   const std::vector<std::size_t>& others, const std::vector<Vector>& ofTriangles)
 {
-  constexpr double leastCosine = 0.5; // of 60 degrees
+  constexpr double minCosine = 0.5; // of 60 degrees
   const auto isTurnedFrom = [&](const std::vector<Vector>& means, std::size_t vertex)
   {
     return hasDirection(means[vertex]) &&
-           dot(normals[vertex], directionOf(means[vertex])) < leastCosine;
+           dot(normals[vertex], directionOf(means[vertex])) < minCosine;
   };
   std::vector<bool> isOther(normals.size(), false);
   for (const std::size_t vertex : others)

@@ -87,7 +87,7 @@ class LeafCollector
 public:
   LeafCollector(const isopoint::Execution& execution, vtkPoints* points,
     vtkUnsignedCharArray* ghosts, vtkUnsignedCharArray* inputGhosts)
-    : Run(execution)
+    : Exec(execution)
     , Points(points)
     , Ghosts(ghosts)
     , InputGhosts(inputGhosts)
@@ -120,7 +120,7 @@ public:
     constexpr vtkIdType leavesOfStep = 1 << 16;
     if (++this->Leaves % leavesOfStep == 0)
     {
-      isopoint::throwIfAborted(this->Run);
+      isopoint::throwIfAborted(this->Exec);
     }
     const bool isGhost = this->InputGhosts && this->InputGhosts->GetValue(id) != 0;
     if (!isGhost)
@@ -150,7 +150,7 @@ private:
     }
   }
 
-  const isopoint::Execution& Run;
+  const isopoint::Execution& Exec;
   vtkPoints* const Points;
   vtkUnsignedCharArray* const Ghosts;
   vtkUnsignedCharArray* const InputGhosts;

@@ -102,7 +102,7 @@ void vtkAddIsopointGhosts(
   {
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
-      const bool isElsewhere = !extracted.areElsewhere.empty() && extracted.areElsewhere[i];
+      const bool isElsewhere = !extracted.areGhosts.empty() && extracted.areGhosts[i];
       points.push_back(isElsewhere ? 1 : 0);
     }
     const std::size_t count = extracted.triangles.size();

@@ -10,7 +10,7 @@
 class pqPipelineFilter;
 class pqServerManagerModelItem;
 
-/// Adapts filters behind isopoints when they are applied.
+/// Adapts filters downstream of isopoints when they are applied.
 class pqIsopointFilters
 {
 public:
@@ -31,7 +31,7 @@ private:
   /// surfaces: the output would be hidden behind them.
   static void hideSplatsBehind(pqPipelineFilter* filter);
 
-  /// Explains what to do if a new filter leaves nothing of isopoints because it works on cells.
+  /// Explains what to do if a new filter yields nothing because it needs cells other than vertices.
   static void explainEmptySlice(pqPipelineFilter* filter);
 
   QSet<pqServerManagerModelItem*> NewItems;

@@ -22,13 +22,13 @@ enum Decision : std::uint32_t
 };
 
 /// Smoother surfaces have highlights of this roughness: in mirrors, lights have no extent.
-constexpr float leastRoughnessOfHighlights = 0.12f;
+constexpr float minRoughnessOfHighlights = 0.12f;
 
 /// Additional blur of highlights seen via a rough surface: narrow ones would appear as specks.
 constexpr float roughnessBehindRough = 0.25f;
 
 /// Paths that contribute less than half a color step end.
-constexpr float leastImportance = 1.0f / 512.0f;
+constexpr float minImportance = 1.0f / 512.0f;
 
 /// Up to this bounce, both reflection and refraction are followed; beyond it, one at random.
 constexpr int branchingBounces = 2;
@@ -92,7 +92,7 @@ Radiance PathTracer::along(const Ray& ray, const Sampler& sampler) const
 
 Radiance PathTracer::follow(const Path& path) const
 {
-  if (path.bounces > this->Light.mostBounces || path.importance < leastImportance)
+  if (path.bounces > this->Light.maxBounces || path.importance < minImportance)
   {
     return {};
   }
@@ -219,7 +219,7 @@ Color PathTracer::shadePhysical(const Shading& shading) const
   // Diffuse reflection and highlights of lights.
   const float before = shading.path.roughness;
   const Microfacets highlights(
-    std::min(1.0f, std::max({ material.roughness, leastRoughnessOfHighlights,
+    std::min(1.0f, std::max({ material.roughness, minRoughnessOfHighlights,
                      before > 0.0f ? before + roughnessBehindRough : 0.0f })));
   const float opaque = (1.0f - material.metallic) * material.opacity * hit.opacity;
   const float seen = std::max(dot(shading.normal, shading.towards), 1e-4f);

@@ -18,7 +18,7 @@ struct Illuminants
   Environment environment;
   AmbientLight ambient;
   bool hasShadows = true;
-  int mostBounces = 8; // maximum number of reflections and refractions of a path
+  int maxBounces = 8; // maximum number of reflections and refractions of a path
 };
 
 /// The light that arrives along a ray.

@@ -196,10 +196,10 @@ Color Scene::transmittance(const Ray& ray) const
     return {};
   }
   Color passed{ 1.0f, 1.0f, 1.0f };
-  constexpr int mostSurfaces = 32;
+  constexpr int maxSurfaces = 32;
   constexpr float least = 1.0f / 512.0f; // half of a color step
   Ray rest = ray;
-  for (int i = 0; this->Content->hasTransparent && i < mostSurfaces && largestOf(passed) > least;
+  for (int i = 0; this->Content->hasTransparent && i < maxSurfaces && largestOf(passed) > least;
        ++i)
   {
     const Hit hit = this->closest(rest, Scene::Transparent);

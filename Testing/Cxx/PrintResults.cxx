@@ -59,7 +59,7 @@ void print(const char* name, const Cloud& cloud)
     const auto order = static_cast<FitOrder>(i / kinds.size());
     isopoint::ExtractionRequest request = clouds::withSplats(clouds::requestOf(
       0.0, i < kinds.size() ? std::nullopt : std::optional<FitOrder>(order), true));
-    request.isosurface.partsCreases = order == FitOrder::Crease;
+    request.isosurface.duplicatesCreaseVertices = order == FitOrder::Crease;
     request.triangles = kind > 0;
     request.isosurface.regularizes = kind > 1;
     const isopoint::ExtractedIsosurface found = extractor.extract({}, request);

@@ -125,7 +125,7 @@ inline std::pair<Description, Description> contentsOf(const std::vector<Extracte
   {
     for (std::size_t i = 0; i < rank.surface.size(); ++i)
     {
-      if (rank.areElsewhere.empty() || !rank.areElsewhere[i])
+      if (rank.areGhosts.empty() || !rank.areGhosts[i])
       {
         points.push_back(described(rank, i));
       }
@@ -222,7 +222,7 @@ void expectSameAsOneRank(const clouds::Cloud& cloud, std::size_t size, Deal deal
     {
       EXPECT_TRUE(std::is_sorted(rank.triangles.begin(), rank.triangles.end()));
       EXPECT_EQ(rank.ghostTriangles, 0u);
-      EXPECT_EQ(rank.areElsewhere.size(), requests[i].triangles ? rank.surface.size() : 0u);
+      EXPECT_EQ(rank.areGhosts.size(), requests[i].triangles ? rank.surface.size() : 0u);
       // Vertices on creases of triangles follow behind all others.
       EXPECT_TRUE(requests[i].triangles ||
                   std::is_sorted(rank.surface.edges.begin(), rank.surface.edges.end()));

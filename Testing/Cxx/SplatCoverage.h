@@ -93,15 +93,15 @@ inline std::vector<Splat> splatsOf(vtkPolyData* points)
 class Coverage
 {
 public:
-  /// @param leastTolerance a splat covers places up to this distance from its plane, or up to half
+  /// @param minTolerance a splat covers places up to this distance from its plane, or up to half
   /// its radius if that is more
-  Coverage(const std::vector<Splat>& splats, double leastTolerance)
+  Coverage(const std::vector<Splat>& splats, double minTolerance)
     : Splats(splats)
-    , LeastTolerance(leastTolerance)
+    , LeastTolerance(minTolerance)
   {
     for (std::size_t i = 0; i < splats.size(); ++i)
     {
-      const double reach = std::max(2.0 * splats[i].radius(), leastTolerance);
+      const double reach = std::max(2.0 * splats[i].radius(), minTolerance);
       const double cellSize = std::exp2(std::ceil(std::log2(reach)));
       this->Levels[cellSize][keyOf(splats[i].center, cellSize)].push_back(i);
     }

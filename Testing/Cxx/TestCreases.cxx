@@ -140,7 +140,7 @@ TEST(CreaseFit, FindsThePlanesOfEdgesAndCorners)
         ++found;
         EXPECT_EQ(crease->sense, sense);
         EXPECT_TRUE(crease->isSharp());
-        EXPECT_NEAR(crease->leastSlope(), 1.0, 1e-9);
+        EXPECT_NEAR(crease->minSlope(), 1.0, 1e-9);
         for (const auto& [place, value] : samplesOf(field, 50))
         {
           EXPECT_NEAR(crease->pieces[crease->pieceAt(place)].valueAt(place), value, 1e-8);

@@ -55,10 +55,10 @@ Surface contour(const Samples& samples, double isovalue)
 }
 
 /// Expects that all points are about this far from a center, in units of a scale.
-void expectSphere(const Surface& surface, vtkIdType leastCount, double radius, double tolerance,
+void expectSphere(const Surface& surface, vtkIdType minCount, double radius, double tolerance,
   double center = 0.0, double scale = 1.0)
 {
-  EXPECT_GT(surface.count(), leastCount);
+  EXPECT_GT(surface.count(), minCount);
   for (vtkIdType i = 0; i < surface.count(); ++i)
   {
     const Vector p = surface.point(i);

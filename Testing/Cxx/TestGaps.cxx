@@ -47,7 +47,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
     for (std::size_t x = 0; x < expected.cells.size(); ++x)
     {
       const std::size_t leaf = leafOf.at(expected.cells[x].id);
-      const Path at = pathToLeaf(tree, leaf);
+      const Path at = pathToNode(tree, leaf);
       for (std::size_t y = x + 1; y < expected.cells.size(); y += 1 + x % 7)
       {
         const std::size_t wanted = 1 + (x + y) % 3;

@@ -42,8 +42,8 @@ struct Extracted
   {
     const auto touches = [&](std::size_t end)
     {
-      return bruteforce::touch(isopoint::pathToLeaf(this->tree, end).region,
-        isopoint::pathToLeaf(this->tree, leaf).region);
+      return bruteforce::touch(isopoint::pathToNode(this->tree, end).region,
+        isopoint::pathToNode(this->tree, leaf).region);
     };
     Isopoints found;
     for (std::size_t i = 0; i < this->surface.size(); ++i)

@@ -21,7 +21,7 @@ Request triangles(double isovalue, std::optional<FitOrder> order = std::nullopt,
 
 Request partingCreases(Request request)
 {
-  request.isosurface.partsCreases = true;
+  request.isosurface.duplicatesCreaseVertices = true;
   return request;
 }
 
@@ -182,7 +182,7 @@ TEST(Ranks, YieldTheRandomResultsOfOneRank)
     {
       const double isovalue = cloud.size() > 0 ? cloud.values[dice(cloud.size())] : 0.0;
       Request crease = triangles(isovalue, FitOrder::Crease);
-      crease.isosurface.partsCreases = seed % 2 == 0;
+      crease.isosurface.duplicatesCreaseVertices = seed % 2 == 0;
       requests.insert(requests.end(), { triangles(isovalue, FitOrder::Cubic), crease,
                                         triangles(isovalue, std::nullopt, dice(2) == 0),
                                         triangles(isovalue, FitOrder::Cubic, false, true),
@@ -255,7 +255,7 @@ TEST(Ranks, HaveGhostTrianglesInRings)
   std::vector<Request> requests(4, triangles(0.3));
   for (int rings = 0; rings < 4; ++rings)
   {
-    requests[static_cast<std::size_t>(rings)].ghostRings = rings;
+    requests[static_cast<std::size_t>(rings)].triangleGhostRings = rings;
   }
   const auto found = ranks::extractOnRanks(pieces, requests);
   for (std::size_t rank = 0; rank < pieces.size(); ++rank)

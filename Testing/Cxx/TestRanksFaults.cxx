@@ -21,7 +21,7 @@ const Request points = []()
 const Request triangles = []()
 {
   Request request = clouds::withTriangles(points);
-  request.ghostRings = 1;
+  request.triangleGhostRings = 1;
   return request;
 }();
 
@@ -161,7 +161,7 @@ TEST(RanksFaults, ByChanceEndTheWorkOfAll)
       ranks::dealOut(clouds::randomCloud(dice, seed), 2 + dice(4), ranks::allDeals[dice(6)]);
     Request request = ranks::randomRequest(dice);
     request.triangles = dice(2) == 0;
-    request.ghostRings = static_cast<int>(dice(3));
+    request.triangleGhostRings = static_cast<int>(dice(3));
     const Contents expected = expectedOf(pieces, request);
     for (int fault = 0; fault < 10 && !HasFailure(); ++fault)
     {

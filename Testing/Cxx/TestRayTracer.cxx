@@ -56,11 +56,11 @@ std::shared_ptr<Surface> squareOf(float side, float height)
   return square;
 }
 
-Illuminants whiteSurroundings(int mostBounces)
+Illuminants whiteSurroundings(int maxBounces)
 {
   Illuminants illuminants;
   illuminants.environment.bottom = illuminants.environment.top = { 1.0f, 1.0f, 1.0f };
-  illuminants.mostBounces = mostBounces;
+  illuminants.maxBounces = maxBounces;
   return illuminants;
 }
 

@@ -29,8 +29,8 @@ struct BruteForce
   {
     double above = 0.0;
     double below = 0.0;
-    double leastLength = query.reach;
-    double leastDistance = query.enough;
+    double minLength = query.reach;
+    double minDistance = query.enough;
     const Vector place = query.place + query.enough * query.direction;
     for (std::size_t i = cloud.size(); i-- > 0;)
     {
@@ -42,16 +42,16 @@ struct BruteForce
         const double height = dot(offset, query.normal);
         above = height >= 0.0 ? std::max(above, ahead) : above;
         below = height <= 0.0 ? std::max(below, ahead) : below;
-        if (length <= leastLength && ahead >= query.enough)
+        if (length <= minLength && ahead >= query.enough)
         {
-          leastLength = length;
+          minLength = length;
           this->nearest = i;
         }
       }
       const double distance = lengthOf(cloud.at(i) - place);
-      if (distance <= leastDistance)
+      if (distance <= minDistance)
       {
-        leastDistance = distance;
+        minDistance = distance;
         this->closest = i;
       }
     }

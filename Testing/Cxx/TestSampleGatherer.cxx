@@ -3,7 +3,7 @@
 #include "RingDefinition.h"
 
 #include "Core/Extraction/ExtractIsosurface.h"
-#include "Core/Extraction/LeafSet.h"
+#include "Core/Extraction/IndexSet.h"
 #include "Core/Extraction/SampleGatherer.h"
 #include "Core/Extraction/SingleRank.h"
 
@@ -143,10 +143,10 @@ TEST(SampleGatherer, FollowsTheDefinitionWhereEndsHaveTooManyNeighbors)
   EXPECT_GT(representatives, 20u);
 }
 
-TEST(LeafSet, IsASet)
+TEST(IndexSet, IsASet)
 {
   clouds::Random random(7);
-  isopoint::LeafSet<std::uint32_t> set;
+  isopoint::IndexSet<std::uint32_t> set;
   for (int round = 0; round < 300; ++round)
   {
     set.clear();

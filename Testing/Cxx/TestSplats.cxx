@@ -595,7 +595,7 @@ TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
       arrayOf({ cellOf({ { -1, -1, VoronoiCell::none }, { 1, -1, 2 }, { 1, 1, 1 }, { -1, 1, 3 } }),
         cellOf(others), cellOf({ { 0, 0, 0 } }), cellOf({ { 0, 0, 0 } }) }),
       0);
-    const bool isDropped = cornersOfOther == mostCorners;
+    const bool isDropped = cornersOfOther == maxCorners;
     EXPECT_EQ(mutual.count, isDropped ? 3 : 4);
     EXPECT_EQ(countOf(mutual, [](const VoronoiCell::Corner& corner) { return corner.overlaps; }),
       isDropped ? 0 : 1);

@@ -157,13 +157,13 @@ TEST(Triangles, OfASphereAreClosedWithNormalsAgainstTheGradient)
   const double volume = 4.0 / 3.0 * 3.14159265358979 * 0.35 * 0.35 * 0.35;
   EXPECT_NEAR(-volumeOf(fitted), volume, 0.003 * volume);
   EXPECT_NEAR(-volumeOf(onEdges), volume, 0.01 * volume);
-  const auto expectInward = [](const ExtractedIsosurface& extracted, double leastCosine)
+  const auto expectInward = [](const ExtractedIsosurface& extracted, double minCosine)
   {
     ASSERT_EQ(extracted.normals.size(), extracted.surface.size());
     for (std::size_t i = 0; i < extracted.surface.size(); ++i)
     {
       const Vector inward = Vector{ 0.5, 0.5, 0.5 } - extracted.surface.positions[i];
-      EXPECT_GT(dot(directionOf(inward), extracted.normals[i]), leastCosine);
+      EXPECT_GT(dot(directionOf(inward), extracted.normals[i]), minCosine);
     }
   };
   expectInward(fitted, 0.99);

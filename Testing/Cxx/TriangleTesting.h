@@ -126,7 +126,7 @@ public:
     : Samples(std::move(cloud))
     , Run(clouds::executionOn(threads))
     , Tree(isopoint::loadSamples<TSample>(
-        this->Run, this->Samples.size(), clouds::readerOf(this->Samples)))
+        this->Exec, this->Samples.size(), clouds::readerOf(this->Samples)))
   {
   }
 
@@ -135,18 +135,18 @@ public:
   {
     isopoint::IsosurfaceRequest request{ isovalue };
     request.keepsTetrahedra = keepsTetrahedra;
-    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
-    return this->compared(extraction.tetrahedra(this->Run), extraction.counts(), isovalue);
+    Extraction extraction(this->Exec, this->Tree, this->Rank, this->None, this->Band, request);
+    return this->compared(extraction.tetrahedra(this->Exec), extraction.counts(), isovalue);
   }
 
   /// The same from a first band of only a share of the narrow band's nodes.
   Found expectSameFromPart(double isovalue, double share)
   {
-    auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Run).refine(this->Rank);
+    auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Exec).refine(this->Rank);
     nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
     isopoint::LeafValues<TSample> means(this->Tree);
     isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
-      this->Run, this->Tree, this->Rank, means, isovalue, this->Band);
+      this->Exec, this->Tree, this->Rank, means, isovalue, this->Band);
     const auto tetrahedra = finder.find(nodes);
     return this->compared(tetrahedra, finder.counts(), isovalue);
   }
@@ -155,11 +155,11 @@ public:
   std::vector<Corners> inGaps(double isovalue)
   {
     const isopoint::IsosurfaceRequest request{ isovalue };
-    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
-    const auto all = extraction.tetrahedra(this->Run);
+    Extraction extraction(this->Exec, this->Tree, this->Rank, this->None, this->Band, request);
+    const auto all = extraction.tetrahedra(this->Exec);
     const std::vector<char> areInGaps =
       isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
-        this->Run, this->Tree, this->Rank, all)
+        this->Exec, this->Tree, this->Rank, all)
         .find();
     std::decay_t<decltype(all)> tetrahedra;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -210,7 +210,7 @@ private:
   }
 
   Cloud Samples;
-  isopoint::Execution Run;
+  isopoint::Execution Exec;
   isopoint::SampleTree<TSample> Tree;
   isopoint::SingleRank<TSample> Rank{ this->Tree };
   isopoint::NeighborhoodCache<typename TSample::Id> None;

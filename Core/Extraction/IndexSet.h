@@ -10,7 +10,7 @@ namespace isopoint
 
 /// A set of node indices that is cleared often. Memory is kept. For one thread.
 template <class TId>
-class LeafSet
+class IndexSet
 {
 public:
   /// O(1), except when the generation counter overflows.
