@@ -174,8 +174,8 @@ std::uint64_t hashOfItem(std::uint64_t id, const TCoordinate* position)
 /// have equal hashes with a probability of 2^-64.
 /// @param hashAt(i) the item's contribution, 0 if it is left out
 /// @throws Aborted
-template <class DigestAt>
-std::uint64_t hashOfAll(const Execution& execution, std::size_t count, const DigestAt& hashAt)
+template <class HashAt>
+std::uint64_t hashOfAll(const Execution& execution, std::size_t count, const HashAt& hashAt)
 {
   constexpr std::size_t grain = 1 << 14;
   std::atomic<std::uint64_t> sum{ 0 };
