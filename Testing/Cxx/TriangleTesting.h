@@ -124,7 +124,7 @@ class TetrahedraSearch
 public:
   explicit TetrahedraSearch(Cloud cloud, std::size_t threads = 1)
     : Samples(std::move(cloud))
-    , Run(clouds::executionOn(threads))
+    , Exec(clouds::executionOn(threads))
     , Tree(isopoint::loadSamples<TSample>(
         this->Exec, this->Samples.size(), clouds::readerOf(this->Samples)))
   {
