@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <mutex>
+#include <shared_mutex>
 #include <unordered_map>
 
 namespace isopoint
@@ -20,7 +21,7 @@ public:
   T at(std::size_t index, const Compute& compute)
   {
     {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const std::shared_lock<std::shared_mutex> lock(this->Mutex);
       const auto found = this->Values.find(index);
       if (found != this->Values.end())
       {
@@ -28,12 +29,12 @@ public:
       }
     }
     const T value = compute();
-    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const std::lock_guard<std::shared_mutex> lock(this->Mutex);
     return this->Values.emplace(index, value).first->second;
   }
 
 private:
-  std::mutex Mutex;
+  std::shared_mutex Mutex;
   std::unordered_map<std::size_t, T> Values;
 };
 

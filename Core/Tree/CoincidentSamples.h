@@ -55,10 +55,10 @@ public:
   {
   }
 
-  /// O(1), except for the first request for a leaf of over 16 samples. @throws std::bad_alloc
+  /// O(1), except for the first request for a leaf of over 64 samples. @throws std::bad_alloc
   double at(std::size_t nodeIndex)
   {
-    constexpr std::size_t fewSamples = 16;
+    constexpr std::size_t fewSamples = 64; // mostly faster to add up than to look up
     const Node<TSample>& leaf = this->Tree.nodes[nodeIndex];
     if (leaf.count() == 1)
     {

@@ -3,6 +3,7 @@
 
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
+#include "Core/Failure.h"
 #include "Input/vtkIsopointGhosts.h"
 
 #include "vtkCellData.h"
@@ -181,6 +182,11 @@ vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   if (count == 0)
   {
     return centers;
+  }
+  if (input->GetNumberOfPoints() == 0)
+  {
+    throw isopoint::UsageError("The input has cells, but no points: its cells have no centers. "
+                               "Connect data with points.");
   }
   // GetCell() is thread-safe only after a first call on a single thread.
   vtkNew<vtkGenericCell> first;

@@ -103,14 +103,16 @@ def samples_of(source: Any, values: Any, prefers_cells: bool = False) -> DataSam
                   "apply vtkHyperTreeGridCellCenters first" if data.IsA("vtkHyperTreeGrid") else
                   "convert it to a data set first")
         raise TypeError(f"A {data.GetClassName()} has no samples: {remedy}.")
-    given = None if values is None or isinstance(values, str) else given_values(data, values)
+    are_given = not (values is None or isinstance(values, str))
+    if are_given and not data.IsA("vtkDataSet"):
+        raise _needs_name(data)
     associations = (CELL, POINT) if prefers_cells else (POINT, CELL)
     blocks, lacking, without_array = [], None, 0
     for leaf in leaves(data):
         size = max(leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()) if leaf.IsA("vtkDataSet") else 0
         if size == 0:
             continue
-        found = given or _find(leaf, values, associations)
+        found = given_values(data, values) if are_given else _find(leaf, values, associations)
         if found is not None:
             blocks.append(_block(leaf, *found))
         else:
@@ -120,19 +122,24 @@ def samples_of(source: Any, values: Any, prefers_cells: bool = False) -> DataSam
         raise _no_samples(values, lacking)
     samples = blocks[0] if len(blocks) == 1 else _joined(blocks)
     samples.without_array = without_array
+    samples.maker.scalars = samples.maker.scalars or "values"
     samples.maker.package, samples.maker.wraps = package_of(data), is_of_pyvista(data)
     samples.maker.field_data = module_of(data, "vtkCommonDataModel").vtkFieldData()
     samples.maker.field_data.ShallowCopy(data.GetFieldData())
     return samples
 
 
+def _needs_name(data: Any) -> TypeError:
+    return TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
+
+
 def given_values(data: Any, values: Any) -> tuple[int, np.ndarray]:
     """Values that are given as an array, with shape (n,), and whether they are of points or of cells."""
     if not hasattr(data, "GetCellData"):
-        raise TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
+        raise _needs_name(data)
     numbers = readable("values", values)
     points, cells = (data.GetNumberOfElements(association) for association in (POINT, CELL))
-    if numbers.ndim > 0 and len(numbers) not in (points, cells):
+    if numbers.ndim == 1 and len(numbers) not in (points, cells):
         raise ValueError(f"{len(numbers)} values for a data set of {points} points and {cells} cells: there"
                          " is to be one for each")
     is_of_cells = numbers.shape[:1] == (cells,) and cells != points
@@ -187,7 +194,7 @@ def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
             arrays[key] = array
             if use >= 0:
                 uses[key] = use
-    maker = PolyDataMaker(scalars=name or "values", uses=uses)
+    maker = PolyDataMaker(scalars=name or None, uses=uses)
     return DataSamples(positions, as_numpy(scalars), excluded, arrays, maker)
 
 
@@ -210,11 +217,12 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
                      and other[key].shape[1:] == array.shape[1:] for other in others)}
     uses = {key: use for key, use in blocks[0].maker.uses.items()
             if key in arrays and all(block.maker.uses.get(key) == use for block in blocks)}
+    names = (block.maker.scalars for block in blocks)
     excluded = [np.zeros(len(place), bool) if block.excluded is None else block.excluded
                 for block, place in zip(blocks, positions)]
     return DataSamples(np.concatenate(positions), np.concatenate([block.values for block in blocks]),
                        np.concatenate(excluded), arrays,
-                       PolyDataMaker(scalars=blocks[0].maker.scalars, uses=uses))
+                       PolyDataMaker(scalars=next(filter(None, names), None), uses=uses))
 
 
 def point_positions(leaf: Any) -> Any:
@@ -264,7 +272,8 @@ def _cell_centers(leaf: Any) -> np.ndarray:
         axes = [as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)]
         return _lattice([0.5 * axis[:-1] + 0.5 * axis[1:] if len(axis) > 1 else axis for axis in axes])
     if leaf.GetNumberOfPoints() == 0:
-        raise ValueError("The data set has cells, but no points: its cells have no centers.")
+        raise ValueError("The input has cells, but no points: its cells have no centers. Connect data with"
+                         " points.")
     centers = module_of(leaf, "vtkCommonCore").vtkDoubleArray()
     centers.SetNumberOfComponents(3)
     centers.SetNumberOfTuples(leaf.GetNumberOfCells())

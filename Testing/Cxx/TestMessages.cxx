@@ -2,7 +2,9 @@
 // Errors, warnings and notes: one short message of each cause, with figures and a remedy.
 #include "InputTesting.h"
 
+#include "vtkCellType.h"
 #include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <cerrno>
 
@@ -284,6 +286,9 @@ TEST(Messages, EachInvalidUseIsOneError)
   unloaded->GetPointData()->AddArray(ghostsOf(125, [](vtkIdType) { return 0; }));
   vtkNew<vtkPolyData> nothing;
   const auto emptyBlocks = blocksOf({ nothing.Get(), vtkSmartPointer<vtkTable>::New() });
+  vtkNew<vtkUnstructuredGrid> withoutPoints;
+  withoutPoints->InsertNextCell(VTK_EMPTY_CELL, 0, static_cast<const vtkIdType*>(nullptr));
+  withoutPoints->GetCellData()->AddArray(newArray("x", 1));
   constexpr int ofAny = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
   const std::string remedy = "SetInputArrayToProcess()";
   const std::string offer = "distance, x, position, names, short";
@@ -304,6 +309,12 @@ TEST(Messages, EachInvalidUseIsOneError)
     { input(unloaded), { "load", "reader" } },
     { input(nothing), { "no points", "Connect" } },
     { input(emptyBlocks), { "no points", "Connect" } },
+    { [&](Isopoints* filter)
+      {
+        input(withoutPoints)(filter);
+        choose("x", ofCells)(filter);
+      },
+      { "cells, but no points", "Connect" } },
     { [&](Isopoints* filter)
       {
         cloud->GetPointData()->SetActiveScalars(nullptr);

@@ -163,6 +163,16 @@ class DataSetsTest(unittest.TestCase):
         for data in (parts, collection):
             self.assertGreater(self.same(data, "distance", [isovalue]), 100)
 
+    def test_isovalues_are_named_like_the_first_active_scalars_with_a_name(self):
+        blocks = vtkMultiBlockDataSet()
+        for i, name in enumerate((None, "second", "third")):
+            block = cloud(1000)
+            scalars = numpy_to_vtk(RANDOM.random(1000))
+            scalars.SetName(name)
+            block.GetPointData().SetScalars(scalars)
+            blocks.SetBlock(i, block)
+        self.assertIn("second", Samples(blocks).contour(0.5).arrays)
+
     def test_levels_of_an_amr(self):
         levels = amr()
         vtkAMRUtilities.BlankCells(levels)
@@ -253,7 +263,9 @@ class DataSetsTest(unittest.TestCase):
                 ((vtkPolyData(), "distance"), ValueError, "no points"),
                 ((vtkMultiBlockDataSet(), "distance"), ValueError, "no points"),
                 ((data, "speed"), ValueError, 'speed.*distance, place'), ((cloud(),), ValueError, "active.*scalars"),
+                ((vtkPolyData(), np.zeros(5)), ValueError, "no points"),
                 ((data, np.zeros(99)), ValueError, "99 values.*3000"),
+                ((data, np.zeros((7, 3))), ValueError, r"\(7, 3\)"),
                 ((vtkMultiBlockDataSet(), np.zeros(99)), TypeError, "name")):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 Samples(*arguments)
