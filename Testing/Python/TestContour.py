@@ -139,7 +139,8 @@ class ContourTest(unittest.TestCase):
                                     (np.float32([0.25]), (0.25,)),
                                     (np.ma.masked_array([0.2, 0.3], [True, False]), (0.3,))):
             self.same(contour(positions, values, isovalues), data, expected)
-        self.assertEqual(len(contour(positions, values, range(1, 0))), 0)
+        for arguments in ((positions, values), (data, None)):
+            self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
 
     def test_warnings_are_those_of_python(self):
         positions, values = samples()

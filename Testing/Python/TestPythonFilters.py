@@ -65,6 +65,7 @@ class PythonFilters(unittest.TestCase):
             self.assertGreater(len(ours.PROPERTIES), 1)
             for name in ours.PROPERTIES:
                 pair = ours(), theirs()
+                self.assertIn(f"{name}: ", str(pair[1]))
                 for value in (None, -5, -1, 0, 1, 2, 3, 4, 5, 12, 10**6):
                     for filter_ in pair if value is not None else ():
                         getattr(filter_, "Set" + name)(value)
