@@ -51,7 +51,7 @@ common.print_head("cloud", "samples", "points", "seconds", "vertices of triangle
                   "seconds of VTK")
 for millions in options.samples:
     for name, positions, values in common.spheres(millions):
-        samples = common.cloud(positions, values.astype(np.float32))
+        samples = common.cloud_of(positions, values.astype(np.float32))
         add_row(name, samples, (common.RADIUS, common.OTHER_RADIUS), options)
 for path, *isovalues in options.file:
     add_row(common.name_of(path), common.read(path), [float(value) for value in isovalues], options)

@@ -42,7 +42,7 @@ def lattice(count, _):
 
 
 def cloud(positions):
-    return common.cloud(positions, np.linalg.norm(positions, axis=1))
+    return common.cloud_of(positions, np.linalg.norm(positions, axis=1))
 
 
 def resampled(path, count):
@@ -55,7 +55,7 @@ def resampled(path, count):
     probe.SetSourceData(volume)
     values = common.output_of(probe, cloud(positions)).GetPointData().GetArray(
         volume.GetPointData().GetScalars().GetName())
-    return common.cloud(positions, vtk_to_numpy(values).astype(np.float32))
+    return common.cloud_of(positions, vtk_to_numpy(values).astype(np.float32))
 
 
 class Table:

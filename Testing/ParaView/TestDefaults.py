@@ -5,10 +5,9 @@ import sys
 
 import numpy as np
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
-from scripting import add_array, check, load, messages, number_of_points, offered_arrays, path_of, produced, run, updated
+from scripting import check, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated
 
 load(sys.argv[1])
 FILTERS = simple.ScatteredIsopoints, simple.ScatteredIsosurface
@@ -25,7 +24,7 @@ def lattice(association, **arrays):
     image.SetDimensions(*([13] * 3 if association == "CELLS" else [12] * 3))
     places = np.stack(np.meshgrid(*3 * [np.arange(12.0)], indexing="ij"), -1).reshape(-1, 3)
     for name, function in arrays.items():
-        add_array(attributes_of(image, association), name, function(places))
+        attributes_of(image, association).AddArray(named(name, function(places)))
     return image
 
 
@@ -80,10 +79,7 @@ def arrays_without_isosurfaces_are_not_offered():
     for association in ASSOCIATIONS:
         data = lattice(association, vtkGhostType=ghosts, none=number(np.nan),
                        some=lambda p: np.where(p[:, 0] < 2, np.nan, distance(p)))
-        names = vtkStringArray()
-        names.SetName("names")
-        names.SetNumberOfValues(12**3)
-        attributes_of(data, association).AddArray(names)
+        attributes_of(data, association).AddArray(named("names", 12**3 * ["name"]))
         for create in FILTERS:
             isopoints = create(Input=produced(data))
             check(offered_arrays(isopoints) == ["some"], f"offered: {offered_arrays(isopoints)}")

@@ -12,11 +12,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import scatteredisopoints
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-
-from scripting import SPLATS, check, load
+from scripting import SPLATS, check, load, vtk_data
 
 LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
 
@@ -62,18 +58,10 @@ def check_range(name, element, accepts):
         check(high is None or not accepts(high + 1), f"{name}: more than {high}")
 
 
-def samples():
-    positions = np.random.default_rng(1).random((50, 3))
-    data, points = vtkPolyData(), vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=True))
-    data.SetPoints(points)
-    data.GetPointData().SetScalars(numpy_to_vtk(positions[:, 0].copy(), deep=True))
-    return data
-
-
 def filter_accepts(instance, name):
     """A value outside of the range is set to the nearest one, or is an error at the update."""
-    instance.SetInputData(samples())
+    positions = np.random.default_rng(1).random((50, 3))
+    instance.SetInputData(vtk_data.cloud_of(positions, positions[:, 0]))
     if hasattr(instance, "SetValue"):
         instance.SetValue(0, 0.5)
     errors = []

@@ -8,12 +8,11 @@ import sys
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 from scripting import (
     SPLATS, ball, check, contoured, covered, distance_in, leaves_of, load, look, make_view, number_of_points, path_of,
-    pixels, positions, shown, updated)
+    pixels, positions, shown, updated, vtk_data)
 
 BALL_POINTS = 39193  # of the ball, on any number of ranks
 YELLOW = [1.0, 1.0, 0.0]
@@ -63,9 +62,7 @@ def level_of_detail():
         grab.SetInput(VIEW.GetRenderWindow())
         grab.ShouldRerenderOff()
         grab.Update()
-        width, height, _ = grab.GetOutput().GetDimensions()
-        scalars = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
-        pictures.append(scalars.reshape(height, width, -1)[..., :3].astype(int))
+        pictures.append(vtk_data.as_array(grab.GetOutput()))
     coarse, everything = pictures
     check(covered(coarse).sum() > 0.9 * covered(everything).sum(), "the ball in fewer triangles")
     check(not np.array_equal(coarse, everything), "fewer triangles while interacting")

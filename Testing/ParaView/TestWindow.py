@@ -8,7 +8,8 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 import playing
-from playing import ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, set_property
+from playing import (
+    ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, run, set_property)
 
 PLUGIN, PARAVIEW, FILTER_XML, EXPORTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
@@ -183,8 +184,5 @@ def selected_points_keep_their_shapes():
         check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
-for test in (inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels,
-             search_finds_the_filters_by_contour, an_empty_slice_is_explained, isovalues_follow_the_array,
-             selected_points_keep_their_shapes, pictures_are_traced):
-    print(test.__name__, flush=True)
-    test()
+run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_the_filters_by_contour,
+    an_empty_slice_is_explained, isovalues_follow_the_array, selected_points_keep_their_shapes, pictures_are_traced)

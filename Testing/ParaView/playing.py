@@ -13,6 +13,9 @@ import tempfile
 import threading
 from xml.sax.saxutils import quoteattr
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
+from checking import check, run  # noqa: E402, F401
+
 # Runs in the window. It reports at each picture, the last time at the end.
 SCRIPT = """
 import json
@@ -45,11 +48,6 @@ FOLDER = pathlib.Path(_temporary.name)
 WINDOW = "pqClientMainWindow/"
 PANEL = WINDOW + "propertiesDock/propertiesPanel/"
 FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
 
 
 def event(item, command, arguments=""):

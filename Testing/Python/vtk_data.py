@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data sets of VTK, what filters make of them, and whether two are the same."""
+"""Data sets and pictures of VTK, what filters make of them, and whether two are the same."""
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 
 def named(name, values):
@@ -68,6 +69,26 @@ def names_of(data):
         found.append(iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME()) if is_named else None)
         iterator.GoToNextItem()
     return found
+
+
+def as_array(image):
+    """A picture as an array, its first row at the bottom."""
+    width, height, _ = image.GetDimensions()
+    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+    return scalars.reshape(height, width, -1)[..., :3].astype(float)
+
+
+def read_image(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return as_array(reader.GetOutput())
+
+
+def psnr(a, b):
+    """Peak signal to noise ratio in decibels."""
+    error = np.mean((a - b) ** 2)
+    return np.inf if error == 0 else 10 * np.log10(255**2 / error)
 
 
 def configured(kind, data, isovalues=(), **properties):

@@ -1,33 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces as splats and as meshes, scenes of them, and pictures, for the tests of rendering."""
 
+import pathlib
 import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
 from scatteredisopoints import vtkIsopointRayTracer, vtkIsopointSplatMapper, vtkScatteredIsopointFilter
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
+from checking import check, run  # noqa: E402, F401
+from vtk_data import as_array, cloud_of, named, points_of, psnr, read_image  # noqa: E402, F401
 
 RING, TUBE = 1.0, 0.4
 BOUNDS = (-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)  # of the torus
 BACKGROUND = (0.2, 0.25, 0.35)
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
-def run(*tests):
-    for test in tests:
-        print(test.__name__, flush=True)
-        test()
 
 
 def configured(instance, **properties):
@@ -47,8 +40,7 @@ def sphere_mesh(theta=100, phi=100, **properties):
 
 
 def add_array(data, name, values, cells=False):
-    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(name)
+    array = named(name, values)
     attributes = data.GetCellData() if cells else data.GetPointData()
     attributes.SetNormals(array) if name == "Normals" else attributes.AddArray(array)
 
@@ -67,9 +59,7 @@ def cells_of(rows):
 
 def polydata(points, normals=None, **arrays):
     """Points with one vertex cell each and arrays."""
-    data, vtk_points = vtkPolyData(), vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
-    data.SetPoints(vtk_points)
+    data = cloud_of(np.asarray(points, dtype=float))
     if normals is not None:
         add_array(data, "Normals", np.asarray(normals, dtype=np.float32))
     for name, values in arrays.items():
@@ -194,22 +184,6 @@ def traced(renderer, width, height, **properties):
     tracer = configured(vtkIsopointRayTracer(), **properties)
     check(tracer.RenderToImage(renderer, width, height, image), "there is a picture")
     return as_array(image)
-
-
-def as_array(image):
-    width, height, _ = image.GetDimensions()
-    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(float)
-
-
-def read_image(path):
-    return as_array(output_of(vtkPNGReader(), FileName=path))
-
-
-def psnr(a, b):
-    """Peak signal to noise ratio in decibels."""
-    error = np.mean((a - b) ** 2)
-    return np.inf if error == 0 else 10 * np.log10(255**2 / error)
 
 
 def differs(image, color=BACKGROUND):
