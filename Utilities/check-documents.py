@@ -45,7 +45,7 @@ NAMED = {"preset": r"--preset[=\s]+([\w-]+)", "option": r"-D *(SCATTEREDISOPOINT
          "test": r"--tests-regex[=\s]+('[^']*'|\S+)", "target": r"--target[=\s]+((?:(?! -|[;&]| \|)[^\n])+)"}
 # What waits to be filled in: words such as RESULTS or TESTS12 that no source has.
 UNFINISHED = r"(\?\?\?|\b(?:TODO|TBD|FIXME|XXX|TKTK)\b|\b[A-Z]{4,}\d*[A-Z]*\b)"
-CAPITALS = {"BRDF", "DATA", "EPYC", "FILE", "IEEE", "PSNR", "README", "SIGGRAPH", "VGTC"}
+CAPITALS = {"BRDF", "DATA", "EPYC", "EQPS", "FILE", "IEEE", "PSNR", "README", "SIGGRAPH", "VGTC"}
 LINKS = r"""\]\(\s*<?([^)\s>]+)|^ {0,3}\[[^\]^]+\]:\s*<?([^\s>]+)|<\w+\s[^>]*?\b(?:src|href)\s*=\s*["']?([^"'\s>]+)"""
 CODE = r"`([^`\n]+(?:\n[^`\n]+)*)`"
 OPEN = r"(`{3,}|~{3,}|<!--)"

@@ -14,14 +14,15 @@ import sys
 import unittest
 
 import numpy as np
-from vtkmodules.numpy_interface import dataset_adapter as dsa
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import (
-    vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
+from vtk_data import blocks_of, centers_in, cloud_of, named  # noqa: E402
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
@@ -48,28 +49,22 @@ def owners(count):
 
 def poly_data(points, numbers, values=None):
     """A vtkPolyData of points with arrays of several kinds."""
-    result, place, ids = vtkPolyData(), vtkPoints(), vtkIdTypeArray()
-    place.SetData(numpy_to_vtk(points.astype(np.float32), deep=True))
-    result.SetPoints(place)
+    result = cloud_of(points.astype(np.float32))
     if len(points) == 0:
         return result
-    attributes = dsa.WrapDataObject(result).PointData
+    attributes = result.GetPointData()
     for name, array in (
             ("value", field(points).astype(np.float32) if values is None else values),
             ("vector", np.cross(points, [1.0, 2.0, 3.0])), ("short", (1000 * np.nan_to_num(points)).astype(np.int16)),
-            ("long", numbers.astype(np.int64) * 3000000000 - 7), ("with names", points[:, :2].copy())):
-        attributes.append(array, name)
+            ("long", numbers.astype(np.int64) * 3000000000 - 7), ("with names", points[:, :2]),
+            ("name", [f"sample {number}" for number in numbers])):
+        attributes.AddArray(named(name, array))
     for i, name in enumerate(("first", "second")):
-        result.GetPointData().GetArray("with names").SetComponentName(i, name)
-    names = vtkStringArray()
-    names.SetName("name")
+        attributes.GetArray("with names").SetComponentName(i, name)
+    ids = numpy_to_vtkIdTypeArray(5 * numbers.astype(np.int64), deep=True)
     ids.SetName("pedigree")
-    for number in numbers:
-        names.InsertNextValue("sample %d" % number)
-        ids.InsertNextValue(int(number) * 5)
-    result.GetPointData().AddArray(names)
-    result.GetPointData().SetPedigreeIds(ids)
-    result.GetPointData().SetActiveScalars("value")
+    attributes.SetPedigreeIds(ids)
+    attributes.SetActiveScalars("value")
     return result
 
 
@@ -241,19 +236,16 @@ class RanksTest(RanksTestCase):
 
     def test_blocks_and_cells(self):
         """Cells of images, several on each rank, as one cloud."""
-        def blocks(numbers):
-            result = vtkMultiBlockDataSet()
-            for i, number in enumerate(numbers):
-                image = vtkImageData()
-                image.SetDimensions(6, 7, 8)
-                image.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
-                image.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
-                dsa.WrapDataObject(image).CellData.append(field(centers_of(image)), "value")
-                result.SetBlock(i, image)
+        def image(number):
+            result = vtkImageData()
+            result.SetDimensions(6, 7, 8)
+            result.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
+            result.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
+            result.GetCellData().AddArray(named("value", field(centers_in(result))))
             return result
 
         mine = [number for number in range(8) if number * SIZE // 8 == RANK]
-        self.check((blocks(mine), blocks(range(8))), cells="value")
+        self.check((blocks_of(*map(image, mine)), blocks_of(*map(image, range(8)))), cells="value")
 
     def test_pieces_of_an_image(self):
         """Consecutive pieces both have the points between them, which count once."""
@@ -323,7 +315,7 @@ class RanksTest(RanksTestCase):
         near = (owner != RANK) & (np.abs(points[:, 0] * SIZE - RANK - 0.5) < 0.7)
         chosen = np.flatnonzero((owner == RANK) | near)
         data = poly_data(points[chosen], chosen)
-        dsa.WrapDataObject(data).PointData.append(near[chosen].astype(np.uint8), GHOSTS)  # DUPLICATEPOINT is 1
+        data.GetPointData().AddArray(named(GHOSTS, near[chosen].astype(np.uint8)))  # DUPLICATEPOINT is 1
         # Ids differ where ghosts stand between.
         self.same(contour(data, RANKS).GetOutput(),
                   lambda: contour(poly_data(points, np.arange(len(points))), None).GetOutput(),
@@ -353,9 +345,7 @@ class RanksTest(RanksTestCase):
                 (0.3, 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
             values = np.full(10, 0.25, np.float32)
             values[:bad] = np.nan
-            blocks = vtkMultiBlockDataSet()
-            blocks.SetBlock(0, mine)
-            blocks.SetBlock(1, poly_data(uniform(10, 20 + RANK), np.arange(10), values))
+            blocks = blocks_of(mine, poly_data(uniform(10, 20 + RANK), np.arange(10), values))
             texts = []
             contour(blocks, RANKS, values=(value,), watch=texts.append)
             everything = gather(texts)
@@ -421,12 +411,6 @@ class RanksTest(RanksTestCase):
             counts = gather(run(isopoints, (0.3,)).GetOutput().GetNumberOfPoints())
             if RANK == 0:
                 self.assertGreater(sum(counts), 1000)
-
-
-def centers_of(data):
-    """The centers of cells, which are boxes."""
-    return np.array([np.mean(np.reshape(data.GetCell(i).GetBounds(), (3, 2)), axis=1)
-                     for i in range(data.GetNumberOfCells())])
 
 
 def main():

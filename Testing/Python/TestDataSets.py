@@ -9,13 +9,13 @@ import warnings
 
 import numpy as np
 from scatteredisopoints import Samples, contour, contouring
-from vtk_data import assert_same, centers_in, cloud_of, named, points_of, positions_in
+from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
-    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRBox, vtkAMRUtilities, vtkCellArray, vtkHyperTreeGrid, vtkImageData,
-    vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData,
-    vtkRectilinearGrid, vtkStructuredGrid, vtkTable, vtkUniformGrid, vtkUnstructuredGrid)
+    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRUtilities, vtkCellArray, vtkHyperTreeGrid, vtkImageData, vtkMultiBlockDataSet,
+    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkStructuredGrid,
+    vtkTable, vtkUnstructuredGrid)
 
 RANDOM = np.random.default_rng(1)
 
@@ -145,13 +145,7 @@ class DataSetsTest(unittest.TestCase):
         third, _ = prepared(cloud(2000, np.float32))
         third.GetPointData().RemoveArray("count")
         without = cloud(100)
-        blocks = vtkMultiBlockDataSet()
-        nested = vtkMultiBlockDataSet()
-        nested.SetBlock(0, third)
-        nested.SetBlock(2, without)
-        blocks.SetBlock(0, first)
-        blocks.SetBlock(1, nested)
-        blocks.SetBlock(3, second)
+        blocks = blocks_of(first, blocks_of(third, None, without), None, second)
         self.assertGreater(self.same(blocks, "distance", [isovalue]), 100)
         with self.assertWarnsRegex(RuntimeWarning, "100 points or cells are left out"):
             Samples(blocks, "distance").contour(isovalue)
@@ -164,7 +158,7 @@ class DataSetsTest(unittest.TestCase):
             self.assertGreater(self.same(data, "distance", [isovalue]), 100)
 
     def test_levels_of_an_amr(self):
-        levels = amr()
+        levels = amr_of("distance", lambda p: np.linalg.norm(p - 0.5, axis=1), ((0, 0, 10), (1, 6, 8)))
         vtkAMRUtilities.BlankCells(levels)
         self.assertGreater(self.same(levels, "distance", [0.3]), 100)
 
@@ -259,25 +253,6 @@ class DataSetsTest(unittest.TestCase):
                 Samples(*arguments)
         with self.assertRaisesRegex(TypeError, "add them to the data set"):
             Samples(data, "distance").contour(0.3, arrays={"other": np.zeros(3000)})
-
-
-def amr():
-    """Two levels around the middle of the unit cube, the finer one over a part of the coarser."""
-    levels = vtkOverlappingAMR()
-    levels.Initialize(2, [1, 1])
-    levels.SetOrigin([0.0, 0.0, 0.0])
-    levels.SetGridDescription(8)  # VTK_XYZ_GRID
-    for level, (spacing, low, cells) in enumerate(((0.1, 0, 10), (0.05, 6, 8))):
-        grid = vtkUniformGrid()
-        grid.SetOrigin(*3 * [low * spacing])
-        grid.SetSpacing(*3 * [spacing])
-        grid.SetDimensions(*3 * [cells + 1])
-        grid.GetCellData().AddArray(named("distance", np.linalg.norm(centers_in(grid) - 0.5, axis=1)))
-        levels.SetSpacing(level, 3 * [spacing])
-        levels.SetAMRBox(level, 0, vtkAMRBox(*3 * [low], *3 * [low + cells - 1]))
-        levels.SetDataSet(level, 0, grid)
-        levels.SetRefinementRatio(level, 2)
-    return levels
 
 
 if __name__ == "__main__":

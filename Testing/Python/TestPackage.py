@@ -222,24 +222,6 @@ class Results(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "has no splats"):
                 contour(positions, values, 0.3, **options).splats()
 
-    def test_triangles_are_closed(self):
-        positions, values = cloud(20000, np.float32)
-        for regularize in (False, True):
-            surface = contour(positions, values, [0.2, 0.3], triangles=True, regularize=regularize)
-            edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-            _, counts = np.unique(edges, axis=0, return_counts=True)
-            self.assertEqual(counts.tolist(), [2] * len(counts))
-            self.assertEqual(surface.arrays["values"].dtype, np.float32)
-            self.assertEqual(set(surface.arrays["values"]), {np.float32(0.2), np.float32(0.3)})
-
-    def test_regularized_triangles_are_fewer(self):
-        positions, values = cloud(20000)
-        regular, exact = (contour(positions, values, 0.3, triangles=True, **options)
-                          for options in ({}, {"regularize": False}))
-        self.assertLess(len(regular.triangles), len(exact.triangles) / 2)
-        samples = Samples(positions, values)
-        self.assertEqual(contents(samples.contour(0.3, triangles=True, regularize=False)), contents(exact))
-
     def test_arrays_are_interpolated(self):
         positions, values = cloud()
         count = np.arange(len(values))
@@ -356,16 +338,6 @@ class KeptTrees(unittest.TestCase):
 
         run_together(lambda: extract(0), lambda: extract(1))
         self.assertEqual(found, expected)
-
-    def test_two_objects_on_two_threads(self):
-        found = {}
-
-        def extract(seed):
-            found[seed] = contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True))
-
-        run_together(lambda: extract(1), lambda: extract(2))
-        for seed in (1, 2):
-            self.assertEqual(found[seed], contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True)))
 
     def test_memory_is_given_back(self):
         statm = pathlib.Path("/proc/self/statm")

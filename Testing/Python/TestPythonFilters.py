@@ -9,10 +9,10 @@ import fingerprint
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import _vtk
-from vtk_data import assert_same, cloud_of, configured, named, updated
+from vtk_data import assert_same, blocks_of, cloud_of, configured, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
 PAIRS = [(getattr(scatteredisopoints, name), getattr(_vtk, name))
@@ -33,13 +33,6 @@ def own_methods(class_):
 def cloud(count=5000):
     positions = np.random.default_rng(1).random((count, 3))
     return cloud_of(positions, np.linalg.norm(positions - 0.5, axis=1), "distance")
-
-
-def blocks_of(*blocks):
-    data = vtkMultiBlockDataSet()
-    for i, block in enumerate(blocks):
-        data.SetBlock(i, block)
-    return data
 
 
 def observed(filter_):

@@ -16,10 +16,10 @@ import hashlib
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
-from vtk_data import cloud_of, leaves_of, named
+from vtk_data import blocks_of, cloud_of, leaves_of, named
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkRectilinearGrid
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 RANKS = vtkMultiProcessController.GetGlobalController()
@@ -99,10 +99,7 @@ def image(kinds, types, random):
 
 
 def blocks(kinds, types, random):
-    data = vtkMultiBlockDataSet()
-    for i in range(int(random.integers(2, 5))):
-        data.SetBlock(i, cloud(kinds, types, random, 0.7 * i * types[2]))
-    return data
+    return blocks_of(*(cloud(kinds, types, random, 0.7 * i * types[2]) for i in range(int(random.integers(2, 5)))))
 
 
 def choose(random, *options):

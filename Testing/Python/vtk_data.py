@@ -4,7 +4,8 @@
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    vtkAMRBox, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPolyData, vtkUniformGrid)
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 
@@ -42,6 +43,36 @@ def centers_in(data):
     cells = (data.GetCell(i) for i in range(data.GetNumberOfCells()))  # each may be the same object
     return np.array([np.reshape(cell.GetBounds(), (3, 2)).mean(axis=1) if cell.GetNumberOfPoints() else [np.nan] * 3
                      for cell in cells])
+
+
+def blocks_of(*blocks):
+    data = vtkMultiBlockDataSet()
+    for i, block in enumerate(blocks):
+        data.SetBlock(i, block)
+    return data
+
+
+def amr_of(name, values_of, boxes, is_here=lambda number: True):
+    """Boxes (level, lowest index of a cell, cells along an edge) with values of their cells' centers. The coarsest cells
+    have an edge of 0.1, and boxes that are not here have no data."""
+    levels, counts = vtkOverlappingAMR(), [0] * (1 + max(level for level, _, _ in boxes))
+    levels.Initialize(len(counts), [sum(box[0] == level for box in boxes) for level in range(len(counts))])
+    levels.SetOrigin([0.0, 0.0, 0.0])
+    levels.SetGridDescription(8)  # VTK_XYZ_GRID
+    for number, (level, low, cells) in enumerate(boxes):
+        spacing, index = 0.1 / 2**level, counts[level]
+        counts[level] += 1
+        levels.SetSpacing(level, 3 * [spacing])
+        levels.SetAMRBox(level, index, vtkAMRBox(3 * [low], 3 * [low + cells - 1]))
+        levels.SetRefinementRatio(level, 2)
+        if is_here(number):
+            grid = vtkUniformGrid()
+            grid.SetOrigin(*3 * [low * spacing])
+            grid.SetSpacing(*3 * [spacing])
+            grid.SetDimensions(*3 * [cells + 1])
+            grid.GetCellData().AddArray(named(name, values_of(centers_in(grid))))
+            levels.SetDataSet(level, index, grid)
+    return levels
 
 
 def leaves_of(data, **options):

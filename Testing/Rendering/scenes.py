@@ -8,7 +8,7 @@ import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
 from scatteredisopoints import vtkIsopointRayTracer, vtkIsopointSplatMapper, vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -16,7 +16,7 @@ from vtkmodules.vtkRenderingCore import (
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
 from checking import check, run  # noqa: E402, F401
-from vtk_data import as_array, cloud_of, named, points_of, psnr, read_image  # noqa: E402, F401
+from vtk_data import as_array, blocks_of, cloud_of, named, points_of, psnr, read_image  # noqa: E402, F401
 
 RING, TUBE = 1.0, 0.4
 BOUNDS = (-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)  # of the torus
@@ -65,13 +65,6 @@ def polydata(points, normals=None, **arrays):
     for name, values in arrays.items():
         add_array(data, name, values)
     data.SetVerts(cells_of(np.arange(len(points))[:, None]))
-    return data
-
-
-def blocks_of(*blocks):
-    data = vtkMultiBlockDataSet()
-    for i, block in enumerate(blocks):
-        data.SetBlock(i, block)
     return data
 
 
