@@ -39,10 +39,7 @@ def marching_cubes(nodes, isovalue):
     """Contours the nodes of a lattice, z fastest."""
     side = round(nodes.GetNumberOfPoints() ** (1 / 3))
     values = vtk_to_numpy(nodes.GetPointData().GetScalars()).reshape(3 * [side])
-    grid = vtkImageData()
-    grid.SetDimensions(3 * [side])
-    grid.SetSpacing(3 * [2 / (side - 1)])
-    grid.SetOrigin(-1, -1, -1)
+    grid = common.set_all(vtkImageData(), Dimensions=3 * [side], Spacing=3 * [2 / (side - 1)], Origin=(-1, -1, -1))
     grid.GetPointData().SetScalars(numpy_to_vtk(values.T.ravel(), deep=True))
     return common.output_of(vtkFlyingEdges3D(), grid, isovalue)
 

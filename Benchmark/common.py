@@ -17,7 +17,7 @@ from vtkmodules.vtkIOXML import vtkXMLGenericDataObjectReader
 
 for folder in ("Python", "Rendering", "ParaView"):
     sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Testing" / folder))
-from vtk_data import cloud_of, leaves_of, named, positions_in  # noqa: E402, F401
+from vtk_data import cloud_of, leaves_of, named, positions_in, set_all  # noqa: E402, F401
 
 POINTS, TRIANGLES = vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 SIDE, RADIUS, OTHER_RADIUS = 200.0, 70.0, 69.9  # of a cube, and isovalues of the distance to its center

@@ -76,10 +76,7 @@ def outside(points, mesh):
 
 def mesh_of_field(field, isovalue, cells=160):
     """Marching cubes on a fine grid."""
-    image = vtkImageData()
-    image.SetDimensions([cells + 1] * 3)
-    image.SetSpacing([2.0 / cells] * 3)
-    image.SetOrigin(-1, -1, -1)
+    image = configured(vtkImageData(), Dimensions=3 * [cells + 1], Spacing=3 * [2.0 / cells], Origin=(-1, -1, -1))
     image.GetPointData().SetScalars(common.named("f", field(common.positions_of(image))))
     return contour_of(image, "f", isovalue)
 
@@ -102,8 +99,9 @@ def filtered(kind, data, array, isovalue, **properties):
 
 
 def samples_of(data, array):
-    return np.concatenate([common.positions_of(
-        leaf if leaf.GetPointData().HasArray(array) else output_of(vtkCellCenters(), leaf)) for leaf in leaves_of(data)])
+    leaves = (leaf if leaf.GetPointData().HasArray(array) else output_of(vtkCellCenters(), leaf)
+              for leaf in leaves_of(data))
+    return np.concatenate(list(map(common.positions_of, leaves)))
 
 
 def reference_of(data, array, isovalue):
@@ -125,8 +123,8 @@ def print_row(name, data, array, isovalue, mesh, field=None):
         corners, np.repeat(unit(common.normals_of(corners))[:, None], 3, axis=1))
     fans = output_of(vtkIsopointSplatPolygons(), points)
     ids = vtk_to_numpy(fans.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    on_splats, normals, area = on_triangles(
-        *(vtk_to_numpy(each).astype(float)[ids] for each in (fans.GetPoints().GetData(), fans.GetPointData().GetNormals())))
+    arrays = fans.GetPoints().GetData(), fans.GetPointData().GetNormals()
+    on_splats, normals, area = on_triangles(*(vtk_to_numpy(array).astype(float)[ids] for array in arrays))
     samples = cKDTree(np.unique(samples_of(data, array), axis=0))
 
     def spacing_at(places):
@@ -149,4 +147,5 @@ for path, array, isovalue in zip(arguments[::3], arguments[1::3], map(float, arg
     print_row(common.name_of(path), data, array, isovalue, reference_of(data, array, isovalue))
 for name, field, isovalue in FIELDS if not arguments else ():
     positions = RANDOM.uniform(-1, 1, (200_000, 3))
-    print_row(name, common.cloud_of(positions, field(positions), "f"), "f", isovalue, mesh_of_field(field, isovalue), field)
+    samples = common.cloud_of(positions, field(positions), "f")
+    print_row(name, samples, "f", isovalue, mesh_of_field(field, isovalue), field)

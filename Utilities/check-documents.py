@@ -111,7 +111,8 @@ class Checker:
         prose = re.sub(CODE, lambda code: re.sub(r"\S", "x", code[0]), text)
         for pattern, where, check in (
                 (LINKS, prose, self.check_link), (UNFINISHED, prose, self.check_finished),
-                (CODE, text, self.check_code), (CONSTANT, text, self.check_constant), (DEFAULTS, text, self.check_defaults),
+                (CODE, text, self.check_code), (CONSTANT, text, self.check_constant),
+                (DEFAULTS, text, self.check_defaults),
                 (OPEN, text, lambda line, word: self.report(line, word + " without an end"))):
             for match in re.finditer(pattern, where, re.MULTILINE):
                 line = text.count("\n", 0, match.start(match.lastindex)) + 1

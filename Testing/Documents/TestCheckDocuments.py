@@ -57,7 +57,8 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
       for name, value, known in (
         ("MinimumSpacing", 0.5, "0.0"), ("MinimumSpacing", "", "0.0"), ("SamplesPerPixel", 64, 16),
         ("Shadows", "off", 1), ("ComputeGradients", "on", "false"), ("Angle", 54, 54.7),
-        ("Projection", "`LINEAR_FIT`", "Cubic"), ("NormalMethod", "planes", "Automatic"), ("RadiusArrayName", "`Size`", "Radius"), ("Controller", 3, "not in"))))
+        ("Projection", "`LINEAR_FIT`", "Cubic"), ("NormalMethod", "planes", "Automatic"),
+        ("RadiusArrayName", "`Size`", "Radius"), ("Controller", 3, "not in"))))
 
 
 class CheckDocuments(unittest.TestCase):

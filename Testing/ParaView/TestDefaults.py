@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the filters do as they come: the array, the isovalue and what is computed by default."""
+"""The filters with their defaults: which array and isovalue they take, and what they compute."""
 
 import sys
 
@@ -19,7 +19,7 @@ def attributes_of(data, association):
 
 
 def lattice(association, **arrays):
-    """A lattice with arrays of points or cells, in their order, named here by functions."""
+    """A lattice with arrays of points or cells. Each array has a name and a function that yields its values."""
     image = vtkImageData()
     image.SetDimensions(*([13] * 3 if association == "CELLS" else [12] * 3))
     places = np.stack(np.meshgrid(*3 * [np.arange(12.0)], indexing="ij"), -1).reshape(-1, 3)
@@ -50,7 +50,8 @@ def the_array_of_an_input():
     for association in ASSOCIATIONS:
         for chosen, active, arrays in (
                 ("distance", None, dict(BlockId=number(0), distance=distance, z=distance)),
-                ("stress", None, dict(GlobalElementId=ids, Nodes=ids, Pedigree=ids, stress=distance, vtkGhostType=ghosts)),
+                ("stress", None, dict(GlobalElementId=ids, Nodes=ids, Pedigree=ids, stress=distance,
+                                      vtkGhostType=ghosts)),
                 ("second", "second", dict(BlockId=number(0), first=distance, second=distance)),
                 ("first", "BlockId", dict(BlockId=number(0), first=distance, second=distance)),
                 ("BlockId", None, dict(BlockId=number(0)))):
@@ -75,7 +76,7 @@ def the_array_of_an_input():
 
 
 def arrays_without_isosurfaces_are_not_offered():
-    """Strings, ghost marks, and arrays without a number."""
+    """No isosurface exists for strings, ghost marks, and arrays without a number."""
     for association in ASSOCIATIONS:
         data = lattice(association, vtkGhostType=ghosts, none=number(np.nan),
                        some=lambda p: np.where(p[:, 0] < 2, np.nan, distance(p)))
@@ -92,7 +93,7 @@ def arrays_without_isosurfaces_are_not_offered():
 
 
 def triangles_are_saved_as_stl():
-    """Isopoints have none, which is said."""
+    """Isopoints have no triangles, and a message says so."""
     source = produced(lattice("POINTS", distance=distance))
     for create, word in zip(FILTERS, ("Scattered Isosurface", "")):
         isopoints = updated(create(Input=source))
@@ -117,7 +118,7 @@ def input_matters_rather_than_the_active_source():
 
 
 def isovalue_follows_the_array():
-    """As long as nobody has chosen one."""
+    """The isovalue follows the array until the user chooses an isovalue."""
     source = produced(lattice("POINTS", first=distance, large=lambda p: 1000 * distance(p)))
     for create in FILTERS:
         isopoints = create(Input=source)

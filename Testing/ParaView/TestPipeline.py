@@ -7,7 +7,8 @@ import numpy as np
 from paraview import simple
 
 from scripting import (
-    SPLATS, check, contoured, load, look, make_view, number_of_points, path_of, pixels, run, shown, updated)
+    SPLATS, check, contoured, load, look, make_view, number_of_points, path_of, pixels, run, shown, table_of_points,
+    updated)
 
 
 def read_cloud():
@@ -15,16 +16,13 @@ def read_cloud():
     positions = np.random.default_rng(1).random((40000, 3)) * 2.0 - 1.0
     distances = np.linalg.norm(positions, axis=1)
     gaps = np.where(np.arange(40000) % 100 == 0, np.nan, distances)
-    table = np.column_stack([positions, distances, gaps])
-    np.savetxt(path_of("cloud.csv"), table, delimiter=",", header="x,y,z,r,gaps", comments="")
-    points = simple.TableToPoints(Input=simple.CSVReader(FileName=[path_of("cloud.csv")]))
-    points.XColumn, points.YColumn, points.ZColumn = "x", "y", "z"
+    points = table_of_points(**dict(zip("xyz", positions.T)), r=distances, gaps=gaps)
     simple.SaveData(path_of("cloud.vtp"), proxy=points, DataMode="Binary")
     return simple.OpenDataFile(path_of("cloud.vtp"))
 
 
 def isovalues_and_counters():
-    """Counters are properties of both filters, and those of the last update."""
+    """Counters are properties of both filters. They count what the last update did."""
     for kind in ("ScatteredIsopoints", "ScatteredIsosurface"):
         counted = contoured(READER, "gaps", 0.5, kind=kind)
         counted.Isosurfaces = [0.5, 0.75]

@@ -22,7 +22,7 @@ def is_hidden(element):
 
 
 def vector_properties(root):
-    """Those that users set, of one value with a default: name, XML, the name in the class, and the default."""
+    """Yields name, XML, name in the class and default of each property that users set, with one value and a default."""
     for element in root.iter():
         if (element.tag.endswith("VectorProperty") and not is_hidden(element)
                 and {"default_values", "command"} <= set(element.keys()) and element.get("information_only") != "1"
@@ -34,7 +34,7 @@ def vector_properties(root):
 
 
 def limits(element):
-    """The least and the greatest value offered, None where there is no such limit."""
+    """The least and the greatest value that a property offers. None means that there is no limit."""
     domain = next(child for child in element if child.tag.endswith("Domain"))
     if domain.tag == "BooleanDomain":
         return 0, 1
@@ -105,7 +105,7 @@ def check_filter(root, documented):
 
 
 def value_of(representation, name, like):
-    """As a representation prints itself and its polygons. Python does not know the class."""
+    """Reads a value from what a representation prints, since Python does not know the class."""
     return type(like)(dict(re.findall(r"^ *(\w+): (\S*)$", str(representation), re.MULTILINE))[name])
 
 

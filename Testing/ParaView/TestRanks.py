@@ -22,7 +22,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
-from vtk_data import blocks_of, centers_in, cloud_of, named  # noqa: E402
+from vtk_data import blocks_of, centers_in, cloud_of, named, set_all  # noqa: E402
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
@@ -42,7 +42,7 @@ def uniform(count, seed):
 
 
 def owners(count):
-    """The rank of each of some samples, in the order of ranks: the first one has most, the second few."""
+    """The rank of each sample, in ascending order. The first rank has most samples, the second few."""
     share = np.arange(count) / count
     return np.minimum((SIZE * np.where(share < 0.6, 0.1 * share, share)).astype(int), SIZE - 1)
 
@@ -112,20 +112,16 @@ def watched(isopoints, watch, events=("ErrorEvent", "WarningEvent", "MessageEven
 
 
 def configured(data, controller, kind=FILTERS[0], watch=None, cells=None, **options):
-    isopoints = kind()
-    isopoints.SetController(controller)
-    isopoints.SetInputData(data)
+    isopoints = set_all(kind(), Controller=controller, InputData=data)
     if cells:
         isopoints.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, cells)
     if watch:
         watched(isopoints, watch)
-    for name, value in options.items():
-        getattr(isopoints, "Set" + name)(value)
-    return isopoints
+    return set_all(isopoints, **options)
 
 
 def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, **options):
-    """The filter after its update."""
+    """A filter that has been updated."""
     return run(configured(data, controller, kind, **options), values, levels)
 
 
@@ -218,7 +214,7 @@ class RanksTest(RanksTestCase):
         self.check(self.dealt(points, np.rint(20 * field(points)).astype(np.int32)), values=(6.1,))
 
     def test_further_isovalues_and_values(self):
-        """Even where ranks have dropped their trees."""
+        """Further updates are right even if some ranks have dropped their trees."""
         points = uniform(3000, 5)
         for kind in FILTERS:
             mine, whole = self.dealt(points)
@@ -235,12 +231,10 @@ class RanksTest(RanksTestCase):
             self.same(isopoints.GetOutput(), lambda: contour(whole, None, kind).GetOutput())
 
     def test_blocks_and_cells(self):
-        """Cells of images, several on each rank, as one cloud."""
+        """The cells of several images on each rank form one cloud."""
         def image(number):
-            result = vtkImageData()
-            result.SetDimensions(6, 7, 8)
-            result.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
-            result.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
+            result = set_all(vtkImageData(), Dimensions=(6, 7, 8), Spacing=(0.1, 0.5 / 6, 0.5 / 7), Origin=(
+                0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4)))
             result.GetCellData().AddArray(named("value", field(centers_in(result))))
             return result
 
@@ -248,7 +242,7 @@ class RanksTest(RanksTestCase):
         self.check((blocks_of(*map(image, mine)), blocks_of(*map(image, range(8)))), cells="value")
 
     def test_pieces_of_an_image(self):
-        """Consecutive pieces both have the points between them, which count once."""
+        """Consecutive pieces share points. These count once."""
         def positions(controller, piece, pieces):
             image = vtkRTAnalyticSource()
             image.SetWholeExtent(-9, 8, -7, 9, -8, 8)
@@ -266,7 +260,7 @@ class RanksTest(RanksTestCase):
             self.assertEqual(sorted(sum(parts, [])), sorted(positions(None, 0, 1)))
 
     def test_ghosts_for_what_follows(self):
-        """They stand behind the rank's own points, or triangles of an isovalue: those without ghosts."""
+        """Ghosts follow the rank's own points or triangles of an isovalue, which are those without ghosts."""
         for kind, values in zip(FILTERS, ((0.1, 0.5), (0.3,))):
             data = poly_data(uniform(3000 // SIZE, 10 + RANK), np.arange(3000 // SIZE))
             isopoints = contour(data, RANKS, kind, values, **ALL_ARRAYS)

@@ -12,7 +12,7 @@ from scripting import SPLATS, check, contoured, load, path_of, read_image, psnr,
 
 
 def screenshot(**options):
-    """Rows from above, as ray_trace() yields them."""
+    """The view's picture. The first row is the uppermost, as in that of ray_trace()."""
     simple.SaveScreenshot(path_of("drawn.png"), VIEW, **options)
     return read_image(path_of("drawn.png"))[::-1]
 

@@ -27,7 +27,7 @@ def check_picture(passes, what):
 
 
 def shows_the_ball():
-    """320 pixels wide, as its parts are in other sizes and colors."""
+    """The ball is 320 pixels wide. Its area follows the radius scale and the actor's scale."""
     def area(image):
         return np.count_nonzero(covered(image)) / (np.pi * 160**2)
 
@@ -52,7 +52,7 @@ def shows_the_ball():
 
 
 def level_of_detail():
-    """What is drawn while the user interacts: ParaView's coarser surface, the same ball."""
+    """While the user interacts, ParaView draws a coarser surface of the same ball."""
     pictures = []
     for threshold in (0.0, 1000.0):
         VIEW.LODThreshold = threshold
@@ -96,7 +96,7 @@ def selection():
 
 
 def sharp_edges():
-    """With the fit for creases splats end there as they come, and do not extend beyond the cube."""
+    """With the fit for creases, splats end at creases by default and do not extend beyond the cube."""
     image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
     source = distance_in(image, function="max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))")
     cube = contoured(source, "r", 20.3, Projection="Cubic fit with creases")
@@ -114,7 +114,7 @@ def sharp_edges():
 
 
 def colors_and_hides_blocks(display):
-    """Of two spheres, to the left and to the right, as the Multi-block Inspector does."""
+    """Colors and hides a sphere on the left and one on the right, as the Multi-block Inspector does."""
     left, right = (200, 120), (200, 280)
     display.BlockColors = ["/Root/Sphere1", "1", "0", "0", "/Root/Sphere2", "0", "1", "0"]
     check_picture(lambda image: image[left][0] > 100 > 50 > image[left][1], "the left block is red")

@@ -68,7 +68,7 @@ def expect_of(item, state, value):
 
 
 def expect(name, state, value="true"):
-    """That the row of a property is in a state: "enabled" or "visible"."""
+    """Checks that the row of a property is in a state: "enabled" or "visible"."""
     return expect_of(FRAME + name, state, value)
 
 

@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
 import vtk_data  # noqa: E402
 from checking import check, run  # noqa: E402, F401
-from vtk_data import named, psnr, read_image  # noqa: E402, F401
+from vtk_data import named, psnr, read_image, set_all  # noqa: E402, F401
 
 _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
 FOLDER = _temporary.name
@@ -29,7 +29,7 @@ def path_of(name):
 
 @contextlib.contextmanager
 def messages():
-    """Collects what is reported meanwhile, in a list."""
+    """Collects in a list what VTK reports within the block."""
     usual, collecting, texts = vtkOutputWindow.GetInstance(), vtkStringOutputWindow(), []
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkOutputWindow.SetInstance(collecting)
@@ -48,6 +48,13 @@ def produced(data):
     source.GetClientSideObject().SetOutput(data)
     source.UpdatePipeline()
     return source
+
+
+def table_of_points(**columns):
+    """Points that ParaView reads from a file of comma-separated columns, x, y and z among them."""
+    path = path_of("points.csv")
+    np.savetxt(path, np.column_stack(list(columns.values())), delimiter=",", header=",".join(columns), comments="")
+    return simple.TableToPoints(Input=simple.CSVReader(FileName=[path]), XColumn="x", YColumn="y", ZColumn="z")
 
 
 def distance_in(source, association="Point Data", function="mag(coords)"):
@@ -82,7 +89,7 @@ def offered_arrays(proxy):
 
 
 def leaves_of(proxy):
-    """The data objects of a source, as one or as blocks."""
+    """The data object of a source, or the leaves of a composite."""
     return vtk_data.leaves_of(servermanager.Fetch(proxy))
 
 
@@ -92,7 +99,7 @@ def positions(proxy):
 
 
 def make_view(width, height=None, background=(0.0, 0.0, 1.0)):
-    """A view of one color, blue by default, where nothing is."""
+    """A view with a background of one color, blue by default."""
     view = simple.CreateView("RenderView")
     view.ViewSize = [width, height or width]
     view.OrientationAxesVisibility = 0
@@ -102,7 +109,7 @@ def make_view(width, height=None, background=(0.0, 0.0, 1.0)):
 
 
 def look(view, height, scale, middle=(0.0, 0.0, 0.0)):
-    """From the front, in parallel; scale is half of what is seen along an edge."""
+    """Looks from the front in parallel projection. The scale is half the height of what is seen."""
     view.CameraParallelProjection = 1
     view.CameraPosition = [middle[0], middle[1], middle[2] + height]
     view.CameraFocalPoint = middle

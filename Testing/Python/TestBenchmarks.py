@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The benchmarks that need neither files nor a window run to their end, with few samples. What they
-measure is not looked at."""
+"""The benchmarks that need neither files nor a window run to their end with few samples. This test does not
+look at what they measure."""
 
 import pathlib
 import subprocess

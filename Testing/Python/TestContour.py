@@ -40,7 +40,8 @@ class ContourTest(unittest.TestCase):
         expected = vtk_to_numpy(output.GetPoints().GetData())
         self.assertEqual((result.points.dtype, result.points.tobytes()), (expected.dtype, expected.tobytes()))
         attributes = output.GetPointData()
-        self.assertEqual(set(result.arrays), {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())})
+        names = {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())}
+        self.assertEqual(set(result.arrays), names)
         for name, array in result.arrays.items():
             self.assertEqual(array.tobytes(), vtk_to_numpy(attributes.GetArray(name)).tobytes(), name)
         for name, property_, width in (("Normals", result.normals, (3,)), ("Radius", result.radii, ())):
@@ -98,8 +99,8 @@ class ContourTest(unittest.TestCase):
         positions, values = samples()
         data = cloud_of(positions, values, "distance")
         blocks = blocks_of(data)
-        for source, array in ((data, None), (data, "distance"), (Wrapper(data), "distance"), (FormerWrapper(data), None),
-                              (blocks, "distance")):
+        for source, array in ((data, None), (data, "distance"), (Wrapper(data), "distance"),
+                              (FormerWrapper(data), None), (blocks, "distance")):
             self.same(contour(source, array, 0.3), data if source is not blocks else blocks)
         other = contour(data, 2 * values, 0.6)
         np.testing.assert_array_equal(other.points, contour(positions, 2 * values, 0.6).points)

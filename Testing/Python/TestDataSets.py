@@ -9,7 +9,7 @@ import warnings
 
 import numpy as np
 from scatteredisopoints import Samples, contour, contouring
-from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in
+from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in, set_all
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
@@ -36,10 +36,7 @@ def cloud(count=3000, dtype=np.float64):
 
 
 def image():
-    data = vtkImageData()
-    data.SetExtent(-3, 12, 2, 15, 5, 19)
-    data.SetSpacing(0.1, 0.07, 0.13)
-    data.SetOrigin(1e3, -3.3, 0.7)
+    data = set_all(vtkImageData(), Extent=(-3, 12, 2, 15, 5, 19), Spacing=(0.1, 0.07, 0.13), Origin=(1e3, -3.3, 0.7))
     matrix = np.eye(3)
     vtkMath.QuaternionToMatrix3x3((0.5, 0.1, 0.7, 0.3), matrix)
     if hasattr(data, "SetDirectionMatrix"):
@@ -48,17 +45,13 @@ def image():
 
 
 def flat_image():
-    data = vtkImageData()
-    data.SetDimensions(40, 30, 1)
-    return data
+    return set_all(vtkImageData(), Dimensions=(40, 30, 1))
 
 
 def rectilinear():
-    data = vtkRectilinearGrid()
-    data.SetDimensions(12, 13, 14)
-    for count, set_ in ((12, data.SetXCoordinates), (13, data.SetYCoordinates), (14, data.SetZCoordinates)):
-        set_(numpy_to_vtk(np.cumsum(RANDOM.random(count)).astype(np.float32), deep=True))
-    return data
+    return set_all(vtkRectilinearGrid(), Dimensions=(12, 13, 14), **{
+        axis + "Coordinates": numpy_to_vtk(np.cumsum(RANDOM.random(count)).astype(np.float32), deep=True)
+        for axis, count in (("X", 12), ("Y", 13), ("Z", 14))})
 
 
 def structured(dimensions=(11, 12, 13)):

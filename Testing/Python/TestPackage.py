@@ -166,9 +166,11 @@ class Arrays(unittest.TestCase):
         for arguments, error, text in (
                 ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
-                ((3.0, values), ValueError, r"\(\).*\(n, 3\)"), ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
+                ((3.0, values), ValueError, r"\(\).*\(n, 3\)"),
+                ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
-                ((positions, positions), ValueError, r"values.*\(100, 3\)"), ((positions,), TypeError, "values.*missing"),
+                ((positions, positions), ValueError, r"values.*\(100, 3\)"),
+                ((positions,), TypeError, "values.*missing"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
                 ((positions, np.full(100, None)), TypeError, "values.*object"),
@@ -184,9 +186,11 @@ class Arrays(unittest.TestCase):
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
                 (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),
                 (dict(size=2), TypeError, "size"), (dict(triangles, angle=30.0), TypeError, "angle"),
-                (dict(regularize=True), TypeError, "regularize"), (dict(triangles, regularize=2), ValueError, "regularize"),
+                (dict(regularize=True), TypeError, "regularize"),
+                (dict(triangles, regularize=2), ValueError, "regularize"),
                 (dict(angle=200.0), ValueError, "angle.*200.*180"), (dict(angle="wide"), ValueError, "angle"),
-                (dict(number_of_neighbors=2**32 + 12), ValueError, "range"), (dict(drop_gaps=2), ValueError, "drop_gaps"),
+                (dict(number_of_neighbors=2**32 + 12), ValueError, "range"),
+                (dict(drop_gaps=2), ValueError, "drop_gaps"),
                 *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
             with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
                 contour(positions, values, **options)
@@ -457,7 +461,8 @@ class Interruptions(unittest.TestCase):
                     "time.sleep(0.3)\n"), "", none),
                 ("calls when the interpreter ends", (
                     "import atexit\n"
-                    "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"), "", "True\n", none)):
+                    "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"),
+                 "", "True\n", none)):
             with self.subTest(name):
                 result = subprocess.run([sys.executable, "-c", before + begin + script], capture_output=True, text=True)
                 self.assertEqual(result.stdout, output)

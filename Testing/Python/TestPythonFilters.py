@@ -93,7 +93,7 @@ class PythonFilters(unittest.TestCase):
         self.assertGreater(with_splats, 10)
 
     def same_splats(self, points):
-        """The same triangles, isopoints of vertices, and means of floating-point arrays. @returns whether there are any"""
+        """The same triangles, points of vertices, and means of floating-point arrays. @returns whether there are any"""
         arrays = points.GetPointData() if points.IsA("vtkPolyData") and points.GetNumberOfPoints() else None
         if not arrays or not arrays.HasArray("Radius") or not arrays.HasArray("Normals"):
             return False
@@ -142,7 +142,8 @@ class PythonFilters(unittest.TestCase):
                 (speed, errno.EINVAL, cloud(), False), (speed, errno.EINVAL, blocks_of(cloud()), True),
                 (("SetAngle", 200.0), errno.EINVAL, blocks_of(cloud()), True),
                 (("SetInputData", vtkPolyData()), errno.EINVAL, cloud(), False),
-                (("SetValue", 0, float("nan")), errno.EINVAL, cloud(), False), (("SetValue", 0, 99.0), 0, cloud(), False)):
+                (("SetValue", 0, float("nan")), errno.EINVAL, cloud(), False),
+                (("SetValue", 0, 99.0), 0, cloud(), False)):
             for pair in PAIRS[:1 if change[0] == "SetAngle" else 2]:
                 found = []
                 for class_ in pair:

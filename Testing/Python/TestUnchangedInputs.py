@@ -20,7 +20,7 @@ CHANGES = {
 
 
 def add_arrays(data):
-    """Values, normals and ghosts of the points, and fields."""
+    """Adds values, normals and ghosts of the points, and field data."""
     if not isinstance(data, vtkCompositeDataSet):
         places = positions_in(data)
         ghosts = (np.arange(len(places)) % 50 == 0).astype(np.uint8)

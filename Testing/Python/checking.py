@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How tests that are scripts check and run."""
+"""What tests share that are scripts: check() ends them, run() calls their functions."""
 
 import sys
 

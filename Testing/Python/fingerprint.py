@@ -107,7 +107,7 @@ def choose(random, *options):
 
 
 def configured(number, filter_class):
-    """The filter with the input and those options of a combination that it has."""
+    """A filter with the input of a combination, and with those of its options that the filter has."""
     random = np.random.default_rng(number)
     kinds = (
         choose(random, "uniform", "uniform", "clustered", "lattice", "coarse", "lines", "slab",

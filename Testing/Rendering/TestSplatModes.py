@@ -74,7 +74,7 @@ def composite(scene, actor):
 
 
 def far_from_the_origin(scene, actor):
-    """Floats are 8 apart there, the torus is as large as a third of that."""
+    """Neighboring floats there differ by 8, three times the torus's size."""
     data, offset = input_of(actor), 1e8
     moved = data.NewInstance()
     moved.DeepCopy(data)

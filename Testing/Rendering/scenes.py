@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as splats and as meshes, scenes of them, and pictures, for the tests of rendering."""
+"""What the tests of rendering share: surfaces as splats and as meshes, scenes of them, and pictures."""
 
 import pathlib
 import sys
@@ -17,17 +17,11 @@ from vtkmodules.vtkRenderingCore import (
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
 from checking import check, run  # noqa: E402, F401
 from vtk_data import as_array, blocks_of, cloud_of, named, points_of, psnr, read_image  # noqa: E402, F401
+from vtk_data import set_all as configured  # noqa: E402
 
 RING, TUBE = 1.0, 0.4
 BOUNDS = (-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)  # of the torus
 BACKGROUND = (0.2, 0.25, 0.35)
-
-
-def configured(instance, **properties):
-    """Calls the methods Set... of an object; a tuple has several arguments."""
-    for name, value in properties.items():
-        getattr(instance, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
-    return instance
 
 
 def output_of(source, **properties):
@@ -69,7 +63,7 @@ def polydata(points, normals=None, **arrays):
 
 
 def isopoints(field, low, high, count, seed=1, creases=False):
-    """The filter's isopoints where a field is 0, of random samples in a box; on request with fits of creases."""
+    """The isopoints of a field at 0, from random samples in a box. On request the fit follows creases."""
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")
@@ -124,7 +118,7 @@ def torus_mesh(rows=800, columns=400):
 
 
 def actor_of(data, splats=True, **properties):
-    """properties: of the actor's vtkProperty."""
+    """properties: those of the actor's vtkProperty"""
     mapper = vtkIsopointSplatMapper() if splats else vtkPolyDataMapper()
     actor = configured(vtkActor(), Mapper=configured(mapper, InputDataObject=data, ScalarVisibility=False))
     configured(actor.GetProperty(), **properties)
