@@ -40,7 +40,7 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
     # Set by CMake, but no option.
     (block("bash", "cmake -D SCATTEREDISOPOINTS_PYTHON_BUILD_PATH=a"), 2, "no option"),
     *((block("bash", f"ctest --tests-regex '{pattern}'"), 2, "no test") for pattern in (
-        "Missing", "^(TestSplats|Other)", "^SplatsOn")),
+        "Missing", "^(TestSplats|Other)", "^SplatsOn", "[")),
     (block("", "ls"), 1, "language"), (block("fortran", "a"), 1, "fortran"), ("a\n```bash\nls\n", 2, "end"),
     ("a\n<!-- b\nc\n", 2, "end"), *((f"\n| 12 | {word} |\n", 2, re.escape(word)) for word in (
         "TESTS12", "TESTS12V", "TESTSID", "CIRUN", "RESULTS", "TODO", "TBD", "XXX", "???")),
@@ -48,11 +48,11 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
     ("<!-- setup: missing.py -->\n" + block("py", "a"), 2, "missing.py"),
     (block("python", "raise RuntimeError('reason')"), 1, "reason"),
     (SETUP + block("python", "positions"), 5, "NameError"),  # a setup is that of the next block only
+    ("| smallestPiece | GapTetrahedra.h | 8 |\n", 1, "backticks"),
     *((f"| {name} | {file} | {value} |\n", 1, f"{name} in {file} is {known}") for name, file, value, known in (
         ("`smallestPiece`", "GapTetrahedra.h", 9, 8), ("`smallestPiece`", "GapTetrahedra.h", "half", 8),
         ("`coneCosine`", "GapCriterion.h", "1 / 2", "1.0 / 1.7"), ("`leastPivot`", "NormalEquations.h", "1e-9", "1e-7"),
-        ("`other`", "GapTetrahedra.h", 1, "not in"), ("`smallestPiece`", "Base.h", 1, "not in"),
-        ("smallestPiece", "GapTetrahedra.h", 8, "not in"))),
+        ("`other`", "GapTetrahedra.h", 1, "not in"), ("`smallestPiece`", "Base.h", 1, "not in"))),
     *((f"| property | default |\n|---|---|\n| `{name}` | {value} |\n", 3, f"{name} is {known}")
       for name, value, known in (
         ("MinimumSpacing", 0.5, "0.0"), ("MinimumSpacing", "", "0.0"), ("SamplesPerPixel", 64, 16),
